@@ -1,0 +1,49 @@
+"""The arena seen from above, the far edge on top: as text and as a picture."""
+
+from collections.abc import Collection
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mc_nested.arena.rules import SIZE, Cell
+from mc_nested.arena.scenario import Scenario
+
+AGENT, BUILT, WRONG, MISSING, FREE = "^", "#", "x", "o", "."
+
+CELL_PX = 16
+"""Side of a cell in the picture."""
+
+COLOURS: dict[str, tuple[int, int, int]] = {
+    AGENT: (214, 69, 65),
+    BUILT: (110, 110, 118),
+    WRONG: (231, 161, 60),
+    MISSING: (178, 205, 232),
+    FREE: (236, 240, 233),
+}
+"""RGB of each kind of cell."""
+
+
+def kind_of(scenario: Scenario, agent: Cell | None, placed: Collection[Cell], cell: Cell) -> str:
+    """What to draw in a cell: the agent, a block on the design, a block off it, a design cell to build, or nothing."""
+    if cell == agent:
+        return AGENT
+    if cell in placed:
+        return BUILT if cell in scenario.design else WRONG
+    return MISSING if cell in scenario.design else FREE
+
+
+def draw_text(scenario: Scenario, agent: Cell | None, placed: Collection[Cell]) -> str:
+    """The arena as 15 lines of text, two characters a cell so that it looks square in a terminal."""
+    rows = (" ".join(kind_of(scenario, agent, placed, (x, y)) for x in range(SIZE)) for y in reversed(range(SIZE)))
+    return "\n".join(rows)
+
+
+def draw_picture(scenario: Scenario, agent: Cell | None, placed: Collection[Cell]) -> NDArray[np.uint8]:
+    """The arena as (240, 240, 3) RGB: a square a cell with a thin line between."""
+    picture = np.full((SIZE * CELL_PX, SIZE * CELL_PX, 3), 200, dtype=np.uint8)
+    for x in range(SIZE):
+        for y in range(SIZE):
+            top, left = (SIZE - 1 - y) * CELL_PX, x * CELL_PX
+            colour = COLOURS[kind_of(scenario, agent, placed, (x, y))]
+            picture[top + 1 : top + CELL_PX, left + 1 : left + CELL_PX] = colour
+    return picture

@@ -1,0 +1,128 @@
+"""ArenaEnv: the abstract Env interface that every backend shares, a gymnasium.Env over any Game.
+
+What crosses: actions 0 to 7 (rules.Action) in; raw (x, y, b) out, b the blocks left. Encoding belongs to learn/.
+"""
+
+from typing import Any, TypedDict
+
+import gymnasium
+import numpy as np
+from gymnasium.error import ResetNeeded
+from gymnasium.spaces import Box, Discrete, Space
+from numpy.typing import NDArray
+
+from mc_nested.arena.drawing import draw_picture, draw_text
+from mc_nested.arena.game import Game
+from mc_nested.arena.rules import SIZE, Action, Cell
+from mc_nested.arena.scenario import Scenario
+
+Observation = NDArray[np.int64]
+"""(3,): x, y and b, the blocks left."""
+
+
+METADATA: dict[str, Any] = {"render_modes": ["rgb_array", "ansi"], "render_fps": 4}
+
+
+class Info(TypedDict, total=False):
+    """What a step tells beside the reward: ``placed`` where a block landed, ``score`` (r_M) with the last step only."""
+
+    material: str
+    placed: Cell
+    score: float
+
+
+def observation_space(scenario: Scenario) -> Space[Observation]:
+    """The space of raw (x, y, b) as int64."""
+    high = np.array([SIZE - 1, SIZE - 1, scenario.blocks])
+    space: Space[Any] = Box(low=np.zeros_like(high), high=high, dtype=np.int64)
+    return space
+
+
+class ArenaEnv(gymnasium.Env[Observation, np.int64]):
+    """One arena. The reward is the nested agent's r_N; the last step's ``info["score"]`` is the main agent's r_M.
+
+    ``reset(options={"material": name})`` takes the main agent's choice; without it, the material with the best p.
+    Terminated when no block is left, truncated at the scenario's step limit (README: the task).
+    A live game's LiveError passes through; the episode is over then, and only a reset goes on.
+    """
+
+    metadata = METADATA
+
+    def __init__(self, game: Game, scenario: Scenario, render_mode: str | None = None) -> None:
+        self.game = game
+        self.scenario = scenario
+        self.render_mode = render_mode
+        self.observation_space = observation_space(scenario)
+        self.action_space = Discrete(len(Action))
+        self._material = scenario.best_material
+        self._cell = scenario.start
+        self._placed: set[Cell] = set()
+        self._steps = 0
+        self._running = False
+
+    @property
+    def cell(self) -> Cell:
+        """Where the agent stands."""
+        return self._cell
+
+    @property
+    def placed(self) -> frozenset[Cell]:
+        """The cells where a block landed since the last reset."""
+        return frozenset(self._placed)
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """Begin an episode; ScenarioError where ``options["material"]`` names no material of the scenario."""
+        super().reset(seed=seed)
+        name = (options or {}).get("material")
+        self._material = self.scenario.best_material if name is None else self.scenario.material_index(name)
+        self._running = False
+        self._cell = self.game.reset(self._material)
+        self._placed = set()
+        self._steps = 0
+        self._running = True
+        return self._observation(), dict(self._info())
+
+    def step(self, action: np.int64 | int) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        """Do one action and earn r_N: 1 if the block just placed lies on the design, else 0 (paper, section 5.1.3)."""
+        if not self._running:
+            raise ResetNeeded("the episode has ended, or none has begun: call reset() first")
+        self._running = False
+        outcome = self.game.act(Action(int(action)))
+        self._cell = outcome.cell
+        self._steps += 1
+        if outcome.placed is not None:
+            self._placed.add(outcome.placed)
+        reward = 1.0 if outcome.placed in self.scenario.design else 0.0
+        terminated = self._blocks_left == 0
+        truncated = not terminated and self._steps >= self.scenario.step_limit
+        self._running = not (terminated or truncated)
+        info = self._info()
+        if outcome.placed is not None:
+            info["placed"] = outcome.placed
+        if not self._running:
+            info["score"] = self._score
+        return self._observation(), reward, terminated, truncated, dict(info)
+
+    def render(self) -> Any:
+        """The arena from above: (H, W, 3) RGB for "rgb_array", lines of text for "ansi"."""
+        if self.render_mode == "rgb_array":
+            return draw_picture(self.scenario, self._cell, self._placed)
+        if self.render_mode == "ansi":
+            return draw_text(self.scenario, self._cell, self._placed)
+        return None
+
+    @property
+    def _blocks_left(self) -> int:
+        return self.scenario.blocks - len(self._placed)
+
+    @property
+    def _score(self) -> float:
+        return len(self._placed & self.scenario.design) + self.scenario.materials[self._material].p
+
+    def _observation(self) -> Observation:
+        return np.array([*self._cell, self._blocks_left], dtype=np.int64)
+
+    def _info(self) -> Info:
+        return {"material": self.scenario.materials[self._material].name}

@@ -1,0 +1,66 @@
+"""The rules of the task: where a move leads and where a block lands (README: the task).
+
+Cells are (x, y): x to the right, y forward, the way the agent looks for the whole episode (paper, section 5).
+"""
+
+from collections.abc import Collection
+from enum import IntEnum
+
+Cell = tuple[int, int]
+
+SIZE = 15
+"""Cells along each side of the arena (paper, section 5: a 15 by 15 grid)."""
+
+
+class Action(IntEnum):
+    """The nested agent's actions in the paper's order (paper, section 5.1.2): a move, then with +D a block."""
+
+    F = 0
+    B = 1
+    L = 2
+    R = 3
+    FD = 4
+    LD = 5
+    RD = 6
+    BD = 7
+
+
+STEP: dict[Action, Cell] = {
+    Action.F: (0, 1),
+    Action.B: (0, -1),
+    Action.L: (-1, 0),
+    Action.R: (1, 0),
+    Action.FD: (0, 1),
+    Action.LD: (-1, 0),
+    Action.RD: (1, 0),
+    Action.BD: (0, -1),
+}
+"""The cells that each action's move covers, as (right, forward)."""
+
+PLACES = frozenset({Action.FD, Action.LD, Action.RD, Action.BD})
+"""The actions that place a block after their move."""
+
+
+def is_inside(cell: Cell) -> bool:
+    """Whether the cell belongs to the arena."""
+    return 0 <= cell[0] < SIZE and 0 <= cell[1] < SIZE
+
+
+def front_of(cell: Cell) -> Cell:
+    """The cell in front of the agent, inside the arena or not."""
+    return cell[0], cell[1] + 1
+
+
+def moved(cell: Cell, action: Action, placed: Collection[Cell]) -> Cell:
+    """The cell that the action's move leads to: the same one where a block or the arena's edge stops it."""
+    right, forward = STEP[action]
+    ahead = (cell[0] + right, cell[1] + forward)
+    return ahead if is_inside(ahead) and ahead not in placed else cell
+
+
+def landing(cell: Cell, action: Action, placed: Collection[Cell]) -> Cell | None:
+    """Where the action's block lands once the agent has moved to ``cell``; None where the rules void it."""
+    front = front_of(cell)
+    if action not in PLACES or not is_inside(front) or front in placed:
+        return None
+    return front

@@ -1,0 +1,49 @@
+"""The ``mc-nested`` command: its verbs, and one line with exit code 2 for every mistake."""
+
+import sys
+from collections.abc import Sequence
+
+import typer
+
+from mc_nested.cli import calibrate, evaluate, play, read, scenarios, train
+from mc_nested.cli.interrupt import INTERRUPTED
+from mc_nested.errors import McNestedError
+
+app = typer.Typer(
+    name="mc-nested",
+    help="Teach an agent to build in Minecraft Java Edition through the keyboard, the mouse and the screen.",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+app.command()(train.train)
+app.command()(evaluate.evaluate)
+app.command()(play.play)
+app.command()(scenarios.scenarios)
+app.command()(read.read)
+app.add_typer(calibrate.app, name="calibrate")
+
+MISTAKE = 2
+"""Exit code of a mistake, or of a game that did not obey."""
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command and exit: 0, or 2 with one line on standard error, or 130 after Ctrl+C."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if words in ([], ["calibrate"]):
+        words.append("--help")
+    try:
+        code = app(args=words, standalone_mode=False)
+    except typer.TyperException as error:
+        code = _say(error.format_message())
+    except McNestedError as error:
+        code = _say(str(error))
+    except (KeyboardInterrupt, typer.Abort):
+        print("mc-nested: stopped", file=sys.stderr)
+        code = INTERRUPTED
+    sys.exit(code)
+
+
+def _say(message: str) -> int:
+    print("mc-nested: " + " ".join(message.split()), file=sys.stderr)
+    return MISTAKE

@@ -1,0 +1,47 @@
+"""``mc-nested calibrate``: tell the agent where your arena and your buttons are."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from calibration.arena import NEAR_MIDDLE, calibrate_arena
+from calibration.clicks import calibrate_clicks
+from mc_nested.cli.options import DEFAULT_PROFILE
+
+app = typer.Typer(help="Tell the agent where your arena and your buttons are.")
+
+ProfileToWrite = Annotated[str, typer.Option(metavar="NAME|FILE", help="the profile to write; new if there is none")]
+
+
+@app.command()
+def arena(
+    profile: ProfileToWrite = DEFAULT_PROFILE,
+    font: Annotated[
+        Path | None, typer.Option(metavar="PNG|JAR", help="the game's client jar, needed the first time")
+    ] = None,
+    standing: Annotated[
+        tuple[int, int], typer.Option(metavar="X Y", help="the cell you stand on; 7 0 is the middle of the near edge")
+    ] = NEAR_MIDDLE,
+    yes: Annotated[bool, typer.Option("--yes", help="mark the region without asking")] = False,
+) -> None:
+    """Mark the arena where you stand and look; only what is marked is ever cleared."""
+    path = calibrate_arena(profile, ask=typer.confirm, say=typer.echo, standing=standing, font=font, yes=yes)
+    typer.echo(f"arena written to {path}" if path else "nothing was written")
+
+
+@app.command()
+def clicks(
+    points: Annotated[
+        list[str] | None, typer.Argument(metavar="[POINT]...", help="which (default: the menus')")
+    ] = None,
+    profile: ProfileToWrite = DEFAULT_PROFILE,
+    hotkey: Annotated[str, typer.Option(help="records the place under the mouse")] = "f8",
+    skip: Annotated[str, typer.Option(help="leaves a point as it is")] = "f9",
+) -> None:
+    """Record the places to click by hand: hover and press the hotkey."""
+    written = calibrate_clicks(profile, say=typer.echo, names=points or (), hotkey=hotkey, skip=skip)
+    if written is None:
+        typer.echo("nothing was written")
+        return
+    typer.echo(f"points written to {written[0]}; look at them in {written[1]}")

@@ -1,0 +1,50 @@
+"""``mc-nested evaluate``: replay a training's greedy policies."""
+
+import json
+from typing import Annotated
+
+import torch
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from mc_nested.cli.options import RunArgument
+from mc_nested.learn.agents import NestedAgent
+from mc_nested.learn.checkpoint import part_of
+from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
+from mc_nested.learn.run_folder import RunFolder
+from sim.grid import GridVectorEnv
+
+
+def evaluate(
+    run: RunArgument, as_json: Annotated[bool, typer.Option("--json", help="print one JSON object")] = False
+) -> None:
+    """Replay the greedy policy of every trial in the simulator and print the scores."""
+    folder = RunFolder.open(run)
+    episodes = greedy_episodes(folder, load_agent(folder))
+    scenario = folder.scenario
+    if as_json:
+        scores = [episode.score for episode in episodes]
+        materials = [scenario.materials[episode.material].name for episode in episodes]
+        steps = [len(episode.actions) for episode in episodes]
+        found = {"scenario": scenario.name, "optimum": scenario.optimum, "scores": scores}
+        print(json.dumps({**found, "materials": materials, "steps": steps}))
+        return
+    table = Table("trial", "score", "optimum", "material", "steps", title=f"{scenario.name}, greedy")
+    for trial, episode in enumerate(episodes):
+        material = scenario.materials[episode.material].name
+        table.add_row(f"{trial}", f"{episode.score:g}", f"{scenario.optimum:g}", material, f"{len(episode.actions)}")
+    Console().print(table)
+
+
+def load_agent(folder: RunFolder) -> NestedAgent:
+    """The agent of a training's last checkpoint, every trial, able to act."""
+    torch.set_num_threads(1)
+    agent = NestedAgent(folder.scenarios, folder.config.preset, folder.config.seed)
+    agent.load_networks(part_of(folder.load(), "agent"))
+    return agent
+
+
+def greedy_episodes(folder: RunFolder, agent: NestedAgent) -> list[GreedyEpisode]:
+    """One greedy episode of every trial in the simulator."""
+    return play_greedily(GridVectorEnv(folder.scenarios), folder.scenarios, agent)

@@ -1,0 +1,65 @@
+"""What several verbs take, and how they open a backend."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from enum import Enum
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from gymnasium.vector import VectorEnv
+
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.game import Game
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.vector import ArenaVectorEnv, Ints
+from mc_nested.errors import RunError
+from mc_nested.live.devices import Display
+from mc_nested.live.session import open_live_game
+from sim.grid import GridGame, GridVectorEnv
+
+
+class Backend(str, Enum):
+    """Where the arena is: in the headless simulator, or in a running game's window."""
+
+    SIM = "sim"
+    LIVE = "live"
+
+
+RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="the folder of a training (its --out)")]
+BackendOption = Annotated[Backend, typer.Option(help="the headless simulator, or a running game's window")]
+ProfileOption = Annotated[
+    str | None, typer.Option(metavar="NAME|FILE", help="the profile of your game and screen (default: 'default')")
+]
+
+DEFAULT_PROFILE = "default"
+
+
+@contextmanager
+def open_game(backend: Backend, profile: str | None, scenario: Scenario) -> Iterator[tuple[Game, Display | None]]:
+    """The backend's game for as long as the block runs, and the window it is seen in, if it has one.
+
+    DesktopError or ProfileError, one line each, where a live game can't be played.
+    """
+    if backend is Backend.SIM:
+        yield GridGame(scenario), None
+        return
+    with open_live_game(scenario, profile or DEFAULT_PROFILE) as live:
+        yield live
+
+
+@contextmanager
+def open_arenas(
+    backend: Backend, profile: str | None, scenarios: Sequence[Scenario]
+) -> Iterator[VectorEnv[Ints, Ints, Any]]:
+    """The backend's arenas, one a scenario, for as long as the block runs.
+
+    RunError where a live game should be several arenas; else as ``open_game``.
+    """
+    if backend is Backend.SIM:
+        yield GridVectorEnv(scenarios)
+        return
+    if len(scenarios) != 1:
+        raise RunError(f"a live game is one arena, not {len(scenarios)}: train one trial at a time, --trials 1")
+    with open_game(backend, profile, scenarios[0]) as (game, _):
+        yield ArenaVectorEnv([ArenaEnv(game, scenarios[0])])

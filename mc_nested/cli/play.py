@@ -1,0 +1,85 @@
+"""``mc-nested play``: a trained agent builds, in the simulator or in a running game, and you watch."""
+
+from pathlib import Path
+from typing import Annotated
+
+import cv2
+import torch
+import typer
+from rich.console import Console, Group
+from rich.live import Live
+from rich.text import Text
+
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.cli.evaluate import greedy_episodes, load_agent
+from mc_nested.cli.options import Backend, BackendOption, ProfileOption, RunArgument, open_game
+from mc_nested.errors import RunError
+from mc_nested.learn.agents import NestedAgent
+from mc_nested.learn.evaluation import play_greedily
+from mc_nested.learn.run_folder import RunFolder
+from mc_nested.live.devices import Display
+from mc_nested.report.terminal import arena_view
+
+
+def play(
+    run: RunArgument,
+    backend: BackendOption = Backend.SIM,
+    profile: ProfileOption = None,
+    trial: Annotated[int | None, typer.Option(min=0, help="which trial plays (default: the best one)")] = None,
+    screenshots: Annotated[
+        bool, typer.Option("--screenshots", help="keep a picture of the window after each step, under RUN/screenshots")
+    ] = False,
+) -> None:
+    """Play one greedy episode and show the arena as it is built."""
+    folder = RunFolder.open(run)
+    scenario = folder.scenario
+    agent, which = _choose(folder, trial)
+    with open_game(backend, profile, scenario) as (game, display):
+        env = ArenaEnv(game, scenario)
+        pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
+        with Live(console=Console(), auto_refresh=False) as live:
+
+            def show() -> None:
+                built = len(env.placed & scenario.design)
+                line = Text(f"  {scenario.name}, trial {which}: {built} of {scenario.blocks} blocks on the design")
+                live.update(Group(arena_view(scenario, env.cell, env.placed), line), refresh=True)
+                if pictures:
+                    pictures.take()
+
+            episode = play_greedily(ArenaVectorEnv([env]), [scenario], agent, show)[0]
+    material = scenario.materials[episode.material].name
+    typer.echo(f"  score {episode.score:g} of {scenario.optimum:g}, in {material}, {len(episode.actions)} steps")
+    if pictures:
+        typer.echo(f"  screenshots: {pictures.folder}")
+
+
+def _choose(folder: RunFolder, trial: int | None) -> tuple[NestedAgent, int]:
+    """The agent of one trial alone, and which trial: the asked one, or the best in the simulator."""
+    agent = load_agent(folder)
+    if trial is None:
+        scores = [episode.score for episode in greedy_episodes(folder, agent)]
+        trial = scores.index(max(scores))
+    if trial >= folder.config.trials:
+        raise RunError(f"{folder.path}: has no trial {trial}: choose 0 to {folder.config.trials - 1}")
+    alone = NestedAgent([folder.scenario], folder.config.preset, folder.config.seed)
+    alone.load_networks({name: _row(kept, trial) for name, kept in agent.state().items() if "ddqn" in name})
+    return alone, trial
+
+
+def _row(kept: torch.Tensor, trial: int) -> torch.Tensor:
+    return kept[trial : trial + 1]
+
+
+class _Screenshots:
+    """Pictures of the game's window, and of nothing around it, numbered in the order they were taken."""
+
+    def __init__(self, folder: Path, display: Display) -> None:
+        self.folder = folder
+        self._display = display
+        self._taken = 0
+        folder.mkdir(exist_ok=True)
+
+    def take(self) -> None:
+        self._taken += 1
+        cv2.imwrite(str(self.folder / f"{self._taken:03d}.png"), self._display.grab())

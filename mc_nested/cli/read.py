@@ -1,0 +1,45 @@
+"""``mc-nested read``: what the debug screen says on pictures."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from mc_nested.errors import FontError
+from mc_nested.live.font import load_font
+from mc_nested.live.profile import load_profile
+from mc_nested.live.read_pictures import read_picture
+from mc_nested.live.session import overlay_of
+
+
+def read(
+    images: Annotated[list[Path], typer.Argument(metavar="IMAGE...", help="screenshots with the debug screen on")],
+    font: Annotated[
+        Path | None, typer.Option(metavar="PNG|JAR", help="the game's ascii.png, client jar or a resource pack")
+    ] = None,
+    profile: Annotated[
+        str | None, typer.Option(metavar="NAME|FILE", help="take font and overlay from a profile")
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="print one JSON line a picture")] = False,
+) -> None:
+    """Read pictures of the debug screen: position, view and the block looked at."""
+    known = load_profile(profile) if profile else None
+    if font is None and known is None:
+        raise FontError(
+            "name the game's font: --font with its client jar or ascii.png, or --profile with one that has it"
+        )
+    glyphs = load_font(font or (known.screen.font_path() if known else Path()))
+    overlay = overlay_of(known) if known else None
+    for image in images:
+        found = read_picture(image, glyphs, overlay)
+        print(json.dumps(found) if as_json else _line(found), flush=True)
+
+
+def _line(found: dict[str, Any]) -> str:
+    if found["xyz"] is None:
+        return f"{found['file']}: unread: {found['problem']}"
+    position = " ".join(f"{value:.3f}" for value in found["xyz"])
+    target = found["target"]
+    looked_at = f"looks at {target['id']} {target['pos']}" if target else "looks at no block"
+    return f"{found['file']}: at {position}, yaw {found['yaw']}, pitch {found['pitch']}, {looked_at}"

@@ -1,0 +1,63 @@
+"""What can go wrong, as one tree. Each message is one line: what is wrong, and what to do.
+
+McNestedError
+├── UserError            something the user can mend; the command line prints it and exits with 2
+│   ├── ScenarioError    a scenario that can't be found, read or built
+│   ├── PresetError      a preset that can't be found or read
+│   ├── ProfileError     a profile that can't be found or read, or doesn't fit the screen
+│   ├── FontError        a font picture or jar that can't be used
+│   ├── RunError         an output folder, a run or a checkpoint that can't be used
+│   └── DesktopError     no display, Wayland, no window of that title
+└── LiveError            the game did not do what was asked; keys are released before it is raised
+    ├── NotInFrontError  another window is in front: nothing was pressed
+    ├── UnreadableError  the debug screen stayed unreadable for too long
+    └── NotConfirmedError  a move or a placing was not seen on the screen in time
+"""
+
+
+class McNestedError(Exception):
+    """Root of every error that this project raises on purpose."""
+
+
+class UserError(McNestedError):
+    """A mistake that the user can mend."""
+
+
+class ScenarioError(UserError):
+    """A scenario that can't be found, read or built."""
+
+
+class PresetError(UserError):
+    """A preset that can't be found or read."""
+
+
+class ProfileError(UserError):
+    """A profile that can't be found or read, or doesn't fit what is on the screen."""
+
+
+class FontError(UserError):
+    """A font picture or jar that can't be used."""
+
+
+class RunError(UserError):
+    """An output folder, a run or a checkpoint that can't be used."""
+
+
+class DesktopError(UserError):
+    """No display, a session whose windows can't be driven, or no window of that title."""
+
+
+class LiveError(McNestedError):
+    """The game did not do what was asked. Every key was released before this was raised."""
+
+
+class NotInFrontError(LiveError):
+    """Another window is in front: nothing was pressed."""
+
+
+class UnreadableError(LiveError):
+    """The debug screen could not be read for longer than the game may take to draw it."""
+
+
+class NotConfirmedError(LiveError):
+    """A move or a placing that was not seen on the screen in time."""

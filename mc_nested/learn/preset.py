@@ -1,0 +1,71 @@
+"""Preset: every number of a training that is not the task's, as a TOML file that pydantic checks."""
+
+from importlib import resources
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from mc_nested.errors import PresetError
+from mc_nested.toml_file import parse_toml, read_toml_text
+
+Share = Annotated[float, Field(gt=0, le=1)]
+Probability = Annotated[float, Field(ge=0, le=1)]
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class Exploration(_Table):
+    """ε from ``start`` to ``floor`` over the first ``share`` of the episodes."""
+
+    start: Probability
+    floor: Probability
+    share: Share
+
+
+class Update(_Table):
+    """What an update of either agent does, and from how many transitions on there are updates."""
+
+    batch: Annotated[int, Field(ge=1)]
+    learning_starts: Annotated[int, Field(ge=1)]
+    learning_rate: Annotated[float, Field(gt=0)]
+    gamma: Probability
+    target_period: Annotated[int, Field(ge=1)]
+    huber_delta: Annotated[float, Field(gt=0)]
+
+
+class Preset(_Table):
+    """A training's hyper-parameters; ``paper`` is README's table."""
+
+    episodes: Annotated[int, Field(ge=1)]
+    evaluate_every: Annotated[int, Field(ge=1)]
+    hidden: Annotated[list[Annotated[int, Field(ge=1)]], Field(min_length=1)]
+    replay_capacity: Annotated[int, Field(ge=1)]
+    update: Update
+    explore_main: Exploration
+    explore_nested: Exploration
+
+
+def shipped_presets() -> list[str]:
+    """Names of the presets that come with the project."""
+    folder = resources.files("mc_nested.learn") / "presets"
+    return sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml"))
+
+
+def load_preset(name_or_file: str | Path) -> Preset:
+    """The preset of a shipped name or of a TOML file; PresetError, one line, where it can't be used."""
+    if str(name_or_file) in shipped_presets():
+        folder = resources.files("mc_nested.learn") / "presets"
+        return parse_preset((folder / f"{name_or_file}.toml").read_text("utf-8"), str(name_or_file))
+    path = Path(name_or_file)
+    if not path.is_file():
+        known = ", ".join(shipped_presets())
+        raise PresetError(f"no preset {str(name_or_file)!r}: name one of {known}, or a TOML file that exists")
+    return parse_preset(read_toml_text(path, PresetError), str(path))
+
+
+def parse_preset(text: str, source: str) -> Preset:
+    """The preset that a TOML text describes; ``source`` names it in errors."""
+    return parse_toml(Preset, text, source, PresetError)

@@ -1,0 +1,272 @@
+"""Training R runs of the nested agent, one tick at a time (paper, Algorithm 1).
+
+A tick is one step of every run that isn't finished: choose, step, remember, update. Every run is somewhere in an
+episode of its own: a training episode, or a greedy evaluation that is neither learnt from nor counted. The trainer sees
+the arenas as a gymnasium VectorEnv with autoreset disabled and nothing else, so it can't tell a simulated from a live
+game.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, Protocol, TypeVar, get_type_hints, runtime_checkable
+
+import numpy as np
+import torch
+from gymnasium.vector import VectorEnv
+from numpy.typing import NDArray
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.learn.agents import NestedAgent
+from mc_nested.learn.checkpoint import part_of
+from mc_nested.learn.learner import CHOICE_NUMBERS, Bools, Floats, Ints
+from mc_nested.learn.preset import Exploration, Preset
+from mc_nested.learn.replay import Transitions
+from mc_nested.learn.schedules import LinearDecay
+from mc_nested.learn.streams import Streams
+
+
+class EpisodeRow(NamedTuple):
+    """One finished training episode; ``episode`` counts from 1, ε are those it was played with."""
+
+    trial: int
+    episode: int
+    score: float
+    material: int
+    steps: int
+    epsilon_main: float
+    epsilon_nested: float
+
+
+class EvaluationRow(NamedTuple):
+    """One greedy episode after ``episode`` training episodes."""
+
+    trial: int
+    episode: int
+    score: float
+    material: int
+    steps: int
+
+
+@dataclass
+class _Runs:
+    """Where each run stands; every array (runs, …)."""
+
+    observations: Ints
+    materials: Ints
+    episodes: Ints
+    steps_in_episode: Ints
+    evaluated_at: Ints
+    between_episodes: Bools
+    evaluating: Bools
+    finished: Bools
+
+
+@runtime_checkable
+class Resumable(Protocol):
+    """An env whose episodes can be saved half-way: the simulator. A live game can't, its episodes begin anew."""
+
+    def snapshot(self) -> dict[str, NDArray[Any]]: ...
+
+    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> Ints: ...
+
+
+class Trainer:
+    """Trains until every run has its episodes.
+
+    Args:
+        env: R arenas as a VectorEnv with autoreset disabled.
+        scenarios: each run's scenario.
+        agent: what is trained.
+        preset: the hyper-parameters; ``episodes`` as in the preset or as asked for.
+        seed: of the run's choices; the same seed gives the same training.
+        stop_at_optimum: finish a run at its first greedy evaluation at its scenario's optimum.
+    """
+
+    def __init__(
+        self,
+        env: VectorEnv[Ints, Ints, Any],
+        scenarios: Sequence[Scenario],
+        agent: NestedAgent,
+        preset: Preset,
+        seed: int,
+        stop_at_optimum: bool = False,
+    ) -> None:
+        runs = len(scenarios)
+        self.agent = agent
+        self.preset = preset
+        self.ticks = 0
+        self.env_steps = 0
+        self.evaluation_steps = 0
+        self.episode_rows: list[EpisodeRow] = []
+        self.evaluation_rows: list[EvaluationRow] = []
+        self._env = env
+        self._stop_at_optimum = stop_at_optimum
+        self._optimum = np.array([scenario.optimum for scenario in scenarios])
+        self._start = np.array([scenario.start_state for scenario in scenarios])
+        self._explore_main = _decay(preset.explore_main)
+        self._explore_nested = _decay(preset.explore_nested)
+        self._streams = Streams(seed, runs, 2 * (CHOICE_NUMBERS + preset.update.batch))
+        self._runs = _Runs(
+            observations=self._start.copy(),
+            materials=np.zeros(runs, dtype=np.int64),
+            episodes=np.zeros(runs, dtype=np.int64),
+            steps_in_episode=np.zeros(runs, dtype=np.int64),
+            evaluated_at=np.zeros(runs, dtype=np.int64),
+            between_episodes=np.ones(runs, dtype=np.bool_),
+            evaluating=np.zeros(runs, dtype=np.bool_),
+            finished=np.zeros(runs, dtype=np.bool_),
+        )
+
+    @property
+    def finished(self) -> bool:
+        """Whether every run is finished."""
+        return bool(self._runs.finished.all())
+
+    @property
+    def episodes_done(self) -> Ints:
+        """Training episodes completed, (runs,)."""
+        return self._runs.episodes
+
+    @property
+    def runs_finished(self) -> Bools:
+        """Which runs are finished, (runs,)."""
+        return self._runs.finished
+
+    @property
+    def epsilon(self) -> tuple[Floats, Floats]:
+        """The main and the nested agent's ε of the training episodes now, (runs,) each."""
+        done, episodes = self._runs.episodes, self.preset.episodes
+        return self._explore_main.epsilon(done, episodes), self._explore_nested.epsilon(done, episodes)
+
+    def tick(self) -> None:
+        """One step of every run that isn't finished.
+
+        An error of the env passes through; what was learnt until then stays valid, and the next tick goes on with new
+        episodes where ``abandon_episodes`` was called.
+        """
+        main_choice, main_draws, nested_choice, nested_draws = np.split(self._streams.at(self.ticks), self._cuts(), 1)
+        self._begin_episodes(main_choice)
+        runs = self._runs
+        training = ~(runs.finished | runs.evaluating)
+        states = self.agent.nested_states(runs.observations, runs.materials)
+        epsilon = np.where(training, self._explore_nested.epsilon(runs.episodes, self.preset.episodes), 0.0)
+        actions = self.agent.nested.act(states, epsilon, nested_choice)
+        observations, rewards, terminated, truncated, info = self._env.step(actions)
+        next_states = self.agent.nested_states(observations, runs.materials)
+
+        rows = np.flatnonzero(training)
+        done = terminated[rows]
+        seen = Transitions(states[rows], actions[rows], rewards[rows], next_states[rows], done)
+        self.agent.nested.replay.add(rows, seen)
+        self.agent.nested.learn(rows, nested_draws[rows])
+
+        runs.observations = observations
+        runs.steps_in_episode += ~runs.finished
+        self.env_steps += len(rows)
+        self.evaluation_steps += int((runs.evaluating & ~runs.finished).sum())
+        ended = (terminated | truncated) & ~runs.finished
+        if ended.any():
+            self._end_training_episodes(np.flatnonzero(ended & training), info["score"], main_draws)
+            self._end_evaluations(np.flatnonzero(ended & runs.evaluating), info["score"])
+            runs.between_episodes |= ended
+        self.ticks += 1
+
+    def abandon_episodes(self) -> None:
+        """Begin anew every episode that is under way: its env is gone or in an unknown state."""
+        self._runs.between_episodes[:] = True
+
+    def state(self) -> dict[str, torch.Tensor]:
+        """Everything the rest of the training depends on, by name; as it stands between two ticks."""
+        runs = {f"runs.{name}": torch.from_numpy(kept) for name, kept in vars(self._runs).items()}
+        arenas = self._env.snapshot() if isinstance(self._env, Resumable) else {}
+        return {
+            "counts": torch.tensor([self.ticks, self.env_steps, self.evaluation_steps]),
+            "rows.episodes": _table(self.episode_rows, EpisodeRow),
+            "rows.evaluations": _table(self.evaluation_rows, EvaluationRow),
+            **runs,
+            **{f"env.{name}": torch.from_numpy(kept) for name, kept in arenas.items()},
+            **{f"agent.{name}": kept for name, kept in self.agent.state().items()},
+        }
+
+    def load(self, state: dict[str, torch.Tensor]) -> None:
+        """Go on from what ``state`` gave; KeyError, ValueError or RuntimeError where it is of another shape."""
+        self.ticks, self.env_steps, self.evaluation_steps = (int(count) for count in state["counts"])
+        self.episode_rows = _rows(state["rows.episodes"], EpisodeRow)
+        self.evaluation_rows = _rows(state["rows.evaluations"], EvaluationRow)
+        for name, kept in part_of(state, "runs").items():
+            getattr(self._runs, name)[:] = kept.numpy()
+        self.agent.load(part_of(state, "agent"))
+        arenas = part_of(state, "env")
+        if isinstance(self._env, Resumable) and arenas:
+            self._env.restore({name: kept.numpy() for name, kept in arenas.items()})
+        else:
+            self.abandon_episodes()
+
+    def _cuts(self) -> list[int]:
+        batch = self.preset.update.batch
+        return [CHOICE_NUMBERS, CHOICE_NUMBERS + batch, 2 * CHOICE_NUMBERS + batch]
+
+    def _begin_episodes(self, choice: Floats) -> None:
+        runs = self._runs
+        begins = runs.between_episodes & ~runs.finished
+        if not begins.any():
+            return
+        due = (runs.episodes % self.preset.evaluate_every == 0) | (runs.episodes >= self.preset.episodes)
+        runs.evaluating = np.where(begins, due & (runs.episodes > runs.evaluated_at), runs.evaluating)
+        epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
+        runs.materials = np.where(begins, self.agent.main.act(self._start, epsilon, choice), runs.materials)
+        runs.observations, _ = self._env.reset(options={"reset_mask": begins, "material": runs.materials})
+        runs.steps_in_episode[begins] = 0
+        runs.between_episodes &= ~begins
+
+    def _end_training_episodes(self, rows: Ints, scores: Floats, draws: Floats) -> None:
+        if not len(rows):
+            return
+        runs = self._runs
+        epsilon_main, epsilon_nested = self.epsilon
+        runs.episodes[rows] += 1
+        for run in rows:
+            self.episode_rows.append(
+                EpisodeRow(
+                    int(run),
+                    int(runs.episodes[run]),
+                    float(scores[run]),
+                    int(runs.materials[run]),
+                    int(runs.steps_in_episode[run]),
+                    float(epsilon_main[run]),
+                    float(epsilon_nested[run]),
+                )
+            )
+        # The main agent's one transition an episode: after its choice, nothing is left for it to decide.
+        ended = np.ones(len(rows), dtype=np.bool_)
+        seen = Transitions(self._start[rows], runs.materials[rows], scores[rows], runs.observations[rows], ended)
+        self.agent.main.replay.add(rows, seen)
+        self.agent.main.learn(rows, draws[rows])
+
+    def _end_evaluations(self, rows: Ints, scores: Floats) -> None:
+        runs = self._runs
+        for run in rows:
+            score, episode = float(scores[run]), int(runs.episodes[run])
+            steps, material = int(runs.steps_in_episode[run]), int(runs.materials[run])
+            self.evaluation_rows.append(EvaluationRow(int(run), episode, score, material, steps))
+            runs.evaluated_at[run] = episode
+            reached = self._stop_at_optimum and score >= self._optimum[run]
+            runs.finished[run] = episode >= self.preset.episodes or reached
+
+
+def _decay(exploration: Exploration) -> LinearDecay:
+    return LinearDecay(exploration.start, exploration.floor, exploration.share)
+
+
+Row = TypeVar("Row", EpisodeRow, EvaluationRow)
+
+
+def _table(rows: list[Row], kind: type[Row]) -> torch.Tensor:
+    return torch.tensor(rows, dtype=torch.float64).reshape(len(rows), len(kind._fields))
+
+
+def _rows(table: torch.Tensor, kind: type[Row]) -> list[Row]:
+    types = get_type_hints(kind)
+    return [
+        kind(*(types[name](value) for name, value in zip(kind._fields, row, strict=True))) for row in table.tolist()
+    ]

@@ -1,0 +1,84 @@
+"""The F3 debug screen: from a frame to a Reading, or to the reason why there is none. Never a guess.
+
+Each line is found by how it begins, in either column, decoded glyph by glyph, and then has to match its whole form in
+one of the versions (facts: The F3 debug screen). What doesn't match is a problem, not a number.
+"""
+
+import re
+
+from mc_nested.live.devices import Frame
+from mc_nested.live.font import Font
+from mc_nested.live.looked_at import looked_at
+from mc_nested.live.overlay import POSITION, REDUCED, find_overlay, see
+from mc_nested.live.reading import Reading
+from mc_nested.live.screen_lines import CLEAR, WHOLE, Screen, Unreadable, matched
+from mc_nested.live.text_lines import UNKNOWN, Overlay
+
+__all__ = ["Overlay", "find_overlay", "read_debug_screen"]
+
+# What follows the third decimal or the last bracket is the world beside the box: the forms are complete without it.
+_XYZ = re.compile(
+    rf"XYZ: {WHOLE}[.,](\d{{3}}) / {WHOLE}[.,](\d{{5}}|\d{{3}}) / {WHOLE}[.,](\d{{3}})(?:[ {UNKNOWN}].*)?"
+)
+_DEGREES = r"(-?\d{1,3}[.,]\d)"
+_TOWARDS = r"(?:north|south|east|west) \([Tt]owards (?:positive|negative) [XZ]\)"
+_FACINGS = {
+    "Facing: ": re.compile(rf"Facing: {_TOWARDS} \({_DEGREES} / {_DEGREES}\).*"),
+    "Facing (minecraft): ": re.compile(rf"Facing \(minecraft\): {_TOWARDS} \({_DEGREES} {_DEGREES}\).*"),
+}
+_VERSION = re.compile(r"Minecraft (\d+)\.(\d+)")
+_FIRST_UNSUPPORTED = (26, 4)
+
+
+def read_debug_screen(frame: Frame, font: Font, overlay: Overlay | None = None) -> Reading:
+    """What the debug screen of a frame (height, width, 3), blue green red, says; without ``overlay`` it is found first.
+
+    A reading with a problem holds nothing else: a position isn't given while the block looked at can't be read.
+    """
+    sight = see(frame, font, overlay)
+    if sight is None:
+        return Reading(problem=_nothing_seen(overlay))
+    screen = Screen(sight, font)
+    try:
+        if sight.prefix != POSITION:
+            raise Unreadable(_without_position(screen))
+        return Reading(_position(screen), *_facing(screen), looked_at(screen))
+    except Unreadable as reason:
+        return Reading(problem=str(reason))
+
+
+def _position(screen: Screen) -> tuple[float, float, float]:
+    parts = matched(_XYZ, screen.line(POSITION))
+    x, y, z = (float(f"{whole}.{decimals}") for whole, decimals in zip(parts[::2], parts[1::2], strict=True))
+    return x, y, z
+
+
+def _facing(screen: Screen) -> tuple[float, float]:
+    for prefix, form in _FACINGS.items():
+        if line := screen.line(prefix):
+            yaw, pitch = (float(text.replace(",", ".")) for text in matched(form, line))
+            if abs(yaw) > 180 or abs(pitch) > 90:
+                raise Unreadable(f"a yaw of {yaw} with a pitch of {pitch} can't be: {CLEAR}")
+            return yaw, pitch
+    raise Unreadable(f"the debug screen shows no Facing line, or it is covered: {CLEAR}")
+
+
+def _without_position(screen: Screen) -> str:
+    if screen.sight.prefix == REDUCED:
+        return (
+            "the debug screen is reduced and shows no XYZ: set Reduced Debug Info off in the game's options, "
+            "and the gamerule reducedDebugInfo (from 1.21.11 on reduced_debug_info) to false"
+        )
+    title = screen.places("Minecraft ")
+    version = _VERSION.match(screen.line_at(*title[0]).text) if title else None
+    if version and (int(version[1]), int(version[2])) >= _FIRST_UNSUPPORTED:
+        return f"the debug screen of {version[0]} has a layout that can't be read yet: use a version from 1.8 to 26.3"
+    return f"no XYZ line is to be seen: press F3 if it is off (from 1.21.9 on, F3+F6 adds the line), else {CLEAR}"
+
+
+def _nothing_seen(overlay: Overlay | None) -> str:
+    scale = f"GUI scale {overlay.scale}" if overlay else "a GUI scale from 1 to 4"
+    return (
+        f"no debug screen is to be seen at {scale}: press F3 in the game; if it is on, turn Force Unicode Font off and "
+        "give the font of the game's own jar, or of the resource pack in use"
+    )

@@ -1,0 +1,21 @@
+"""The real clock: seconds on a monotonic scale, and waits that end on time."""
+
+import sys
+import time
+
+SPIN_S = 0.016 if sys.platform == "win32" else 0.002
+"""The last part of a wait that is spun: as long as a sleep may overshoot (facts: 15.6 ms on Windows)."""
+
+
+class MonotonicClock:
+    """Seconds since some moment, never going back."""
+
+    def now(self) -> float:
+        return time.perf_counter()
+
+    def sleep_until(self, at: float) -> None:
+        left = at - time.perf_counter()
+        if left > SPIN_S:
+            time.sleep(left - SPIN_S)
+        while time.perf_counter() < at:
+            pass

@@ -1,0 +1,51 @@
+"""The real mouse, through pyautogui."""
+
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from mc_nested.errors import LiveError
+from mc_nested.live.desktop.window import GameWindow
+from mc_nested.live.devices import Button
+
+
+class DesktopPointer:
+    """The mouse, in pixels of the window's client area; ``ratio`` gives pixels to a point of the desktop."""
+
+    def __init__(self, window: GameWindow, ratio: Callable[[], float]) -> None:
+        self._window = window
+        self._ratio = ratio
+        self._mouse = load_pyautogui()
+
+    def position(self) -> tuple[int, int]:
+        place, ratio = self._window.place(), self._ratio()
+        x, y = self._mouse.position()
+        return round((x - place.left) * ratio), round((y - place.top) * ratio)
+
+    def move(self, x: int, y: int) -> None:
+        place, ratio = self._window.place(), self._ratio()
+        self._mouse.moveTo(place.left + x / ratio, place.top + y / ratio, _pause=False)
+
+    def press(self, button: Button) -> None:
+        if tuple(self._mouse.position()) in self._mouse.FAILSAFE_POINTS:
+            raise LiveError("the mouse is in a corner of the screen, which means stop: nothing was clicked")
+        self._mouse.mouseDown(button=button, _pause=False)
+
+    def release(self, button: Button) -> None:
+        self._mouse.mouseUp(button=button, _pause=False)
+
+
+def load_pyautogui() -> Any:
+    """The module pyautogui, without its pauses and its own fail-safe, which would refuse to release a button too."""
+    # mouseinfo ends the whole process where tkinter is missing, and pyscreeze starts programs that this project has no
+    # need of. Named None, their import fails in the one way that pyautogui is prepared for.
+    blocked = [name for name in ("mouseinfo", "pyscreeze") if name not in sys.modules]
+    sys.modules.update(dict.fromkeys(blocked))  # type: ignore[arg-type]  # None is what Python documents for this
+    try:
+        import pyautogui
+    finally:
+        for name in blocked:
+            del sys.modules[name]
+    pyautogui.PAUSE = 0
+    pyautogui.FAILSAFE = False
+    return pyautogui

@@ -1,0 +1,97 @@
+"""The game's window on macOS, through Quartz. Places are points; a Retina screen has two pixels to a point."""
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from mc_nested.errors import DesktopError
+from mc_nested.live.desktop.window import Place, checked, closed, pick
+
+if sys.platform == "darwin":
+    import AppKit
+    import HIServices
+    import Quartz
+
+assert sys.platform == "darwin"  # noqa: S101  mypy learns from it that the rest is for macOS alone
+
+_ORDINARY_LAYER = 0
+"""The layer of ordinary windows; menus, the dock and notes lie on others."""
+
+
+@contextmanager
+def open_window(title: str) -> Iterator["QuartzWindow"]:
+    """The one window whose title matches the regular expression ``title``.
+
+    Raises:
+        DesktopError: a missing permission, no window of that title on this space, or several.
+    """
+    _check_permissions()
+    windows = [each for each in _shown_windows() if each.get(Quartz.kCGWindowName)]
+    titles = [str(each[Quartz.kCGWindowName]) for each in windows]
+    chosen = pick(title, titles)
+    window = QuartzWindow(int(windows[chosen][Quartz.kCGWindowNumber]), titles[chosen])
+    window.place()
+    yield window
+
+
+class QuartzWindow:
+    """A window by its number."""
+
+    def __init__(self, number: int, title: str) -> None:
+        self._number = number
+        self._title = title
+
+    def title(self) -> str:
+        self._title = str(self._described().get(Quartz.kCGWindowName) or self._title)
+        return self._title
+
+    def place(self) -> Place:
+        bounds = self._described()[Quartz.kCGWindowBounds]
+        left, top = round(bounds["X"]), round(bounds["Y"])
+        width, height = round(bounds["Width"]), round(bounds["Height"])
+        bar = 0 if _fills_a_screen(left, top, width, height) else _title_bar_height()
+        return checked(Place(left, top + bar, width, height - bar), self._title)
+
+    def is_in_front(self) -> bool:
+        front = next(iter(_shown_windows()), None)
+        return front is not None and int(front[Quartz.kCGWindowNumber]) == self._number
+
+    def _described(self) -> Any:
+        found = [each for each in _shown_windows() if int(each[Quartz.kCGWindowNumber]) == self._number]
+        if not found:
+            raise closed(self._title)
+        return found[0]
+
+
+def _check_permissions() -> None:
+    # Without these, macOS drops the keys and gives black pictures, and says nothing.
+    place = "allow your terminal in System Settings, Privacy & Security"
+    if not Quartz.CGPreflightScreenCaptureAccess():
+        raise DesktopError(f"macOS doesn't let this program see the game: {place}, Screen Recording, and start it anew")
+    if not HIServices.AXIsProcessTrusted():
+        raise DesktopError(f"macOS doesn't let this program press keys: {place}, Accessibility, and start it anew")
+
+
+def _shown_windows() -> list[Any]:
+    """Ordinary windows on the screen, the front one first."""
+    options = Quartz.kCGWindowListOptionOnScreenOnly | Quartz.kCGWindowListExcludeDesktopElements
+    windows = Quartz.CGWindowListCopyWindowInfo(options, Quartz.kCGNullWindowID) or ()
+    return [each for each in windows if int(each[Quartz.kCGWindowLayer]) == _ORDINARY_LAYER]
+
+
+def _fills_a_screen(left: int, top: int, width: int, height: int) -> bool:
+    _, displays, count = Quartz.CGGetActiveDisplayList(32, None, None)
+    for display in displays[:count]:
+        screen = Quartz.CGDisplayBounds(display)
+        origin, size = screen.origin, screen.size
+        if (round(origin.x), round(origin.y), round(size.width), round(size.height)) == (left, top, width, height):
+            return True
+    return False
+
+
+def _title_bar_height() -> int:
+    """Points that the title bar takes: Quartz counts it as part of the window, and its height differs by version."""
+    inside = AppKit.NSMakeRect(0, 0, 100, 100)
+    frame = AppKit.NSWindow.frameRectForContentRect_styleMask_(inside, AppKit.NSWindowStyleMaskTitled)
+    return round(float(frame.size.height - inside.size.height))

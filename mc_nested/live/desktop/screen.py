@@ -1,0 +1,59 @@
+"""Pictures of the game's window alone, wherever it has moved to."""
+
+from collections.abc import Callable
+
+from mc_nested.errors import DesktopError
+from mc_nested.live.desktop.window import GameWindow, Place
+from mc_nested.live.devices import Frame, Region
+
+Camera = Callable[[Place], Frame]
+"""Takes a picture of a place of the desktop, at as many pixels to a point as the screen there has."""
+
+
+class WindowDisplay:
+    """The Display of a window: asks at each picture where the window is."""
+
+    def __init__(self, window: GameWindow, camera: Camera) -> None:
+        self._window = window
+        self._camera = camera
+        self._ratio = 1.0
+        self.grab()
+
+    def ratio(self) -> float:
+        """Framebuffer pixels to a point of the desktop, as the last whole picture measured it."""
+        return self._ratio
+
+    def size(self) -> tuple[int, int]:
+        place = self._window.place()
+        return round(place.width * self._ratio), round(place.height * self._ratio)
+
+    def title(self) -> str:
+        return self._window.title()
+
+    def is_in_front(self) -> bool:
+        return self._window.is_in_front()
+
+    def grab(self, region: Region | None = None) -> Frame:
+        place = self._window.place()
+        if region is not None and self._ratio == 1.0:
+            part = _part_of(place, region)
+            picture = self._camera(part)
+            if picture.shape[:2] == (part.height, part.width):
+                return picture
+        picture = self._camera(place)
+        self._ratio = picture.shape[1] / place.width
+        if region is None:
+            return picture
+        inside = _part_of(Place(0, 0, picture.shape[1], picture.shape[0]), region)
+        return picture[inside.top : inside.top + inside.height, inside.left : inside.left + inside.width]
+
+
+def _part_of(place: Place, region: Region) -> Place:
+    """The region's part of the place, so that nothing beside the window is ever pictured."""
+    left, top = max(region.left, 0), max(region.top, 0)
+    right, bottom = min(region.left + region.width, place.width), min(region.top + region.height, place.height)
+    if right <= left or bottom <= top:
+        raise DesktopError(
+            f"the game's window has shrunk to {place.width} x {place.height}: make it as large as it was"
+        )
+    return Place(place.left + left, place.top + top, right - left, bottom - top)

@@ -1,0 +1,92 @@
+"""The game's window on Windows, through user32. Places are physical pixels, since the process says it knows DPI."""
+
+import ctypes
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from ctypes import wintypes
+
+from mc_nested.live.desktop.window import Place, checked, closed, minimised, pick
+
+assert sys.platform == "win32"  # noqa: S101  mypy learns from it that the rest is for Windows alone
+
+_PER_MONITOR_AWARE_V2 = -4
+"""DPI_AWARENESS_CONTEXT_PER_MONITOR_AWARE_V2, a handle (windef.h)."""
+
+_CLOAKED = 14
+"""DWMWA_CLOAKED (dwmapi.h): a window of a suspended store app is there and visible, but never shown."""
+
+_user32 = ctypes.WinDLL("user32", use_last_error=True)
+_user32.GetForegroundWindow.restype = wintypes.HWND
+_EnumWindowsCallback = ctypes.WINFUNCTYPE(wintypes.BOOL, wintypes.HWND, wintypes.LPARAM)
+
+
+@contextmanager
+def open_window(title: str) -> Iterator["Win32Window"]:
+    """The one window whose title matches the regular expression ``title``.
+
+    Raises:
+        DesktopError: no window of that title or several, or a minimised one.
+    """
+    # Fails harmlessly where the process has chosen its awareness already; pyautogui would choose a weaker one.
+    _user32.SetProcessDpiAwarenessContext(ctypes.c_void_p(_PER_MONITOR_AWARE_V2))
+    windows = [(handle, _title_of(handle)) for handle in _shown_windows()]
+    windows = [(handle, name) for handle, name in windows if name]
+    window = Win32Window(*windows[pick(title, [name for _, name in windows])])
+    window.place()
+    yield window
+
+
+class Win32Window:
+    """A window by its handle."""
+
+    def __init__(self, handle: int, title: str) -> None:
+        self._handle = handle
+        self._title = title
+
+    def title(self) -> str:
+        self._title = _title_of(self._handle) or self._title
+        return self._title
+
+    def place(self) -> Place:
+        handle = wintypes.HWND(self._handle)
+        if not _user32.IsWindow(handle):
+            raise closed(self._title)
+        if _user32.IsIconic(handle) or not _user32.IsWindowVisible(handle):
+            raise minimised(self._title)
+        inside, corner = wintypes.RECT(), wintypes.POINT(0, 0)
+        if not _user32.GetClientRect(handle, ctypes.byref(inside)):
+            raise closed(self._title)
+        _user32.ClientToScreen(handle, ctypes.byref(corner))
+        return checked(Place(corner.x, corner.y, inside.right, inside.bottom), self._title)
+
+    def is_in_front(self) -> bool:
+        front: int | None = _user32.GetForegroundWindow()
+        return front == self._handle
+
+
+def _shown_windows() -> list[int]:
+    handles: list[int] = []
+
+    def collect(handle: int, _: int) -> bool:
+        if _user32.IsWindowVisible(wintypes.HWND(handle)) and not _is_cloaked(handle):
+            handles.append(handle)
+        return True
+
+    _user32.EnumWindows(_EnumWindowsCallback(collect), 0)
+    return handles
+
+
+def _is_cloaked(handle: int) -> bool:
+    cloaked = wintypes.DWORD(0)
+    ctypes.WinDLL("dwmapi").DwmGetWindowAttribute(
+        wintypes.HWND(handle), _CLOAKED, ctypes.byref(cloaked), ctypes.sizeof(cloaked)
+    )
+    return cloaked.value != 0
+
+
+def _title_of(handle: int) -> str:
+    length: int = _user32.GetWindowTextLengthW(wintypes.HWND(handle))
+    text = ctypes.create_unicode_buffer(length + 1)
+    _user32.GetWindowTextW(wintypes.HWND(handle), text, length + 1)
+    return text.value

@@ -1,0 +1,73 @@
+"""The game's window as the operating system tells of it, and which of all windows that is."""
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from mc_nested.errors import DesktopError
+
+SHOWN_TITLES = 8
+"""How many of the titles that exist an error names: enough to find a misspelling, and still one line."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """A window's client area on the desktop, in the desktop's points: not always pixels (facts: input and windows)."""
+
+    left: int
+    top: int
+    width: int
+    height: int
+
+
+class GameWindow(Protocol):
+    """One window of the desktop. It may move, change its title, and close at any time."""
+
+    def title(self) -> str: ...
+
+    def place(self) -> Place:
+        """Where the client area is now; DesktopError where the window has closed or is minimised."""
+
+    def is_in_front(self) -> bool:
+        """Whether a key pressed now would reach this window."""
+
+
+def pick(title: str, titles: Sequence[str]) -> int:
+    """Index of the one title in which the regular expression ``title`` is found; DesktopError for none or several."""
+    found = [index for index, each in enumerate(titles) if re.search(title, each)]
+    if len(found) == 1:
+        return found[0]
+    if not found:
+        known = _listed([each for each in titles if each]) or "none"
+        raise DesktopError(
+            f"no window's title matches {title!r}: start the game, or set window.title in the profile; "
+            f"windows on this desktop: {known}"
+        )
+    raise DesktopError(
+        f"{len(found)} windows' titles match {title!r}: {_listed([titles[index] for index in found])}: "
+        "close all but the game's, or set window.title in the profile"
+    )
+
+
+def checked(place: Place, title: str) -> Place:
+    """The place itself; DesktopError where it has no area, as that of a minimised window."""
+    if place.width < 1 or place.height < 1:
+        raise minimised(title)
+    return place
+
+
+def minimised(title: str) -> DesktopError:
+    """The error for a window that isn't shown."""
+    return DesktopError(f"the window {title!r} is minimised or hidden: bring it back onto the screen")
+
+
+def closed(title: str) -> DesktopError:
+    """The error for a window that is no more."""
+    return DesktopError(f"the window {title!r} has closed: start the game again")
+
+
+def _listed(titles: Sequence[str]) -> str:
+    shown = sorted(set(titles))
+    more = f" and {len(shown) - SHOWN_TITLES} more" if len(shown) > SHOWN_TITLES else ""
+    return ", ".join(repr(each) for each in shown[:SHOWN_TITLES]) + more

@@ -1,0 +1,80 @@
+"""The devices between an agent and a game, as protocols: a desktop and a virtual client both implement them.
+
+Everything in ``live`` and ``calibration`` is written against these; ``desktop.py`` has the real ones.
+"""
+
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Frame = NDArray[np.uint8]
+"""A picture (height, width, 3), blue green red, in framebuffer pixels."""
+
+Button = Literal["left", "right", "middle"]
+
+
+@dataclass(frozen=True)
+class Region:
+    """A rectangle of a window's client area in framebuffer pixels, from its top left corner."""
+
+    left: int
+    top: int
+    width: int
+    height: int
+
+
+class Clock(Protocol):
+    """Time in seconds on a monotonic scale of its own."""
+
+    def now(self) -> float: ...
+
+    def sleep_until(self, at: float) -> None:
+        """Return at the absolute time ``at``, or at once if it has passed."""
+
+
+class Display(Protocol):
+    """The game's window, and nothing of the desktop around it."""
+
+    def size(self) -> tuple[int, int]:
+        """Width and height of the client area in framebuffer pixels."""
+
+    def title(self) -> str: ...
+
+    def is_in_front(self) -> bool:
+        """Whether a key pressed now would reach this window."""
+
+    def grab(self, region: Region | None = None) -> Frame:
+        """A picture of the client area, or of a region of it."""
+
+
+class Keyboard(Protocol):
+    """Keys by name: one character ("w", "/") or a word ("enter", "esc", "f3", "left.shift", "space")."""
+
+    def press(self, key: str) -> None: ...
+
+    def release(self, key: str) -> None: ...
+
+    def type(self, text: str) -> None:
+        """Type a line of text into whatever has the focus."""
+
+
+class Pointer(Protocol):
+    """The mouse, in framebuffer pixels from the window's top left corner."""
+
+    def position(self) -> tuple[int, int]: ...
+
+    def move(self, x: int, y: int) -> None: ...
+
+    def press(self, button: Button) -> None: ...
+
+    def release(self, button: Button) -> None: ...
+
+
+class Clipboard(Protocol):
+    """The desktop's clipboard, as text."""
+
+    def read(self) -> str: ...
+
+    def write(self, text: str) -> None: ...

@@ -1,0 +1,203 @@
+"""Profile: what is known of one user's game and screen, as a commented TOML file that calibration writes.
+
+A key that is left out takes its default, or is found on the screen. Profiles are found by name, read with one-line
+errors, and written without losing a user's comments.
+"""
+
+import difflib
+import json
+import os
+import tempfile
+from pathlib import Path
+from typing import Any, get_args
+
+import platformdirs
+import tomlkit
+from pydantic import Field, ValidationError
+from pydantic_core import ErrorDetails
+from tomlkit.exceptions import TOMLKitError
+from tomlkit.items import Table
+
+from mc_nested.errors import ProfileError
+from mc_nested.live.profile_tables import (
+    Arena,
+    Blocks,
+    Body,
+    Fraction,
+    GameVersion,
+    Input,
+    Keys,
+    ProfileTable,
+    Screen,
+    Walk,
+    Window,
+)
+
+
+class Profile(ProfileTable):
+    """A user's calibrated facts, table by table as in the file."""
+
+    window: Window = Window()
+    game: GameVersion = GameVersion()
+    keys: Keys = Keys()
+    screen: Screen = Screen()
+    arena: Arena | None = None
+    blocks: Blocks = Blocks()
+    input: Input = Input()
+    body: Body = Body()
+    walk: Walk = Walk()
+    points: dict[str, tuple[Fraction, Fraction]] = Field(
+        default_factory=dict, description="places to click, as fractions of the window's width and height"
+    )
+
+    def marked_arena(self) -> Arena:
+        """The arena; ProfileError where none is marked yet."""
+        if self.arena is None:
+            raise ProfileError("the profile has no arena: stand where it shall be and run mc-nested calibrate arena")
+        return self.arena
+
+    def block_name(self, block: str) -> str:
+        """This game's name, without namespace, of a scenario's block (a name of Minecraft 1.13 and later)."""
+        older = {"oak_planks": "planks"} if self.game.dialect == "1.12" else {}
+        return self.blocks.names.get(block, older.get(block, block))
+
+    def shown_id(self, block: str) -> str:
+        """What the debug screen shows for a scenario's block."""
+        return self.blocks.shown_prefix + self.block_name(block)
+
+
+def profile_folder() -> Path:
+    """Where a user's named profiles lie, on each system in its own place."""
+    return platformdirs.user_config_path("mc-nested", appauthor=False) / "profiles"
+
+
+def profile_path(name_or_file: str | Path) -> Path:
+    """The file of a profile: a name lies in the profile folder; whatever ends in .toml is a path."""
+    path = Path(name_or_file)
+    return path.expanduser() if path.suffix == ".toml" else profile_folder() / f"{path}.toml"
+
+
+def load_profile(name_or_file: str | Path) -> Profile:
+    """The profile of that name or in that file; ProfileError, one line, where it can't be used."""
+    path = profile_path(name_or_file)
+    if not path.is_file():
+        known = ", ".join(sorted(file.stem for file in profile_folder().glob("*.toml"))) or "none yet"
+        raise ProfileError(
+            f"no profile {str(name_or_file)!r}: looked for {path}; known are: {known}; "
+            "mc-nested calibrate arena makes one"
+        )
+    return parse_profile(_read(path), str(path))
+
+
+def parse_profile(text: str, source: str) -> Profile:
+    """The profile that a TOML text describes; ``source`` names it in errors."""
+    try:
+        tables = tomlkit.parse(text).unwrap()
+        # Through JSON, since TOML's arrays are lists and the strict tuples of the profile take lists from JSON alone.
+        return Profile.model_validate_json(json.dumps(tables, default=str))
+    except TOMLKitError as error:
+        raise ProfileError(f"{source}: not TOML ({error}): mend that line") from error
+    except ValidationError as error:
+        raise ProfileError(f"{source}: {_in_one_line(error.errors()[0])}") from error
+
+
+def save_profile(profile: Profile, path: Path) -> None:
+    """Write the profile whole or not at all, keeping the comments and the order of a file that is there.
+
+    ProfileError where the file that is there isn't TOML or can't be written; it is left as it is then.
+    """
+    document = tomlkit.document()
+    if path.exists():
+        try:
+            document = tomlkit.parse(_read(path))
+        except TOMLKitError as error:
+            raise ProfileError(f"{path}: not TOML ({error}): mend that line or move the file away") from error
+    _merge(document, json.loads(profile.model_dump_json()), Profile)
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        _replace(path, tomlkit.dumps(document))
+    except OSError as error:
+        raise ProfileError(f"{path}: can't be written ({error}): choose another file") from error
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text("utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise ProfileError(f"{path}: can't be read as UTF-8 text ({error}): write a profile as a TOML file") from error
+
+
+def _replace(path: Path, text: str) -> None:
+    handle, beside = tempfile.mkstemp(dir=path.parent, prefix=path.name, suffix=".part")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        Path(beside).replace(path)
+    except BaseException:
+        Path(beside).unlink(missing_ok=True)
+        raise
+
+
+def _merge(table: tomlkit.TOMLDocument | Table, values: dict[str, Any], kind: type[ProfileTable] | None) -> None:
+    """Make a TOML table say what ``values`` say, None being left out, and touch nothing that says it already."""
+    for key in [key for key in table if values.get(key) is None]:
+        table.remove(key)
+    for key, value in values.items():
+        note = _meaning(kind, key)
+        if isinstance(value, dict):
+            if value and not isinstance(table.get(key), Table):
+                table[key] = tomlkit.table().comment(note)
+            inner = table.get(key)
+            if isinstance(inner, Table):
+                _merge(inner, value, _inner_kind(kind, key))
+        elif key not in table:
+            if note and note not in table.as_string():
+                table.add(tomlkit.comment(note if value is not None else f"{key}: {note}"))
+            if value is not None:
+                table.add(key, value)
+        elif tomlkit.item(table[key]).unwrap() != value:
+            table[key] = value
+
+
+def _inner_kind(kind: type[ProfileTable] | None, key: str) -> type[ProfileTable] | None:
+    annotation = kind.model_fields[key].annotation if kind else None
+    kinds = (annotation, *get_args(annotation))
+    return next((each for each in kinds if isinstance(each, type) and issubclass(each, ProfileTable)), None)
+
+
+def _meaning(kind: type[ProfileTable] | None, key: str) -> str:
+    """What a key is for, as the comment above it says."""
+    if kind is None:
+        return ""
+    inner = _inner_kind(kind, key)
+    description = kind.model_fields[key].description
+    return (inner.__doc__ or "").rstrip(".") if inner and not description else description or ""
+
+
+def _in_one_line(mistake: ErrorDetails) -> str:
+    key = ".".join(str(part) for part in mistake["loc"]) or "the file"
+    if mistake["type"] == "extra_forbidden":
+        return f"{key}: unknown key: {_remedy_for_unknown(mistake['loc'])}"
+    if mistake["type"] == "missing":
+        return f"{key}: missing: add it"
+    if mistake["type"] == "model_type":
+        return f"{key}: must be a table: write [{key}] and its keys below"
+    if mistake["type"] == "value_error":
+        return f"{key}: {mistake['ctx']['error']}"
+    return f"{key}: {mistake['msg']}, not {_shortened(mistake['input'])}: mend that key"
+
+
+def _remedy_for_unknown(place: tuple[int | str, ...]) -> str:
+    kind: type[ProfileTable] | None = Profile
+    for part in place[:-1]:
+        kind = _inner_kind(kind, str(part))
+    known = list(kind.model_fields) if kind else []
+    near = difflib.get_close_matches(str(place[-1]), known, n=1)
+    return f"did you mean {near[0]}?" if near else f"remove it; known are {', '.join(known)}"
+
+
+def _shortened(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."

@@ -1,0 +1,41 @@
+"""Pictures of the game from files: what ``mc-nested read`` prints of each."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from mc_nested.live.debug_screen import read_debug_screen
+from mc_nested.live.font import Font
+from mc_nested.live.reading import Reading
+from mc_nested.live.text_lines import Overlay
+
+
+def read_picture(path: Path, font: Font, overlay: Overlay | None = None) -> dict[str, object]:
+    """A picture file's reading, ready for JSON: file, xyz, yaw, pitch, target (pos, id), problem; None where absent.
+
+    Without ``overlay`` the GUI scale, the colour and the layout are found. A file that is no picture is a problem too.
+    """
+    reading = _read(path, font, overlay)
+    target = reading.target
+    return {
+        "file": str(path),
+        "xyz": list(reading.xyz) if reading.xyz else None,
+        "yaw": reading.yaw,
+        "pitch": reading.pitch,
+        "target": {"pos": list(target.pos) if target.pos else None, "id": target.id} if target else None,
+        "problem": reading.problem,
+    }
+
+
+def _read(path: Path, font: Font, overlay: Overlay | None) -> Reading:
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        return Reading(
+            problem=f"the file can't be read ({error.strerror or error}): give a picture of the game's window"
+        )
+    picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR) if data else None
+    if picture is None:
+        return Reading(problem="the file is not a picture: give a PNG of the game's window, as F2 takes it")
+    return read_debug_screen(np.asarray(picture, np.uint8), font, overlay)

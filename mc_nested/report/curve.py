@@ -1,0 +1,64 @@
+"""The learning curve: score against episode, the mean over the trials with a 95 % interval (paper, Figure 5)."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+RESAMPLES = 2000
+"""Bootstrap resamples of the trials behind the interval."""
+
+MEAN, OPTIMUM = "#1f5f8b", "#3a7d44"
+
+
+def draw_curve(path: Path, title: str, episodes: Sequence[int], scores: NDArray[np.float64], optimum: float) -> None:
+    """Write a PNG of greedy scores (trials, evaluations) at those episodes, with the optimum as a line."""
+    figure = Figure(figsize=(8, 4.5), dpi=120, layout="constrained")
+    axes = figure.subplots()
+    axes.axhline(optimum, color=OPTIMUM, linestyle="--", linewidth=1.2, label=f"optimum {optimum:g}")
+    trials = len(scores)
+    if len(episodes):
+        if trials > 1:
+            low, high = bootstrap_interval(scores)
+            axes.fill_between(episodes, low, high, color=MEAN, alpha=0.2, linewidth=0, label="95 % interval")
+        label = f"mean of {trials} trials" if trials > 1 else "one trial"
+        marker = "o" if len(episodes) == 1 else None
+        axes.plot(episodes, scores.mean(axis=0), color=MEAN, linewidth=1.6, marker=marker, label=label)
+    axes.set(title=title, xlabel="training episodes", ylabel="score of a greedy episode")
+    axes.grid(alpha=0.25)
+    axes.legend(loc="lower right", frameon=False)
+    figure.savefig(path, metadata={"Software": None})
+
+
+def bootstrap_interval(scores: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The 95 % percentile interval of the mean over trials (trials, evaluations), resampled with a fixed seed."""
+    random = np.random.default_rng(0)
+    drawn = random.integers(len(scores), size=(RESAMPLES, len(scores)))
+    weights = np.zeros((RESAMPLES, len(scores)))
+    np.add.at(weights, (np.arange(RESAMPLES)[:, None], drawn), 1 / len(scores))
+    low, high = np.percentile(weights @ scores, [2.5, 97.5], axis=0)
+    return low, high
+
+
+def align_trials(evaluations: Sequence[tuple[int, int, float]], trials: int) -> tuple[list[int], NDArray[np.float64]]:
+    """Episodes and scores (trials, evaluations) from (trial, episode, score) rows.
+
+    A trial that finished early keeps its last score, that of the policy it keeps; episodes that some trial has not
+    reached yet are left out.
+    """
+    by_trial: list[dict[int, float]] = [{} for _ in range(trials)]
+    for trial, episode, score in evaluations:
+        by_trial[trial][episode] = score
+    if not all(by_trial):
+        return [], np.zeros((trials, 0))
+    first = max(min(scores) for scores in by_trial)
+    episodes = sorted({episode for scores in by_trial for episode in scores if episode >= first})
+    scores = np.empty((trials, len(episodes)))
+    for trial, own in enumerate(by_trial):
+        last = own[min(own)]
+        for place, episode in enumerate(episodes):
+            last = own.get(episode, last)
+            scores[trial, place] = last
+    return episodes, scores

@@ -1,0 +1,95 @@
+"""The project's own environment: .venv beside pyproject.toml, made and brought up to date by the other scripts.
+
+Needs nothing but Python 3.10 or newer. Versions come from constraints.txt.
+"""
+
+import hashlib
+import json
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+from collections.abc import Sequence
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+ENVIRONMENT = ROOT / ".venv"
+STAMP = ENVIRONMENT / "installed"
+OLDEST_PYTHON = (3, 10)
+
+
+def main_python(extras: Sequence[str] = ()) -> Path:
+    """The environment's Python, with the project and the extras installed; exits with one line where that fails."""
+    if sys.version_info < OLDEST_PYTHON:
+        sys.exit(f"Python {sys.version.split()[0]} is too old: run this with Python 3.10 or newer")
+    python = ENVIRONMENT / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
+    if not python.exists():
+        _make_environment()
+    wanted = _wanted(extras)
+    if not STAMP.is_file() or STAMP.read_text() != wanted:
+        STAMP.unlink(missing_ok=True)
+        print("installing the project; torch is large, the first time takes minutes", flush=True)
+        if _can_build_evdev():
+            _pip(python, "-e", f".[{','.join(extras)}]" if extras else ".")
+        else:
+            _install_without_evdev(python, extras)
+        _settle_xlib(python)
+        STAMP.write_text(wanted)
+    return python
+
+
+def run(command: Sequence[str | Path]) -> int:
+    """Run a command in the project's root and return its exit code."""
+    return subprocess.run([str(part) for part in command], cwd=ROOT, check=False).returncode  # noqa: S603 - our own
+
+
+def _make_environment() -> None:
+    print(f"making {ENVIRONMENT}", flush=True)
+    if run([sys.executable, "-m", "venv", ENVIRONMENT]):
+        shutil.rmtree(ENVIRONMENT, ignore_errors=True)
+        sys.exit("no virtual environment could be made: install Python's venv (on Debian: apt install python3-venv)")
+
+
+def _wanted(extras: Sequence[str]) -> str:
+    sources = [(ROOT / name).read_bytes() for name in ("pyproject.toml", "constraints.txt")]
+    return hashlib.sha256(b"".join(sources)).hexdigest() + " " + ",".join(sorted(extras))
+
+
+def _pip(python: Path, *what: str) -> None:
+    if run([python, "-m", "pip", "install", "--disable-pip-version-check", "-c", "constraints.txt", *what]):
+        sys.exit("installing failed: see pip's message above, mend it and run this again")
+
+
+def _can_build_evdev() -> bool:
+    """Whether pynput's Linux dependency evdev, which comes as C source only, can be compiled here."""
+    if not sys.platform.startswith("linux"):
+        return True
+    headers = (Path(sysconfig.get_paths()["include"]) / "Python.h", Path("/usr/include/linux/input.h"))
+    return shutil.which("cc") is not None and all(header.exists() for header in headers)
+
+
+def _install_without_evdev(python: Path, extras: Sequence[str]) -> None:
+    """Install everything but evdev: pynput needs it for a console without X11 only, which nothing here uses."""
+    print("no C compiler or headers here: installing pynput without evdev", flush=True)
+    _pip(python, "--no-deps", "-e", ".")
+    listing = "import importlib.metadata, json; print(json.dumps(importlib.metadata.requires('mc-nested')))"
+    found = subprocess.run([str(python), "-c", listing], cwd=ROOT, capture_output=True, check=True, text=True)  # noqa: S603 - our own
+    _pip(python, "six", *_requirements_but_pynput(json.loads(found.stdout), extras))
+    _pip(python, "--no-deps", "pynput")
+
+
+def _requirements_but_pynput(requirements: Sequence[str], extras: Sequence[str]) -> list[str]:
+    kept = []
+    for requirement in requirements:
+        extra = re.search(r"""extra == ['"]([\w-]+)['"]""", requirement)
+        if requirement.startswith("pynput") or (extra and extra[1] not in extras):
+            continue
+        kept.append(requirement.split(";")[0].strip() if extra else requirement)
+    return kept
+
+
+def _settle_xlib(python: Path) -> None:
+    """Let python-xlib have the last word: pyautogui brings the far older python3-xlib, and both are named Xlib."""
+    if sys.platform.startswith("linux"):
+        _pip(python, "--quiet", "--no-deps", "--force-reinstall", "python-xlib")

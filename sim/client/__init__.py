@@ -1,0 +1,1 @@
+"""A virtual Minecraft client behind the same device protocols as the desktop."""

@@ -1,0 +1,85 @@
+"""Random debug screens and worlds behind them, to try a reader on: the same generator gives the same frames."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mc_nested.live.devices import Frame
+from mc_nested.live.font import Font
+from mc_nested.live.reading import Block, Reading, Target
+from sim.client.f3 import paint
+from sim.client.f3_text import LAYOUTS, F3Screen, Layout
+
+WINDOWS = ((854, 480), (1280, 720), (1366, 768), (1600, 900), (1920, 1080), (2560, 1440))
+"""Widths and heights in pixels, wide enough that the two columns don't run into each other."""
+
+WORLDS = ("flat", "noise", "grey noise", "blocks", "gradient", "specks")
+
+_IDS = ("stone", "oak_planks", "oak_log", "grass_block", "dirt", "polished_blackstone_brick_wall", "tnt", "white_wool")
+_PROPERTIES = (("axis", "y"), ("snowy", "false"), ("waterlogged", "true"), ("facing", "north"))
+_TAGS = ("minecraft:planks", "minecraft:mineable/axe", "c:villager_job_sites")
+
+
+def frames(font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS) -> Iterator[tuple[F3Screen, Frame]]:
+    """Screens and their frames without end: each layout, GUI scale 1 to 4, window and kind of world in turn.
+
+    As in the game, a GUI scale that doesn't fit the window becomes the largest that does (facts: GUI scale).
+    """
+    rng = np.random.default_rng(seed)
+    count = 0
+    while True:
+        layout = LAYOUTS[count % len(LAYOUTS)]
+        width, height = windows[(count // len(LAYOUTS)) % len(windows)]
+        scale = min(1 + (count // (len(LAYOUTS) * len(windows))) % 4, width // 320, height // 240)
+        screen = random_screen(rng, layout, scale)
+        yield screen, paint(random_world(rng, WORLDS[int(rng.integers(len(WORLDS)))], width, height), screen, font)
+        count += 1
+
+
+def random_screen(rng: np.random.Generator, layout: Layout, gui_scale: int) -> F3Screen:
+    """A screen with coordinates from about the origin to the world's border, looking anywhere, mostly at a block."""
+    reach = float(rng.choice([16, 1_000, 100_000, 29_999_000]))
+    x, z = (float(value) for value in rng.uniform(-reach, reach, 2))
+    near = tuple(int(value) for value in np.floor((x, rng.uniform(-64, 319), z)) + rng.integers(-4, 5, 3))
+    block: Block = (near[0], near[1], near[2])
+    name = _IDS[int(rng.integers(len(_IDS)))]
+    is_standin, is_old = layout == "standin", layout == "1.8-1.12"
+    return F3Screen(
+        layout,
+        gui_scale,
+        (x, float(rng.uniform(-64, 319)), z),
+        float(rng.uniform(-180, 180)),
+        float(rng.uniform(-90, 90)),
+        target=Target(block, name if is_standin else f"minecraft:{name}") if rng.random() < 0.8 else None,
+        properties=_PROPERTIES[: int(rng.integers(3 if is_standin else 5))],
+        tags=() if is_standin or is_old else _TAGS[: int(rng.integers(len(_TAGS) + 1))],
+        fluid=block if rng.random() < 0.2 else None,
+        swapped=layout == "1.21.9-26.3" and bool(rng.random() < 0.5),
+    )
+
+
+def random_world(rng: np.random.Generator, kind: str, width: int, height: int) -> Frame:
+    """A picture (height, width, 3) of one kind of ``WORLDS``."""
+    if kind == "flat":
+        return np.full((height, width, 3), rng.integers(0, 256, 3), np.uint8)
+    if kind == "noise":
+        return rng.integers(0, 256, (height, width, 3), np.uint8)
+    if kind == "grey noise":
+        return np.repeat(rng.integers(0, 256, (height, width, 1), np.uint8), 3, 2)
+    if kind == "gradient":
+        slope = np.linspace(rng.integers(0, 256, 3), rng.integers(0, 256, 3), width)
+        return np.array(np.broadcast_to(slope, (height, width, 3)), np.uint8)
+    size = int(rng.choice([2, 3, 4, 16]))
+    coarse = rng.integers(0, 256, (-(-height // size), -(-width // size), 3), np.uint8)
+    if kind == "specks":
+        coarse = (
+            np.where(rng.random((*coarse.shape[:2], 1)) < 0.3, 224, rng.integers(0, 120)).astype(np.uint8).repeat(3, 2)
+        )
+    return np.ascontiguousarray(coarse.repeat(size, 0).repeat(size, 1)[:height, :width])
+
+
+def expected(screen: F3Screen) -> Reading:
+    """What a perfect reader reads: the numbers as printed."""
+    x, y, z = screen.xyz
+    height = round(y, 3 if screen.layout == "standin" else 5)
+    return Reading((round(x, 3), height, round(z, 3)), round(screen.yaw, 1), round(screen.pitch, 1), screen.target)

@@ -1,0 +1,152 @@
+"""The headless simulator: the rules alone, as one Game, and as R arenas in arrays."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from gymnasium.spaces import Discrete
+from gymnasium.vector import VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from mc_nested.arena.env import ArenaEnv, observation_space
+from mc_nested.arena.game import Outcome
+from mc_nested.arena.rules import PLACES, SIZE, STEP, Action, Cell, landing, moved
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arena.vector import METADATA, Bools, Floats, Ints, reset_options
+
+
+class GridGame:
+    """A Game that follows the rules and nothing else."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        self._start = scenario.start
+        self._cell = scenario.start
+        self._placed: set[Cell] = set()
+
+    def reset(self, material: int) -> Cell:  # noqa: ARG002 - the rules are the same for every material
+        self._cell = self._start
+        self._placed = set()
+        return self._cell
+
+    def act(self, action: Action) -> Outcome:
+        self._cell = moved(self._cell, action, self._placed)
+        block = landing(self._cell, action, self._placed)
+        if block is not None:
+            self._placed.add(block)
+        return Outcome(self._cell, block)
+
+
+def arena_env(scenario: str | Scenario = "line", render_mode: str | None = None) -> ArenaEnv:
+    """What ``gymnasium.make("mc_nested/Arena-v0", scenario=...)`` makes: a name, a file or a Scenario, simulated."""
+    loaded = scenario if isinstance(scenario, Scenario) else load_scenario(scenario)
+    return ArenaEnv(GridGame(loaded), loaded, render_mode)
+
+
+def arena_vector_env(num_envs: int = 1, scenario: str | Scenario = "line") -> "GridVectorEnv":
+    """What ``gymnasium.make_vec("mc_nested/Arena-v0", num_envs=..., scenario=...)`` makes."""
+    loaded = scenario if isinstance(scenario, Scenario) else load_scenario(scenario)
+    return GridVectorEnv([loaded] * num_envs)
+
+
+# A border of solid cells around the arena stops every move and every block at its edge without a test of its own. The
+# arenas lie flat behind each other, so that one index names a cell of a run, and a move is one addition to it.
+_SIDE = SIZE + 2
+_AREA = _SIDE * _SIDE
+_MOVE = np.array([STEP[action][0] * _SIDE + STEP[action][1] for action in Action])
+_PLACES = np.array([action in PLACES for action in Action])
+_FRONT = 1
+
+
+def _index(cell: Cell) -> int:
+    return (cell[0] + 1) * _SIDE + cell[1] + 1
+
+
+class GridVectorEnv(VectorEnv[Ints, Ints, Any]):
+    """R arenas in NumPy arrays, each with a scenario of its own; as ArenaVectorEnv over R GridGames, only faster."""
+
+    metadata = METADATA
+
+    def __init__(self, scenarios: Sequence[Scenario]) -> None:
+        self.scenarios = tuple(scenarios)
+        runs = self.num_envs = len(self.scenarios)
+        self.single_observation_space = observation_space(max(self.scenarios, key=lambda s: s.blocks))
+        self.single_action_space = Discrete(len(Action))
+        self.observation_space = batch_space(self.single_observation_space, runs)
+        self.action_space = batch_space(self.single_action_space, runs)
+
+        self._base = np.arange(runs) * _AREA
+        self._start = self._base + [_index(scenario.start) for scenario in self.scenarios]
+        self._blocks = np.array([scenario.blocks for scenario in self.scenarios])
+        self._step_limit = np.array([scenario.step_limit for scenario in self.scenarios])
+        self._design = np.zeros(runs * _AREA, dtype=np.bool_)
+        for run, scenario in enumerate(self.scenarios):
+            self._design[self._base[run] + [_index(cell) for cell in scenario.design]] = True
+        border = np.pad(np.zeros((SIZE, SIZE), dtype=np.bool_), 1, constant_values=True)
+        self._border = border.ravel()
+        choices = max(len(scenario.materials) for scenario in self.scenarios)
+        self._worth = np.zeros((runs, choices))
+        for run, scenario in enumerate(self.scenarios):
+            self._worth[run, : len(scenario.materials)] = [material.p for material in scenario.materials]
+
+        self._solid = np.tile(self._border, runs)
+        self._position = self._start.copy()
+        self._blocks_left = self._blocks.copy()
+        self._steps = np.zeros(runs, dtype=np.int64)
+        self._score = np.zeros(runs)
+        self._terminated = np.zeros(runs, dtype=np.bool_)
+        self._truncated = np.zeros(runs, dtype=np.bool_)
+
+    def reset(
+        self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Ints, dict[str, Any]]:
+        """Begin an episode in the masked arenas (all, without a mask), each with its material (the best, without)."""
+        super().reset(seed=seed if isinstance(seed, int) else None)
+        mask, materials = reset_options(options, self.scenarios)
+        self._solid.reshape(-1, _AREA)[mask] = self._border
+        self._position[mask] = self._start[mask]
+        self._blocks_left[mask] = self._blocks[mask]
+        self._steps[mask] = 0
+        self._score[mask] = self._worth[mask, materials[mask]]
+        self._terminated[mask] = self._truncated[mask] = False
+        return self._observations(), {}
+
+    def step(self, actions: Ints) -> tuple[Ints, Floats, Bools, Bools, dict[str, Any]]:
+        """One action in every arena whose episode runs; ``info["score"]`` holds r_M where ``info["_score"]``."""
+        running = ~(self._terminated | self._truncated)
+        ahead = self._position + _MOVE[actions]
+        self._position = np.where(self._solid[ahead] | ~running, self._position, ahead)
+        front = self._position + _FRONT
+        lands = _PLACES[actions] & ~self._solid[front] & running
+        self._solid[front[lands]] = True
+        rewards = (lands & self._design[front]).astype(np.float64)
+        self._score += rewards
+        self._blocks_left -= lands
+        self._steps += running
+        self._terminated |= self._blocks_left == 0
+        self._truncated |= ~self._terminated & (self._steps >= self._step_limit)
+        ended = running & (self._terminated | self._truncated)
+        info = {"score": np.where(ended, self._score, 0.0), "_score": ended}
+        return self._observations(), rewards, self._terminated.copy(), self._truncated.copy(), info
+
+    def placed(self, run: int) -> frozenset[Cell]:
+        """The cells where a block landed in that arena since its last reset."""
+        built = self._solid.reshape(-1, _SIDE, _SIDE)[run, 1:-1, 1:-1]
+        return frozenset((int(x), int(y)) for x, y in np.argwhere(built))
+
+    def snapshot(self) -> dict[str, NDArray[Any]]:
+        """Every arena as it stands, for ``restore``: arrays by name."""
+        return {name: getattr(self, name).copy() for name in self._STATE}
+
+    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> Ints:
+        """Put every arena back as it stood at ``snapshot``; return the observations."""
+        for name in self._STATE:
+            setattr(self, name, snapshot[name].copy())
+        return self._observations()
+
+    _STATE = ("_solid", "_position", "_blocks_left", "_steps", "_score", "_terminated", "_truncated")
+
+    def _observations(self) -> Ints:
+        x, y = np.divmod(self._position - self._base, _SIDE)
+        return np.stack((x - 1, y - 1, self._blocks_left), axis=1)

@@ -1,0 +1,23 @@
+"""What every Game must do, whatever is behind it; test_game_contract proves that liars fail it."""
+
+from collections.abc import Iterable
+
+from mc_nested.arena.game import Game
+from mc_nested.arena.rules import Action, Cell, landing, moved
+from mc_nested.arena.scenario import Scenario
+
+
+def check_game(game: Game, scenario: Scenario, actions: Iterable[Action]) -> None:
+    """AssertionError where the game's outcomes aren't those of the rules, over one episode after a spoiled one."""
+    assert game.reset(0) == scenario.start, "a reset leads to the start cell"
+    game.act(Action.BD)
+    assert game.reset(scenario.best_material) == scenario.start, "a reset leads to the start cell from anywhere"
+    cell, placed = scenario.start, set[Cell]()
+    for action in actions:
+        cell = moved(cell, action, placed)
+        block = landing(cell, action, placed)
+        outcome = game.act(action)
+        assert outcome.cell == cell, f"{action.name} leads to {cell}"
+        assert outcome.placed == block, f"{action.name} places a block in {block}"
+        if block is not None:
+            placed.add(block)

@@ -1,0 +1,143 @@
+"""ArenaEnv over the simulator: rewards, ends, infos and Gymnasium's own checks."""
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.error import ResetNeeded
+from gymnasium.utils.env_checker import check_env
+
+import mc_nested  # noqa: F401 - importing it registers the Env
+from mc_nested.arena.builder import build
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.game import Outcome
+from mc_nested.arena.rules import Action, Cell
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import LiveError, ScenarioError
+from sim.grid import GridGame, GridVectorEnv, arena_env
+
+
+@pytest.mark.parametrize("render_mode", ["rgb_array", "ansi"])
+@pytest.mark.parametrize("scenario", ["line", "zigzag", "diamond"])
+def test_gymnasiums_checker_passes(scenario: str, render_mode: str) -> None:
+    env = gymnasium.make("mc_nested/Arena-v0", scenario=scenario, render_mode=render_mode)
+    check_env(env.unwrapped)
+
+
+def test_gymnasium_makes_the_vector_form() -> None:
+    envs = gymnasium.make_vec("mc_nested/Arena-v0", num_envs=3, scenario="diamond")
+    assert isinstance(envs.unwrapped, GridVectorEnv)
+    assert envs.reset()[0].tolist() == [[7, 14, 16]] * 3
+
+
+def test_observations_are_raw_x_y_b() -> None:
+    env = arena_env("line")
+    observation, info = env.reset()
+    assert observation.dtype == np.int64
+    assert observation.tolist() == [7, 14, 11]
+    assert info == {"material": "stone"}
+    assert env.observation_space == gymnasium.spaces.Box(np.array([0, 0, 0]), np.array([14, 14, 11]), dtype=np.int64)
+    assert env.action_space == gymnasium.spaces.Discrete(8)
+
+
+def test_a_block_on_the_design_earns_1_and_one_off_it_nothing() -> None:
+    env = arena_env("line")
+    env.reset()
+    rewards = [env.step(action)[1] for action in (Action.BD, Action.B, Action.BD, Action.LD, Action.BD)]
+    # (7, 14) and (6, 13) lie off the line, (7, 12) on it.
+    assert rewards == [0.0, 0.0, 1.0, 0.0, 0.0]
+
+
+def test_a_void_block_earns_nothing_and_none_is_used_up() -> None:
+    env = arena_env("line")
+    env.reset()
+    observation, reward, *_, info = env.step(Action.LD)
+    assert (observation.tolist(), reward) == ([6, 14, 11], 0.0)
+    assert "placed" not in info
+
+
+@pytest.mark.parametrize(("material", "score"), [("stone", 21.0), ("wood", 6.0)])
+def test_the_last_step_brings_the_main_agents_reward(material: str, score: float) -> None:
+    env = arena_env("line")
+    env.reset(options={"material": material})
+    *earlier, last = (env.step(action) for action in build(env.scenario))
+    assert last[2:] == (True, False, {"material": material, "placed": (7, 2), "score": score})
+    assert all("score" not in step[4] for step in earlier)
+    assert sum(step[1] for step in [*earlier, last]) == 11.0
+    assert env.placed == env.scenario.design
+
+
+def test_the_step_limit_truncates_and_scores_what_stands() -> None:
+    env = arena_env("line")
+    env.reset()
+    for _ in range(59):
+        assert env.step(Action.L)[2:4] == (False, False)
+    *_, terminated, truncated, info = env.step(Action.L)
+    assert (terminated, truncated, info["score"]) == (False, True, 10.0)
+
+
+def test_the_last_block_on_the_last_step_terminates() -> None:
+    env = arena_env("line")
+    env.reset()
+    for action in [*[Action.L, Action.R] * 23, Action.L, *build(env.scenario)[:-1]]:
+        env.step(action)
+    # An odd step aside leaves the agent one cell left of the line: its blocks count for nothing, but they run out.
+    *_, terminated, truncated, _ = env.step(Action.BD)
+    assert (terminated, truncated) == (True, False)
+
+
+def test_a_step_after_the_end_needs_a_reset() -> None:
+    env = arena_env("line")
+    with pytest.raises(ResetNeeded):
+        env.step(Action.F)
+    env.reset()
+    for action in build(env.scenario):
+        env.step(action)
+    with pytest.raises(ResetNeeded):
+        env.step(Action.F)
+
+
+def test_an_unknown_material_is_refused() -> None:
+    with pytest.raises(ScenarioError, match="no material 'gold'"):
+        arena_env("line").reset(options={"material": "gold"})
+
+
+class BreaksDown(GridGame):
+    def act(self, action: Action) -> Outcome:
+        if action is Action.F:
+            raise LiveError("the game is gone")
+        return super().act(action)
+
+
+def test_a_game_that_broke_down_needs_a_reset_before_it_goes_on() -> None:
+    line = load_scenario("line")
+    env = ArenaEnv(BreaksDown(line), line)
+    env.reset()
+    with pytest.raises(LiveError):
+        env.step(Action.F)
+    with pytest.raises(ResetNeeded):
+        env.step(Action.B)
+    env.reset()
+    assert env.step(Action.B)[0].tolist() == [7, 13, 11]
+
+
+def test_the_text_shows_agent_blocks_and_design() -> None:
+    env = arena_env("line", render_mode="ansi")
+    env.reset()
+    for action in (Action.LD, Action.BD, Action.R, Action.B, Action.BD):
+        env.step(action)
+    drawing = env.render().splitlines()
+    assert drawing[0] == ". . . . . . x . . . . . . . ."
+    assert drawing[2] == ". . . . . . . # . . . . . . ."
+    assert drawing[3] == ". . . . . . . ^ . . . . . . ."
+    assert drawing[4] == ". . . . . . . o . . . . . . ."
+
+
+def test_the_picture_has_a_colour_for_each_kind_of_cell() -> None:
+    env = arena_env("line", render_mode="rgb_array")
+    env.reset()
+    picture = env.render()
+    assert picture.shape == (240, 240, 3)
+    middle_of: dict[Cell, list[int]] = {
+        cell: picture[232 - 16 * cell[1], 8 + 16 * cell[0]].tolist() for cell in [(7, 14), (7, 5), (0, 0)]
+    }
+    assert middle_of == {(7, 14): [214, 69, 65], (7, 5): [178, 205, 232], (0, 0): [236, 240, 233]}

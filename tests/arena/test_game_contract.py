@@ -1,0 +1,61 @@
+"""The contract suite: the simulator passes it, and Games that lie don't."""
+
+from collections.abc import Callable
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.arena.builder import build
+from mc_nested.arena.game import Outcome
+from mc_nested.arena.rules import Action, Cell
+from mc_nested.arena.scenario_file import load_scenario
+from sim.grid import GridGame
+from tests.arena.game_contract import check_game
+
+LINE = load_scenario("line")
+BUMPS = [Action.F, Action.LD, Action.BD, Action.F, Action.FD, *[Action.L] * 9, *[Action.BD] * 15]
+
+
+class ForgetsToReset(GridGame):
+    def reset(self, material: int) -> Cell:
+        start = LINE.start
+        if self._cell == start:
+            super().reset(material)
+        return start
+
+
+class StaysPut(GridGame):
+    def act(self, action: Action) -> Outcome:
+        before = self._cell
+        return Outcome(before, super().act(action).placed)
+
+
+class WalksThroughBlocks(GridGame):
+    def act(self, action: Action) -> Outcome:
+        placed, self._placed = self._placed, set()
+        outcome = super().act(action)
+        self._placed = placed | self._placed
+        return outcome
+
+
+class ClaimsBlocksThatDidNotLand(GridGame):
+    def act(self, action: Action) -> Outcome:
+        outcome = super().act(action)
+        return Outcome(outcome.cell, (outcome.cell[0], outcome.cell[1] + 1))
+
+
+def test_the_simulator_passes() -> None:
+    check_game(GridGame(LINE), LINE, BUMPS)
+    check_game(GridGame(LINE), LINE, build(LINE))
+
+
+@given(st.lists(st.sampled_from(Action), max_size=80))
+def test_the_simulator_passes_over_any_actions(actions: list[Action]) -> None:
+    check_game(GridGame(LINE), LINE, actions)
+
+
+@pytest.mark.parametrize("liar", [ForgetsToReset, StaysPut, WalksThroughBlocks, ClaimsBlocksThatDidNotLand])
+def test_a_game_that_lies_fails(liar: Callable[..., GridGame]) -> None:
+    with pytest.raises(AssertionError):
+        check_game(liar(LINE), LINE, BUMPS)

@@ -1,0 +1,74 @@
+"""The rules, worked by hand (README: the task). The Env over them is tested in test_env."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.arena.rules import SIZE, STEP, Action, Cell, front_of, is_inside, landing, moved
+
+cells = st.tuples(st.integers(0, SIZE - 1), st.integers(0, SIZE - 1))
+actions = st.sampled_from(Action)
+placed_cells = st.frozensets(cells, max_size=40)
+
+
+def test_actions_are_in_the_papers_order() -> None:
+    assert [action.name for action in Action] == ["F", "B", "L", "R", "FD", "LD", "RD", "BD"]
+    assert list(Action) == list(range(8))
+
+
+@pytest.mark.parametrize(
+    ("action", "leads_to"),
+    [
+        (Action.F, (7, 8)),
+        (Action.B, (7, 6)),
+        (Action.L, (6, 7)),
+        (Action.R, (8, 7)),
+        (Action.FD, (7, 8)),
+        (Action.LD, (6, 7)),
+        (Action.RD, (8, 7)),
+        (Action.BD, (7, 6)),
+    ],
+)
+def test_a_move_leads_to_the_neighbour(action: Action, leads_to: Cell) -> None:
+    assert moved((7, 7), action, ()) == leads_to
+
+
+@pytest.mark.parametrize(
+    ("cell", "action"), [((0, 5), Action.L), ((14, 5), Action.RD), ((5, 0), Action.BD), ((5, 14), Action.F)]
+)
+def test_the_arenas_edge_stops_a_move(cell: Cell, action: Action) -> None:
+    assert moved(cell, action, ()) == cell
+
+
+def test_a_placed_block_stops_a_move() -> None:
+    assert moved((7, 7), Action.L, {(6, 7)}) == (7, 7)
+
+
+def test_a_block_lands_in_front_of_where_the_move_led() -> None:
+    assert landing((7, 7), Action.BD, ()) == (7, 8)
+
+
+def test_a_move_without_d_places_nothing() -> None:
+    assert landing((7, 7), Action.B, ()) is None
+
+
+def test_a_block_outside_the_arena_is_void() -> None:
+    assert landing((7, 14), Action.LD, ()) is None
+
+
+def test_a_block_onto_a_block_is_void() -> None:
+    assert landing((7, 7), Action.LD, {(7, 8)}) is None
+
+
+@given(cell=cells, action=actions, placed=placed_cells)
+def test_nobody_ever_leaves_the_arena_or_enters_a_block(cell: Cell, action: Action, placed: frozenset[Cell]) -> None:
+    reached = moved(cell, action, placed - {cell})
+    assert is_inside(reached)
+    assert reached not in placed - {cell}
+    assert reached in (cell, (cell[0] + STEP[action][0], cell[1] + STEP[action][1]))
+
+
+@given(cell=cells, action=actions, placed=placed_cells)
+def test_a_block_lands_on_a_free_cell_in_front_or_nowhere(cell: Cell, action: Action, placed: frozenset[Cell]) -> None:
+    block = landing(cell, action, placed)
+    assert block is None or (block == front_of(cell) and is_inside(block) and block not in placed)

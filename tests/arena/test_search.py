@@ -1,0 +1,56 @@
+"""The fewest steps: known ones, a plain search over small designs, and never more than the builder's."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mc_nested.arena.builder import build
+from mc_nested.arena.rules import SIZE, Action, Cell, landing, moved
+from mc_nested.arena.scenario import Material, Scenario
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arena.search import EXACT_UP_TO, FewestSteps, fewest_steps
+
+
+@pytest.mark.parametrize(("name", "steps"), [("line", 13), ("zigzag", 25), ("diamond", 38)])
+def test_the_shipped_designs_take_the_known_fewest_steps(name: str, steps: int) -> None:
+    assert fewest_steps(load_scenario(name)) == FewestSteps(steps, exact=True)
+
+
+def test_beyond_the_exact_search_the_builders_count_is_an_upper_bound() -> None:
+    design = frozenset((x, 5) for x in range(15)) | {(x, 7) for x in range(EXACT_UP_TO - 14)}
+    scenario = _scenario(design, (7, 14))
+    assert fewest_steps(scenario) == FewestSteps(len(build(scenario)), exact=False)
+
+
+cells = st.tuples(st.integers(4, 8), st.integers(4, 8))
+
+
+@given(design=st.frozensets(cells, min_size=1, max_size=3), start=cells)
+@settings(max_examples=25, deadline=None)
+def test_a_plain_search_finds_the_same(design: frozenset[Cell], start: Cell) -> None:
+    scenario = _scenario(design, start)
+    found = fewest_steps(scenario)
+    assert found == FewestSteps(_plain_search(scenario), exact=True)
+    assert found.steps <= len(build(scenario))
+
+
+def _scenario(design: frozenset[Cell], start: Cell) -> Scenario:
+    return Scenario("any", design, start, SIZE * SIZE, (Material("stone", 0.0, "stone"),))
+
+
+def _plain_search(scenario: Scenario) -> int:
+    frontier: set[tuple[Cell, frozenset[Cell]]] = {(scenario.start, frozenset())}
+    seen = set(frontier)
+    steps = 0
+    while not any(placed == scenario.design for _, placed in frontier):
+        steps += 1
+        ahead = set()
+        for cell, placed in frontier:
+            for action in Action:
+                stands = moved(cell, action, placed)
+                block = landing(stands, action, placed)
+                if block is None or block in scenario.design:
+                    ahead.add((stands, placed | {block} if block else placed))
+        frontier = ahead - seen
+        seen |= frontier
+    return steps

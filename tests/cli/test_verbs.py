@@ -1,0 +1,219 @@
+"""The command line: what each verb prints and writes, and one line with exit code 2 for every mistake."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import torch
+
+from mc_nested.cli.app import main
+from mc_nested.learn.checkpoint import FILE
+
+TRAIN = ["train", "--episodes", "40", "--trials", "2", "--seed", "3"]
+
+
+def run(*arguments: str | Path) -> int:
+    with pytest.raises(SystemExit) as caught:
+        main([str(argument) for argument in arguments])
+    code = caught.value.code
+    return code if isinstance(code, int) else 0
+
+
+@pytest.fixture(scope="module")
+def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("runs") / "run"
+    assert run(*TRAIN, "--out", out) == 0
+    return out
+
+
+def table(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_a_training_leaves_everything_behind(trained: Path) -> None:
+    found = {path.name for path in trained.iterdir()}
+    assert found == {"config.toml", "episodes.csv", "evaluations.csv", "curve.png", "checkpoint", "summary.json"}
+    summary = json.loads((trained / "summary.json").read_text())
+    expected = {
+        "scenario": "line",
+        "agent": "nested",
+        "preset": "paper",
+        "backend": "sim",
+        "trials": 2,
+        "episodes": 40,
+        "optimum": 21.0,
+        "networks": 2,
+        "parameters": 2730,
+    }
+    assert {key: summary[key] for key in expected} == expected
+    assert len(summary["final_scores"]) == len(summary["episodes_to_optimum"]) == 2
+    assert [row["episode"] for row in table(trained / "evaluations.csv") if row["trial"] == "0"] == ["30", "40"]
+    episodes = table(trained / "episodes.csv")
+    assert len(episodes) == 80
+    assert summary["env_steps"] == sum(int(row["steps"]) for row in episodes)
+
+
+def test_evaluate_prints_the_scores_of_the_summary_in_a_fresh_process(trained: Path) -> None:
+    command = [sys.executable, "-m", "mc_nested.cli", "evaluate", str(trained), "--json"]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True)
+    found = json.loads(printed.stdout)
+    assert found["scores"] == json.loads((trained / "summary.json").read_text())["final_scores"]
+    assert found["optimum"] == 21.0
+
+
+def test_the_same_seed_gives_the_same_files(trained: Path, tmp_path: Path) -> None:
+    assert run(*TRAIN, "--out", tmp_path / "again") == 0
+    for name in ("episodes.csv", "evaluations.csv", "config.toml", "curve.png"):
+        assert (tmp_path / "again" / name).read_bytes() == (trained / name).read_bytes(), name
+    one, other = (json.loads((folder / "summary.json").read_text()) for folder in (trained, tmp_path / "again"))
+    assert {**one, "wall_s": 0} == {**other, "wall_s": 0}
+    first, second = (torch.load(folder / "checkpoint" / FILE)["state"] for folder in (trained, tmp_path / "again"))
+    assert all(torch.equal(first[name], second[name]) for name in first if name != "wall_s")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for another process")
+def test_ctrl_c_saves_and_resume_goes_on_to_the_same_files(trained: Path, tmp_path: Path) -> None:
+    out = tmp_path / "stopped"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "mc_nested.cli", *TRAIN, "--out", str(out)], stderr=subprocess.PIPE, text=True
+    )
+    deadline = time.monotonic() + 60
+    while not (out / "config.toml").exists() and time.monotonic() < deadline:
+        os.sched_yield()
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert said.strip() == f"mc-nested: stopped and saved: go on with mc-nested train --resume {out}"
+    assert len(table(out / "episodes.csv")) < 80
+    assert run("train", "--resume", out) == 0
+    for name in ("episodes.csv", "evaluations.csv"):
+        assert (out / name).read_bytes() == (trained / name).read_bytes(), name
+
+
+def test_resuming_a_finished_training_changes_nothing(trained: Path) -> None:
+    before = (trained / "episodes.csv").read_bytes()
+    assert run("train", "--resume", trained) == 0
+    assert (trained / "episodes.csv").read_bytes() == before
+
+
+def test_play_shows_the_arena_and_the_score(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("play", trained, "--trial", "1") == 0
+    printed = capsys.readouterr().out
+    score = json.loads((trained / "summary.json").read_text())["final_scores"][1]
+    assert f"score {score:g} of 21" in printed
+    assert "still to build" in printed
+
+
+def test_play_takes_the_best_trial_by_itself(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("play", trained) == 0
+    best = max(json.loads((trained / "summary.json").read_text())["final_scores"])
+    assert f"score {best:g} of 21" in capsys.readouterr().out
+
+
+def test_scenarios_lists_the_designs(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("scenarios") == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    for words in (
+        "optimum 21 fewest 13 steps",
+        "optimum 21 fewest 25 steps",
+        "optimum 26 fewest 38 steps; the scripted builder takes 52",
+    ):
+        assert words in printed
+
+
+def test_a_large_design_of_a_users_own_is_listed_with_an_upper_bound(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    grid = "\n".join(["...............", "###############", "...............", "###############"] + ["." * 15] * 11)
+    material = '[[materials]]\nname = "glass"\np = 0\nblock = "glass"\n'
+    (tmp_path / "two.toml").write_text(
+        f'name = "two rows"\nstart = [0, 0]\nstep_limit = 99\ndesign = """\n{grid}\n"""\n{material}'
+    )
+    assert run("scenarios", tmp_path / "two.toml") == 0
+    assert "an upper bound" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["train"], "name a new folder for the run with --out DIR"),
+        (["train", "--out", "NEW", "--scenario", "pyramid"], "no scenario 'pyramid'"),
+        (["train", "--out", "NEW", "--agent", "double"], "no agent 'double': choose one of nested"),
+        (["train", "--out", "NEW", "--preset", "fast"], "no preset 'fast'"),
+        (["train", "--out", "NEW", "--trials", "0"], "'--trials'"),
+        (["train", "--out", "NEW", "--episodes", "0"], "'--episodes'"),
+        (["train", "--out", "NEW", "--seed", "-1"], "'--seed'"),
+        (["train", "--out", "NEW", "--backend", "cloud"], "'--backend'"),
+        (["train", "--out", "NEW", "--backend", "live", "--trials", "2"], "one trial at a time"),
+        (["train", "--out", "NEW", "--backend", "live", "--profile", "NEW.toml"], "no profile"),
+        (["train", "--out", "TRAINED"], "is not empty: name a new folder, nothing was overwritten"),
+        (["train", "--resume", "TRAINED", "--seed", "0"], "leave out --seed"),
+        (["train", "--resume", "NEW"], "no config.toml there"),
+        (["evaluate", "NEW"], "no config.toml there"),
+        (["play", "TRAINED", "--trial", "2"], "has no trial 2: choose 0 to 1"),
+        (["play", "TRAINED", "--backend", "live", "--profile", "NEW.toml"], "no profile"),
+        (["read", "NEW.png"], "name the game's font"),
+        (["read", "NEW.png", "--font", "NEW.jar"], "NEW.jar"),
+        (["read", "NEW.png", "--font", "TRAINED/config.toml"], "config.toml"),
+        (["frobnicate"], "No such command"),
+        (["train", "--frobnicate"], "No such option"),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_code_2(
+    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    new = tmp_path / "new"
+    words = [word.replace("TRAINED", str(trained)).replace("NEW", str(new)) for word in arguments]
+    before = (trained / "config.toml").read_bytes()
+    assert run(*words) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("mc-nested: ")
+    assert printed.err.count("\n") == 1
+    assert says.replace("NEW", str(new)) in printed.err
+    assert list(tmp_path.iterdir()) == []
+    assert (trained / "config.toml").read_bytes() == before
+
+
+def test_a_checkpoint_of_another_scenario_is_refused(
+    trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = tmp_path / "other"
+    assert run("train", "--episodes", "1", "--scenario", "zigzag", "--out", other) == 0
+    (other / "checkpoint" / FILE).write_bytes((trained / "checkpoint" / FILE).read_bytes())
+    verbs: list[list[str | Path]] = [["evaluate", other], ["play", other], ["train", "--resume", other]]
+    for verb in verbs:
+        capsys.readouterr()
+        assert run(*verb) == 2
+        assert "belongs to another scenario" in capsys.readouterr().err
+
+
+def test_a_truncated_checkpoint_is_refused(trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    broken = tmp_path / "broken"
+    (broken / "checkpoint").mkdir(parents=True)
+    (broken / "config.toml").write_bytes((trained / "config.toml").read_bytes())
+    whole = (trained / "checkpoint" / FILE).read_bytes()
+    (broken / "checkpoint" / FILE).write_bytes(whole[: len(whole) // 2])
+    assert run("train", "--resume", broken) == 2
+    assert "damaged or cut short" in capsys.readouterr().err
+    assert (broken / "checkpoint" / FILE).read_bytes() == whole[: len(whole) // 2]
+
+
+def test_nothing_but_the_verb_asks_for_help(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run() == 0
+    printed = capsys.readouterr().out
+    for verb in ("train", "evaluate", "play", "scenarios", "read", "calibrate"):
+        assert verb in printed
+
+
+def test_importing_everything_needs_no_display() -> None:
+    modules = "mc_nested, mc_nested.cli, mc_nested.live.desktop, mc_nested.live.session, sim.grid, calibration"
+    environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    subprocess.run([sys.executable, "-c", f"import {modules}"], env=environment, check=True)

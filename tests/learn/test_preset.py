@@ -1,0 +1,57 @@
+"""Presets: ``paper`` is README's table, and a mistake is one line."""
+
+from pathlib import Path
+
+import pytest
+
+from mc_nested.errors import PresetError
+from mc_nested.learn.preset import Exploration, Preset, Update, load_preset, parse_preset, shipped_presets
+
+
+def test_the_preset_paper_is_the_readmes_table() -> None:
+    assert load_preset("paper") == Preset(
+        episodes=3000,
+        evaluate_every=30,
+        hidden=[32, 32],
+        replay_capacity=1_000_000,
+        update=Update(batch=32, learning_starts=32, learning_rate=1e-3, gamma=0.95, target_period=500, huber_delta=1.0),
+        explore_main=Exploration(start=1.0, floor=0.01, share=0.18),
+        explore_nested=Exploration(start=1.0, floor=0.001, share=0.6),
+    )
+
+
+@pytest.mark.parametrize("name", shipped_presets())
+def test_every_shipped_preset_loads(name: str) -> None:
+    assert load_preset(name).episodes > 0
+
+
+PAPER = (Path(__file__).parents[2] / "mc_nested/learn/presets/paper.toml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (("batch = 32", "batch = 0"), "update.batch"),
+        (("batch = 32", "batches = 32"), "update.batch"),
+        (("evaluate_every", "momentum = 1\nevaluate_every"), "momentum"),
+        (("share = 0.6", "share = 1.5"), "explore_nested.share"),
+        (("hidden = [32, 32]", "hidden = []"), "hidden"),
+        (("episodes = 3000", "episodes = "), "not TOML"),
+    ],
+)
+def test_a_mistake_is_one_line_that_names_the_key(change: tuple[str, str], says: str) -> None:
+    with pytest.raises(PresetError) as caught:
+        parse_preset(PAPER.replace(*change, 1), "mine.toml")
+    assert str(caught.value).startswith("mine.toml: ")
+    assert says in str(caught.value)
+
+
+def test_an_unknown_name_lists_the_known_ones() -> None:
+    with pytest.raises(PresetError, match="no preset 'papr': name one of paper"):
+        load_preset("papr")
+
+
+def test_a_file_that_is_no_text_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "bad.toml").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(PresetError, match="not UTF-8 text"):
+        load_preset(tmp_path / "bad.toml")

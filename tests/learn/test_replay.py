@@ -1,0 +1,88 @@
+"""Uniform replay: what goes in comes out, the oldest gives way, and each run keeps to itself."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mc_nested.learn import replay as replay_module
+from mc_nested.learn.replay import Replay, Transitions
+
+
+def transition(*numbers: int) -> Transitions:
+    """A transition for each number, made so that every field tells the number."""
+    n = np.array(numbers)
+    return Transitions(np.stack([n, n + 1], 1), n % 8, n / 2, np.stack([n + 2, n + 3], 1), n % 2 == 0)
+
+
+def numbers(drawn: Transitions) -> list[list[int]]:
+    """The numbers that drawn transitions were made of, every field checked."""
+    found = drawn.states[..., 0]
+    np.testing.assert_array_equal(drawn.states[..., 1], found + 1)
+    np.testing.assert_array_equal(drawn.actions, found % 8)
+    np.testing.assert_array_equal(drawn.rewards, found / 2)
+    np.testing.assert_array_equal(drawn.next_states, np.stack([found + 2, found + 3], -1))
+    np.testing.assert_array_equal(drawn.terminated, found % 2 == 0)
+    return [[int(number) for number in row] for row in found]
+
+
+def test_what_the_numbers_point_at_is_drawn() -> None:
+    replay = Replay(runs=2, width=2, capacity=10)
+    for step in range(4):
+        replay.add(np.array([0, 1]), transition(step, 100 + step))
+    uniforms = np.array([[0.0, 0.24, 0.25, 0.5, 0.999999], [0.75, 0.0, 0.5, 0.26, 0.3]])
+    assert numbers(replay.sample(np.array([0, 1]), uniforms)) == [[0, 0, 1, 2, 3], [103, 100, 102, 101, 101]]
+
+
+def test_runs_fill_at_their_own_pace() -> None:
+    replay = Replay(runs=3, width=2, capacity=10)
+    replay.add(np.array([2]), transition(7))
+    replay.add(np.array([0, 2]), transition(8, 9))
+    assert replay.sizes().tolist() == [1, 0, 2]
+    assert numbers(replay.sample(np.array([2, 0]), np.array([[0.9], [0.9]]))) == [[9], [8]]
+
+
+def test_the_oldest_gives_way_when_it_is_full() -> None:
+    replay = Replay(runs=1, width=2, capacity=3)
+    for step in range(5):
+        replay.add(np.array([0]), transition(step))
+    assert replay.sizes().tolist() == [3]
+    drawn = numbers(replay.sample(np.array([0]), np.array([[0.1, 0.5, 0.9]])))
+    assert sorted(drawn[0]) == [2, 3, 4]
+
+
+@given(uniform=st.floats(0, 1, exclude_max=True), size=st.integers(1, 9))
+def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
+    replay = Replay(runs=2, width=2, capacity=100)
+    for step in range(size):
+        replay.add(np.array([0]), transition(step))
+    replay.add(np.array([1]), transition(50))
+    assert numbers(replay.sample(np.array([0]), np.array([[uniform]])))[0][0] in range(size)
+
+
+def test_draws_are_uniform() -> None:
+    replay = Replay(runs=1, width=2, capacity=100)
+    for step in range(8):
+        replay.add(np.array([0]), transition(step))
+    uniforms = np.random.default_rng(0).random((1, 80_000))
+    counts = np.bincount(numbers(replay.sample(np.array([0]), uniforms))[0])
+    assert counts.tolist() == [pytest.approx(10_000, rel=0.05)] * 8
+
+
+@given(steps=st.integers(1, 40), capacity=st.integers(5, 30))
+@settings(deadline=None)
+def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(replay_module, "FIRST_ROOM", 4)
+        grown = Replay(runs=1, width=2, capacity=capacity)
+        copy = Replay(runs=1, width=2, capacity=capacity)
+    large = Replay(runs=1, width=2, capacity=capacity)
+    for step in range(steps):
+        for replay in (grown, large):
+            replay.add(np.array([0]), transition(step))
+    copy.load({name: kept.copy() for name, kept in grown.state().items()})
+    grid = (np.arange(50) / 50)[None]
+    expected = numbers(large.sample(np.array([0]), grid))
+    assert set(expected[0]) == set(range(max(0, steps - capacity), steps))
+    assert numbers(grown.sample(np.array([0]), grid)) == expected
+    assert numbers(copy.sample(np.array([0]), grid)) == expected

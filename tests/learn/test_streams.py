@@ -1,0 +1,32 @@
+"""Random streams: a pure function of seed, run and tick."""
+
+import numpy as np
+
+from mc_nested.learn.streams import TICKS_A_CHUNK, Streams, initial_stream
+
+TICKS = [0, 1, TICKS_A_CHUNK - 1, TICKS_A_CHUNK, 10 * TICKS_A_CHUNK + 3]
+
+
+def test_a_ticks_numbers_do_not_depend_on_the_ticks_before() -> None:
+    onward, jumping = Streams(7, runs=2, width=5), Streams(7, runs=2, width=5)
+    walked = {tick: onward.at(tick).copy() for tick in range(TICKS[-1] + 1)}
+    for tick in reversed(TICKS):
+        np.testing.assert_array_equal(jumping.at(tick), walked[tick])
+
+
+def test_a_runs_numbers_do_not_depend_on_the_runs_beside_it() -> None:
+    alone, beside = Streams(7, runs=1, width=5), Streams(7, runs=9, width=5)
+    for tick in TICKS:
+        np.testing.assert_array_equal(alone.at(tick)[0], beside.at(tick)[0])
+
+
+def test_seeds_runs_and_ticks_all_differ() -> None:
+    numbers = [Streams(seed, runs=3, width=4).at(tick).copy() for seed in (0, 1) for tick in TICKS]
+    rows = [tuple(row) for drawn in numbers for row in drawn]
+    assert len(set(rows)) == len(rows) == 2 * len(TICKS) * 3
+    assert all(0 <= number < 1 for row in rows for number in row)
+
+
+def test_initial_streams_differ_by_seed_and_run() -> None:
+    drawn = {initial_stream(seed, run).random() for seed in (0, 1) for run in (0, 1)}
+    assert len(drawn) == 4

@@ -1,0 +1,221 @@
+"""Algorithm 1, tick by tick: what is stored, when there are updates, what is evaluated, and that it can be repeated."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arena.vector import ArenaVectorEnv, Ints
+from mc_nested.learn.agents import NestedAgent
+from mc_nested.learn.evaluation import play_greedily
+from mc_nested.learn.preset import Preset, load_preset
+from mc_nested.learn.trainer import Trainer
+from sim.grid import GridVectorEnv, arena_env
+
+LINE, DIAMOND = load_scenario("line"), load_scenario("diamond")
+PAPER = load_preset("paper")
+SHORT = PAPER.model_copy(
+    update={
+        "episodes": 20,
+        "evaluate_every": 5,
+        "update": PAPER.update.model_copy(update={"batch": 8, "learning_starts": 16, "target_period": 50}),
+    }
+)
+
+
+def trainer_of(
+    scenarios: Sequence[Scenario], preset: Preset = SHORT, seed: int = 0, stop_at_optimum: bool = False
+) -> Trainer:
+    agent = NestedAgent(scenarios, preset, seed)
+    return Trainer(GridVectorEnv(scenarios), scenarios, agent, preset, seed, stop_at_optimum)
+
+
+def finish(trainer: Trainer) -> Trainer:
+    while not trainer.finished:
+        trainer.tick()
+    return trainer
+
+
+def weights(trainer: Trainer, run: int) -> list[torch.Tensor]:
+    return [learner.ddqn.learners.online[run] for learner in (trainer.agent.main, trainer.agent.nested)]
+
+
+@pytest.fixture(scope="module")
+def three_runs() -> Trainer:
+    return finish(trainer_of([LINE, LINE, LINE]))
+
+
+def test_every_run_has_its_episodes_in_order(three_runs: Trainer) -> None:
+    for run in range(3):
+        rows = [row for row in three_runs.episode_rows if row.trial == run]
+        assert [row.episode for row in rows] == list(range(1, 21))
+        assert all(11 <= row.steps <= 60 for row in rows)
+        assert all(-5 <= row.score <= 21 for row in rows)
+
+
+def test_there_is_a_greedy_evaluation_every_5_episodes(three_runs: Trainer) -> None:
+    for run in range(3):
+        assert [row.episode for row in three_runs.evaluation_rows if row.trial == run] == [5, 10, 15, 20]
+
+
+def test_an_odd_number_of_episodes_ends_with_an_evaluation() -> None:
+    trainer = finish(trainer_of([LINE], SHORT.model_copy(update={"episodes": 13})))
+    assert [row.episode for row in trainer.evaluation_rows] == [5, 10, 13]
+
+
+def test_the_nested_agent_updates_once_a_step_and_the_main_agent_once_an_episode(three_runs: Trainer) -> None:
+    steps = sum(row.steps for row in three_runs.episode_rows)
+    assert three_runs.env_steps == steps
+    assert int(three_runs.agent.nested.replay.added.sum()) == steps
+    assert three_runs.agent.main.replay.added.tolist() == [20] * 3
+    # From 16 transitions on: the first 15 steps, and the first 15 episodes, bring none.
+    assert int(three_runs.agent.nested.ddqn.updates.sum()) == steps - 3 * 15
+    assert three_runs.agent.main.ddqn.updates.tolist() == [5] * 3
+
+
+def test_evaluations_are_neither_learnt_from_nor_counted_as_training(three_runs: Trainer) -> None:
+    assert three_runs.evaluation_steps == sum(row.steps for row in three_runs.evaluation_rows)
+
+
+def test_the_main_agents_one_transition_is_the_start_its_choice_and_the_score(three_runs: Trainer) -> None:
+    kept = three_runs.agent.main.replay.state()
+    rows = [row for row in three_runs.episode_rows if row.trial == 1]
+    assert kept["states"][1].tolist() == [[7, 14, 11]] * 20
+    assert kept["actions"][1].tolist() == [row.material for row in rows]
+    assert kept["rewards"][1].tolist() == [row.score for row in rows]
+    assert kept["terminated"][1].all()
+
+
+def test_the_nested_agents_states_carry_the_main_action(three_runs: Trainer) -> None:
+    kept = three_runs.agent.nested.replay.state()
+    rows = [row for row in three_runs.episode_rows if row.trial == 2]
+    carried = np.concatenate([[row.material] * row.steps for row in rows])
+    assert kept["states"][2, : len(carried), 3].tolist() == carried.tolist()
+    assert kept["next_states"][2, : len(carried), 3].tolist() == carried.tolist()
+    assert set(carried) == {0, 1}
+
+
+def test_truncation_bootstraps_and_termination_does_not(three_runs: Trainer) -> None:
+    kept = three_runs.agent.nested.replay.state()
+    rows = [row for row in three_runs.episode_rows if row.trial == 0]
+    ends = np.cumsum([row.steps for row in rows]) - 1
+    terminated = kept["terminated"][0, : ends[-1] + 1]
+    blocks_left = kept["next_states"][0, : ends[-1] + 1, 2]
+    np.testing.assert_array_equal(terminated, blocks_left == 0)
+    assert set(np.flatnonzero(terminated)) <= set(ends)
+    assert len(set(ends) - set(np.flatnonzero(terminated))) > 0, "some early episode ran out of steps"
+
+
+def test_the_same_seed_trains_the_same_and_another_does_not(three_runs: Trainer) -> None:
+    again, other = finish(trainer_of([LINE] * 3)), finish(trainer_of([LINE] * 3, seed=1))
+    assert again.episode_rows == three_runs.episode_rows
+    assert again.evaluation_rows == three_runs.evaluation_rows
+    for run in range(3):
+        for one, same in zip(weights(three_runs, run), weights(again, run), strict=True):
+            assert torch.equal(one, same)
+    assert other.episode_rows != three_runs.episode_rows
+
+
+def test_runs_of_one_training_differ(three_runs: Trainer) -> None:
+    by_run = [[row.score for row in three_runs.episode_rows if row.trial == run] for run in range(3)]
+    assert by_run[0] != by_run[1] != by_run[2]
+
+
+def test_a_run_of_a_batch_is_the_same_run_trained_alone(three_runs: Trainer) -> None:
+    alone = finish(trainer_of([LINE]))
+    assert alone.episode_rows == [row for row in three_runs.episode_rows if row.trial == 0]
+    for one, same in zip(weights(three_runs, 0), weights(alone, 0), strict=True):
+        torch.testing.assert_close(one, same)
+
+
+@pytest.mark.parametrize("ticks", [1, 200, 450])
+def test_a_saved_training_goes_on_to_the_bit(three_runs: Trainer, ticks: int) -> None:
+    first = trainer_of([LINE] * 3)
+    for _ in range(ticks):
+        first.tick()
+    saved = {name: kept.clone() for name, kept in first.state().items()}
+    resumed = trainer_of([LINE] * 3)
+    resumed.load(saved)
+    finish(resumed)
+    assert resumed.episode_rows == three_runs.episode_rows
+    assert resumed.evaluation_rows == three_runs.evaluation_rows
+    assert (resumed.ticks, resumed.env_steps) == (three_runs.ticks, three_runs.env_steps)
+    for name, kept in three_runs.state().items():
+        assert torch.equal(resumed.state()[name], kept), name
+
+
+def test_a_game_that_can_not_be_saved_half_way_goes_on_with_a_new_episode() -> None:
+    def games() -> ArenaVectorEnv:
+        return ArenaVectorEnv([arena_env(LINE)])
+
+    agent = NestedAgent([LINE], SHORT, 0)
+    first = Trainer(games(), [LINE], agent, SHORT, 0)
+    for _ in range(100):
+        first.tick()
+    resumed = Trainer(games(), [LINE], NestedAgent([LINE], SHORT, 0), SHORT, 0)
+    resumed.load(first.state())
+    done = int(resumed.episodes_done[0])
+    assert 0 < done < 20
+    assert [row.episode for row in finish(resumed).episode_rows] == list(range(1, 21))
+
+
+def test_single_games_and_arrays_train_the_same(three_runs: Trainer) -> None:
+    games = ArenaVectorEnv([arena_env(LINE) for _ in range(3)])
+    trainer = Trainer(games, [LINE] * 3, NestedAgent([LINE] * 3, SHORT, 0), SHORT, 0)
+    assert finish(trainer).episode_rows == three_runs.episode_rows
+
+
+def test_designs_train_side_by_side() -> None:
+    trainer = finish(trainer_of([LINE, DIAMOND], SHORT.model_copy(update={"episodes": 5})))
+    blocks = trainer.agent.nested.replay.state()["states"][:, 0, 2]
+    assert blocks.tolist() == [11, 16]
+
+
+def test_a_run_that_stops_at_the_optimum_has_its_best_policy() -> None:
+    dot = Scenario("dot", frozenset({(7, 14)}), (7, 12), 4, LINE.materials)
+    preset = SHORT.model_copy(update={"episodes": 400})
+    trainer = finish(trainer_of([dot, dot], preset, stop_at_optimum=True))
+    last = {row.trial: row for row in trainer.evaluation_rows}
+    assert [last[run].score for run in (0, 1)] == [11.0, 11.0]
+    assert [last[run].episode for run in (0, 1)] == trainer.episodes_done.tolist()
+    assert trainer.episodes_done.max() < 400
+    env = GridVectorEnv([dot, dot])
+    assert [episode.score for episode in play_greedily(env, [dot, dot], trainer.agent)] == [11.0, 11.0]
+
+
+def test_the_last_evaluation_is_what_the_saved_policy_plays(three_runs: Trainer) -> None:
+    played = play_greedily(GridVectorEnv([LINE] * 3), [LINE] * 3, three_runs.agent)
+    last = {row.trial: row for row in three_runs.evaluation_rows}
+    assert [episode.score for episode in played] == [last[run].score for run in range(3)]
+    assert [episode.material for episode in played] == [last[run].material for run in range(3)]
+    assert [len(episode.actions) for episode in played] == [last[run].steps for run in range(3)]
+
+
+class Fails(GridVectorEnv):
+    """Breaks down once, in the middle of an episode."""
+
+    fails_at = 50
+
+    def step(self, actions: Ints) -> Any:
+        self.fails_at -= 1
+        if self.fails_at == 0:
+            raise ConnectionError("the game is gone")
+        return super().step(actions)
+
+
+def test_after_an_error_of_the_env_training_goes_on_with_a_new_episode() -> None:
+    trainer = Trainer(Fails([LINE]), [LINE], NestedAgent([LINE], SHORT, 0), SHORT, 0)
+    with pytest.raises(ConnectionError):
+        finish(trainer)
+    trainer.abandon_episodes()
+    assert [row.episode for row in finish(trainer).episode_rows] == list(range(1, 21))
+
+
+def test_two_networks_of_the_papers_shape() -> None:
+    agent = NestedAgent([LINE], SHORT, 0)
+    # Main: 3·32 + 32 + 32·32 + 32 + 32·2 + 2 = 1250; nested: 1480.
+    assert (agent.networks, agent.parameters) == (2, 1250 + 1480)

@@ -1,0 +1,189 @@
+"""LiveGame: the rules of the task, played with keys in a world that knows none of them."""
+
+import contextlib
+import dataclasses
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mc_nested.arena import rules
+from mc_nested.arena.rules import Action, Cell
+from mc_nested.arena.scenario import Material, Scenario
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import LiveError, NotConfirmedError, NotInFrontError, ProfileError
+from mc_nested.live.commands import reset_commands
+from mc_nested.live.coordinates import Facing
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile import Profile
+from mc_nested.live.profile_tables import Arena, GameVersion
+from tests.live.fake_game import FakeDisplay, FakeGame, FakeKeyboard, FakePointer
+
+LINE = load_scenario("line")
+STONE = LINE.best_material
+facings = st.sampled_from(["north", "south", "west", "east"])
+actions = st.sampled_from(list(Action))
+
+
+def _world(facing: Facing = "south", version: str = "1.20.1") -> FakeGame:
+    profile = Profile(game=GameVersion(version=version), arena=Arena.around((-20, 64, 31), facing))
+    return FakeGame(profile)
+
+
+def _play(world: FakeGame, scenario: Scenario = LINE, fail_after: int = -1) -> LiveGame:
+    return LiveGame(
+        scenario,
+        world.profile,
+        display=FakeDisplay(world),
+        keyboard=FakeKeyboard(world, fail_after),
+        pointer=FakePointer(world),
+        clock=world.clock,
+        read=world.read,
+    )
+
+
+def _commands(world: FakeGame) -> list[str]:
+    return reset_commands(world.profile, LINE.start, [material.block for material in LINE.materials])
+
+
+def _cell_of(world: FakeGame) -> Cell:
+    right, forward = world.profile.marked_arena().place_of(world.xyz)
+    return round(right), round(forward)
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1"])
+def test_a_reset_clears_the_arena_and_puts_the_agent_on_the_start(version: str) -> None:
+    world = _world(version=version)
+    arena = world.profile.marked_arena()
+    outside = arena.block_of((15, 3))
+    world.blocks = {arena.block_of((4, 4)): "stone", outside: "dirt"}
+    game = _play(world)
+    assert game.reset(STONE) == LINE.start == _cell_of(world)
+    assert world.built == {outside}
+    assert (world.yaw, world.pitch) == (arena.yaw, 65.0)
+    assert world.hotbar[world.slot] == "stone"
+    assert world.leaked == ""
+
+
+@pytest.mark.parametrize("material", [0, 1])
+def test_the_line_is_built_walking_backward(material: int) -> None:
+    world = _world("west")
+    with _play(world) as game:
+        game.reset(material)
+        for action in [Action.B, Action.B, *[Action.BD] * 11]:
+            game.act(action)
+    arena = world.profile.marked_arena()
+    block = LINE.materials[material].block
+    assert world.blocks == {arena.block_of(cell): block for cell in LINE.design}
+
+
+@settings(max_examples=60, deadline=None)
+@given(facings, st.lists(actions, max_size=14))
+def test_every_outcome_is_the_rules_outcome_and_the_worlds(facing: Facing, chosen: list[Action]) -> None:
+    world = _world(facing)
+    arena = world.profile.marked_arena()
+    game = _play(world)
+    cell, placed = game.reset(STONE), set[Cell]()
+    for action in chosen:
+        presses = len(world.presses)
+        outcome = game.act(action)
+        target = rules.moved(cell, action, placed)
+        landing = rules.landing(target, action, placed)
+        if target == cell and landing is None:
+            assert len(world.presses) == presses
+        cell = target
+        placed |= {landing} if landing else set()
+        assert (outcome.cell, outcome.placed) == (cell, landing)
+        assert _cell_of(world) == cell
+        assert world.built == {arena.block_of(block) for block in placed}
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(actions, max_size=4), st.floats(0.0, 12.0), st.integers(-1, 80), st.integers(0, 3))
+def test_whatever_happens_no_key_stays_down_or_goes_to_another_window(
+    chosen: list[Action], front_s: float, fail_after: int, refused: int
+) -> None:
+    world = _world()
+    world.front_until = world.clock.now() + front_s
+    world.refuse_clicks = refused
+    with contextlib.suppress(LiveError, OSError), _play(world, fail_after=fail_after) as game:
+        game.reset(STONE)
+        for action in chosen:
+            game.act(action)
+    assert world.down == set()
+    assert world.presses_behind == []
+
+
+def test_after_an_error_the_game_wants_a_reset() -> None:
+    world = _world()
+    game = _play(world)
+    with pytest.raises(LiveError, match="must be reset first"):
+        game.act(Action.B)
+    game.reset(STONE)
+    world.blocks[world.profile.marked_arena().block_of((7, 13))] = "dirt"
+    with pytest.raises(NotConfirmedError):
+        game.act(Action.B)
+    with pytest.raises(LiveError, match="must be reset first"):
+        game.act(Action.L)
+    assert game.reset(STONE) == LINE.start
+    assert game.act(Action.B).cell == (7, 13)
+
+
+def test_a_reset_forgets_the_blocks_of_the_episode_before() -> None:
+    world = _world()
+    game = _play(world)
+    for _ in range(2):
+        game.reset(STONE)
+        game.act(Action.B)
+        assert game.act(Action.BD).placed == (7, 13)
+
+
+def test_a_release_that_fails_once_is_repeated_before_the_error_is_raised() -> None:
+    world = _world()
+    # Calls: a command is a tap, its pieces and a tap; then come the slot's tap, and the move's press and release.
+    calls = sum(4 + -(-len(command) // 8) for command in _commands(world)) + 2 + 1
+    game = _play(world, fail_after=calls)
+    game.reset(STONE)
+    with pytest.raises(OSError, match="keyboard is gone"):
+        game.act(Action.B)
+    assert world.presses[-1] == "s"
+    assert world.down == set()
+
+
+def test_a_teleport_that_the_game_refuses_is_not_a_reset() -> None:
+    world = _world()
+    world.profile = world.profile.model_copy(update={"keys": world.profile.keys.model_copy(update={"chat": "y"})})
+    game = LiveGame(
+        LINE,
+        _world().profile,
+        display=FakeDisplay(world),
+        keyboard=FakeKeyboard(world),
+        pointer=FakePointer(world),
+        clock=world.clock,
+        read=world.read,
+    )
+    with pytest.raises(NotConfirmedError, match=r"teleport to cell .* was not seen"):
+        game.reset(STONE)
+
+
+def test_an_agent_that_was_carried_off_is_noticed_even_by_an_action_that_presses_nothing() -> None:
+    world = _world()
+    game = _play(world)
+    game.reset(STONE)
+    world.xyz = world.profile.marked_arena().centre_of((3, 3))
+    with pytest.raises(NotConfirmedError, match=r"left cell \(7, 14\) by itself, it is at \(3.00, 3.00\)"):
+        game.act(Action.F)
+
+
+def test_behind_another_window_nothing_is_pressed() -> None:
+    world = _world()
+    world.front_until = 0.0
+    with pytest.raises(NotInFrontError):
+        _play(world).reset(STONE)
+    assert world.presses == []
+
+
+def test_more_materials_than_the_hotbar_has_slots_are_refused() -> None:
+    many = dataclasses.replace(LINE, materials=tuple(Material(f"m{index}", 0.0, "stone") for index in range(10)))
+    with pytest.raises(ProfileError, match="10 materials, the hotbar only 9 slots"):
+        _play(_world(), many)

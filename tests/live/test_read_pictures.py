@@ -1,0 +1,63 @@
+"""Drives read_picture with files; what is read from a frame is left to test_debug_screen.py."""
+
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from mc_nested.live.font import font_of
+from mc_nested.live.read_pictures import read_picture
+from mc_nested.live.reading import Target
+from mc_nested.live.text_lines import Overlay
+from sim.client.f3 import paint
+from sim.client.f3_text import F3Screen
+from sim.client.font import drawn_atlas
+
+FONT = font_of(drawn_atlas())
+SCREEN = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, 65.0, Target((8, 63, -2), "minecraft:stone"))
+
+
+def picture(path: Path, screen: F3Screen = SCREEN) -> Path:
+    cv2.imwrite(str(path), paint(np.full((480, 854, 3), 60, np.uint8), screen, FONT))
+    return path
+
+
+@pytest.mark.parametrize("overlay", [None, Overlay(2, 9, (224, 224, 224))], ids=["found", "given"])
+def test_a_picture_gives_its_reading_as_json(tmp_path: Path, overlay: Overlay | None) -> None:
+    path = picture(tmp_path / "größe.png".replace("ö", "o").replace("ß", "ss"))
+    assert json.loads(json.dumps(read_picture(path, FONT, overlay))) == {
+        "file": str(path),
+        "xyz": [8.5, 64.0, -3.25],
+        "yaw": 0.0,
+        "pitch": 65.0,
+        "target": {"pos": [8, 63, -2], "id": "minecraft:stone"},
+        "problem": None,
+    }
+
+
+def test_no_block_looked_at_is_a_null_target(tmp_path: Path) -> None:
+    screen = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
+    assert read_picture(picture(tmp_path / "sky.png", screen), FONT, None)["target"] is None
+
+
+@pytest.mark.parametrize(
+    "data", [None, b"", b"no picture", b"\x89PNG\r\n\x1a\n"], ids=["missing", "empty", "text", "cut"]
+)
+def test_a_file_that_is_no_picture_is_a_problem(tmp_path: Path, data: bytes | None) -> None:
+    path = tmp_path / "given.png"
+    if data is not None:
+        path.write_bytes(data)
+    read = read_picture(path, FONT, None)
+    assert read["xyz"] is None
+    assert "the file" in str(read["problem"])
+
+
+def test_a_folder_is_a_problem(tmp_path: Path) -> None:
+    assert "can't be read" in str(read_picture(tmp_path, FONT, None)["problem"])
+
+
+def test_a_grey_picture_of_sixteen_bits_is_a_problem_and_no_crash(tmp_path: Path) -> None:
+    cv2.imwrite(str(tmp_path / "deep.png"), np.zeros((300, 400), np.uint16))
+    assert read_picture(tmp_path / "deep.png", FONT, None)["xyz"] is None

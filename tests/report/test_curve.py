@@ -1,0 +1,51 @@
+"""The curve: trials aligned by hand, the interval, and a picture that can be opened."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from mc_nested.report.curve import align_trials, bootstrap_interval, draw_curve
+
+
+def test_trials_are_aligned_by_episode() -> None:
+    rows = [(1, 30, 4.0), (0, 30, 10.0), (0, 60, 12.0), (1, 60, 6.0)]
+    episodes, scores = align_trials(rows, trials=2)
+    assert episodes == [30, 60]
+    assert scores.tolist() == [[10.0, 12.0], [4.0, 6.0]]
+
+
+def test_a_trial_that_finished_early_keeps_its_last_score() -> None:
+    rows = [(0, 30, 21.0), (1, 30, 4.0), (1, 60, 6.0), (1, 90, 21.0)]
+    assert align_trials(rows, trials=2)[1].tolist() == [[21.0, 21.0, 21.0], [4.0, 6.0, 21.0]]
+
+
+def test_without_an_evaluation_of_every_trial_there_is_nothing_to_show() -> None:
+    episodes, scores = align_trials([(0, 30, 5.0)], trials=2)
+    assert episodes == []
+    assert scores.shape == (2, 0)
+
+
+def test_the_interval_holds_the_mean_and_narrows_to_it_where_all_agree() -> None:
+    scores = np.array([[1.0, 5.0], [3.0, 5.0], [2.0, 5.0], [6.0, 5.0]])
+    low, high = bootstrap_interval(scores)
+    assert 1.0 <= low[0] < 3.0 < high[0] <= 6.0
+    assert (low[1], high[1]) == (pytest.approx(5.0), pytest.approx(5.0))
+
+
+def test_the_interval_is_about_two_standard_errors_wide() -> None:
+    scores = np.random.default_rng(0).normal(0, 1, (400, 1))
+    low, high = bootstrap_interval(scores)
+    assert high[0] - low[0] == pytest.approx(2 * 1.96 / 20, rel=0.15)
+
+
+@pytest.mark.parametrize("trials", [1, 5])
+@pytest.mark.parametrize("evaluations", [0, 1, 20])
+def test_a_curve_is_a_picture(tmp_path: Path, trials: int, evaluations: int) -> None:
+    path = tmp_path / "curve.png"
+    episodes = [30 * (index + 1) for index in range(evaluations)]
+    draw_curve(path, "line", episodes, np.random.default_rng(0).random((trials, evaluations)) * 21, 21.0)
+    picture = cv2.imread(str(path))
+    assert picture is not None
+    assert picture.shape == (540, 960, 3)

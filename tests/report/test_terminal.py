@@ -1,0 +1,20 @@
+"""The arena in a terminal: what is where, and a legend."""
+
+from rich.console import Console
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.report.terminal import arena_view
+
+
+def test_the_far_edge_is_on_top_and_every_sign_is_explained() -> None:
+    console = Console(width=80, record=True, file=None, force_terminal=False, quiet=False)
+    with console.capture() as capture:
+        console.print(arena_view(load_scenario("line"), (7, 11), {(7, 12), (3, 3)}))
+    lines = [line.rstrip() for line in capture.get().splitlines()]
+    assert lines[0] == "  . . . . . . . . . . . . . . ."
+    assert lines[2] == "  . . . . . . . # . . . . . . ."
+    assert lines[3] == "  . . . . . . . ^ . . . . . . ."
+    assert lines[4] == "  . . . . . . . o . . . . . . ."
+    assert lines[11] == "  . . . x . . . o . . . . . . ."
+    for word in ("the agent", "built", "off the design", "still to build"):
+        assert word in lines[15]

@@ -1,0 +1,96 @@
+"""The simulator in arrays: it is R ArenaEnvs over GridGame, to the last flag; masks, materials and snapshots."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mc_nested.arena.builder import build
+from mc_nested.arena.rules import Action
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arena.vector import ArenaVectorEnv
+from sim.grid import GridVectorEnv, arena_env
+
+LINE, ZIGZAG, DIAMOND = (load_scenario(name) for name in ("line", "zigzag", "diamond"))
+
+
+@given(seed=st.integers(0, 2**32 - 1))
+@settings(max_examples=30, deadline=None)
+def test_arrays_and_single_arenas_agree_on_everything(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    arrays, singles = GridVectorEnv([LINE] * 4), ArenaVectorEnv([arena_env(LINE) for _ in range(4)])
+    material = random.integers(0, 2, 4)
+    assert (
+        arrays.reset(options={"material": material})[0].tolist()
+        == singles.reset(options={"material": material})[0].tolist()
+    )
+    for _ in range(80):
+        # Mostly toward the near edge and with a block, so that some arenas run out of blocks and some out of steps.
+        actions = random.choice(8, 4, p=[0.05, 0.2, 0.1, 0.1, 0.1, 0.1, 0.1, 0.25])
+        ours, theirs = arrays.step(actions), singles.step(actions)
+        for one, other in zip(ours[:4], theirs[:4], strict=True):
+            np.testing.assert_array_equal(one, other)
+        np.testing.assert_array_equal(ours[4]["_score"], theirs[4]["_score"])
+        np.testing.assert_array_equal(ours[4]["score"], theirs[4]["score"])
+        assert [arrays.placed(run) for run in range(4)] == [singles.placed(run) for run in range(4)]
+        mask = (ours[2] | ours[3]) & (random.random(4) < 0.5)
+        material = random.integers(0, 2, 4)
+        options = {"reset_mask": mask, "material": material}
+        np.testing.assert_array_equal(arrays.reset(options=options)[0], singles.reset(options=options)[0])
+
+
+def test_every_run_can_have_a_scenario_of_its_own() -> None:
+    scenarios = [LINE, ZIGZAG, DIAMOND]
+    envs = GridVectorEnv(scenarios)
+    observations, _ = envs.reset()
+    assert observations.tolist() == [[7, 14, 11], [7, 14, 11], [7, 14, 16]]
+    scores: dict[int, float] = {}
+    plans = [build(scenario) for scenario in scenarios]
+    for step in range(60):
+        actions = np.array([plan[min(step, len(plan) - 1)] for plan in plans])
+        *_, info = envs.step(actions)
+        scores |= {int(run): float(info["score"][run]) for run in np.flatnonzero(info["_score"])}
+    assert scores == {0: 21.0, 1: 21.0, 2: 26.0}
+    assert [envs.placed(run) for run in range(3)] == [scenario.design for scenario in scenarios]
+
+
+def test_a_masked_reset_leaves_the_other_arenas_alone() -> None:
+    envs = GridVectorEnv([LINE] * 2)
+    envs.reset()
+    envs.step(np.array([Action.BD, Action.BD]))
+    observations, _ = envs.reset(options={"reset_mask": np.array([True, False])})
+    assert observations.tolist() == [[7, 14, 11], [7, 13, 10]]
+    assert envs.placed(0) == frozenset()
+    assert envs.placed(1) == {(7, 14)}
+
+
+def test_without_a_material_the_best_one_is_taken() -> None:
+    envs = GridVectorEnv([LINE] * 2)
+    envs.reset(options={"material": np.array([0, 1])})
+    for action in build(LINE):
+        *_, info = envs.step(np.array([action, action]))
+    assert info["score"].tolist() == [6.0, 21.0]
+
+
+@pytest.mark.parametrize("form", [GridVectorEnv, lambda scenarios: ArenaVectorEnv([arena_env(s) for s in scenarios])])
+@pytest.mark.parametrize(
+    "options",
+    [{"material": np.array([0])}, {"material": np.array([0, 2])}, {"reset_mask": np.array([True])}],
+    ids=["too few materials", "no such material", "too short a mask"],
+)
+def test_reset_options_that_do_not_fit_are_refused(form: type[GridVectorEnv], options: dict[str, object]) -> None:
+    with pytest.raises(ValueError, match="material"):
+        form([LINE] * 2).reset(options=options)
+
+
+def test_a_snapshot_brings_every_arena_back() -> None:
+    envs = GridVectorEnv([LINE, DIAMOND])
+    envs.reset()
+    random = np.random.default_rng(1)
+    for _ in range(20):
+        before, *_ = envs.step(random.integers(0, 8, 2))
+    kept = envs.snapshot()
+    ahead = random.integers(0, 8, (40, 2))
+    first = [envs.step(actions)[0].tolist() for actions in ahead]
+    np.testing.assert_array_equal(envs.restore(kept), before)
+    assert [envs.step(actions)[0].tolist() for actions in ahead] == first

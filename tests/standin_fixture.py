@@ -1,0 +1,75 @@
+"""The stand-in, a real game window, for tests (scripts/standin.py)."""
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from scripts import standin_oracle
+from scripts.standin import ROOT
+from scripts.standin_processes import load_state, wait_until
+
+Block = tuple[int, int, int]
+
+
+@dataclass(frozen=True)
+class Standin:
+    """The stand-in while it is up: where its window is, what mc-nested must know of it, and what its server knows."""
+
+    display: str
+    window_title: str
+    oracle: str
+    font: Path
+    profile: Path
+
+    @property
+    def env(self) -> dict[str, str]:
+        """The environment of a program that shall play in its window."""
+        return {**os.environ, "DISPLAY": self.display}
+
+    def position(self) -> tuple[float, float, float]:
+        """Where the server has the player."""
+        x, y, z = standin_oracle.ask(self.oracle, "/player")["position"]
+        return x, y, z
+
+    def blocks(self, low: Block, high: Block) -> dict[Block, str]:
+        """The blocks, not air, that the server has between two corners, both inside, by their place."""
+        return standin_oracle.blocks(self.oracle, low, high)
+
+    def errors(self) -> list[str]:
+        """The errors of the page since it was opened."""
+        return [str(error) for error in standin_oracle.ask(self.oracle, "/errors")]
+
+
+def _run(command: str) -> subprocess.CompletedProcess[str]:
+    script = [sys.executable, str(ROOT / "scripts" / "standin.py"), command]
+    return subprocess.run(script, capture_output=True, text=True, timeout=1800, check=False)
+
+
+@pytest.fixture(scope="session")
+def standin() -> Iterator[Standin]:
+    """The stand-in, up for the session; one that was up before stays up.
+
+    A machine that lacks what it needs skips the test and says how to get it; with CI set, that is a failure.
+    """
+    was_up = _run("status").returncode == 0
+    done = _run("up")
+    reason = (done.stderr.strip().splitlines() or ["standin.py up said nothing"])[-1]
+    if done.returncode == 2 and not os.environ.get("CI"):
+        pytest.skip(reason)
+    if done.returncode != 0:
+        pytest.fail(reason)
+    said = json.loads(done.stdout)
+    state = load_state(ROOT / ".standin" / "state.json")
+    assert state is not None
+    yield Standin(said["display"], said["window_title"], said["oracle"], Path(said["font"]), Path(said["profile"]))
+    if was_up:
+        return
+    assert _run("down").returncode == 0
+    assert wait_until(lambda: not any(process.pids() for process in state.processes), 1)
+    assert not Path(state.scratch).exists()
