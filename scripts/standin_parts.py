@@ -96,9 +96,7 @@ def install_programs(say: Say, log: Path) -> None:
 def _apt_install(packages: Sequence[str], say: Say, log: Path) -> None:
     by_hand = f"sudo apt-get install --no-install-recommends {' '.join(packages)}"
     if shutil.which("apt-get") is None:
-        raise MissingError(
-            f"the stand-in needs programs that only Debian's apt gets it; on Debian or Ubuntu: {by_hand}"
-        )
+        raise MissingError(f"the stand-in needs programs that it gets with apt alone; on Debian or Ubuntu: {by_hand}")
     if os.geteuid() != 0:
         raise MissingError(f"the stand-in needs programs that only root can install: {by_hand}")
     say(f"installing with apt: {' '.join(packages)}")
