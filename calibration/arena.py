@@ -6,6 +6,7 @@ near edge . . . P . . .     and stands, unless told otherwise, in the middle of 
 """
 
 import math
+import re
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -19,7 +20,7 @@ from mc_nested.live.desktop import Desktop, open_desktop
 from mc_nested.live.devices import Clock, Display
 from mc_nested.live.font import load_font
 from mc_nested.live.profile import save_profile
-from mc_nested.live.profile_tables import Arena
+from mc_nested.live.profile_tables import Arena, GameVersion
 from mc_nested.live.reading import Reading
 from mc_nested.live.session import overlay_of
 
@@ -38,6 +39,9 @@ PATIENCE_S = 60.0
 LOOK_S = 0.25
 """Between two looks: a few frames of the game, so that the same place seen twice is a place stood on."""
 
+_TITLE = re.compile(r"Minecraft\*? (\d+\.\d+(?:\.\d+)?)(?:[ -].*)?")
+"""The title of the game's window, a star standing for a modified one (FACTS: Input and windows)."""
+
 
 def calibrate_arena(
     profile_name: str | Path,
@@ -50,6 +54,8 @@ def calibrate_arena(
     open_devices: Callable[[str], AbstractContextManager[Desktop]] = open_desktop,
 ) -> Path | None:
     """Write where the player stands and looks into a profile, as its arena; the profile's file, or None if declined.
+
+    The game's version, by which commands are written, is taken from the window's title where that says it.
 
     Args:
         profile_name: a name or a file; a new profile is made where there is none.
@@ -80,10 +86,11 @@ def calibrate_arena(
         reading = read_at_rest(
             desktop.display, desktop.clock, lambda: read_debug_screen(desktop.display.grab(), glyphs, overlay)
         )
+        game = version_in(desktop.display.title()) or profile.game
     arena = arena_seen(reading, standing)
     if not yes and not ask(question_for(arena)):
         return None
-    save_profile(profile.model_copy(update={"arena": arena}), path)
+    save_profile(profile.model_copy(update={"arena": arena, "game": game}), path)
     return path
 
 
@@ -126,6 +133,12 @@ def arena_seen(reading: Reading, standing: Cell) -> Arena:
     shift = block_of((0, 0, 0), facing, standing)
     origin = (there[0] - shift[0], there[1], there[2] - shift[2])
     return Arena.around(origin, facing)
+
+
+def version_in(title: str) -> GameVersion | None:
+    """The version that the title of the game's window says; None where it says none, as that of a modpack."""
+    found = _TITLE.fullmatch(title)
+    return GameVersion(version=found[1]) if found else None
 
 
 def question_for(arena: Arena) -> str:

@@ -1,15 +1,21 @@
 """Reading the project's TOML files: scenarios, presets and profiles, each a pydantic model, each mistake one line."""
 
+import difflib
+import json
 from pathlib import Path
-from typing import TypeVar
+from typing import TypeVar, get_args
 
 import tomlkit
 from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
 from tomlkit.exceptions import TOMLKitError
 
 from mc_nested.errors import UserError
 
 Model = TypeVar("Model", bound=BaseModel)
+
+_SHOWN = 60
+"""Characters of a wrong value that a message repeats: enough to find it, and still one line."""
 
 
 def read_toml_text(path: Path, error: type[UserError]) -> str:
@@ -21,13 +27,53 @@ def read_toml_text(path: Path, error: type[UserError]) -> str:
         raise error(f"{path}: can't be read, {reason}: name a TOML file") from cause
 
 
-def parse_toml(model: type[Model], text: str, source: str, error: type[UserError]) -> Model:
-    """The model that a TOML text describes; ``error``, one line that names ``source`` and the key, where it doesn't."""
+def parse_document(text: str, source: str, error: type[UserError]) -> tomlkit.TOMLDocument:
+    """A TOML text with its comments; ``error``, one line that names ``source``, where it isn't TOML."""
     try:
-        return model.model_validate(tomlkit.parse(text).unwrap())
+        return tomlkit.parse(text)
     except TOMLKitError as cause:
         raise error(f"{source}: not TOML ({cause}): mend that line") from cause
+
+
+def parse_toml(model: type[Model], text: str, source: str, error: type[UserError]) -> Model:
+    """The model that a TOML text describes; ``error``, one line that names ``source`` and the key, where it doesn't."""
+    tables = parse_document(text, source, error).unwrap()
+    try:
+        # Through JSON, since TOML's arrays are lists, and strict tuples take lists from JSON alone.
+        return model.model_validate_json(json.dumps(tables, default=str))
     except ValidationError as cause:
-        first = cause.errors()[0]
-        key = ".".join(str(part) for part in first["loc"])
-        raise error(f"{source}: {key}: {first['msg']}: mend that key") from cause
+        raise error(f"{source}: {_in_one_line(model, cause.errors()[0])}") from cause
+
+
+def table_of_key(model: type[BaseModel], key: str) -> type[BaseModel] | None:
+    """The model of the table, or tables, that a key holds; None where it holds something else, or isn't known."""
+    field = model.model_fields.get(key)
+    kinds = (field.annotation, *get_args(field.annotation)) if field else ()
+    return next((each for each in kinds if isinstance(each, type) and issubclass(each, BaseModel)), None)
+
+
+def _in_one_line(model: type[BaseModel], mistake: ErrorDetails) -> str:
+    key = ".".join(str(part) for part in mistake["loc"]) or "the file"
+    if mistake["type"] == "extra_forbidden":
+        return f"{key}: unknown key: {_remedy_for_unknown(model, mistake['loc'])}"
+    if mistake["type"] == "missing":
+        return f"{key}: missing: add it"
+    if mistake["type"] == "model_type":
+        return f"{key}: must be a table: write [{key}] and its keys below"
+    if mistake["type"] == "value_error":
+        return f"{key}: {mistake['ctx']['error']}"
+    return f"{key}: {mistake['msg']}, not {_shortened(mistake['input'])}: mend that key"
+
+
+def _remedy_for_unknown(model: type[BaseModel], place: tuple[int | str, ...]) -> str:
+    kind: type[BaseModel] | None = model
+    for key in (part for part in place[:-1] if isinstance(part, str)):
+        kind = table_of_key(kind, key) if kind else None
+    known = list(kind.model_fields) if kind else []
+    near = difflib.get_close_matches(str(place[-1]), known, n=1)
+    return f"did you mean {near[0]}?" if near else f"remove it; known are {', '.join(known)}"
+
+
+def _shortened(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= _SHOWN else text[: _SHOWN - 3] + "..."

@@ -17,7 +17,9 @@ def main() -> int:
     run = environment.ROOT / "runs" / f"demo-{datetime.now():%Y%m%d-%H%M%S}"
     mc_nested: list[str | Path] = [python, "-m", "mc_nested.cli"]
     print("\nTraining the nested agent on the line, until a greedy episode builds all of it:\n", flush=True)
-    trained = environment.run([*mc_nested, "train", "--scenario", "line", "--stop-at-optimum", "--out", run])
+    trained = environment.run(
+        [*mc_nested, "train", "--scenario", "line", "--episodes", "1000", "--stop-at-optimum", "--out", run]
+    )
     if trained:
         return trained
     print("\nWhat the trained agent builds:\n", flush=True)

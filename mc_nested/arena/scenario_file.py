@@ -13,13 +13,19 @@ from mc_nested.toml_file import parse_toml, read_toml_text
 
 BLOCK, FREE = "#", "."
 
+LARGEST_P, LONGEST = 1_000_000.0, 100_000
+"""The largest p either way, and the highest step limit: 32-bit floats hold every score, and an episode ends in time."""
+
+Name = Annotated[str, Field(min_length=1, max_length=60, pattern=r"^\P{C}+$")]
+"""A name of one line: no control characters."""
+
 
 class MaterialTable(BaseModel):
     """A material as a file has it."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-    name: Annotated[str, Field(min_length=1)]
-    p: Annotated[float, Field(allow_inf_nan=False)]
+    name: Name
+    p: Annotated[float, Field(ge=-LARGEST_P, le=LARGEST_P)]
     block: Annotated[str, Field(pattern=r"^[a-z0-9_]+$")]
 
 
@@ -27,9 +33,9 @@ class ScenarioTable(BaseModel):
     """A scenario as a file has it."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-    name: Annotated[str, Field(min_length=1)]
+    name: Name
     start: Annotated[list[int], Field(min_length=2, max_length=2)]
-    step_limit: Annotated[int, Field(ge=1)]
+    step_limit: Annotated[int, Field(ge=1, le=LONGEST)]
     design: str
     materials: Annotated[list[MaterialTable], Field(min_length=1)]
 

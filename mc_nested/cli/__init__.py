@@ -1,5 +1,22 @@
 """The command line, one verb a file: train, evaluate, play, scenarios, read, calibrate."""
 
-from mc_nested.cli.app import main
+import io
+import signal
+import sys
+from collections.abc import Sequence
 
-__all__ = ["main"]
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command and exit, as ``app.main``; Ctrl+C before and behind it, while Python loads and ends, is quiet."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a pipe may not know ε
+    try:
+        from mc_nested.cli.app import main as run
+
+        run(arguments)
+    except KeyboardInterrupt:
+        print("mc-nested: stopped", file=sys.stderr)
+        sys.exit(130)
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)

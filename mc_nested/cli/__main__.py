@@ -1,5 +1,5 @@
 """``python -m mc_nested.cli``, where no ``mc-nested`` is on the path."""
 
-from mc_nested.cli.app import main
+from mc_nested.cli import main
 
 main()

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 import typer
 
 from mc_nested.cli import calibrate, evaluate, play, read, scenarios, train
-from mc_nested.cli.interrupt import INTERRUPTED
+from mc_nested.cli.interrupt import INTERRUPTED, Stopped
 from mc_nested.errors import McNestedError
+from mc_nested.live.ending import EndedBySignal
 
 app = typer.Typer(
     name="mc-nested",
@@ -34,16 +35,25 @@ def main(arguments: Sequence[str] | None = None) -> None:
         words.append("--help")
     try:
         code = app(args=words, standalone_mode=False)
+        if code == INTERRUPTED:  # what typer makes of a KeyboardInterrupt, and of nothing else
+            code = _say("stopped", INTERRUPTED)
     except typer.TyperException as error:
         code = _say(error.format_message())
     except McNestedError as error:
         code = _say(str(error))
+    except OSError as error:  # a path that the system refuses, wherever it was tried
+        code = _say(f"{error.filename or 'the system'}: {error.strerror or error}: name another path, or make room")
+    except MemoryError:
+        code = _say("not enough memory: fewer --trials, or a smaller network, batch or replay in the preset")
+    except Stopped as stop:
+        code = _say(str(stop), INTERRUPTED)
     except (KeyboardInterrupt, typer.Abort):
-        print("mc-nested: stopped", file=sys.stderr)
-        code = INTERRUPTED
+        code = _say("stopped", INTERRUPTED)
+    except EndedBySignal as ending:
+        code = _say("stopped", ending.status)
     sys.exit(code)
 
 
-def _say(message: str) -> int:
+def _say(message: str, code: int = MISTAKE) -> int:
     print("mc-nested: " + " ".join(message.split()), file=sys.stderr)
-    return MISTAKE
+    return code

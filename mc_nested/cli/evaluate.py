@@ -7,6 +7,7 @@ import torch
 import typer
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from mc_nested.cli.options import RunArgument
 from mc_nested.learn.agents import NestedAgent
@@ -30,10 +31,12 @@ def evaluate(
         found = {"scenario": scenario.name, "optimum": scenario.optimum, "scores": scores}
         print(json.dumps({**found, "materials": materials, "steps": steps}))
         return
-    table = Table("trial", "score", "optimum", "material", "steps", title=f"{scenario.name}, greedy")
+    table = Table("trial", "score", "optimum", "material", "steps", title=Text(f"{scenario.name}, greedy"))
     for trial, episode in enumerate(episodes):
         material = scenario.materials[episode.material].name
-        table.add_row(f"{trial}", f"{episode.score:g}", f"{scenario.optimum:g}", material, f"{len(episode.actions)}")
+        table.add_row(
+            f"{trial}", f"{episode.score:g}", f"{scenario.optimum:g}", Text(material), f"{len(episode.actions)}"
+        )
     Console().print(table)
 
 

@@ -2,6 +2,7 @@
 
 import signal
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
@@ -9,18 +10,29 @@ from types import FrameType
 INTERRUPTED = 130
 """Exit code after Ctrl+C."""
 
+ONE_AND_THE_SAME_S = 1.0
+"""A terminal and a launcher in it can both pass on the same Ctrl+C, and a finger can slip: what comes within this time
+of the first is no second request."""
+
+
+class Stopped(Exception):  # noqa: N818 - no error: what was asked for, and how to go on
+    """Somebody stopped the command; the message says what was saved."""
+
 
 class Interrupt:
     """Whether somebody asked to stop."""
 
     def __init__(self) -> None:
         self.requested = False
+        self._first = 0.0
 
     def request(self, _number: int, _frame: FrameType | None) -> None:
-        """Take note of a signal; a second one doesn't wait any longer."""
-        if self.requested:
+        """Take note of a signal; a second one, a while later, doesn't wait any longer."""
+        now = time.monotonic()
+        if not self.requested:
+            self.requested, self._first = True, now
+        elif now - self._first > ONE_AND_THE_SAME_S:
             raise KeyboardInterrupt
-        self.requested = True
 
 
 @contextmanager

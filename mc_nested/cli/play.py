@@ -14,7 +14,7 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.evaluate import greedy_episodes, load_agent
 from mc_nested.cli.options import Backend, BackendOption, ProfileOption, RunArgument, open_game
-from mc_nested.errors import RunError
+from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import NestedAgent
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.run_folder import RunFolder
@@ -34,11 +34,14 @@ def play(
     """Play one greedy episode and show the arena as it is built."""
     folder = RunFolder.open(run)
     scenario = folder.scenario
+    if screenshots and backend is Backend.SIM:
+        raise UserError("the simulator has no window to picture: leave out --screenshots, or play --backend live")
     agent, which = _choose(folder, trial)
     with open_game(backend, profile, scenario) as (game, display):
         env = ArenaEnv(game, scenario)
         pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
-        with Live(console=Console(), auto_refresh=False) as live:
+        console = Console()
+        with Live(console=console, auto_refresh=False) as live:
 
             def show() -> None:
                 built = len(env.placed & scenario.design)
@@ -48,6 +51,8 @@ def play(
                     pictures.take()
 
             episode = play_greedily(ArenaVectorEnv([env]), [scenario], agent, show)[0]
+        if not console.is_terminal:
+            console.print()  # rich leaves the last line open then
     material = scenario.materials[episode.material].name
     typer.echo(f"  score {episode.score:g} of {scenario.optimum:g}, in {material}, {len(episode.actions)} steps")
     if pictures:
@@ -72,14 +77,21 @@ def _row(kept: torch.Tensor, trial: int) -> torch.Tensor:
 
 
 class _Screenshots:
-    """Pictures of the game's window, and of nothing around it, numbered in the order they were taken."""
+    """Pictures of the game's window, and of nothing around it, numbered in the order they were taken.
+
+    Those of an earlier episode are removed. RunError where one can't be written.
+    """
 
     def __init__(self, folder: Path, display: Display) -> None:
         self.folder = folder
         self._display = display
         self._taken = 0
         folder.mkdir(exist_ok=True)
+        for old in folder.glob("[0-9][0-9][0-9].png"):
+            old.unlink()
 
     def take(self) -> None:
         self._taken += 1
-        cv2.imwrite(str(self.folder / f"{self._taken:03d}.png"), self._display.grab())
+        path = self.folder / f"{self._taken:03d}.png"
+        if not cv2.imwrite(str(path), self._display.grab()):
+            raise RunError(f"{path}: can't be written: make room, or leave out --screenshots")

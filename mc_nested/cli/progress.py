@@ -5,6 +5,7 @@ from types import TracebackType
 
 import numpy as np
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Column
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.learn.trainer import Trainer
@@ -22,10 +23,11 @@ class TrainingProgress:
         self._trainer = trainer
         self._bar = Progress(
             TextColumn("{task.description}"),
-            BarColumn(bar_width=16),
-            MofNCompleteColumn(),
+            BarColumn(bar_width=None),
+            MofNCompleteColumn(table_column=Column(no_wrap=True)),
             TextColumn("{task.fields[figures]}"),
-            TimeRemainingColumn(),
+            TimeRemainingColumn(table_column=Column(no_wrap=True)),
+            expand=True,
         )
         trials = len(trainer.episodes_done)
         self._task = self._bar.add_task("episodes", total=trials * trainer.preset.episodes, figures="")

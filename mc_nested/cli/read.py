@@ -25,11 +25,13 @@ def read(
 ) -> None:
     """Read pictures of the debug screen: position, view and the block looked at."""
     known = load_profile(profile) if profile else None
-    if font is None and known is None:
-        raise FontError(
-            "name the game's font: --font with its client jar or ascii.png, or --profile with one that has it"
-        )
-    glyphs = load_font(font or (known.screen.font_path() if known else Path()))
+    if font is None:
+        if known is None:
+            raise FontError(
+                "name the game's font: --font with its client jar or ascii.png, or --profile with one that has it"
+            )
+        font = known.screen.font_path()
+    glyphs = load_font(font)
     overlay = overlay_of(known) if known else None
     for image in images:
         found = read_picture(image, glyphs, overlay)

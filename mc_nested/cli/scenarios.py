@@ -3,7 +3,6 @@
 from typing import Annotated
 
 import typer
-from rich.columns import Columns
 from rich.console import Console, Group
 from rich.text import Text
 
@@ -22,7 +21,7 @@ def scenarios(
     """List the designs with a drawing, the optimum and the fewest steps of a full build."""
     console = Console()
     for name in names or shipped_scenarios():
-        console.print(Columns([_facts(load_scenario(name))], expand=False))
+        console.print(_facts(load_scenario(name)))
         console.print()
 
 

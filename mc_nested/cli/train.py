@@ -8,18 +8,22 @@ import torch
 import typer
 
 from mc_nested.arena.scenario_file import load_scenario, table_of
-from mc_nested.cli.interrupt import INTERRUPTED, Interrupt, catch_interrupts
+from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
 from mc_nested.cli.options import DEFAULT_PROFILE, Backend, ProfileOption, open_arenas
 from mc_nested.cli.progress import TrainingProgress
-from mc_nested.errors import LiveError, UserError
+from mc_nested.errors import DesktopError, LiveError, UserError
 from mc_nested.learn.agents import AGENTS, NestedAgent
-from mc_nested.learn.preset import load_preset
+from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.run_folder import RunConfig, RunFolder
 from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.whole_file import written_whole
 from mc_nested.report.curve import align_trials, draw_curve
 
 SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.LIVE: 15.0}
 """Seconds between checkpoints: what a kill can cost, in a game that moves a block a second or a simulator."""
+
+MOST_TRIALS = 1000
+"""More at once would only wait for memory."""
 
 DEFAULTS: dict[str, Any] = {
     "scenario": "line",
@@ -37,8 +41,10 @@ def train(
     agent: Annotated[str | None, typer.Option(help=f"who learns: {', '.join(AGENTS)} [nested]")] = None,
     backend: Annotated[Backend | None, typer.Option(help="where [sim]")] = None,
     preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="hyper-parameters [paper]")] = None,
-    episodes: Annotated[int | None, typer.Option(min=1, help="episodes a trial [the preset's]")] = None,
-    trials: Annotated[int | None, typer.Option(min=1, help="independent trials, trained as one batch [1]")] = None,
+    episodes: Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial [the preset's]")] = None,
+    trials: Annotated[
+        int | None, typer.Option(min=1, max=MOST_TRIALS, help="independent trials, trained as one batch [1]")
+    ] = None,
     seed: Annotated[int | None, typer.Option(min=0, help="the same seed gives the same training [0]")] = None,
     stop_at_optimum: Annotated[
         bool, typer.Option("--stop-at-optimum", help="end a trial at its first greedy evaluation at the optimum")
@@ -49,20 +55,20 @@ def train(
 ) -> None:
     """Train an agent; Ctrl+C saves, and --resume goes on from there."""
     torch.set_num_threads(1)
-    if resume:
+    if resume is not None:
         given = [name for name, value in context.params.items() if value is not None and value is not False]
         beside = [name for name in given if name not in ("resume", "profile")]
         if beside:
             option = "--" + beside[0].replace("_", "-")
             raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
         folder = RunFolder.open(resume)
-        run_training(folder, profile or folder.config.profile, folder.load())
+        run_training(folder, profile or folder.config.profile, None if folder.only_begun else folder.load())
         return
     if out is None:
         raise UserError("name a new folder for the run with --out DIR, or a run to go on with, --resume DIR")
     if agent not in (None, *AGENTS):
         raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENTS)}")
-    chosen = load_preset(preset or DEFAULTS["preset"])
+    chosen = load_preset(DEFAULTS["preset"] if preset is None else preset)
     where = backend or DEFAULTS["backend"]
     config = RunConfig(
         agent="nested",
@@ -71,9 +77,9 @@ def train(
         trials=trials or DEFAULTS["trials"],
         seed=seed or DEFAULTS["seed"],
         stop_at_optimum=stop_at_optimum,
-        preset_name=preset or DEFAULTS["preset"],
+        preset_name=DEFAULTS["preset"] if preset is None else preset,
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
-        scenario=table_of(load_scenario(scenario or DEFAULTS["scenario"])),
+        scenario=table_of(load_scenario(DEFAULTS["scenario"] if scenario is None else scenario)),
     )
     run_training(RunFolder.new(out, config), config.profile, None)
 
@@ -81,27 +87,25 @@ def train(
 def run_training(folder: RunFolder, profile: str | None, saved: dict[str, torch.Tensor] | None) -> None:
     """Train until the run is finished or somebody stops it, saving as it goes and at the end."""
     config = folder.config
-    began = time.monotonic() - (float(saved["wall_s"]) if saved else 0.0)
-    with open_arenas(Backend(config.backend), profile, folder.scenarios) as env, catch_interrupts() as interrupt:
-        agent = NestedAgent(folder.scenarios, config.preset, config.seed)
-        trainer = Trainer(env, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
-        if saved:
-            trainer.load(saved)
-        else:
-            folder.begin()
-        try:
-            _tick_until_done(folder, trainer, interrupt, began)
-        except LiveError as error:
-            trainer.abandon_episodes()
-            folder.save(trainer, time.monotonic() - began)
-            raise LiveError(f"{error}; saved: go on with mc-nested train --resume {folder.path}") from error
-    wall_s = time.monotonic() - began
-    folder.save(trainer, wall_s)
-    summary = folder.write_summary(trainer, wall_s)
-    _draw(folder, trainer)
+    began = time.monotonic() - (folder.wall_s_so_far() if saved else 0.0)
+    with catch_interrupts() as interrupt:
+        with open_arenas(Backend(config.backend), profile, folder.scenarios) as env:
+            agent = NestedAgent(folder.scenarios, config.preset, config.seed)
+            trainer = Trainer(env, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
+            if saved:
+                trainer.load(saved)
+            else:
+                folder.begin()
+            try:
+                _tick_until_done(folder, trainer, interrupt, began)
+            except (LiveError, DesktopError) as error:
+                trainer.abandon_episodes()
+                folder.save(trainer, time.monotonic() - began)
+                raise LiveError(f"{error}; saved: go on with mc-nested train --resume {folder.path}") from error
+        summary = folder.save(trainer, time.monotonic() - began)
+        _draw(folder, trainer)
     if not trainer.finished:
-        typer.echo(f"mc-nested: stopped and saved: go on with mc-nested train --resume {folder.path}", err=True)
-        raise typer.Exit(INTERRUPTED)
+        raise Stopped(f"stopped and saved: go on with mc-nested train --resume {folder.path}")
     scores = ", ".join(f"{score:g}" for score in summary["final_scores"])
     typer.echo(f"final scores (optimum {summary['optimum']:g}): {scores}")
     typer.echo(f"run:        {folder.path}")
@@ -125,4 +129,5 @@ def _draw(folder: RunFolder, trainer: Trainer) -> None:
     rows = [(row.trial, row.episode, row.score) for row in trainer.evaluation_rows]
     episodes, scores = align_trials(rows, folder.config.trials)
     title = f"{folder.scenario.name}, {folder.config.agent} agent, preset {Path(folder.config.preset_name).stem}"
-    draw_curve(folder.path / "curve.png", title, episodes, scores, folder.scenario.optimum)
+    with folder.writing(), written_whole(folder.path / "curve.png") as path:
+        draw_curve(path, title, episodes, scores, folder.scenario.optimum)

@@ -11,6 +11,7 @@ from typing import Any
 import torch
 
 from mc_nested.errors import RunError
+from mc_nested.learn.whole_file import written_whole
 
 FILE = "state.pt"
 
@@ -18,12 +19,10 @@ FILE = "state.pt"
 def write_checkpoint(folder: Path, state: Mapping[str, torch.Tensor], identity: Mapping[str, Any]) -> None:
     """Save tensors by name, with what they belong to; OSError where the disk refuses, the last one then intact."""
     folder.mkdir(exist_ok=True)
-    unfinished = folder / f"{FILE}.unfinished"
-    with unfinished.open("wb") as file:
+    with written_whole(folder / FILE) as path, path.open("wb") as file:
         torch.save({"identity": fingerprint(identity), "state": dict(state)}, file)
         file.flush()
         os.fsync(file.fileno())
-    unfinished.replace(folder / FILE)
 
 
 def read_checkpoint(folder: Path, identity: Mapping[str, Any]) -> dict[str, torch.Tensor]:

@@ -9,6 +9,14 @@ from pydantic import BaseModel, ConfigDict, Field
 from mc_nested.errors import PresetError
 from mc_nested.toml_file import parse_toml, read_toml_text
 
+MOST = 1_000_000_000
+"""The highest count of anything: fits 32 bits, and no training comes near it."""
+
+WIDEST, DEEPEST, LARGEST_BATCH = 4096, 16, 4096
+"""The largest networks and batches: a slip of the pen beyond them would eat the machine's memory first."""
+
+Count = Annotated[int, Field(ge=1, le=MOST)]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0, le=1)]
 Probability = Annotated[float, Field(ge=0, le=1)]
 
@@ -28,21 +36,21 @@ class Exploration(_Table):
 class Update(_Table):
     """What an update of either agent does, and from how many transitions on there are updates."""
 
-    batch: Annotated[int, Field(ge=1)]
-    learning_starts: Annotated[int, Field(ge=1)]
-    learning_rate: Annotated[float, Field(gt=0)]
+    batch: Annotated[int, Field(ge=1, le=LARGEST_BATCH)]
+    learning_starts: Count
+    learning_rate: Positive
     gamma: Probability
-    target_period: Annotated[int, Field(ge=1)]
-    huber_delta: Annotated[float, Field(gt=0)]
+    target_period: Count
+    huber_delta: Positive
 
 
 class Preset(_Table):
     """A training's hyper-parameters; ``paper`` is README's table."""
 
-    episodes: Annotated[int, Field(ge=1)]
-    evaluate_every: Annotated[int, Field(ge=1)]
-    hidden: Annotated[list[Annotated[int, Field(ge=1)]], Field(min_length=1)]
-    replay_capacity: Annotated[int, Field(ge=1)]
+    episodes: Count
+    evaluate_every: Count
+    hidden: Annotated[list[Annotated[int, Field(ge=1, le=WIDEST)]], Field(min_length=1, max_length=DEEPEST)]
+    replay_capacity: Count
     update: Update
     explore_main: Exploration
     explore_nested: Exploration

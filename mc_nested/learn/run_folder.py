@@ -2,7 +2,8 @@
 
 import csv
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -16,6 +17,7 @@ from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.checkpoint import read_checkpoint, write_checkpoint
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.trainer import EpisodeRow, EvaluationRow, Trainer
+from mc_nested.learn.whole_file import written_whole
 from mc_nested.toml_file import parse_toml, read_toml_text
 
 
@@ -55,7 +57,11 @@ class RunFolder:
     @classmethod
     def new(cls, path: Path, config: RunConfig) -> "RunFolder":
         """A folder to begin a training in; RunError where the path holds anything already. Nothing is written yet."""
-        if path.exists() and (not path.is_dir() or any(path.iterdir())):
+        try:
+            taken = path.exists() and (not path.is_dir() or any(path.iterdir()))
+        except OSError as error:
+            raise RunError(f"{path}: can't be used, {error.strerror}: name another folder") from error
+        if taken:
             raise RunError(f"{path}: exists and is not empty: name a new folder, nothing was overwritten")
         return cls(path, config)
 
@@ -79,37 +85,56 @@ class RunFolder:
         """Make the folder and write config.toml; RunError where the disk refuses."""
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            text = tomlkit.dumps(self.config.model_dump(exclude_none=True))
-            (self.path / "config.toml").write_text(text, encoding="utf-8")
+            _write_text(self.path / "config.toml", tomlkit.dumps(self.config.model_dump(exclude_none=True)))
         except OSError as error:
             raise RunError(f"{self.path}: can't be written, {error.strerror}: name another folder") from error
 
-    def save(self, trainer: Trainer, wall_s: float) -> None:
-        """Write the checkpoint and the tables as they stand now; RunError where the disk refuses."""
-        state = {**trainer.state(), "wall_s": torch.tensor(wall_s, dtype=torch.float64)}
+    @contextmanager
+    def writing(self) -> Iterator[None]:
+        """While something is written here: RunError, one line that says how to go on, where the disk refuses."""
         try:
-            write_checkpoint(self.path / "checkpoint", state, self.config.identity())
-            _write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)
-            _write_table(self.path / "evaluations.csv", EvaluationRow._fields, trainer.evaluation_rows)
-        except (OSError, RuntimeError) as error:
+            yield
+        except (OSError, RuntimeError) as error:  # torch raises a RuntimeError where it can't write
             raise RunError(
                 f"{self.path}: can't be written ({error}): make room, then mc-nested train --resume {self.path} "
                 f"goes on from the last checkpoint"
             ) from error
 
+    def save(self, trainer: Trainer, wall_s: float) -> dict[str, Any]:
+        """Write the checkpoint, the tables and the summary as they stand now, and return the summary.
+
+        RunError where the disk refuses. All but the summary's ``wall_s`` is the same for the same training, to the bit.
+        """
+        summary = summarise(self.config, self.scenario, trainer, wall_s)
+        with self.writing():
+            write_checkpoint(self.path / "checkpoint", trainer.state(), self.config.identity())
+            _write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)
+            _write_table(self.path / "evaluations.csv", EvaluationRow._fields, trainer.evaluation_rows)
+            _write_text(self.path / "summary.json", json.dumps(summary, indent=2) + "\n")
+        return summary
+
+    @property
+    def only_begun(self) -> bool:
+        """Whether nothing was ever saved here: the training was killed before its first checkpoint."""
+        return not (self.path / "checkpoint").exists() and not (self.path / "episodes.csv").exists()
+
     def load(self) -> dict[str, torch.Tensor]:
         """The last checkpoint's tensors by name; RunError where there is none that fits."""
         return read_checkpoint(self.path / "checkpoint", self.config.identity())
 
-    def write_summary(self, trainer: Trainer, wall_s: float) -> dict[str, Any]:
-        """Write and return what the training came to."""
-        summary = summarise(self.config, self.scenario, trainer, wall_s)
-        (self.path / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
-        return summary
+    def wall_s_so_far(self) -> float:
+        """Seconds that the training took until it was last saved; 0 where the summary doesn't say."""
+        try:
+            return float(json.loads((self.path / "summary.json").read_text("utf-8"))["wall_s"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return 0.0
 
 
 def summarise(config: RunConfig, scenario: Scenario, trainer: Trainer, wall_s: float) -> dict[str, Any]:
-    """What a training came to, for summary.json; scores are r_M, one a trial, of the policy that the run keeps."""
+    """What a training has come to, for summary.json; scores are r_M, one a trial, of the policy that the run keeps.
+
+    A trial that isn't finished has no final score: it has learnt since its last greedy evaluation.
+    """
     evaluations = [[row for row in trainer.evaluation_rows if row.trial == trial] for trial in range(config.trials)]
     return {
         "scenario": scenario.name,
@@ -120,7 +145,10 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Trainer, wall_s: f
         "seed": config.seed,
         "episodes": config.preset.episodes,
         "optimum": scenario.optimum,
-        "final_scores": [rows[-1].score if rows else None for rows in evaluations],
+        "final_scores": [
+            rows[-1].score if finished else None
+            for rows, finished in zip(evaluations, trainer.runs_finished, strict=True)
+        ],
         "episodes_to_optimum": [
             next((row.episode for row in rows if row.score >= scenario.optimum), None) for rows in evaluations
         ],
@@ -134,10 +162,13 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Trainer, wall_s: f
     }
 
 
+def _write_text(path: Path, text: str) -> None:
+    with written_whole(path) as unfinished:
+        unfinished.write_text(text, encoding="utf-8")
+
+
 def _write_table(path: Path, header: Sequence[str], rows: Sequence[EpisodeRow | EvaluationRow]) -> None:
-    unfinished = path.with_suffix(".csv.unfinished")
-    with unfinished.open("w", newline="", encoding="utf-8") as file:
+    with written_whole(path) as unfinished, unfinished.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(header)
         writer.writerows(rows)
-    unfinished.replace(path)

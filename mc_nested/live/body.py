@@ -21,7 +21,7 @@ POLL_S = 0.01
 """Seconds between two looks at the screen: far below a tick, so that no wait is longer than it must be."""
 
 TURN = 0.5
-"""Degrees that the view may be off: the debug screen shows tenths (facts: the F3 screen)."""
+"""Degrees that the view may be off: the debug screen shows tenths (FACTS: The F3 debug screen)."""
 
 RISE = 0.05
 """Blocks that the feet may be above or below the arena's floor: standing on a full block there is no difference."""
@@ -70,6 +70,10 @@ class Body:
         self._read = read
         self._clock = clock
 
+    def check_screen(self) -> None:
+        """See that the debug screen can be read at all; presses nothing."""
+        self._look()
+
     def stay_in(self, cell: Cell) -> Cell:
         """See that the agent still is in a cell, and return the cell seen; presses nothing."""
         stance = self._look_straight()
@@ -109,7 +113,7 @@ class Body:
         if not self._is_near(stance, cell):
             raise NotConfirmedError(
                 f"cell {cell} was not reached in {self._limits.tries} tries, the agent is at {stance}: "
-                "is something in the way, or auto-jump on?"
+                "is something in the way, the chat or a menu open, or auto-jump on?"
             )
         return stance.cell
 
@@ -208,6 +212,8 @@ class Body:
                     self._trouble(reading.xyz[1], reading.yaw, reading.pitch),
                     reading.target,
                 )
+            # What covers the game can't be read, but it is why.
+            self._hands.check_front()
             if self._clock.now() >= deadline:
                 reason = reading.problem or "it shows no Facing line"
                 raise UnreadableError(f"the debug screen was unreadable for {self._limits.patience_s:g} s: {reason}")

@@ -1,4 +1,4 @@
-"""The chat commands of a reset, in the syntax of the game's version (facts: commands)."""
+"""The chat commands of a reset, in the syntax of the game's version (FACTS: Commands)."""
 
 from collections.abc import Sequence
 

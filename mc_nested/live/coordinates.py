@@ -1,6 +1,6 @@
 """Between the arena's cells and the world's blocks. Cells are (x, y): x to the right, y forward, as the agent faces.
 
-In the world east is +X and south is +Z; yaw 0 is south, 90 west, 180 north, -90 east (facts: the F3 screen).
+In the world east is +X and south is +Z; yaw 0 is south, 90 west, 180 north, -90 east (FACTS: The F3 debug screen).
 """
 
 import math

@@ -1,7 +1,7 @@
 """The F3 debug screen: from a frame to a Reading, or to the reason why there is none. Never a guess.
 
 Each line is found by how it begins, in either column, decoded glyph by glyph, and then has to match its whole form in
-one of the versions (facts: The F3 debug screen). What doesn't match is a problem, not a number.
+one of the versions (FACTS: The F3 debug screen). What doesn't match is a problem, not a number.
 """
 
 import re

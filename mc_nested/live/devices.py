@@ -1,6 +1,6 @@
 """The devices between an agent and a game, as protocols: a desktop and a virtual client both implement them.
 
-Everything in ``live`` and ``calibration`` is written against these; ``desktop.py`` has the real ones.
+Everything in ``live`` and ``calibration`` is written against these; ``desktop/`` has the real ones.
 """
 
 from dataclasses import dataclass

@@ -10,9 +10,17 @@ _NAMES = ("SIGTERM", "SIGHUP", "SIGBREAK")
 """The signals that would end the process at once; SIGINT is an exception already. Not every system has all three."""
 
 
+class EndedBySignal(SystemExit):
+    """A signal ends the process; ``status`` is the exit code that a shell gives it, 128 and the signal's number."""
+
+    def __init__(self, number: int) -> None:
+        self.status = 128 + number
+        super().__init__(self.status)
+
+
 @contextmanager
 def signals_as_exit() -> Iterator[None]:
-    """While inside, a signal that would end the process raises SystemExit instead.
+    """While inside, a signal that would end the process raises EndedBySignal instead.
 
     A handler that somebody else installed stays; outside the main thread, where none may be set, nothing changes.
     """
@@ -30,4 +38,4 @@ def signals_as_exit() -> Iterator[None]:
 
 
 def _exit(number: int, _frame: FrameType | None) -> None:
-    raise SystemExit(128 + number)
+    raise EndedBySignal(number)

@@ -1,4 +1,4 @@
-"""The game's bitmap font: from the user's own ``ascii.png`` to an exact table of glyphs (facts: The bitmap font).
+"""The game's bitmap font: from the user's own ``ascii.png`` to an exact table of glyphs (FACTS: The bitmap font).
 
 The picture is 16 x 16 cells of 8 x 8 dots; a cell's row is the character's code divided by 16, its column the rest.
 A glyph is kept as one byte a column, from the pen's place to its last used column: bit ``r`` is the dot in row ``r``.
@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 import cv2
 import numpy as np
@@ -25,7 +25,7 @@ Atlas = NDArray[np.uint8] | NDArray[np.uint16]
 
 ENTRY = "assets/minecraft/textures/font/ascii.png"
 SPACE = 4
-"""Columns that a space moves the pen by (facts: The bitmap font)."""
+"""Columns that a space moves the pen by (FACTS: The bitmap font)."""
 
 _GIVE = "give the game's jar, a resource pack or its ascii.png"
 _CELLS = 16
@@ -86,12 +86,20 @@ def load_font(path: Path) -> Font:
     Raises:
         FontError: there is nothing that can be used; the message says what to give instead.
     """
-    picture = cv2.imdecode(np.frombuffer(_picture_bytes(path) or b"\0", np.uint8), cv2.IMREAD_UNCHANGED)
+    picture = decoded(_picture_bytes(path), cv2.IMREAD_UNCHANGED)
     if picture is None:
         raise FontError(f"{path} is not a picture: {_GIVE}")
     if picture.ndim != 3 or picture.shape[2] != 4 or picture.dtype.kind != "u":
         raise FontError(f"{path} has no transparency, so its glyphs can't be told from the ground: give the game's jar")
     return font_of(cast("Atlas", picture), str(path))
+
+
+def decoded(data: bytes, flag: int) -> NDArray[Any] | None:
+    """The pixels of a picture file, as cv2's ``flag`` asks for them; None where it is no picture that can be opened."""
+    try:
+        return cv2.imdecode(np.frombuffer(data, np.uint8), flag) if data else None
+    except cv2.error:  # more pixels than cv2 opens
+        return None
 
 
 def font_of(atlas: Atlas, name: str = "the font picture") -> Font:

@@ -18,9 +18,6 @@ from mc_nested.live.ending import signals_as_exit
 from mc_nested.live.profile_tables import Input
 from mc_nested.live.walk import TICK_S
 
-PIECE = 8
-"""Characters typed between two looks at which window is in front."""
-
 
 class Hands:
     """Presses keys and buttons for a time, and never leaves one down: not on return, on an exception or on a signal.
@@ -55,7 +52,7 @@ class Hands:
             self._exits.close()
 
     def hold(self, key: str, ticks: int) -> None:
-        """Hold a key for so many game ticks (facts: input; 100, 150, 200 ms gave 2, 3, 4 ticks each time)."""
+        """Hold a key for so many game ticks (FACTS: Walking; 100, 150 and 200 ms gave 2, 3 and 4)."""
         self._hold_key(key, ticks * TICK_S)
 
     def tap(self, key: str) -> None:
@@ -75,8 +72,8 @@ class Hands:
         """Open the chat, type one line, send it, and wait until the game takes keys again."""
         self.tap(chat_key)
         self._wait(self._timing.chat_open_s)
-        for start in range(0, len(text), PIECE):
-            self._type(text[start : start + PIECE])
+        for letter in text:
+            self._type(letter)
         self._wait(TICK_S)
         self.tap("enter")
         self._wait(self._timing.chat_close_s)
@@ -85,24 +82,30 @@ class Hands:
         """Release whatever is held, in front or not; every key is tried before a failure is raised."""
         self._release(list(self._releases))
 
-    def _type(self, piece: str) -> None:
-        self._check_front()
-        letters = {f"key {letter}": partial(self._keyboard.release, letter) for letter in piece}
-        self._releases.update(letters)
+    def check_front(self) -> None:
+        """NotInFrontError unless a key pressed now would reach the game."""
+        if not self._display.is_in_front():
+            raise NotInFrontError(
+                "the game's window is not in front, so no key is pressed: click on it, then start again"
+            )
+
+    def _type(self, letter: str) -> None:
+        self.check_front()
+        name = f"key {letter}"
+        self._releases[name] = partial(self._keyboard.release, letter)
         try:
-            self._keyboard.type(piece)
+            self._keyboard.type(letter)
         except BaseException:
-            # Interrupted between a letter's press and its release, perhaps.
-            self._release(letters)
+            # Interrupted between the letter's press and its release, perhaps.
+            self._release([name])
             raise
-        for name in letters:
-            del self._releases[name]
+        del self._releases[name]
 
     def _hold_key(self, key: str, seconds: float) -> None:
         self._hold(f"key {key}", partial(self._keyboard.press, key), partial(self._keyboard.release, key), seconds)
 
     def _hold(self, name: str, press: Callable[[], None], release: Callable[[], None], seconds: float) -> None:
-        self._check_front()
+        self.check_front()
         until = self._clock.now() + seconds
         # Noted before it is pressed: an interrupt between the two would else leave it down.
         self._releases[name] = release
@@ -110,7 +113,7 @@ class Hands:
             press()
             while (soon := self._clock.now() + TICK_S) < until:
                 self._clock.sleep_until(soon)
-                self._check_front()
+                self.check_front()
             self._clock.sleep_until(until)
         finally:
             self._release([name])
@@ -124,12 +127,6 @@ class Hands:
     def _release_one(self, name: str) -> None:
         self._releases[name]()
         self._releases.pop(name, None)
-
-    def _check_front(self) -> None:
-        if not self._display.is_in_front():
-            raise NotInFrontError(
-                "the game's window is not in front, so no key is pressed: click on it, then start again"
-            )
 
     def _wait(self, seconds: float) -> None:
         self._clock.sleep_until(self._clock.now() + seconds)

@@ -70,6 +70,8 @@ class LiveGame:
     def reset(self, material: int) -> Cell:
         """Clear the marked blocks, stand on the start cell, take the material in hand; place and view are read back."""
         self._cell = None
+        # Where no debug screen is to be seen, nobody knows what a command would be typed into.
+        self._body.check_screen()
         try:
             for command in self._commands:
                 self._hands.type_command(self._profile.keys.chat, command)

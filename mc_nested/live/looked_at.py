@@ -1,4 +1,4 @@
-"""The block looked at, as each version's debug screen shows it (facts: the table of The F3 debug screen).
+"""The block looked at, as each version's debug screen shows it (FACTS: The F3 debug screen).
 
 | version   | place                                           | id                                            |
 | 1.8-1.12  | left, ``Looking at: x y z``                     | right, a line of its own                      |
@@ -74,9 +74,14 @@ def _id_below(screen: Screen, label: Line) -> str:
 
 
 def _id_in_right_column(screen: Screen) -> str:
-    """1.8 to 1.12: a line of its own in the right column."""
+    """1.8 to 1.12: a line of its own in the right column, the only one there that has an id's form.
+
+    A mod's id is found by where it ends, since nobody knows how it begins.
+    """
     lines = [screen.line_at(row, column) for row, column in screen.places("minecraft:")]
     right = [line for line in lines if not screen.is_left(line)]
+    if not right:
+        right = [line for line in screen.right_column() if _NAMESPACED.fullmatch(line.text)]
     if len(right) != 1:
         raise Unreadable(f"{len(right)} lines may be the id of the block looked at: {CLEAR}")
     return _id_of(right[0])

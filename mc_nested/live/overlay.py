@@ -1,6 +1,6 @@
 """Where the debug screen is in a frame: its GUI scale, its colour and its pitch.
 
-A line is known by how it begins, never by its row (facts: The F3 debug screen), and may stand in either column.
+A line is known by how it begins, never by its row (FACTS: The F3 debug screen), and may stand in either column.
 """
 
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ _LEFT_COLUMN = 120
 """Columns in which a line of the left column begins: looking there first saves looking through the whole frame."""
 
 _LEAST = 200
-"""Text is 221 or brighter, and the ground behind it 183 or darker (facts), so any text is brighter than this."""
+"""Any text is brighter, being 221 at least: the ground behind it is 183 at most (FACTS: The stand-in)."""
 
 
 @dataclass(frozen=True)

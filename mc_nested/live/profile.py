@@ -4,18 +4,15 @@ A key that is left out takes its default, or is found on the screen. Profiles ar
 errors, and written without losing a user's comments.
 """
 
-import difflib
 import json
 import os
 import tempfile
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
 import platformdirs
 import tomlkit
-from pydantic import Field, ValidationError
-from pydantic_core import ErrorDetails
-from tomlkit.exceptions import TOMLKitError
+from pydantic import BaseModel, Field
 from tomlkit.items import Table
 
 from mc_nested.errors import ProfileError
@@ -32,6 +29,7 @@ from mc_nested.live.profile_tables import (
     Walk,
     Window,
 )
+from mc_nested.toml_file import parse_document, parse_toml, read_toml_text, table_of_key
 
 
 class Profile(ProfileTable):
@@ -47,7 +45,8 @@ class Profile(ProfileTable):
     body: Body = Body()
     walk: Walk = Walk()
     points: dict[str, tuple[Fraction, Fraction]] = Field(
-        default_factory=dict, description="places to click, as fractions of the window's width and height"
+        default_factory=dict,
+        description="places to click, as fractions of the window's size; not clicked yet",
     )
 
     def marked_arena(self) -> Arena:
@@ -86,19 +85,12 @@ def load_profile(name_or_file: str | Path) -> Profile:
             f"no profile {str(name_or_file)!r}: looked for {path}; known are: {known}; "
             "mc-nested calibrate arena makes one"
         )
-    return parse_profile(_read(path), str(path))
+    return parse_profile(read_toml_text(path, ProfileError), str(path))
 
 
 def parse_profile(text: str, source: str) -> Profile:
     """The profile that a TOML text describes; ``source`` names it in errors."""
-    try:
-        tables = tomlkit.parse(text).unwrap()
-        # Through JSON, since TOML's arrays are lists and the strict tuples of the profile take lists from JSON alone.
-        return Profile.model_validate_json(json.dumps(tables, default=str))
-    except TOMLKitError as error:
-        raise ProfileError(f"{source}: not TOML ({error}): mend that line") from error
-    except ValidationError as error:
-        raise ProfileError(f"{source}: {_in_one_line(error.errors()[0])}") from error
+    return parse_toml(Profile, text, source, ProfileError)
 
 
 def save_profile(profile: Profile, path: Path) -> None:
@@ -106,25 +98,14 @@ def save_profile(profile: Profile, path: Path) -> None:
 
     ProfileError where the file that is there isn't TOML or can't be written; it is left as it is then.
     """
-    document = tomlkit.document()
-    if path.exists():
-        try:
-            document = tomlkit.parse(_read(path))
-        except TOMLKitError as error:
-            raise ProfileError(f"{path}: not TOML ({error}): mend that line or move the file away") from error
+    known = read_toml_text(path, ProfileError) if path.exists() else ""
+    document = parse_document(known, str(path), ProfileError)
     _merge(document, json.loads(profile.model_dump_json()), Profile)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         _replace(path, tomlkit.dumps(document))
     except OSError as error:
         raise ProfileError(f"{path}: can't be written ({error}): choose another file") from error
-
-
-def _read(path: Path) -> str:
-    try:
-        return path.read_text("utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ProfileError(f"{path}: can't be read as UTF-8 text ({error}): write a profile as a TOML file") from error
 
 
 def _replace(path: Path, text: str) -> None:
@@ -140,7 +121,7 @@ def _replace(path: Path, text: str) -> None:
         raise
 
 
-def _merge(table: tomlkit.TOMLDocument | Table, values: dict[str, Any], kind: type[ProfileTable] | None) -> None:
+def _merge(table: tomlkit.TOMLDocument | Table, values: dict[str, Any], kind: type[BaseModel] | None) -> None:
     """Make a TOML table say what ``values`` say, None being left out, and touch nothing that says it already."""
     for key in [key for key in table if values.get(key) is None]:
         table.remove(key)
@@ -151,7 +132,7 @@ def _merge(table: tomlkit.TOMLDocument | Table, values: dict[str, Any], kind: ty
                 table[key] = tomlkit.table().comment(note)
             inner = table.get(key)
             if isinstance(inner, Table):
-                _merge(inner, value, _inner_kind(kind, key))
+                _merge(inner, value, table_of_key(kind, key) if kind else None)
         elif key not in table:
             if note and note not in table.as_string():
                 table.add(tomlkit.comment(note if value is not None else f"{key}: {note}"))
@@ -161,43 +142,10 @@ def _merge(table: tomlkit.TOMLDocument | Table, values: dict[str, Any], kind: ty
             table[key] = value
 
 
-def _inner_kind(kind: type[ProfileTable] | None, key: str) -> type[ProfileTable] | None:
-    annotation = kind.model_fields[key].annotation if kind else None
-    kinds = (annotation, *get_args(annotation))
-    return next((each for each in kinds if isinstance(each, type) and issubclass(each, ProfileTable)), None)
-
-
-def _meaning(kind: type[ProfileTable] | None, key: str) -> str:
+def _meaning(kind: type[BaseModel] | None, key: str) -> str:
     """What a key is for, as the comment above it says."""
     if kind is None:
         return ""
-    inner = _inner_kind(kind, key)
+    inner = table_of_key(kind, key)
     description = kind.model_fields[key].description
     return (inner.__doc__ or "").rstrip(".") if inner and not description else description or ""
-
-
-def _in_one_line(mistake: ErrorDetails) -> str:
-    key = ".".join(str(part) for part in mistake["loc"]) or "the file"
-    if mistake["type"] == "extra_forbidden":
-        return f"{key}: unknown key: {_remedy_for_unknown(mistake['loc'])}"
-    if mistake["type"] == "missing":
-        return f"{key}: missing: add it"
-    if mistake["type"] == "model_type":
-        return f"{key}: must be a table: write [{key}] and its keys below"
-    if mistake["type"] == "value_error":
-        return f"{key}: {mistake['ctx']['error']}"
-    return f"{key}: {mistake['msg']}, not {_shortened(mistake['input'])}: mend that key"
-
-
-def _remedy_for_unknown(place: tuple[int | str, ...]) -> str:
-    kind: type[ProfileTable] | None = Profile
-    for part in place[:-1]:
-        kind = _inner_kind(kind, str(part))
-    known = list(kind.model_fields) if kind else []
-    near = difflib.get_close_matches(str(place[-1]), known, n=1)
-    return f"did you mean {near[0]}?" if near else f"remove it; known are {', '.join(known)}"
-
-
-def _shortened(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."

@@ -11,14 +11,15 @@ from mc_nested.arena.rules import SIZE, Cell
 from mc_nested.errors import ProfileError
 from mc_nested.live import coordinates
 from mc_nested.live.coordinates import Facing
+from mc_nested.live.desktop.keys import check_key
 from mc_nested.live.reading import Block
 from mc_nested.live.walk import walk_response
 
 Dialect = Literal["1.12", "1.13", "1.17"]
-"""The first version of each syntax that the commands came in (facts: commands)."""
+"""The first version of each syntax that the commands came in (FACTS: Commands)."""
 
 FILL_LIMIT = 32768
-"""Blocks that one /fill may change (facts: commands)."""
+"""Blocks that one /fill may change (FACTS: Commands)."""
 
 Seconds = Annotated[float, Field(gt=0, le=60)]
 Fraction = Annotated[float, Field(ge=0, le=1)]
@@ -70,18 +71,28 @@ class GameVersion(ProfileTable):
 
 
 class Keys(ProfileTable):
-    """Which key does what in this game."""
+    """Which key does what in this game: one character, or a word such as enter, f3, left.shift."""
 
     forward: Key = "w"
     back: Key = "s"
     left: Key = "a"
     right: Key = "d"
-    sneak: Key = "left.shift"
+    sneak: Key = Field(default="left.shift", description="slow steps; not pressed yet")
     chat: Key = "t"
-    debug: Key = "f3"
+    debug: Key = Field(default="f3", description="turns the debug screen on; not pressed yet")
     hotbar: Annotated[tuple[Key, ...], Field(min_length=9, max_length=9)] = Field(
         default=tuple("123456789"), description="the keys of the nine hotbar slots, from the left"
     )
+
+    @field_validator("*")
+    @classmethod
+    def _are_keys(cls, names: str | tuple[str, ...]) -> str | tuple[str, ...]:
+        try:
+            for name in (names,) if isinstance(names, str) else names:
+                check_key(name)
+        except ProfileError as error:
+            raise ValueError(str(error)) from error
+        return names
 
 
 class Screen(ProfileTable):

@@ -6,9 +6,12 @@ import cv2
 import numpy as np
 
 from mc_nested.live.debug_screen import read_debug_screen
-from mc_nested.live.font import Font
+from mc_nested.live.font import Font, decoded
 from mc_nested.live.reading import Reading
 from mc_nested.live.text_lines import Overlay
+
+_JPEG = b"\xff\xd8\xff"
+"""How every JPEG file begins."""
 
 
 def read_picture(path: Path, font: Font, overlay: Overlay | None = None) -> dict[str, object]:
@@ -35,7 +38,12 @@ def _read(path: Path, font: Font, overlay: Overlay | None) -> Reading:
         return Reading(
             problem=f"the file can't be read ({error.strerror or error}): give a picture of the game's window"
         )
-    picture = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR) if data else None
+    picture = decoded(data, cv2.IMREAD_COLOR)
     if picture is None:
         return Reading(problem="the file is not a picture: give a PNG of the game's window, as F2 takes it")
-    return read_debug_screen(np.asarray(picture, np.uint8), font, overlay)
+    reading = read_debug_screen(np.asarray(picture, np.uint8), font, overlay)
+    if reading.problem is not None and data.startswith(_JPEG):
+        return Reading(
+            problem=f"a JPEG blurs the text: give a PNG of the game's window, as F2 takes it; {reading.problem}"
+        )
+    return reading

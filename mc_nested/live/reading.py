@@ -17,8 +17,8 @@ class Target:
 class Reading:
     """One frame's reading. Where it could not be read, ``xyz`` is None and ``problem`` says why: never a guess.
 
-    ``xyz`` are the entity's feet in blocks at the last tick; ``yaw`` and ``pitch`` are degrees (facts: the F3 screen).
-    ``target`` is None when no block is looked at.
+    ``xyz`` are the entity's feet in blocks at the last tick; ``yaw`` and ``pitch`` are degrees; ``target`` is None when
+    no block is looked at (FACTS: The F3 debug screen).
     """
 
     xyz: tuple[float, float, float] | None = None

@@ -40,12 +40,22 @@ class Screen:
     def line_at(self, row: int, column: int) -> Line:
         """The line that begins there. In vanilla's right column text ends three dots before the window does."""
         dots, overlay = self.sight.dots, self.sight.overlay
-        edge = -(-dots.frame.shape[1] // dots.scale) - 4 if overlay.pitch == VANILLA_PITCH else None
+        edge = self._right_edge if overlay.pitch == VANILLA_PITCH else None
         return line_from(dots, self.font, overlay, row, column, edge)
+
+    def right_column(self) -> list[Line]:
+        """The lines of vanilla's right column, the upper ones first."""
+        pitch = self.sight.overlay.pitch
+        rows = range(self.sight.places[0][0] % pitch, self.sight.dots.codes.shape[0], pitch)
+        return [line for row in rows if (line := self.line_ending(row, self._right_edge))]
 
     def line_ending(self, row: int, end: int) -> Line | None:
         """The line whose last ink is in column ``end``, or None."""
         return line_up_to(self.sight.dots, self.font, self.sight.overlay, row, end)
+
+    @property
+    def _right_edge(self) -> int:
+        return int(-(-self.sight.dots.frame.shape[1] // self.sight.dots.scale) - 4)
 
     def is_left(self, line: Line) -> bool:
         """Whether a line stands in the left column: those of the right one begin farther right on any screen."""

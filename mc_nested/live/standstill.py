@@ -1,6 +1,6 @@
 """Standstill, told from a picture that has stalled: on a busy machine both look the same for a while.
 
-After the key is up, each tick's step is 0.546 of the one before (facts: walking): 0.118, 0.064, 0.035 ... 0.003 blocks.
+After the key is up, each tick's step is 0.546 of the one before (FACTS: Walking): 0.118, 0.064, 0.035 ... 0.003 blocks.
 A last step that is small was taken with the key up, and nothing follows it. After a larger one, or none, the game may
 only be late.
 """

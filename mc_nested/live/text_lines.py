@@ -1,6 +1,6 @@
 """A line of the debug screen as text, by exact lookup of its glyphs: what matches none is ``UNKNOWN``, never guessed.
 
-Behind each line lies a grey box (facts: The F3 debug screen), from one dot left of the text to two right of its last
+Behind each line lies a grey box (FACTS: The F3 debug screen), from one dot left of the text to two right of its last
 ink. So within a line a dot is either ink, of the text's colour, or ground: the world dimmed by the box, neither near
 black nor near white. Where a column is neither, the line ends, or something lies over it.
 """
@@ -18,7 +18,7 @@ from mc_nested.live.font import SPACE, Font
 UNKNOWN = "\N{REPLACEMENT CHARACTER}"
 
 INK_SPREAD = 4
-"""How far a channel of the ink may lie from the text's colour: 221 to 224 were seen for 224 (facts)."""
+"""How far a channel of the ink may lie from the text's: 221 to 224 were seen for 224 (FACTS: The F3 debug screen)."""
 
 STANDIN_PITCH = 10
 """Dots from line to line in the stand-in, whose boxes end one column earlier (its debug_overlay.js); vanilla has 9."""
@@ -31,7 +31,7 @@ _WIDEST_BLANK = 13
 """Blank columns after which a line has ended: three spaces and the gap of one. A hidden digit is 6 columns wide."""
 
 _LONGEST = 480
-"""Columns that a line can have: the narrowest screen has 320 (facts: GUI scale), and no line used is much wider."""
+"""Columns that a line can have: the narrowest screen has 320 (FACTS: The F3 debug screen), no line used many more."""
 
 _FLAT = 2
 _LIKE_THE_BOX = 5

@@ -1,9 +1,9 @@
-"""How far a key held for so many ticks walks (facts: walking), and which hold ends nearest a wish."""
+"""How far a key held for so many ticks walks (FACTS: Walking), and which hold ends nearest a wish."""
 
 from collections.abc import Sequence
 
 TICK_S = 0.05
-"""Seconds of a game tick (facts: walking, 20 ticks a second)."""
+"""Seconds of a game tick (FACTS: Walking)."""
 
 _INPUT = 0.98
 _INERTIA = 0.6 * 0.91

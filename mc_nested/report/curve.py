@@ -26,10 +26,11 @@ def draw_curve(path: Path, title: str, episodes: Sequence[int], scores: NDArray[
         label = f"mean of {trials} trials" if trials > 1 else "one trial"
         marker = "o" if len(episodes) == 1 else None
         axes.plot(episodes, scores.mean(axis=0), color=MEAN, linewidth=1.6, marker=marker, label=label)
-    axes.set(title=title, xlabel="training episodes", ylabel="score of a greedy episode")
+    axes.set_title(title, parse_math=False)  # a scenario's name is its user's, dollar signs and all
+    axes.set(xlabel="training episodes", ylabel="score of a greedy episode")
     axes.grid(alpha=0.25)
     axes.legend(loc="lower right", frameon=False)
-    figure.savefig(path, metadata={"Software": None})
+    figure.savefig(path, format="png", metadata={"Software": None})
 
 
 def bootstrap_interval(scores: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

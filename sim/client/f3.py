@@ -1,6 +1,6 @@
 """The virtual client's debug screen: every layout of the facts' table but 26.4, and the stand-in's, over a world.
 
-What a version writes is in ``f3_text.py``; here is where it is put and in which colours (facts: The F3 debug screen).
+What a version writes is in ``f3_text.py``; here is where it is put and in which colours (FACTS: The F3 debug screen).
 """
 
 from collections.abc import Iterable, Iterator
@@ -84,7 +84,7 @@ class _Canvas:
 
     @property
     def columns(self) -> int:
-        """The window's width in GUI pixels, the last of which may be cut (facts: GUI scale)."""
+        """The window's width in GUI pixels, the last of which may be cut (FACTS: The F3 debug screen)."""
         return -(-int(self.frame.shape[1]) // self.scale)
 
     def part(self, upper_left: tuple[int, int], lower_right: tuple[int, int]) -> Frame:

@@ -23,7 +23,7 @@ _TAGS = ("minecraft:planks", "minecraft:mineable/axe", "c:villager_job_sites")
 def frames(font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS) -> Iterator[tuple[F3Screen, Frame]]:
     """Screens and their frames without end: each layout, GUI scale 1 to 4, window and kind of world in turn.
 
-    As in the game, a GUI scale that doesn't fit the window becomes the largest that does (facts: GUI scale).
+    As in the game, a GUI scale that doesn't fit the window becomes the largest that does (FACTS: The F3 debug screen).
     """
     rng = np.random.default_rng(seed)
     count = 0

@@ -1,4 +1,4 @@
-"""What the debug screen of each version says, line by line (facts: the table of The F3 debug screen)."""
+"""What the debug screen of each version says, line by line (FACTS: The F3 debug screen)."""
 
 from dataclasses import dataclass
 from math import floor

@@ -13,7 +13,7 @@ _ROWS = 8
 
 
 def drawn_atlas() -> NDArray[np.uint8]:
-    """The font picture (128, 128, 4): 16 x 16 cells of 8 x 8 dots, white, alpha 0 or 255 (facts: The bitmap font)."""
+    """The font picture (128, 128, 4): 16 x 16 cells of 8 x 8 dots, white, alpha 0 or 255 (FACTS: The bitmap font)."""
     atlas = np.full((128, 128, 4), (255, 255, 255, 0), np.uint8)
     for char, cell in _drawings().items():
         top, left = (index * _ROWS for index in divmod(ord(char), 16))

@@ -6,6 +6,13 @@ from mc_nested.arena.game import Game
 from mc_nested.arena.rules import Action, Cell, landing, moved
 from mc_nested.arena.scenario import Scenario
 
+BUMPS = (
+    *(Action.F, Action.FD, Action.BD, Action.F, Action.FD),  # the far edge, then the block just placed before it
+    *(Action.LD, Action.RD, Action.B, Action.BD, Action.FD),  # a placing that the block there voids, and blocks around
+    *[Action.L] * 8,  # the left edge, from the middle
+)
+"""Moves and placings from the shipped scenarios' start, of which the rules void every kind."""
+
 
 def check_game(game: Game, scenario: Scenario, actions: Iterable[Action]) -> None:
     """AssertionError where the game's outcomes aren't those of the rules, over one episode after a spoiled one."""

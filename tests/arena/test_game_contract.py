@@ -11,10 +11,9 @@ from mc_nested.arena.game import Outcome
 from mc_nested.arena.rules import Action, Cell
 from mc_nested.arena.scenario_file import load_scenario
 from sim.grid import GridGame
-from tests.arena.game_contract import check_game
+from tests.arena.game_contract import BUMPS, check_game
 
 LINE = load_scenario("line")
-BUMPS = [Action.F, Action.LD, Action.BD, Action.F, Action.FD, *[Action.L] * 9, *[Action.BD] * 15]
 
 
 class ForgetsToReset(GridGame):

@@ -69,6 +69,11 @@ def test_a_scenario_survives_its_table(design: frozenset[Cell], start: Cell, wor
     [
         (("step_limit = 9", "step_limit = 0"), "step_limit"),
         (("step_limit = 9", "steps = 9"), "step_limit"),
+        (("step_limit = 9", f"step_limit = {10**30}"), "step_limit"),
+        (('name = "dot"', 'name = "dot\\nted"'), "name"),
+        (("p = 1", "p = inf"), "materials.0.p"),
+        (("p = 1", "p = nan"), "materials.0.p"),
+        (("p = 1", "p = 1e300"), "materials.0.p"),
         (("start = [3, 4]", "start = [15, 4]"), "lies outside: choose 0 to 14"),
         (("start = [3, 4]", "start = [3]"), "start"),
         (('name = "dot"', 'name = "dot"\ncolour = "red"'), "colour"),

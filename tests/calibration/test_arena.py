@@ -43,7 +43,7 @@ def test_the_arena_is_the_one_that_the_player_stands_in(
 
 
 def test_a_player_at_the_near_edge_has_the_arena_before_and_beside_them() -> None:
-    # Facing south, +Z is ahead and west, -X, to the right (facts: the F3 screen).
+    # Facing south, +Z is ahead and west, -X, to the right (FACTS: The F3 debug screen).
     arena = arena_seen(Reading((100.5, 64.0, 200.5), 0.0, 30.0), NEAR_MIDDLE)
     assert arena.region == ((93, 64, 200), (107, 65, 214))
 
@@ -92,15 +92,18 @@ class SkippingClock:
 class DrawnDisplay:
     """A window that shows one picture, in front after so many looks."""
 
-    def __init__(self, frame: Frame, looks_until_front: int = 0) -> None:
+    def __init__(
+        self, frame: Frame, looks_until_front: int = 0, title: str = "Minecraft 1.20.1 - Singleplayer"
+    ) -> None:
         self.frame = frame
+        self.name = title
         self.looks_left = looks_until_front
 
     def size(self) -> tuple[int, int]:
         return self.frame.shape[1], self.frame.shape[0]
 
     def title(self) -> str:
-        return "Minecraft 1.20.1 - Singleplayer"
+        return self.name
 
     def is_in_front(self) -> bool:
         self.looks_left -= 1
@@ -171,7 +174,7 @@ def font_file(tmp_path: Path) -> Path:
 
 
 def debug_screen(font: Font, lines: list[str]) -> Frame:
-    """A screen of 854 x 480 at GUI scale 2 with the debug screen's left column (facts: the F3 screen)."""
+    """A screen of 854 x 480 at GUI scale 2 with the debug screen's left column (FACTS: The F3 debug screen)."""
     dots = np.full((240, 427), 120.0)
     for index, text in enumerate(lines):
         columns = np.frombuffer(font.columns(text), np.uint8)
@@ -192,15 +195,19 @@ SCREEN = [
 ]
 
 
-@pytest.fixture
-def opened(font_file: Path) -> Open:
+def window_titled(name: str, font_file: Path) -> Open:
     @contextmanager
     def open_devices(title: str) -> Iterator[Desktop]:
         assert title
         frame = debug_screen(load_font(font_file), SCREEN)
-        yield Desktop(DrawnDisplay(frame), NoInput(), NoInput(), SkippingClock())
+        yield Desktop(DrawnDisplay(frame, title=name), NoInput(), NoInput(), SkippingClock())
 
     return open_devices
+
+
+@pytest.fixture
+def opened(font_file: Path) -> Open:
+    return window_titled("Minecraft 1.20.1 - Singleplayer", font_file)
 
 
 def test_the_arena_that_the_screen_shows_is_written_into_a_new_profile(
@@ -252,6 +259,24 @@ def test_an_old_profile_keeps_what_else_it_says(old_profile: Path, opened: Open)
 def test_the_cell_that_the_player_stands_on_may_be_another(old_profile: Path, opened: Open) -> None:
     calibrate_arena(old_profile, ask=lambda _: True, say=lambda _: None, standing=(7, 14), open_devices=opened)
     assert load_profile(old_profile).marked_arena().block_of((7, 14)) == (-4, 64, 118)
+
+
+@pytest.mark.parametrize(
+    ("title", "version"),
+    [
+        ("Minecraft 1.12.2", "1.12.2"),
+        ("Minecraft 1.20.1 - Singleplayer", "1.20.1"),
+        ("Minecraft* 26.1 - Multiplayer (LAN)", "26.1"),
+        ("Minecraft 1.21.11-rc1", "1.21.11"),
+        ("Prismarine Web Client - Chromium", "1.16.5"),
+        ("Minecraft: All the Mods 9", "1.16.5"),
+    ],
+)
+def test_the_version_is_the_titles_or_stays(title: str, version: str, old_profile: Path, font_file: Path) -> None:
+    old_profile.write_text(old_profile.read_text("utf-8") + '[game]\nversion = "1.16.5"\n', "utf-8")
+    window = window_titled(title, font_file)
+    calibrate_arena(old_profile, ask=lambda _: True, say=lambda _: None, open_devices=window)
+    assert load_profile(old_profile).game.version == version
 
 
 def test_with_yes_nothing_is_asked(old_profile: Path, opened: Open) -> None:

@@ -3,14 +3,15 @@
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import time
+from importlib import resources
 from pathlib import Path
 
 import pytest
-import torch
 
 from mc_nested.cli.app import main
 from mc_nested.learn.checkpoint import FILE
@@ -74,8 +75,7 @@ def test_the_same_seed_gives_the_same_files(trained: Path, tmp_path: Path) -> No
         assert (tmp_path / "again" / name).read_bytes() == (trained / name).read_bytes(), name
     one, other = (json.loads((folder / "summary.json").read_text()) for folder in (trained, tmp_path / "again"))
     assert {**one, "wall_s": 0} == {**other, "wall_s": 0}
-    first, second = (torch.load(folder / "checkpoint" / FILE)["state"] for folder in (trained, tmp_path / "again"))
-    assert all(torch.equal(first[name], second[name]) for name in first if name != "wall_s")
+    assert (tmp_path / "again" / "checkpoint" / FILE).read_bytes() == (trained / "checkpoint" / FILE).read_bytes()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for another process")
@@ -92,15 +92,87 @@ def test_ctrl_c_saves_and_resume_goes_on_to_the_same_files(trained: Path, tmp_pa
     assert process.returncode == 130
     assert said.strip() == f"mc-nested: stopped and saved: go on with mc-nested train --resume {out}"
     assert len(table(out / "episodes.csv")) < 80
+    assert json.loads((out / "summary.json").read_text())["final_scores"] == [None, None]
     assert run("train", "--resume", out) == 0
-    for name in ("episodes.csv", "evaluations.csv"):
+    for name in ("episodes.csv", "evaluations.csv", f"checkpoint/{FILE}"):
         assert (out / name).read_bytes() == (trained / name).read_bytes(), name
+
+
+def test_a_training_killed_before_its_first_checkpoint_begins_again(trained: Path, tmp_path: Path) -> None:
+    (tmp_path / "config.toml").write_bytes((trained / "config.toml").read_bytes())
+    assert run("train", "--resume", tmp_path) == 0
+    assert (tmp_path / "episodes.csv").read_bytes() == (trained / "episodes.csv").read_bytes()
+
+
+def test_a_lost_checkpoint_does_not_cost_the_tables(
+    trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("config.toml", "episodes.csv"):
+        (tmp_path / name).write_bytes((trained / name).read_bytes())
+    assert run("train", "--resume", tmp_path) == 2
+    assert "no checkpoint yet" in capsys.readouterr().err
+    assert (tmp_path / "episodes.csv").read_bytes() == (trained / "episodes.csv").read_bytes()
+
+
+def test_a_disk_that_fills_up_costs_one_line_and_not_the_last_checkpoint(
+    trained: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "run"
+    shutil.copytree(trained, out)
+
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("mc_nested.cli.train.draw_curve", full)
+    assert run("train", "--resume", out) == 2
+    said = capsys.readouterr().err
+    assert "No space left on device" in said
+    assert f"make room, then mc-nested train --resume {out}" in said
+    assert said.count("\n") == 1
+    assert {path.name for path in out.iterdir()} == {path.name for path in trained.iterdir()}
+    assert (out / "curve.png").read_bytes() == (trained / "curve.png").read_bytes()
+
+
+def test_names_are_shown_as_they_are_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = (resources.files("mc_nested.arena") / "designs" / "line.toml").read_text("utf-8")
+    odd = text.replace('"line"', '"[/b] $x_{$"').replace('"wood"', '"[/w]"').replace('name = "stone"', 'name = "[/s]"')
+    (tmp_path / "odd.toml").write_text(odd)
+    assert run("train", "--episodes", "1", "--scenario", tmp_path / "odd.toml", "--out", tmp_path / "run") == 0
+    assert run("evaluate", tmp_path / "run") == 0
+    printed = capsys.readouterr().out
+    assert "[/b] $x_{$, greedy" in printed
+    assert "[/s]" in printed or "[/w]" in printed
+
+
+def test_a_pipe_that_does_not_know_epsilon_is_no_error(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "mc_nested.cli", "train", "--episodes", "1", "--out", str(tmp_path / "run")]
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    subprocess.run(command, capture_output=True, check=True, env=environment)
 
 
 def test_resuming_a_finished_training_changes_nothing(trained: Path) -> None:
     before = (trained / "episodes.csv").read_bytes()
+    wall_s = json.loads((trained / "summary.json").read_text())["wall_s"]
     assert run("train", "--resume", trained) == 0
     assert (trained / "episodes.csv").read_bytes() == before
+    assert json.loads((trained / "summary.json").read_text())["wall_s"] >= wall_s
+
+
+def test_episodes_to_optimum_is_the_first_evaluation_at_the_optimum(tmp_path: Path) -> None:
+    text = (resources.files("mc_nested.arena") / "designs" / "line.toml").read_text("utf-8")
+    # One block, three cells in front of the start: the optimum is met early in every trial.
+    grid = "\n".join(["." * 15] + ["." * 7 + "#" + "." * 7] + ["." * 15] * 13)
+    head, _, tail = text.split('"""')
+    dot = f'{head}"""\n{grid}\n"""{tail}'.replace("[7, 14]", "[7, 11]").replace("= 60", "= 4")
+    (tmp_path / "dot.toml").write_text(dot)
+    out = tmp_path / "run"
+    assert run("train", "--scenario", tmp_path / "dot.toml", "--episodes", "300", "--trials", "2", "--out", out) == 0
+    firsts = []
+    for trial in ("0", "1"):
+        rows = [row for row in table(out / "evaluations.csv") if row["trial"] == trial]
+        firsts.append(next((int(row["episode"]) for row in rows if float(row["score"]) == 11.0), None))
+    assert any(first is not None and first > 0 for first in firsts)
+    assert json.loads((out / "summary.json").read_text())["episodes_to_optimum"] == firsts
 
 
 def test_play_shows_the_arena_and_the_score(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -149,6 +221,11 @@ def test_a_large_design_of_a_users_own_is_listed_with_an_upper_bound(
         (["train", "--out", "NEW", "--preset", "fast"], "no preset 'fast'"),
         (["train", "--out", "NEW", "--trials", "0"], "'--trials'"),
         (["train", "--out", "NEW", "--episodes", "0"], "'--episodes'"),
+        (["train", "--out", "NEW", "--episodes", "1" + "0" * 30], "'--episodes'"),
+        (["train", "--out", "NEW", "--trials", "1" + "0" * 9], "'--trials'"),
+        (["train", "--out", "NEW", "--scenario", ""], "no scenario ''"),
+        (["train", "--out", "NEW" + "x" * 300], "File name too long"),
+        (["evaluate", "NEW" + "x" * 300], "File name too long"),
         (["train", "--out", "NEW", "--seed", "-1"], "'--seed'"),
         (["train", "--out", "NEW", "--backend", "cloud"], "'--backend'"),
         (["train", "--out", "NEW", "--backend", "live", "--trials", "2"], "one trial at a time"),

@@ -36,6 +36,13 @@ PAPER = (Path(__file__).parents[2] / "mc_nested/learn/presets/paper.toml").read_
         (("evaluate_every", "momentum = 1\nevaluate_every"), "momentum"),
         (("share = 0.6", "share = 1.5"), "explore_nested.share"),
         (("hidden = [32, 32]", "hidden = []"), "hidden"),
+        (("hidden = [32, 32]", "hidden = [1_000_000]"), "hidden.0"),
+        (("replay_capacity = 1_000_000", f"replay_capacity = {10**30}"), "replay_capacity"),
+        (("batch = 32", "batch = 1_000_000_000"), "update.batch"),
+        (("learning_rate = 1e-3", "learning_rate = inf"), "update.learning_rate"),
+        (("huber_delta = 1.0", "huber_delta = inf"), "update.huber_delta"),
+        (("gamma = 0.95", "gamma = nan"), "update.gamma"),
+        (("floor = 0.001", "floor = nan"), "explore_nested.floor"),
         (("episodes = 3000", "episodes = "), "not TOML"),
     ],
 )

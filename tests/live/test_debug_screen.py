@@ -58,6 +58,12 @@ def test_every_layout_is_read_at_every_gui_scale(layout: Layout, scale: int) -> 
     assert read_debug_screen(painted(shown), FONT) == expected(shown)
 
 
+@pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout != "standin"])
+def test_the_block_of_a_mod_is_read_with_its_namespace(layout: Layout) -> None:
+    shown = dataclasses.replace(screen(layout), target=Target((1, 62, 3), "some-mod:machine/casing_2"))
+    assert read_debug_screen(painted(shown), FONT) == expected(shown)
+
+
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_no_block_looked_at_is_no_target(layout: Layout) -> None:
     shown = dataclasses.replace(screen(layout), target=None)
@@ -102,7 +108,7 @@ def test_without_a_debug_screen_there_is_no_overlay() -> None:
     assert find_overlay(world(2), FONT) is None
 
 
-@pytest.mark.parametrize("shape", [(0, 0), (1, 1), (7, 3), (8, 400)])
+@pytest.mark.parametrize("shape", [(0, 0), (1, 1), (7, 3), (8, 400), (5000, 3)])
 def test_a_frame_too_small_for_text_is_a_problem(shape: tuple[int, int]) -> None:
     assert "press F3" in (read_debug_screen(np.zeros((*shape, 3), np.uint8), FONT).problem or "")
 

@@ -23,6 +23,7 @@ from hypothesis import strategies as st
 from mc_nested.errors import DesktopError, ProfileError
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.desktop.clock import MonotonicClock
+from mc_nested.live.desktop.connection import LOST, told_when_lost
 from mc_nested.live.desktop.keys import WORDS, check_key
 from mc_nested.live.desktop.screen import WindowDisplay
 from mc_nested.live.desktop.window import Place, checked, pick
@@ -51,6 +52,13 @@ def test_an_error_names_no_more_titles_than_fit_into_a_line() -> None:
 def test_two_windows_of_the_title_are_told_apart_by_the_user() -> None:
     with pytest.raises(DesktopError, match=r"2 windows.*'Minecraft 1\.20\.1', 'Minecraft 1\.21'"):
         pick(MINECRAFT, ["Minecraft 1.21", "Terminal", "Minecraft 1.20.1"])
+
+
+def test_a_display_that_closes_under_the_game_is_told() -> None:
+    assert LOST or not sys.platform.startswith("linux")
+    for error in LOST:
+        with pytest.raises(DesktopError, match="display has closed"), told_when_lost():
+            raise error("broken pipe")
 
 
 @pytest.mark.parametrize("size", [(0, 480), (854, 0)])

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.errors import NotInFrontError
+from mc_nested.live.ending import EndedBySignal
 from mc_nested.live.hands import Hands
 from mc_nested.live.profile import Profile
 from mc_nested.live.profile_tables import Arena, Input
@@ -85,32 +86,67 @@ def test_a_failing_release_is_tried_again_when_the_hands_are_left() -> None:
 
 
 class _JammingKeyboard(FakeKeyboard):
-    """Presses every letter of a text and never comes to their releases; the first release of "b" fails."""
+    """Its keys stay down when they are released too early: "a" the first time, "b" the first two times."""
 
     def __init__(self, game: FakeGame) -> None:
         super().__init__(game)
-        self._is_jammed = True
+        self._jams = ["a", "b", "b"]
 
     def type(self, text: str) -> None:
-        for letter in text:
-            self.press(letter)
+        self.press(text)
         raise KeyboardInterrupt
 
     def release(self, key: str) -> None:
-        if key == "b" and self._is_jammed:
-            self._is_jammed = False
+        if key in self._jams:
+            self._jams.remove(key)
             raise OSError("the keyboard is gone")
         super().release(key)
 
 
+def _jamming_hands(game: FakeGame) -> Hands:
+    return Hands(FakeDisplay(game), _JammingKeyboard(game), FakePointer(game), game.clock, PROFILE.input)
+
+
 def test_one_key_that_can_not_be_released_does_not_keep_the_others_down() -> None:
     game = FakeGame(PROFILE)
-    hands = Hands(FakeDisplay(game), _JammingKeyboard(game), FakePointer(game), game.clock, PROFILE.input)
+    hands = _jamming_hands(game)
+    for key in "ab":
+        with pytest.raises(OSError, match="keyboard is gone"):
+            hands.tap(key)
+    assert game.down == {"a", "b"}
     with pytest.raises(OSError, match="keyboard is gone"):
-        hands.type_command("t", "abc")
+        hands.release_all()
     assert game.down == {"b"}
     hands.release_all()
     assert game.down == set()
+
+
+def test_a_letter_that_is_interrupted_after_its_press_goes_up_again() -> None:
+    game = FakeGame(PROFILE)
+    with pytest.raises(KeyboardInterrupt):
+        _jamming_hands(game).type_command("t", "c")
+    assert game.presses == ["t", "c"]
+    assert game.down == set()
+
+
+class _StealingKeyboard(FakeKeyboard):
+    """Brings another window to the front once a letter was typed."""
+
+    def __init__(self, game: FakeGame) -> None:
+        super().__init__(game)
+        self._world = game
+
+    def type(self, text: str) -> None:
+        super().type(text)
+        self._world.front_until = self._world.clock.now()
+
+
+def test_no_letter_of_a_command_goes_to_a_window_that_comes_to_the_front() -> None:
+    game = FakeGame(PROFILE)
+    hands = Hands(FakeDisplay(game), _StealingKeyboard(game), FakePointer(game), game.clock, PROFILE.input)
+    with pytest.raises(NotInFrontError):
+        hands.type_command("t", "/fill")
+    assert game.presses_behind == []
 
 
 def test_releasing_everything_twice_is_fine() -> None:
@@ -132,7 +168,7 @@ class _EndingClock(FakeClock):
             signal.raise_signal(self._number)
 
 
-@pytest.mark.parametrize(("number", "error"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, SystemExit)])
+@pytest.mark.parametrize(("number", "error"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, EndedBySignal)])
 def test_a_signal_in_the_middle_of_a_hold_leaves_nothing_down(number: int, error: type[BaseException]) -> None:
     game = FakeGame(PROFILE, clock=_EndingClock(number))
     before = signal.getsignal(signal.SIGTERM)

@@ -8,15 +8,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mc_nested.arena import rules
+from mc_nested.arena.builder import build
 from mc_nested.arena.rules import Action, Cell
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.errors import LiveError, NotConfirmedError, NotInFrontError, ProfileError
+from mc_nested.errors import LiveError, NotConfirmedError, NotInFrontError, ProfileError, UnreadableError
 from mc_nested.live.commands import reset_commands
 from mc_nested.live.coordinates import Facing
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile import Profile
 from mc_nested.live.profile_tables import Arena, GameVersion
+from tests.arena.game_contract import BUMPS, check_game
 from tests.live.fake_game import FakeDisplay, FakeGame, FakeKeyboard, FakePointer
 
 LINE = load_scenario("line")
@@ -99,7 +101,7 @@ def test_every_outcome_is_the_rules_outcome_and_the_worlds(facing: Facing, chose
 
 
 @settings(max_examples=60, deadline=None)
-@given(st.lists(actions, max_size=4), st.floats(0.0, 12.0), st.integers(-1, 80), st.integers(0, 3))
+@given(st.lists(actions, max_size=4), st.floats(0.0, 12.0), st.integers(-1, 250), st.integers(0, 3))
 def test_whatever_happens_no_key_stays_down_or_goes_to_another_window(
     chosen: list[Action], front_s: float, fail_after: int, refused: int
 ) -> None:
@@ -112,6 +114,13 @@ def test_whatever_happens_no_key_stays_down_or_goes_to_another_window(
             game.act(action)
     assert world.down == set()
     assert world.presses_behind == []
+
+
+@pytest.mark.parametrize("facing", ["north", "south", "west", "east"])
+def test_the_contract_of_every_game_holds_in_a_live_one(facing: Facing) -> None:
+    world = _world(facing)
+    check_game(_play(world), LINE, [*BUMPS, *build(LINE)])
+    assert world.down == set()
 
 
 def test_after_an_error_the_game_wants_a_reset() -> None:
@@ -140,8 +149,8 @@ def test_a_reset_forgets_the_blocks_of_the_episode_before() -> None:
 
 def test_a_release_that_fails_once_is_repeated_before_the_error_is_raised() -> None:
     world = _world()
-    # Calls: a command is a tap, its pieces and a tap; then come the slot's tap, and the move's press and release.
-    calls = sum(4 + -(-len(command) // 8) for command in _commands(world)) + 2 + 1
+    # Calls: a command is a tap, its letters and a tap; then come the slot's tap, and the move's press and release.
+    calls = sum(4 + len(command) for command in _commands(world)) + 2 + 1
     game = _play(world, fail_after=calls)
     game.reset(STONE)
     with pytest.raises(OSError, match="keyboard is gone"):
@@ -179,6 +188,14 @@ def test_behind_another_window_nothing_is_pressed() -> None:
     world = _world()
     world.front_until = 0.0
     with pytest.raises(NotInFrontError):
+        _play(world).reset(STONE)
+    assert world.presses == []
+
+
+def test_nothing_is_typed_where_no_debug_screen_is_to_be_seen() -> None:
+    world = _world()
+    world.unreadable = True
+    with pytest.raises(UnreadableError):
         _play(world).reset(STONE)
     assert world.presses == []
 

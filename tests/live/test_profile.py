@@ -122,6 +122,7 @@ def test_a_name_means_a_file_in_the_profile_folder(tmp_path: Path, monkeypatch: 
         ("[window]\ntitle = '('", "window.title: not a regular expression"),
         ("[game]\nversion = 'newest'", "game.version: String should match pattern"),
         ("[screen]\nfont = 'ascii.png'", "screen.font: 'ascii.png' depends on where you are: write the whole path"),
+        ("[keys]\nforward = 'up arrow'", "keys.forward: no key is named 'up arrow': write one character"),
         ("[keys]\nhotbar = ['1']", "keys.hotbar: Tuple should have at least 9 items"),
         ("[walk]\ncovered = [0.2, 0.4, 0.3, 0.8]", "walk.covered: must grow with every tick"),
         ("[points]\nRespawn = [0.5, 12]", "points.Respawn.1: Input should be less than or equal to 1, not 12"),

@@ -1,6 +1,8 @@
 """Drives read_picture with files; what is read from a frame is left to test_debug_screen.py."""
 
 import json
+import struct
+import zlib
 from pathlib import Path
 
 import cv2
@@ -61,3 +63,14 @@ def test_a_folder_is_a_problem(tmp_path: Path) -> None:
 def test_a_grey_picture_of_sixteen_bits_is_a_problem_and_no_crash(tmp_path: Path) -> None:
     cv2.imwrite(str(tmp_path / "deep.png"), np.zeros((300, 400), np.uint16))
     assert read_picture(tmp_path / "deep.png", FONT, None)["xyz"] is None
+
+
+def test_a_picture_of_more_pixels_than_can_be_opened_is_a_problem(tmp_path: Path) -> None:
+    header = b"IHDR" + struct.pack(">IIBBBBB", 60_000, 60_000, 8, 2, 0, 0, 0)
+    data = b"\x89PNG\r\n\x1a\n" + struct.pack(">I", 13) + header + struct.pack(">I", zlib.crc32(header))
+    (tmp_path / "huge.png").write_bytes(data)
+    assert "not a picture" in str(read_picture(tmp_path / "huge.png", FONT, None)["problem"])
+
+
+def test_a_jpeg_that_can_not_be_read_says_that_it_is_one(tmp_path: Path) -> None:
+    assert "a JPEG blurs" in str(read_picture(picture(tmp_path / "screen.jpg"), FONT, None)["problem"])

@@ -9,7 +9,7 @@ SETTLE_S = 0.15
 
 
 def _walked(ticks: int) -> list[float]:
-    """Where a walker is after each tick of a hold and of the coasting after it (facts: walking)."""
+    """Where a walker is after each tick of a hold and of the coasting after it (FACTS: Walking)."""
     places, place, speed = [], 0.0, 0.0
     for tick in range(ticks + 12):
         speed = (speed if speed >= 0.003 else 0.0) + (0.098 if tick < ticks else 0.0)

@@ -1,5 +1,7 @@
 """The simulator in arrays: it is R ArenaEnvs over GridGame, to the last flag; masks, materials and snapshots."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -94,3 +96,12 @@ def test_a_snapshot_brings_every_arena_back() -> None:
     first = [envs.step(actions)[0].tolist() for actions in ahead]
     np.testing.assert_array_equal(envs.restore(kept), before)
     assert [envs.step(actions)[0].tolist() for actions in ahead] == first
+
+
+def test_the_last_block_on_the_last_step_terminates_and_does_not_truncate() -> None:
+    tight = dataclasses.replace(LINE, step_limit=len(build(LINE)))
+    envs = GridVectorEnv([tight])
+    envs.reset()
+    for action in build(tight):
+        _, _, terminated, truncated, _ = envs.step(np.array([action]))
+    assert (terminated.tolist(), truncated.tolist()) == ([True], [False])

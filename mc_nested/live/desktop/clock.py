@@ -4,7 +4,7 @@ import sys
 import time
 
 SPIN_S = 0.016 if sys.platform == "win32" else 0.002
-"""The last part of a wait that is spun: as long as a sleep may overshoot (facts: 15.6 ms on Windows)."""
+"""The last part of a wait that is spun: as long as a sleep may overshoot (FACTS: Input and windows)."""
 
 
 class MonotonicClock:

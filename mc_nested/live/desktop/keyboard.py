@@ -1,11 +1,13 @@
 """The real keyboard, through pynput."""
 
 import sys
+from contextlib import suppress
 from typing import Any
 
 from pynput.keyboard import Controller, Key, KeyCode
 
 from mc_nested.errors import DesktopError
+from mc_nested.live.desktop.connection import LOST, told_when_lost
 from mc_nested.live.desktop.keys import WORDS, check_key
 
 
@@ -13,21 +15,24 @@ class DesktopKeyboard:
     """Presses keys into whatever window is in front: whoever calls it has looked which one that is.
 
     Raises (every method): ProfileError for a name that no key has, DesktopError for a key that this keyboard's
-    layout hasn't.
+    layout hasn't; a press also where the display has closed.
     """
 
     def __init__(self) -> None:
         self._controller: Any = Controller()
 
     def press(self, key: str) -> None:
-        self._controller.press(self._on_layout(key))
+        with told_when_lost():
+            self._controller.press(self._on_layout(key))
 
     def release(self, key: str) -> None:
-        self._controller.release(self._on_layout(key))
+        with suppress(*LOST):
+            self._controller.release(self._on_layout(key))
 
     def type(self, text: str) -> None:
         try:
-            self._controller.type(text)
+            with told_when_lost():
+                self._controller.type(text)
         except Controller.InvalidCharacterException as error:
             raise DesktopError(f"{text!r} can't be typed with this keyboard layout: switch to a Latin one") from error
 

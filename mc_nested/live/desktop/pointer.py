@@ -2,9 +2,11 @@
 
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 from mc_nested.errors import LiveError
+from mc_nested.live.desktop.connection import LOST, told_when_lost
 from mc_nested.live.desktop.window import GameWindow
 from mc_nested.live.devices import Button
 
@@ -27,12 +29,14 @@ class DesktopPointer:
         self._mouse.moveTo(place.left + x / ratio, place.top + y / ratio, _pause=False)
 
     def press(self, button: Button) -> None:
-        if tuple(self._mouse.position()) in self._mouse.FAILSAFE_POINTS:
-            raise LiveError("the mouse is in a corner of the screen, which means stop: nothing was clicked")
-        self._mouse.mouseDown(button=button, _pause=False)
+        with told_when_lost():
+            if tuple(self._mouse.position()) in self._mouse.FAILSAFE_POINTS:
+                raise LiveError("the mouse is in a corner of the screen, which means stop: nothing was clicked")
+            self._mouse.mouseDown(button=button, _pause=False)
 
     def release(self, button: Button) -> None:
-        self._mouse.mouseUp(button=button, _pause=False)
+        with suppress(*LOST):
+            self._mouse.mouseUp(button=button, _pause=False)
 
 
 def load_pyautogui() -> Any:

@@ -13,7 +13,7 @@ SHOWN_TITLES = 8
 
 @dataclass(frozen=True)
 class Place:
-    """A window's client area on the desktop, in the desktop's points: not always pixels (facts: input and windows)."""
+    """A window's client area on the desktop, in the desktop's points: not always pixels (FACTS: Input and windows)."""
 
     left: int
     top: int

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 from Xlib import X, Xatom
 from Xlib.display import Display
@@ -34,7 +34,8 @@ def open_window(title: str) -> Iterator["X11Window"]:
         window.place()
         yield window
     finally:
-        display.close()
+        with suppress(ConnectionClosedError):  # the X server may have ended first
+            display.close()
 
 
 class X11Window:

@@ -1,0 +1,31 @@
+"""Ctrl+C: the first is noted, an echo of it ignored, a later one doesn't wait."""
+
+import signal
+
+import pytest
+
+from mc_nested.cli import interrupt as interrupt_module
+from mc_nested.cli.interrupt import catch_interrupts
+
+
+def test_the_first_is_noted_and_its_echo_is_not_a_second_one() -> None:
+    with catch_interrupts() as interrupt:
+        assert not interrupt.requested
+        signal.raise_signal(signal.SIGINT)
+        assert interrupt.requested
+        signal.raise_signal(signal.SIGINT)
+
+
+def test_a_later_one_does_not_wait(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(interrupt_module, "ONE_AND_THE_SAME_S", -1.0)
+    with catch_interrupts():
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+
+
+def test_afterwards_everything_is_as_before() -> None:
+    before = signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)
+    with catch_interrupts():
+        pass
+    assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == before

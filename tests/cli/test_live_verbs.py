@@ -1,0 +1,115 @@
+"""What the verbs do when a live game, or somebody at it, ends them: one line, the right code, and nothing lost.
+
+The live game is the simulator's behind the live path's door; what it does to a window is left to tests/live.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mc_nested.arena.game import Outcome
+from mc_nested.arena.rules import Action
+from mc_nested.arena.scenario import Scenario
+from mc_nested.cli import options, scenarios
+from mc_nested.cli.app import main
+from mc_nested.errors import DesktopError, LiveError, McNestedError
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.ending import EndedBySignal
+from sim.grid import GridGame
+
+
+class FragileGame(GridGame):
+    """A live game that fails at its action number ``lasts``."""
+
+    def __init__(self, scenario: Scenario, lasts: float, error: McNestedError) -> None:
+        super().__init__(scenario)
+        self._left = lasts
+        self._error = error
+
+    def act(self, action: Action) -> Outcome:
+        self._left -= 1
+        if self._left < 0:
+            raise self._error
+        return super().act(action)
+
+
+class GreyDisplay:
+    """A window that is grey all over."""
+
+    def size(self) -> tuple[int, int]:
+        return 4, 3
+
+    def title(self) -> str:
+        return "Minecraft 1.20.1"
+
+    def is_in_front(self) -> bool:
+        return True
+
+    def grab(self, region: Region | None = None) -> Frame:
+        assert region is None
+        return np.full((3, 4, 3), 99, np.uint8)
+
+
+def open_live(monkeypatch: pytest.MonkeyPatch, lasts: float, error: McNestedError | None = None) -> None:
+    """From here on a live game is one that lasts so many actions."""
+
+    @contextmanager
+    def opened(scenario: Scenario, profile: str) -> Iterator[tuple[FragileGame, GreyDisplay]]:
+        assert profile == "mine"
+        yield FragileGame(scenario, lasts, error or LiveError("never raised")), GreyDisplay()
+
+    monkeypatch.setattr(options, "open_live_game", opened)
+
+
+def code_of(*words: str | Path) -> int | str | None:
+    """The exit code of the command."""
+    with pytest.raises(SystemExit) as ended:
+        main([str(word) for word in words])
+    return ended.value.code
+
+
+@pytest.mark.parametrize("error", [LiveError("it lagged"), DesktopError("the window has closed")])
+def test_a_training_whose_game_fails_is_saved_and_goes_on(
+    error: McNestedError, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    open_live(monkeypatch, 30, error)
+    live = ("--backend", "live", "--profile", "mine", "--episodes", "2")
+    assert code_of("train", *live, "--out", tmp_path / "run") == 2
+    told = capsys.readouterr().err.splitlines()
+    assert told[-1] == f"mc-nested: {error}; saved: go on with mc-nested train --resume {tmp_path / 'run'}"
+    open_live(monkeypatch, float("inf"))
+    assert code_of("train", "--resume", tmp_path / "run") in (0, None)
+
+
+@pytest.mark.parametrize(("ending", "code"), [(KeyboardInterrupt(), 130), (EndedBySignal(15), 143)])
+def test_whoever_stops_a_verb_is_told_in_one_line(
+    ending: BaseException, code: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def stop() -> list[str]:
+        raise ending
+
+    monkeypatch.setattr(scenarios, "shipped_scenarios", stop)
+    assert code_of("scenarios") == code
+    assert capsys.readouterr().err == "mc-nested: stopped\n"
+
+
+def test_the_pictures_of_an_episode_are_of_that_episode_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert code_of("train", "--episodes", "1", "--out", tmp_path / "run") in (0, None)
+    pictures = tmp_path / "run" / "screenshots"
+    pictures.mkdir()
+    (pictures / "999.png").touch()
+    open_live(monkeypatch, float("inf"))
+    assert code_of("play", tmp_path / "run", "--backend", "live", "--profile", "mine", "--screenshots") in (0, None)
+    steps = int(capsys.readouterr().out.split(" steps")[0].split()[-1])
+    assert [path.name for path in sorted(pictures.iterdir())] == [f"{step:03d}.png" for step in range(1, steps + 1)]
+
+
+def test_the_simulator_has_no_window_to_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert code_of("train", "--episodes", "1", "--out", tmp_path / "run") in (0, None)
+    assert code_of("play", tmp_path / "run", "--screenshots") == 2
+    assert "leave out --screenshots" in capsys.readouterr().err

@@ -1,0 +1,34 @@
+"""The contract of every Game, kept in a real window: the stand-in's (scripts/standin.py).
+
+Run as a module it plays in the window of DISPLAY: a process of its own, since pyautogui keeps its first display.
+"""
+
+import subprocess
+import sys
+
+import pytest
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.live.session import open_live_game
+from scripts.standin import ROOT
+from tests.arena.game_contract import BUMPS, check_game
+from tests.standin_fixture import Standin
+
+
+@pytest.mark.standin
+def test_the_contract_of_every_game_holds_in_a_real_window(standin: Standin) -> None:
+    command = [sys.executable, "-m", "tests.live.test_standin_contract", str(standin.profile)]
+    done = subprocess.run(command, cwd=ROOT, env=standin.env, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert standin.errors() == []
+
+
+def play_in_the_window(profile: str) -> None:
+    """AssertionError or LiveError where the game in the profile's window doesn't keep the contract."""
+    line = load_scenario("line")
+    with open_live_game(line, profile) as (game, _):
+        check_game(game, line, BUMPS)
+
+
+if __name__ == "__main__":
+    play_in_the_window(sys.argv[1])
