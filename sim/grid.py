@@ -14,7 +14,7 @@ from mc_nested.arena.game import Outcome
 from mc_nested.arena.rules import PLACES, SIZE, STEP, Action, Cell, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.arena.vector import METADATA, Bools, Floats, Ints, reset_options
+from mc_nested.arena.vector import METADATA, NO_ACTION, Bools, Floats, Ints, reset_options
 
 
 class GridGame:
@@ -113,8 +113,8 @@ class GridVectorEnv(VectorEnv[Ints, Ints, Any]):
         return self._observations(), {}
 
     def step(self, actions: Ints) -> tuple[Ints, Floats, Bools, Bools, dict[str, Any]]:
-        """One action in every arena whose episode runs; ``info["score"]`` holds r_M where ``info["_score"]``."""
-        running = ~(self._terminated | self._truncated)
+        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M where ``_score``."""
+        running = ~(self._terminated | self._truncated) & (actions != NO_ACTION)
         ahead = self._position + _MOVE[actions]
         self._position = np.where(self._solid[ahead] | ~running, self._position, ahead)
         front = self._position + _FRONT

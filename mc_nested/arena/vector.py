@@ -4,8 +4,8 @@ Autoreset is disabled. ``reset(options={"reset_mask": bool (R,), "material": int
 masked arenas; an arena whose episode has ended stands still until then: its reward is 0 and its flags stay up.
 """
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from gymnasium.vector import AutoresetMode, VectorEnv
@@ -22,6 +22,18 @@ Ints = NDArray[np.int64]
 
 METADATA: dict[str, Any] = {"autoreset_mode": AutoresetMode.DISABLED}
 """Autoreset is off: the trainer says which arenas begin an episode, and with which material."""
+
+NO_ACTION = -1
+"""In the place of an action: that arena stands still, and no step is counted."""
+
+
+@runtime_checkable
+class ResumableEnv(Protocol):
+    """Arenas whose episodes can be saved half-way: the simulator's. A live game's can't, they begin anew."""
+
+    def snapshot(self) -> dict[str, NDArray[Any]]: ...
+
+    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> Ints: ...
 
 
 class ArenaVectorEnv(VectorEnv[Ints, Ints, Any]):
@@ -60,11 +72,12 @@ class ArenaVectorEnv(VectorEnv[Ints, Ints, Any]):
         return self._observations.copy(), {}
 
     def step(self, actions: Ints) -> tuple[Ints, Floats, Bools, Bools, dict[str, Any]]:
-        """One action in every arena whose episode runs; ``info["score"]`` holds r_M where ``info["_score"]``."""
+        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M where ``_score``."""
         rewards = np.zeros(self.num_envs)
         scores = np.zeros(self.num_envs)
         ended = np.zeros(self.num_envs, dtype=np.bool_)
-        for run in np.flatnonzero(~(self._terminated | self._truncated)):
+        running = ~(self._terminated | self._truncated)
+        for run in np.flatnonzero(running & (actions != NO_ACTION)):
             self._observations[run], rewards[run], self._terminated[run], self._truncated[run], info = self.envs[
                 run
             ].step(actions[run])

@@ -1,78 +1,152 @@
-"""The paper's agents: who acts, and what is appended to whose state (paper, sections 4.1 and 5.1).
+"""The paper's three agents: who acts, and what is appended to whose state (paper, sections 4 and 5, appendix).
 
-Nested: a main agent chooses the material once, on (x, y, b); the nested agent does the rest on (x, y, b, a_M), the main
-action appended to its state, so that one network serves every material.
+nested        a main agent chooses the material on (x, y, b); one nested agent does the rest on (x, y, b, a_M)
+hierarchical  a top agent chooses the material on (x, y, b), and with it which low agent does the rest on (x, y, b)
+single        one agent does it all on (x, y, b, m), in ten actions (arena/single.py)
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import torch
+from gymnasium.vector import VectorEnv
 
 from mc_nested.arena.rules import SIZE, Action
 from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.learn.checkpoint import part_of
-from mc_nested.learn.learner import Ints, Learner, StateSpace
+from mc_nested.learn.learner import Floats, Ints, Learner, StateSpace
 from mc_nested.learn.networks import parameter_count
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.streams import initial_stream
 
-AGENTS = ("nested",)
-"""Names of the agents that can be trained."""
+
+@dataclass(frozen=True)
+class Form:
+    """What makes one of the agents another.
+
+    ``has_main``: a main (top) agent chooses the material before the first move. ``appends_material``: its choice is
+    appended to the low agent's state. ``one_low_a_material``: each material has a low agent of its own.
+    """
+
+    has_main: bool
+    appends_material: bool
+    one_low_a_material: bool
+
+    @property
+    def width(self) -> int:
+        """Integers in the low agent's state: x, y, b, and for all but the hierarchical agent's the material."""
+        return 4 if self.appends_material or not self.has_main else 3
 
 
-class NestedAgent:
-    """The main and the nested agent in R runs, one scenario a run.
+FORMS: Mapping[str, Form] = {
+    "nested": Form(has_main=True, appends_material=True, one_low_a_material=False),
+    "hierarchical": Form(has_main=True, appends_material=False, one_low_a_material=True),
+    "single": Form(has_main=False, appends_material=False, one_low_a_material=False),
+}
+"""The agents that can be trained, by name."""
+
+
+class Agent:
+    """One of the paper's agents in R runs, one scenario a run.
+
+    ``main`` is the main or top agent, None for the single agent; ``low`` is the nested agent, the low agents (a row for
+    each run and material), or the single agent.
 
     Args:
+        form: which agent.
         scenarios: each run's scenario; all with the same number of materials.
-        preset: the hyper-parameters of both.
+        preset: the hyper-parameters of all its learners.
         seed: of the initial parameters.
     """
 
-    def __init__(self, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> None:
+    def __init__(self, form: Form, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> None:
         streams = [initial_stream(seed, run) for run in range(len(scenarios))]
         materials = len(scenarios[0].materials)
         observed = np.array([[SIZE - 1, SIZE - 1, scenario.blocks] for scenario in scenarios])
-        main_action = np.full((len(scenarios), 1), materials - 1)
-        self.main = Learner(StateSpace(observed, materials), preset, streams)
-        self.nested = Learner(StateSpace(np.hstack([observed, main_action]), len(Action)), preset, streams)
+        self.form = form
+        self.main = Learner(StateSpace(observed, materials), preset, streams) if form.has_main else None
+        self._lows = materials if form.one_low_a_material else 1
+        appended = np.full((len(scenarios), 1), _highest_appended(form, materials))[:, : form.width - 3]
+        highest = np.hstack([observed, appended])
+        self.low = Learner(
+            StateSpace(np.repeat(highest, self._lows, axis=0), len(Action) + (0 if form.has_main else materials)),
+            preset,
+            [stream for stream in streams for _ in range(self._lows)],
+        )
 
-    @staticmethod
-    def nested_states(observations: Ints, materials: Ints) -> Ints:
-        """s_N = [s_M, a_M] (paper, section 4.1): (runs, 4)."""
+    @property
+    def observed(self) -> int:
+        """Integers that the env shows in this agent's view of it."""
+        return 3 if self.main else 4
+
+    def low_states(self, observations: Ints, materials: Ints) -> Ints:
+        """What the low agents decide on, (runs, width): for the nested agent s_N = [s_M, a_M] (paper, section 4.1)."""
+        if not self.form.appends_material:
+            return observations
         return np.concatenate((observations, materials[:, None]), axis=1)
+
+    def low_rows(self, runs: Ints, materials: Ints) -> Ints:
+        """The rows of ``low`` that act in the named runs (k,), for the materials of all runs (runs,)."""
+        if self._lows == 1:
+            return runs
+        return runs * self._lows + materials[runs]
+
+    def act(self, states: Ints, materials: Ints, epsilon: Floats, uniforms: Floats) -> Ints:
+        """The low agents' ε-greedy actions in every run, (runs,)."""
+        rows = None if self._lows == 1 else self.low_rows(np.arange(len(states)), materials)
+        return self.low.act(states, epsilon, uniforms, rows)
 
     @property
     def networks(self) -> int:
-        """Networks that one run trains."""
-        return 2
+        """Networks that one run trains: 2 nested, 3 hierarchical with two materials, 1 single (paper, section 6)."""
+        return self._lows + (self.main is not None)
 
     @property
     def parameters(self) -> int:
         """Parameters of one run's networks, target networks not counted."""
-        return parameter_count(self.main.ddqn.sizes) + parameter_count(self.nested.ddqn.sizes)
+        main = parameter_count(self.main.ddqn.sizes) if self.main else 0
+        return main + self._lows * parameter_count(self.low.ddqn.sizes)
 
     @property
     def updates(self) -> int:
-        """Updates done, over all runs and both agents."""
-        return int(self.main.ddqn.updates.sum() + self.nested.ddqn.updates.sum())
+        """Updates done, over all runs and agents."""
+        return sum(int(learner.ddqn.updates.sum()) for learner in self._learners().values())
 
     def state(self) -> dict[str, torch.Tensor]:
         """Everything later choices and updates depend on, by name."""
         return {
-            f"{role}.{name}": kept for role, learner in self._roles().items() for name, kept in learner.state().items()
+            f"{role}.{name}": kept
+            for role, learner in self._learners().items()
+            for name, kept in learner.state().items()
         }
 
     def load(self, state: dict[str, torch.Tensor]) -> None:
         """Go on from what ``state`` gave; KeyError, ValueError or RuntimeError where it is of another shape."""
-        for role, learner in self._roles().items():
+        for role, learner in self._learners().items():
             learner.load(part_of(state, role))
 
     def load_networks(self, state: dict[str, torch.Tensor]) -> None:
         """Take over the networks alone: enough to act."""
-        for role, learner in self._roles().items():
+        for role, learner in self._learners().items():
             learner.load_networks(part_of(state, role))
 
-    def _roles(self) -> dict[str, Learner]:
-        return {"main": self.main, "nested": self.nested}
+    def _learners(self) -> dict[str, Learner]:
+        return {"main": self.main, "low": self.low} if self.main else {"low": self.low}
+
+
+def view_of(form: Form, env: VectorEnv[Ints, Ints, Any], scenarios: Sequence[Scenario]) -> VectorEnv[Ints, Ints, Any]:
+    """The arenas as that agent sees them: the single agent's actions include the choice of a material."""
+    return env if form.has_main else SingleAgentVectorEnv(env, scenarios)
+
+
+def chosen_materials(observations: Ints) -> Ints:
+    """The materials that the single agent's observations (runs, 4) show as chosen, -1 before the choice."""
+    return observations[:, 3] - 1
+
+
+def _highest_appended(form: Form, materials: int) -> int:
+    # The single agent's m is 0 before the choice: one value more than there are materials.
+    return materials - 1 if form.appends_material else materials

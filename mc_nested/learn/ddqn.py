@@ -71,12 +71,15 @@ class DDQN:
         self._copies = _Learners(*(torch.empty_like(part) for part in self.learners))
         self._some_rows: dict[int, _Workspace] = {}
 
-    def q_values(self, features: Tensor) -> Tensor:
-        """The online networks' values (rows, actions) for one state a row, features (rows, inputs).
+    def q_values(self, features: Tensor, rows: Tensor | None = None) -> Tensor:
+        """The online networks' values (k, actions) for one state a row, features (k, inputs); all rows unless named.
 
-        The tensor is overwritten by the next call.
+        Without ``rows`` the tensor is overwritten by the next call.
         """
-        return forward(self._all_rows.online_layers, features[:, None], self._acting)[:, 0]
+        if rows is None:
+            return forward(self._all_rows.online_layers, features[:, None], self._acting)[:, 0]
+        layers = split(self.learners.online[rows], self.sizes)
+        return forward(layers, features[:, None], activations_of(len(rows), 1, self.sizes))[:, 0]
 
     def update(self, rows: Tensor, batch: Batch) -> None:
         """One update of each of the named rows (k,), each on its own batch, by the gradient of the mean Huber loss."""

@@ -7,41 +7,43 @@ from typing import Any
 import numpy as np
 from gymnasium.vector import VectorEnv
 
-from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario import Scenario
-from mc_nested.learn.agents import NestedAgent
+from mc_nested.learn.agents import Agent, chosen_materials
 from mc_nested.learn.learner import CHOICE_NUMBERS, Ints
 
 
 @dataclass
 class GreedyEpisode:
-    """One greedy episode: the main agent's choice, the nested agent's actions, and r_M."""
+    """One greedy episode: the material chosen (-1 for none), the actions of the agent's own set, and r_M."""
 
-    material: int
-    actions: list[Action] = field(default_factory=list)
+    material: int = -1
+    actions: list[int] = field(default_factory=list)
     score: float = 0.0
 
 
 def play_greedily(
     env: VectorEnv[Ints, Ints, Any],
     scenarios: Sequence[Scenario],
-    agent: NestedAgent,
+    agent: Agent,
     after_step: Callable[[], None] = lambda: None,
 ) -> list[GreedyEpisode]:
     """One greedy episode of every run, over arenas that begin anew; ``after_step`` is called after each step of all."""
     start = np.array([scenario.start_state for scenario in scenarios])
     never, unused = np.zeros(len(start)), np.ones((len(start), CHOICE_NUMBERS))
-    materials = agent.main.act(start, never, unused)
-    episodes = [GreedyEpisode(int(material)) for material in materials]
+    materials = agent.main.act(start, never, unused) if agent.main else np.zeros(len(start), dtype=np.int64)
     observations, _ = env.reset(options={"material": materials})
+    episodes = [GreedyEpisode() for _ in scenarios]
     running = np.ones(len(start), dtype=np.bool_)
     while running.any():
-        actions = agent.nested.act(agent.nested_states(observations, materials), never, unused)
+        actions = agent.act(agent.low_states(observations, materials), materials, never, unused)
         observations, _, terminated, truncated, info = env.step(actions)
         for run in np.flatnonzero(running):
-            episodes[run].actions.append(Action(int(actions[run])))
+            episodes[run].actions.append(int(actions[run]))
             if info["_score"][run]:
                 episodes[run].score = float(info["score"][run])
         running = ~(terminated | truncated)
         after_step()
+    chosen = materials if agent.main else chosen_materials(observations)
+    for episode, material in zip(episodes, chosen, strict=True):
+        episode.material = int(material)
     return episodes

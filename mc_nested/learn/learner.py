@@ -1,4 +1,4 @@
-"""One learning agent in R independent runs: ε-greedy over a Q-network, a replay, and DDQN updates from it."""
+"""Learning agents side by side, each a row: ε-greedy over a Q-network, a replay, and DDQN updates from it."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -22,19 +22,19 @@ CHOICE_NUMBERS = 2
 
 @dataclass(frozen=True)
 class StateSpace:
-    """What a learner sees and does: the highest value of each integer of its state, (runs, width), and its actions."""
+    """What a learner sees and does: the highest value of each integer of its state, (rows, width), and its actions."""
 
     highest: Ints
     actions: int
 
 
 class Learner:
-    """R runs of one agent; each learns from its own transitions only.
+    """Rows of one agent, a run or a part of a run each; every row learns from its own transitions only.
 
     Args:
         space: its states and actions.
         preset: its hyper-parameters.
-        streams: a generator for each run's initial parameters.
+        streams: a generator for each row's initial parameters.
     """
 
     def __init__(self, space: StateSpace, preset: Preset, streams: list[np.random.Generator]) -> None:
@@ -54,20 +54,23 @@ class Learner:
         self._spread = self._highest.clamp(min=1)
 
     def encode(self, states: NDArray[Any], rows: Ints | slice = slice(None)) -> torch.Tensor:
-        """Each integer of the state scaled to [-1, 1] (README: the task): (k, …, width) of the named runs."""
+        """Each integer of the state scaled to [-1, 1] (README: the task): (k, …, width) of the named rows."""
         highest, spread = self._highest[rows], self._spread[rows]
         if states.ndim > highest.ndim:
             highest, spread = highest[:, None], spread[:, None]
         return torch.from_numpy(states).float().mul_(2).sub_(highest).div_(spread)
 
-    def act(self, states: Ints, epsilon: Floats, uniforms: Floats) -> Ints:
-        """ε-greedy actions (runs,) for states (runs, width), ε (runs,) and uniform numbers (runs, 2)."""
-        greedy = self.ddqn.q_values(self.encode(states)).argmax(-1).numpy()
+    def act(self, states: Ints, epsilon: Floats, uniforms: Floats, rows: Ints | None = None) -> Ints:
+        """ε-greedy actions (k,) for states (k, width), ε (k,) and uniform numbers (k, 2); all rows unless named."""
+        if rows is None:
+            values = self.ddqn.q_values(self.encode(states))
+        else:
+            values = self.ddqn.q_values(self.encode(states, rows), torch.from_numpy(rows))
         random = (uniforms[:, 1] * self._actions).astype(np.int64)
-        return np.where(uniforms[:, 0] < epsilon, random, greedy)
+        return np.where(uniforms[:, 0] < epsilon, random, values.argmax(-1).numpy())
 
     def learn(self, rows: Ints, uniforms: Floats) -> None:
-        """One update of each named run (k,) that holds enough transitions; numbers (k, batch) draw its batch."""
+        """One update of each named row (k,) that holds enough transitions; numbers (k, batch) draw its batch."""
         ready = self.replay.added[rows] >= self._learning_starts
         if not ready.all():
             rows, uniforms = rows[ready], uniforms[ready]

@@ -1,4 +1,4 @@
-"""Training R runs of the nested agent, one tick at a time (paper, Algorithm 1).
+"""Training R runs of an agent, one tick at a time (paper, Algorithm 1).
 
 A tick is one step of every run that isn't finished: choose, step, remember, update. Every run is somewhere in an
 episode of its own: a training episode, or a greedy evaluation that is neither learnt from nor counted. The trainer sees
@@ -6,17 +6,17 @@ the arenas as a gymnasium VectorEnv with autoreset disabled and nothing else, so
 game.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol, TypeVar, get_type_hints, runtime_checkable
+from typing import Any, NamedTuple, TypeVar, get_type_hints
 
 import numpy as np
 import torch
 from gymnasium.vector import VectorEnv
-from numpy.typing import NDArray
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.learn.agents import NestedAgent
+from mc_nested.arena.vector import ResumableEnv
+from mc_nested.learn.agents import Agent, chosen_materials
 from mc_nested.learn.checkpoint import part_of
 from mc_nested.learn.learner import CHOICE_NUMBERS, Bools, Floats, Ints
 from mc_nested.learn.preset import Exploration, Preset
@@ -61,20 +61,11 @@ class _Runs:
     finished: Bools
 
 
-@runtime_checkable
-class Resumable(Protocol):
-    """An env whose episodes can be saved half-way: the simulator. A live game can't, its episodes begin anew."""
-
-    def snapshot(self) -> dict[str, NDArray[Any]]: ...
-
-    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> Ints: ...
-
-
 class Trainer:
     """Trains until every run has its episodes.
 
     Args:
-        env: R arenas as a VectorEnv with autoreset disabled.
+        env: R arenas as a VectorEnv with autoreset disabled; for the single agent, in its ten-action view.
         scenarios: each run's scenario.
         agent: what is trained.
         preset: the hyper-parameters; ``episodes`` as in the preset or as asked for.
@@ -86,7 +77,7 @@ class Trainer:
         self,
         env: VectorEnv[Ints, Ints, Any],
         scenarios: Sequence[Scenario],
-        agent: NestedAgent,
+        agent: Agent,
         preset: Preset,
         seed: int,
         stop_at_optimum: bool = False,
@@ -107,7 +98,7 @@ class Trainer:
         self._explore_nested = _decay(preset.explore_nested)
         self._streams = Streams(seed, runs, 2 * (CHOICE_NUMBERS + preset.update.batch))
         self._runs = _Runs(
-            observations=self._start.copy(),
+            observations=np.zeros((runs, agent.observed), dtype=np.int64),
             materials=np.zeros(runs, dtype=np.int64),
             episodes=np.zeros(runs, dtype=np.int64),
             steps_in_episode=np.zeros(runs, dtype=np.int64),
@@ -144,23 +135,26 @@ class Trainer:
         An error of the env passes through; what was learnt until then stays valid, and the next tick goes on with new
         episodes where ``abandon_episodes`` was called.
         """
-        main_choice, main_draws, nested_choice, nested_draws = np.split(self._streams.at(self.ticks), self._cuts(), 1)
+        main_choice, main_draws, low_choice, low_draws = np.split(self._streams.at(self.ticks), self._cuts(), 1)
         self._begin_episodes(main_choice)
         runs = self._runs
         training = ~(runs.finished | runs.evaluating)
-        states = self.agent.nested_states(runs.observations, runs.materials)
+        states = self.agent.low_states(runs.observations, runs.materials)
         epsilon = np.where(training, self._explore_nested.epsilon(runs.episodes, self.preset.episodes), 0.0)
-        actions = self.agent.nested.act(states, epsilon, nested_choice)
+        actions = self.agent.act(states, runs.materials, epsilon, low_choice)
         observations, rewards, terminated, truncated, info = self._env.step(actions)
-        next_states = self.agent.nested_states(observations, runs.materials)
+        next_states = self.agent.low_states(observations, runs.materials)
 
         rows = np.flatnonzero(training)
         done = terminated[rows]
         seen = Transitions(states[rows], actions[rows], rewards[rows], next_states[rows], done)
-        self.agent.nested.replay.add(rows, seen)
-        self.agent.nested.learn(rows, nested_draws[rows])
+        learners = self.agent.low_rows(rows, runs.materials)
+        self.agent.low.replay.add(learners, seen)
+        self.agent.low.learn(learners, low_draws[rows])
 
         runs.observations = observations
+        if self.agent.main is None:
+            runs.materials = chosen_materials(observations)
         runs.steps_in_episode += ~runs.finished
         self.env_steps += len(rows)
         self.evaluation_steps += int((runs.evaluating & ~runs.finished).sum())
@@ -178,7 +172,7 @@ class Trainer:
     def state(self) -> dict[str, torch.Tensor]:
         """Everything the rest of the training depends on, by name; as it stands between two ticks."""
         runs = {f"runs.{name}": torch.from_numpy(kept) for name, kept in vars(self._runs).items()}
-        arenas = self._env.snapshot() if isinstance(self._env, Resumable) else {}
+        arenas = self._env.snapshot() if isinstance(self._env, ResumableEnv) else {}
         return {
             "counts": torch.tensor([self.ticks, self.env_steps, self.evaluation_steps]),
             "rows.episodes": _table(self.episode_rows, EpisodeRow),
@@ -197,7 +191,7 @@ class Trainer:
             getattr(self._runs, name)[:] = kept.numpy()
         self.agent.load(part_of(state, "agent"))
         arenas = part_of(state, "env")
-        if isinstance(self._env, Resumable) and arenas:
+        if isinstance(self._env, ResumableEnv) and arenas:
             self._env.restore({name: kept.numpy() for name, kept in arenas.items()})
         else:
             self.abandon_episodes()
@@ -214,7 +208,8 @@ class Trainer:
         due = (runs.episodes % self.preset.evaluate_every == 0) | (runs.episodes >= self.preset.episodes)
         runs.evaluating = np.where(begins, due & (runs.episodes > runs.evaluated_at), runs.evaluating)
         epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
-        runs.materials = np.where(begins, self.agent.main.act(self._start, epsilon, choice), runs.materials)
+        if self.agent.main:
+            runs.materials = np.where(begins, self.agent.main.act(self._start, epsilon, choice), runs.materials)
         runs.observations, _ = self._env.reset(options={"reset_mask": begins, "material": runs.materials})
         runs.steps_in_episode[begins] = 0
         runs.between_episodes &= ~begins
@@ -237,6 +232,8 @@ class Trainer:
                     float(epsilon_nested[run]),
                 )
             )
+        if not self.agent.main:
+            return
         # The main agent's one transition an episode: after its choice, nothing is left for it to decide.
         ended = np.ones(len(rows), dtype=np.bool_)
         seen = Transitions(self._start[rows], runs.materials[rows], scores[rows], runs.observations[rows], ended)

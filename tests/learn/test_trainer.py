@@ -10,14 +10,16 @@ import torch
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv, Ints
-from mc_nested.learn.agents import NestedAgent
+from mc_nested.learn.agents import FORMS, Agent, Form, view_of
 from mc_nested.learn.evaluation import play_greedily
+from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv, arena_env
 
 LINE, DIAMOND = load_scenario("line"), load_scenario("diamond")
 PAPER = load_preset("paper")
+NESTED, HIERARCHICAL, SINGLE = FORMS["nested"], FORMS["hierarchical"], FORMS["single"]
 SHORT = PAPER.model_copy(
     update={
         "episodes": 20,
@@ -28,10 +30,15 @@ SHORT = PAPER.model_copy(
 
 
 def trainer_of(
-    scenarios: Sequence[Scenario], preset: Preset = SHORT, seed: int = 0, stop_at_optimum: bool = False
+    scenarios: Sequence[Scenario],
+    preset: Preset = SHORT,
+    seed: int = 0,
+    stop_at_optimum: bool = False,
+    form: Form = NESTED,
 ) -> Trainer:
-    agent = NestedAgent(scenarios, preset, seed)
-    return Trainer(GridVectorEnv(scenarios), scenarios, agent, preset, seed, stop_at_optimum)
+    agent = Agent(form, scenarios, preset, seed)
+    env = view_of(form, GridVectorEnv(scenarios), scenarios)
+    return Trainer(env, scenarios, agent, preset, seed, stop_at_optimum)
 
 
 def finish(trainer: Trainer) -> Trainer:
@@ -40,8 +47,17 @@ def finish(trainer: Trainer) -> Trainer:
     return trainer
 
 
+def _learners(agent: Agent) -> list[Learner]:
+    return [learner for learner in (agent.main, agent.low) if learner is not None]
+
+
+def main_of(agent: Agent) -> Learner:
+    assert agent.main is not None
+    return agent.main
+
+
 def weights(trainer: Trainer, run: int) -> list[torch.Tensor]:
-    return [learner.ddqn.learners.online[run] for learner in (trainer.agent.main, trainer.agent.nested)]
+    return [learner.ddqn.learners.online[run] for learner in _learners(trainer.agent)]
 
 
 @pytest.fixture(scope="module")
@@ -70,11 +86,11 @@ def test_an_odd_number_of_episodes_ends_with_an_evaluation() -> None:
 def test_the_nested_agent_updates_once_a_step_and_the_main_agent_once_an_episode(three_runs: Trainer) -> None:
     steps = sum(row.steps for row in three_runs.episode_rows)
     assert three_runs.env_steps == steps
-    assert int(three_runs.agent.nested.replay.added.sum()) == steps
-    assert three_runs.agent.main.replay.added.tolist() == [20] * 3
+    assert int(three_runs.agent.low.replay.added.sum()) == steps
+    assert main_of(three_runs.agent).replay.added.tolist() == [20] * 3
     # From 16 transitions on: the first 15 steps, and the first 15 episodes, bring none.
-    assert int(three_runs.agent.nested.ddqn.updates.sum()) == steps - 3 * 15
-    assert three_runs.agent.main.ddqn.updates.tolist() == [5] * 3
+    assert int(three_runs.agent.low.ddqn.updates.sum()) == steps - 3 * 15
+    assert main_of(three_runs.agent).ddqn.updates.tolist() == [5] * 3
 
 
 def test_evaluations_are_neither_learnt_from_nor_counted_as_training(three_runs: Trainer) -> None:
@@ -82,7 +98,7 @@ def test_evaluations_are_neither_learnt_from_nor_counted_as_training(three_runs:
 
 
 def test_the_main_agents_one_transition_is_the_start_its_choice_and_the_score(three_runs: Trainer) -> None:
-    kept = three_runs.agent.main.replay.state()
+    kept = main_of(three_runs.agent).replay.state()
     rows = [row for row in three_runs.episode_rows if row.trial == 1]
     assert kept["states"][1].tolist() == [[7, 14, 11]] * 20
     assert kept["actions"][1].tolist() == [row.material for row in rows]
@@ -91,7 +107,7 @@ def test_the_main_agents_one_transition_is_the_start_its_choice_and_the_score(th
 
 
 def test_the_nested_agents_states_carry_the_main_action(three_runs: Trainer) -> None:
-    kept = three_runs.agent.nested.replay.state()
+    kept = three_runs.agent.low.replay.state()
     rows = [row for row in three_runs.episode_rows if row.trial == 2]
     carried = np.concatenate([[row.material] * row.steps for row in rows])
     assert kept["states"][2, : len(carried), 3].tolist() == carried.tolist()
@@ -100,7 +116,7 @@ def test_the_nested_agents_states_carry_the_main_action(three_runs: Trainer) -> 
 
 
 def test_truncation_bootstraps_and_termination_does_not(three_runs: Trainer) -> None:
-    kept = three_runs.agent.nested.replay.state()
+    kept = three_runs.agent.low.replay.state()
     rows = [row for row in three_runs.episode_rows if row.trial == 0]
     ends = np.cumsum([row.steps for row in rows]) - 1
     terminated = kept["terminated"][0, : ends[-1] + 1]
@@ -152,11 +168,11 @@ def test_a_game_that_can_not_be_saved_half_way_goes_on_with_a_new_episode() -> N
     def games() -> ArenaVectorEnv:
         return ArenaVectorEnv([arena_env(LINE)])
 
-    agent = NestedAgent([LINE], SHORT, 0)
+    agent = Agent(NESTED, [LINE], SHORT, 0)
     first = Trainer(games(), [LINE], agent, SHORT, 0)
     for _ in range(100):
         first.tick()
-    resumed = Trainer(games(), [LINE], NestedAgent([LINE], SHORT, 0), SHORT, 0)
+    resumed = Trainer(games(), [LINE], Agent(NESTED, [LINE], SHORT, 0), SHORT, 0)
     resumed.load(first.state())
     done = int(resumed.episodes_done[0])
     assert 0 < done < 20
@@ -165,13 +181,13 @@ def test_a_game_that_can_not_be_saved_half_way_goes_on_with_a_new_episode() -> N
 
 def test_single_games_and_arrays_train_the_same(three_runs: Trainer) -> None:
     games = ArenaVectorEnv([arena_env(LINE) for _ in range(3)])
-    trainer = Trainer(games, [LINE] * 3, NestedAgent([LINE] * 3, SHORT, 0), SHORT, 0)
+    trainer = Trainer(games, [LINE] * 3, Agent(NESTED, [LINE] * 3, SHORT, 0), SHORT, 0)
     assert finish(trainer).episode_rows == three_runs.episode_rows
 
 
 def test_designs_train_side_by_side() -> None:
     trainer = finish(trainer_of([LINE, DIAMOND], SHORT.model_copy(update={"episodes": 5})))
-    blocks = trainer.agent.nested.replay.state()["states"][:, 0, 2]
+    blocks = trainer.agent.low.replay.state()["states"][:, 0, 2]
     assert blocks.tolist() == [11, 16]
 
 
@@ -208,14 +224,75 @@ class Fails(GridVectorEnv):
 
 
 def test_after_an_error_of_the_env_training_goes_on_with_a_new_episode() -> None:
-    trainer = Trainer(Fails([LINE]), [LINE], NestedAgent([LINE], SHORT, 0), SHORT, 0)
+    trainer = Trainer(Fails([LINE]), [LINE], Agent(NESTED, [LINE], SHORT, 0), SHORT, 0)
     with pytest.raises(ConnectionError):
         finish(trainer)
     trainer.abandon_episodes()
     assert [row.episode for row in finish(trainer).episode_rows] == list(range(1, 21))
 
 
-def test_two_networks_of_the_papers_shape() -> None:
-    agent = NestedAgent([LINE], SHORT, 0)
-    # Main: 3·32 + 32 + 32·32 + 32 + 32·2 + 2 = 1250; nested: 1480.
-    assert (agent.networks, agent.parameters) == (2, 1250 + 1480)
+@pytest.mark.parametrize(
+    ("form", "networks", "parameters"),
+    [
+        # Main: 3·32 + 32 + 32·32 + 32 + 32·2 + 2 = 1250; nested: 1480; a low agent without a_M: 1448; single, with two
+        # actions more: 1546.
+        (NESTED, 2, 1250 + 1480),
+        (HIERARCHICAL, 3, 1250 + 2 * 1448),
+        (SINGLE, 1, 1546),
+    ],
+    ids=list(FORMS),
+)
+def test_the_agents_train_2_and_3_and_1_networks(form: Form, networks: int, parameters: int) -> None:
+    agent = Agent(form, [LINE], SHORT, 0)
+    assert (agent.networks, agent.parameters) == (networks, parameters)
+
+
+def test_each_low_agent_of_the_hierarchy_learns_from_its_own_material_alone() -> None:
+    trainer = finish(trainer_of([LINE] * 2, form=HIERARCHICAL))
+    for run in (0, 1):
+        for material in (0, 1):
+            rows = [row for row in trainer.episode_rows if (row.trial, row.material) == (run, material)]
+            assert trainer.agent.low.replay.added[2 * run + material] == sum(row.steps for row in rows)
+    kept = trainer.agent.low.replay.state()
+    assert kept["states"].shape[2] == 3, "nothing of the top agent is in the low agents' state"
+    added = trainer.agent.low.replay.added
+    assert trainer.agent.low.ddqn.updates.tolist() == np.maximum(added - 15, 0).tolist()
+
+
+def test_the_single_agent_learns_from_its_choice_as_from_any_action() -> None:
+    trainer = finish(trainer_of([LINE] * 2, SHORT.model_copy(update={"episodes": 60}), form=SINGLE))
+    kept = trainer.agent.low.replay.state()
+    for run in (0, 1):
+        rows = [row for row in trainer.episode_rows if row.trial == run]
+        begins = np.concatenate(([0], np.cumsum([row.steps for row in rows])[:-1]))
+        assert kept["states"][run, begins].tolist() == [[7, 14, 11, 0]] * 60
+        choices = kept["actions"][run, begins]
+        assert [row.material for row in rows] == np.where(choices < 2, choices, -1).tolist()
+        assert kept["rewards"][run, begins].tolist() == [{0: -5.0, 1: 10.0}.get(int(choice), 0.0) for choice in choices]
+        assert [row.score for row in rows if row.material == -1] == [0.0] * int((choices >= 2).sum())
+    assert {row.material for row in trainer.episode_rows} == {-1, 0, 1}
+
+
+@pytest.mark.parametrize("form", [HIERARCHICAL, SINGLE], ids=["hierarchical", "single"])
+def test_every_agents_training_can_be_repeated_and_resumed(form: Form) -> None:
+    whole, first = finish(trainer_of([LINE] * 2, form=form)), trainer_of([LINE] * 2, form=form)
+    for _ in range(150):
+        first.tick()
+    resumed = trainer_of([LINE] * 2, form=form)
+    resumed.load({name: kept.clone() for name, kept in first.state().items()})
+    finish(resumed)
+    assert resumed.episode_rows == whole.episode_rows
+    for name, kept in whole.state().items():
+        assert torch.equal(resumed.state()[name], kept), name
+    played = play_greedily(view_of(form, GridVectorEnv([LINE] * 2), [LINE] * 2), [LINE] * 2, whole.agent)
+    last = {row.trial: row for row in whole.evaluation_rows}
+    assert [(episode.score, episode.material) for episode in played] == [
+        (last[run].score, last[run].material) for run in (0, 1)
+    ]
+
+
+@pytest.mark.parametrize("form", FORMS.values(), ids=list(FORMS))
+def test_a_run_of_a_batch_of_any_agent_is_that_run_alone(form: Form) -> None:
+    preset = SHORT.model_copy(update={"episodes": 10})
+    beside, alone = finish(trainer_of([LINE] * 3, preset, form=form)), finish(trainer_of([LINE], preset, form=form))
+    assert alone.episode_rows == [row for row in beside.episode_rows if row.trial == 0]

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from mc_nested.arena.builder import build
 from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
 from sim.grid import GridVectorEnv, arena_env
 
 LINE, ZIGZAG, DIAMOND = (load_scenario(name) for name in ("line", "zigzag", "diamond"))
@@ -83,6 +83,18 @@ def test_without_a_material_the_best_one_is_taken() -> None:
 def test_reset_options_that_do_not_fit_are_refused(form: type[GridVectorEnv], options: dict[str, object]) -> None:
     with pytest.raises(ValueError, match="material"):
         form([LINE] * 2).reset(options=options)
+
+
+@pytest.mark.parametrize("form", [GridVectorEnv, lambda scenarios: ArenaVectorEnv([arena_env(s) for s in scenarios])])
+def test_an_arena_without_an_action_stands_still(form: type[GridVectorEnv]) -> None:
+    envs = form([LINE] * 2)
+    envs.reset()
+    for _ in range(70):
+        observations, rewards, terminated, truncated, info = envs.step(np.array([NO_ACTION, Action.L]))
+    assert observations.tolist() == [[7, 14, 11], [0, 14, 11]]
+    assert (terminated.tolist(), truncated.tolist()) == ([False, False], [False, True])
+    assert not info["_score"].any()
+    assert rewards.tolist() == [0.0, 0.0]
 
 
 def test_a_snapshot_brings_every_arena_back() -> None:

@@ -1,0 +1,111 @@
+"""The single agent's ten actions, step by step (paper, appendix; README: the task)."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mc_nested.arena.builder import build
+from mc_nested.arena.rules import Action
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arena.single import SingleAgentVectorEnv
+from mc_nested.arena.vector import ArenaVectorEnv
+from sim.grid import GridVectorEnv, arena_env
+
+LINE = load_scenario("line")
+WOOD, STONE, FIRST_MOVE = 0, 1, 2
+
+
+def single(runs: int = 1) -> SingleAgentVectorEnv:
+    env = SingleAgentVectorEnv(GridVectorEnv([LINE] * runs), [LINE] * runs)
+    env.reset()
+    return env
+
+
+def test_no_material_is_chosen_at_the_start() -> None:
+    env = single()
+    observations, _ = env.reset()
+    assert observations.tolist() == [[7, 14, 11, 0]]
+    assert env.single_action_space.n == 10  # type: ignore[attr-defined]  # a Discrete
+    assert env.single_observation_space.high.tolist() == [14, 14, 11, 2]  # type: ignore[attr-defined]  # a Box
+
+
+@pytest.mark.parametrize(("choice", "worth"), [(WOOD, -5.0), (STONE, 10.0)])
+def test_the_choice_earns_p_and_shows_in_the_state(choice: int, worth: float) -> None:
+    env = single()
+    observations, rewards, terminated, truncated, _ = env.step(np.array([choice]))
+    assert observations.tolist() == [[7, 14, 11, choice + 1]]
+    assert (rewards.tolist(), terminated.tolist(), truncated.tolist()) == ([worth], [False], [False])
+
+
+@pytest.mark.parametrize("action", range(FIRST_MOVE, 10))
+def test_a_first_action_that_is_no_material_ends_the_episode_with_score_0(action: int) -> None:
+    env = single()
+    observations, rewards, terminated, _, info = env.step(np.array([action]))
+    assert observations.tolist() == [[7, 14, 11, 0]]
+    assert (rewards.tolist(), terminated.tolist()) == ([0.0], [True])
+    assert (info["_score"].tolist(), info["score"].tolist()) == ([True], [0.0])
+
+
+@pytest.mark.parametrize(("choice", "score"), [(WOOD, 6.0), (STONE, 21.0)])
+def test_the_builder_reaches_the_optimum_after_its_choice(choice: int, score: float) -> None:
+    env = single()
+    earned = env.step(np.array([choice]))[1][0]
+    for action in build(LINE):
+        _, rewards, terminated, _, info = env.step(np.array([action + FIRST_MOVE]))
+        earned += rewards[0]
+    assert terminated.tolist() == [True]
+    assert info["score"].tolist() == [score]
+    assert earned == score
+
+
+def test_a_later_material_action_does_nothing_and_counts_as_a_step() -> None:
+    env = single()
+    env.step(np.array([STONE]))
+    for _ in range(58):
+        observations, rewards, terminated, truncated, info = env.step(np.array([WOOD]))
+        assert (observations.tolist(), rewards.tolist()) == ([[7, 14, 11, 2]], [0.0])
+        assert not (terminated | truncated | info["_score"]).any()
+    *_, truncated, info = env.step(np.array([WOOD]))
+    assert (truncated.tolist(), info["score"].tolist()) == ([True], [10.0])
+
+
+def test_an_ended_episode_stands_still_until_it_is_reset() -> None:
+    env = single(2)
+    env.step(np.array([STONE, FIRST_MOVE]))
+    _, _, terminated, _, info = env.step(np.array([FIRST_MOVE + Action.BD, STONE]))
+    assert (terminated.tolist(), info["_score"].tolist()) == ([False, True], [False, False])
+    observations, _ = env.reset(options={"reset_mask": np.array([False, True])})
+    assert observations.tolist() == [[7, 13, 10, 2], [7, 14, 11, 0]]
+
+
+@given(seed=st.integers(0, 2**32 - 1))
+@settings(max_examples=20, deadline=None)
+def test_arrays_and_single_arenas_agree(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    arrays = single(3)
+    games = SingleAgentVectorEnv(ArenaVectorEnv([arena_env(LINE) for _ in range(3)]), [LINE] * 3)
+    games.reset()
+    mask = np.zeros(3, dtype=bool)
+    for _ in range(150):
+        fresh = arrays.reset(options={"reset_mask": mask})[0]
+        np.testing.assert_array_equal(fresh, games.reset(options={"reset_mask": mask})[0])
+        actions = np.where(fresh[:, 3] == 0, random.integers(0, 3, 3), random.integers(0, 10, 3))
+        ours, theirs = arrays.step(actions), games.step(actions)
+        for one, other in zip(ours[:4], theirs[:4], strict=True):
+            np.testing.assert_array_equal(one, other)
+        np.testing.assert_array_equal(ours[4]["score"], theirs[4]["score"])
+        mask = ours[2] | ours[3]
+
+
+def test_a_snapshot_brings_every_arena_back() -> None:
+    env = single(2)
+    random = np.random.default_rng(3)
+    env.step(np.array([STONE, WOOD]))
+    for _ in range(10):
+        env.step(random.integers(2, 10, 2))
+    kept = env.snapshot()
+    ahead = random.integers(0, 10, (40, 2))
+    first = [env.step(actions)[0].tolist() for actions in ahead]
+    env.restore(kept)
+    assert [env.step(actions)[0].tolist() for actions in ahead] == first
