@@ -21,7 +21,7 @@ _SHOWN = 60
 def read_toml_text(path: Path, error: type[UserError]) -> str:
     """The text of a TOML file; ``error``, one line, where it can't be read."""
     try:
-        return path.read_text("utf-8")
+        return path.read_text("utf-8-sig")
     except (OSError, UnicodeDecodeError) as cause:
         reason = cause.strerror if isinstance(cause, OSError) else "it is not UTF-8 text"
         raise error(f"{path}: can't be read, {reason}: name a TOML file") from cause

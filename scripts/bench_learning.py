@@ -22,7 +22,7 @@ from rich.table import Table
 from torch import nn
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.learn.agents import NestedAgent
+from mc_nested.learn.agents import FORMS, Agent
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv, arena_env
@@ -37,14 +37,14 @@ Slices = Callable[[], int]
 def ours(runs: int) -> Slices:
     """This project's trainer with that many runs; the main agent's updates are left out of the count."""
     scenarios = [LINE] * runs
-    agent = NestedAgent(scenarios, PAPER, seed=0)
+    agent = Agent(FORMS["nested"], scenarios, PAPER, seed=0)
     trainer = Trainer(GridVectorEnv(scenarios), scenarios, agent, PAPER, seed=0)
 
     def work() -> int:
-        before = int(agent.nested.ddqn.updates.sum())
+        before = int(agent.low.ddqn.updates.sum())
         for _ in range(20):
             trainer.tick()
-        return int(agent.nested.ddqn.updates.sum()) - before
+        return int(agent.low.ddqn.updates.sum()) - before
 
     return work
 

@@ -10,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from mc_nested.cli.options import RunArgument
-from mc_nested.learn.agents import NestedAgent
+from mc_nested.learn.agents import Agent, view_of
 from mc_nested.learn.checkpoint import part_of
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.run_folder import RunFolder
@@ -26,28 +26,29 @@ def evaluate(
     scenario = folder.scenario
     if as_json:
         scores = [episode.score for episode in episodes]
-        materials = [scenario.materials[episode.material].name for episode in episodes]
+        materials = [episode.material_name(scenario) for episode in episodes]
         steps = [len(episode.actions) for episode in episodes]
         found = {"scenario": scenario.name, "optimum": scenario.optimum, "scores": scores}
         print(json.dumps({**found, "materials": materials, "steps": steps}))
         return
     table = Table("trial", "score", "optimum", "material", "steps", title=Text(f"{scenario.name}, greedy"))
     for trial, episode in enumerate(episodes):
-        material = scenario.materials[episode.material].name
+        material = episode.material_name(scenario)
         table.add_row(
             f"{trial}", f"{episode.score:g}", f"{scenario.optimum:g}", Text(material), f"{len(episode.actions)}"
         )
     Console().print(table)
 
 
-def load_agent(folder: RunFolder) -> NestedAgent:
+def load_agent(folder: RunFolder) -> Agent:
     """The agent of a training's last checkpoint, every trial, able to act."""
     torch.set_num_threads(1)
-    agent = NestedAgent(folder.scenarios, folder.config.preset, folder.config.seed)
+    agent = folder.new_agent(folder.config.trials)
     agent.load_networks(part_of(folder.load(), "agent"))
     return agent
 
 
-def greedy_episodes(folder: RunFolder, agent: NestedAgent) -> list[GreedyEpisode]:
+def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:
     """One greedy episode of every trial in the simulator."""
-    return play_greedily(GridVectorEnv(folder.scenarios), folder.scenarios, agent)
+    env = view_of(agent.form, GridVectorEnv(folder.scenarios), folder.scenarios)
+    return play_greedily(env, folder.scenarios, agent)

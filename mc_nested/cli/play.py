@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import Annotated
 
 import cv2
-import torch
 import typer
 from rich.console import Console, Group
 from rich.live import Live
@@ -15,7 +14,7 @@ from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.evaluate import greedy_episodes, load_agent
 from mc_nested.cli.options import Backend, BackendOption, ProfileOption, RunArgument, open_game
 from mc_nested.errors import RunError, UserError
-from mc_nested.learn.agents import NestedAgent
+from mc_nested.learn.agents import Agent, view_of
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.run_folder import RunFolder
 from mc_nested.live.devices import Display
@@ -50,16 +49,17 @@ def play(
                 if pictures:
                     pictures.take()
 
-            episode = play_greedily(ArenaVectorEnv([env]), [scenario], agent, show)[0]
+            arenas = view_of(agent.form, ArenaVectorEnv([env]), [scenario])
+            episode = play_greedily(arenas, [scenario], agent, show)[0]
         if not console.is_terminal:
             console.print()  # rich leaves the last line open then
-    material = scenario.materials[episode.material].name
+    material = episode.material_name(scenario)
     typer.echo(f"  score {episode.score:g} of {scenario.optimum:g}, in {material}, {len(episode.actions)} steps")
     if pictures:
         typer.echo(f"  screenshots: {pictures.folder}")
 
 
-def _choose(folder: RunFolder, trial: int | None) -> tuple[NestedAgent, int]:
+def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
     """The agent of one trial alone, and which trial: the asked one, or the best in the simulator."""
     agent = load_agent(folder)
     if trial is None:
@@ -67,13 +67,9 @@ def _choose(folder: RunFolder, trial: int | None) -> tuple[NestedAgent, int]:
         trial = scores.index(max(scores))
     if trial >= folder.config.trials:
         raise RunError(f"{folder.path}: has no trial {trial}: choose 0 to {folder.config.trials - 1}")
-    alone = NestedAgent([folder.scenario], folder.config.preset, folder.config.seed)
-    alone.load_networks({name: _row(kept, trial) for name, kept in agent.state().items() if "ddqn" in name})
+    alone = folder.new_agent(1)
+    alone.load_networks(agent.networks_of(trial))
     return alone, trial
-
-
-def _row(kept: torch.Tensor, trial: int) -> torch.Tensor:
-    return kept[trial : trial + 1]
 
 
 class _Screenshots:

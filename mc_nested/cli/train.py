@@ -12,7 +12,7 @@ from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
 from mc_nested.cli.options import DEFAULT_PROFILE, Backend, ProfileOption, open_arenas
 from mc_nested.cli.progress import TrainingProgress
 from mc_nested.errors import DesktopError, LiveError, UserError
-from mc_nested.learn.agents import AGENTS, NestedAgent
+from mc_nested.learn.agents import FORMS, view_of
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.run_folder import RunConfig, RunFolder
 from mc_nested.learn.trainer import Trainer
@@ -38,7 +38,7 @@ DEFAULTS: dict[str, Any] = {
 def train(
     context: typer.Context,
     scenario: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="the design to build [line]")] = None,
-    agent: Annotated[str | None, typer.Option(help=f"who learns: {', '.join(AGENTS)} [nested]")] = None,
+    agent: Annotated[str | None, typer.Option(help=f"who learns: {', '.join(FORMS)} [nested]")] = None,
     backend: Annotated[Backend | None, typer.Option(help="where [sim]")] = None,
     preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="hyper-parameters [paper]")] = None,
     episodes: Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial [the preset's]")] = None,
@@ -66,12 +66,12 @@ def train(
         return
     if out is None:
         raise UserError("name a new folder for the run with --out DIR, or a run to go on with, --resume DIR")
-    if agent not in (None, *AGENTS):
-        raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENTS)}")
+    if agent not in (None, *FORMS):
+        raise UserError(f"no agent {agent!r}: choose one of {', '.join(FORMS)}")
     chosen = load_preset(DEFAULTS["preset"] if preset is None else preset)
     where = backend or DEFAULTS["backend"]
     config = RunConfig(
-        agent="nested",
+        agent=agent or DEFAULTS["agent"],
         backend=where.value,
         profile=(profile or DEFAULT_PROFILE) if where is Backend.LIVE else None,
         trials=trials or DEFAULTS["trials"],
@@ -90,8 +90,9 @@ def run_training(folder: RunFolder, profile: str | None, saved: dict[str, torch.
     began = time.monotonic() - (folder.wall_s_so_far() if saved else 0.0)
     with catch_interrupts() as interrupt:
         with open_arenas(Backend(config.backend), profile, folder.scenarios) as env:
-            agent = NestedAgent(folder.scenarios, config.preset, config.seed)
-            trainer = Trainer(env, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
+            agent = folder.new_agent(config.trials)
+            view = view_of(agent.form, env, folder.scenarios)
+            trainer = Trainer(view, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
             if saved:
                 trainer.load(saved)
             else:

@@ -133,6 +133,15 @@ class Agent:
         for role, learner in self._learners().items():
             learner.load_networks(part_of(state, role))
 
+    def networks_of(self, run: int) -> dict[str, torch.Tensor]:
+        """One run's networks, for ``load_networks`` of an agent in that run alone."""
+        rows = {"main": slice(run, run + 1), "low": slice(run * self._lows, (run + 1) * self._lows)}
+        return {
+            f"{role}.ddqn.{name}": kept[rows[role]]
+            for role, learner in self._learners().items()
+            for name, kept in learner.ddqn.state().items()
+        }
+
     def _learners(self) -> dict[str, Learner]:
         return {"main": self.main, "low": self.low} if self.main else {"low": self.low}
 

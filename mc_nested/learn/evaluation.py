@@ -20,6 +20,10 @@ class GreedyEpisode:
     actions: list[int] = field(default_factory=list)
     score: float = 0.0
 
+    def material_name(self, scenario: Scenario) -> str:
+        """The chosen material's name; "no material" where none was chosen."""
+        return scenario.materials[self.material].name if self.material >= 0 else "no material"
+
 
 def play_greedily(
     env: VectorEnv[Ints, Ints, Any],

@@ -95,7 +95,7 @@ class Learner:
         states = np.concatenate((drawn.states, drawn.next_states), axis=1)
         return Batch(
             states=self.encode(states, rows),
-            actions=torch.from_numpy(drawn.actions),
+            actions=torch.from_numpy(drawn.actions).long(),
             rewards=torch.from_numpy(drawn.rewards),
             terminated=torch.from_numpy(drawn.terminated),
         )

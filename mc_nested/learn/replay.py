@@ -14,7 +14,7 @@ class Transitions(NamedTuple):
     """Transitions side by side, the leading axes being the caller's: whole states of small integers, as observed."""
 
     states: NDArray[np.integer[Any]]
-    actions: NDArray[np.int64]
+    actions: NDArray[np.integer[Any]]
     rewards: NDArray[np.floating[Any]]
     next_states: NDArray[np.integer[Any]]
     terminated: NDArray[np.bool_]
@@ -55,9 +55,9 @@ class Replay:
         return Transitions(*(_flat(kept).take(places, axis=0) for kept in self._kept))
 
     def state(self) -> dict[str, NDArray[Any]]:
-        """Everything a later draw depends on, by name; memory not yet filled left out."""
+        """Everything a later draw depends on, by name, copied; memory not yet filled left out."""
         filled = int(self.sizes().max(initial=0))
-        return {"added": self.added, **{name: kept[:, :filled] for name, kept in self._kept._asdict().items()}}
+        return {"added": self.added, **{name: kept[:, :filled].copy() for name, kept in self._kept._asdict().items()}}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
@@ -80,7 +80,7 @@ class Replay:
     def _memory(runs: int, width: int, room: int) -> Transitions:
         return Transitions(
             states=np.zeros((runs, room, width), dtype=np.int16),
-            actions=np.zeros((runs, room), dtype=np.int64),
+            actions=np.zeros((runs, room), dtype=np.int16),
             rewards=np.zeros((runs, room), dtype=np.float32),
             next_states=np.zeros((runs, room, width), dtype=np.int16),
             terminated=np.zeros((runs, room), dtype=np.bool_),

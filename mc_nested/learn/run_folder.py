@@ -9,11 +9,12 @@ from typing import Annotated, Any, Literal
 
 import tomlkit
 import torch
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
 from mc_nested.errors import RunError, ScenarioError
+from mc_nested.learn.agents import FORMS, Agent
 from mc_nested.learn.checkpoint import read_checkpoint, write_checkpoint
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.trainer import EpisodeRow, EvaluationRow, Trainer
@@ -21,12 +22,18 @@ from mc_nested.learn.whole_file import written_whole
 from mc_nested.toml_file import parse_toml, read_toml_text
 
 
+def _known_agent(name: str) -> str:
+    if name not in FORMS:
+        raise ValueError(f"must be one of {', '.join(FORMS)}")
+    return name
+
+
 class RunConfig(BaseModel):
     """Everything needed to repeat a training: the scenario and the preset whole, so no other file has to be found."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
-    agent: Literal["nested"]
+    agent: Annotated[str, AfterValidator(_known_agent)]
     backend: Literal["sim", "live"]
     profile: str | None = None
     trials: Annotated[int, Field(ge=1)]
@@ -75,6 +82,10 @@ class RunFolder:
             return cls(path, parse_toml(RunConfig, text, str(path / "config.toml"), RunError))
         except ScenarioError as error:
             raise RunError(str(error)) from error
+
+    def new_agent(self, runs: int) -> Agent:
+        """An untrained agent of this training's form, in so many runs."""
+        return Agent(FORMS[self.config.agent], [self.scenario] * runs, self.config.preset, self.config.seed)
 
     @property
     def scenarios(self) -> list[Scenario]:

@@ -50,6 +50,11 @@ def test_a_users_file_is_read_by_its_path(tmp_path: Path) -> None:
     assert scenario == Scenario("dot", frozenset({(2, 5)}), (3, 4), 9, (Material("glass", 1.0, "glass"),))
 
 
+def test_a_file_that_begins_with_a_byte_order_mark_is_read(tmp_path: Path) -> None:
+    (tmp_path / "dot.toml").write_text(OWN, encoding="utf-8-sig")
+    assert load_scenario(tmp_path / "dot.toml").name == "dot"
+
+
 buildable = st.tuples(st.integers(0, SIZE - 1), st.integers(1, SIZE - 1))
 
 

@@ -189,6 +189,21 @@ def test_play_takes_the_best_trial_by_itself(trained: Path, capsys: pytest.Captu
     assert f"score {best:g} of 21" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(("agent", "networks"), [("hierarchical", 3), ("single", 1)])
+def test_the_other_agents_train_evaluate_and_play(
+    agent: str, networks: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / agent
+    assert run(*TRAIN, "--agent", agent, "--out", out) == 0
+    summary = json.loads((out / "summary.json").read_text())
+    assert (summary["agent"], summary["networks"]) == (agent, networks)
+    capsys.readouterr()
+    assert run("evaluate", out, "--json") == 0
+    assert json.loads(capsys.readouterr().out)["scores"] == summary["final_scores"]
+    assert run("play", out, "--trial", "1") == 0
+    assert f"score {summary['final_scores'][1]:g} of 21" in capsys.readouterr().out
+
+
 def test_scenarios_lists_the_designs(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("scenarios") == 0
     printed = " ".join(capsys.readouterr().out.split())
@@ -217,7 +232,10 @@ def test_a_large_design_of_a_users_own_is_listed_with_an_upper_bound(
     [
         (["train"], "name a new folder for the run with --out DIR"),
         (["train", "--out", "NEW", "--scenario", "pyramid"], "no scenario 'pyramid'"),
-        (["train", "--out", "NEW", "--agent", "double"], "no agent 'double': choose one of nested"),
+        (
+            ["train", "--out", "NEW", "--agent", "double"],
+            "no agent 'double': choose one of nested, hierarchical, single",
+        ),
         (["train", "--out", "NEW", "--preset", "fast"], "no preset 'fast'"),
         (["train", "--out", "NEW", "--trials", "0"], "'--trials'"),
         (["train", "--out", "NEW", "--episodes", "0"], "'--episodes'"),
