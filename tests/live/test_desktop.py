@@ -28,6 +28,7 @@ from mc_nested.live.desktop.keys import WORDS, check_key
 from mc_nested.live.desktop.screen import WindowDisplay
 from mc_nested.live.desktop.window import Place, checked, pick
 from mc_nested.live.devices import Frame, Region
+from tests.standin_fixture import Standin
 
 MINECRAFT = r"^Minecraft\*? \d"
 
@@ -196,13 +197,10 @@ def test_importing_the_desktop_needs_no_display_and_loads_no_device() -> None:
 
 
 @pytest.fixture
-def x_server() -> Iterator[dict[str, str]]:
+def x_server(standin: Standin) -> Iterator[dict[str, str]]:  # noqa: ARG001 - where the stand-in is up, there is an Xvfb
     """The environment of an empty X screen of 1024 x 768."""
-    program = shutil.which("Xvfb")
-    if program is None:
-        pytest.skip("no Xvfb here: install it (apt-get install xvfb), or run python scripts/standin.py up")
     read, write = os.pipe()
-    command = [program, "-displayfd", str(write), "-screen", "0", "1024x768x24", "-nolisten", "tcp"]
+    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x768x24", "-nolisten", "tcp"]
     server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
     os.close(write)
     try:
