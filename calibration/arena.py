@@ -13,11 +13,11 @@ from pathlib import Path
 
 from calibration.start import profile_to_calibrate
 from mc_nested.arena.rules import SIZE, Cell, is_inside
-from mc_nested.errors import NotInFrontError, UnreadableError, UserError
+from mc_nested.errors import ProfileError, UserError
+from mc_nested.live.at_rest import read_at_rest
 from mc_nested.live.coordinates import block_of, facing_of, turn_between, yaw_of
 from mc_nested.live.debug_screen import read_debug_screen
 from mc_nested.live.desktop import Desktop, open_desktop
-from mc_nested.live.devices import Clock, Display
 from mc_nested.live.font import load_font
 from mc_nested.live.profile import save_profile
 from mc_nested.live.profile_tables import Arena, GameVersion
@@ -32,12 +32,6 @@ TOLERANCE_DEG = 20.0
 
 FLOOR_TOLERANCE = 0.001
 """How far the feet may be off a whole block's top, in blocks: the debug screen shows three decimals at least."""
-
-PATIENCE_S = 60.0
-"""How long the player has to switch to the game and turn the debug screen on."""
-
-LOOK_S = 0.25
-"""Between two looks: a few frames of the game, so that the same place seen twice is a place stood on."""
 
 _TITLE = re.compile(r"Minecraft\*? (\d+\.\d+(?:\.\d+)?)(?:[ -].*)?")
 """The title of the game's window, a star standing for a modified one (FACTS: Input and windows)."""
@@ -76,6 +70,8 @@ def calibrate_arena(
     if font is not None:
         screen = profile.screen.model_copy(update={"font": str(font.expanduser().resolve())})
         profile = profile.model_copy(update={"screen": screen})
+    if profile.screen.font is None:
+        raise ProfileError("the game's font is needed the first time: name its client jar with --font")
     glyphs = load_font(profile.screen.font_path())
     with open_devices(profile.window.title) as desktop:
         say(
@@ -86,35 +82,15 @@ def calibrate_arena(
         reading = read_at_rest(
             desktop.display, desktop.clock, lambda: read_debug_screen(desktop.display.grab(), glyphs, overlay)
         )
-        game = version_in(desktop.display.title()) or profile.game
+        titled = version_in(desktop.display.title())
+    game = titled or profile.game
     arena = arena_seen(reading, standing)
     if not yes and not ask(question_for(arena)):
         return None
     save_profile(profile.model_copy(update={"arena": arena, "game": game}), path)
+    whence = "from its title" if titled else f"not in its title: if that is wrong, mend game.version in {path}"
+    say(f"Commands will be written for Minecraft {game.version}, {whence}.")
     return path
-
-
-def read_at_rest(display: Display, clock: Clock, read: Callable[[], Reading]) -> Reading:
-    """The first reading that is seen twice in a row while the game is in front.
-
-    Raises:
-        NotInFrontError: the game was not in front when time ran out.
-        UnreadableError: it was, but the debug screen could not be read, or the player kept moving.
-    """
-    end = clock.now() + PATIENCE_S
-    before: Reading | None = None
-    problem: str | None = None
-    while clock.now() < end:
-        in_front = display.is_in_front()
-        reading = read() if in_front else None
-        if reading is not None and reading.problem is None and reading == before:
-            return reading
-        before = reading
-        problem = (reading.problem or "the player keeps moving") if reading else None
-        clock.sleep_until(clock.now() + LOOK_S)
-    if problem is None:
-        raise NotInFrontError("the game's window didn't come to the front: click on it, and run this again")
-    raise UnreadableError(f"the debug screen can't be read ({problem}): mend that, and run this again")
 
 
 def arena_seen(reading: Reading, standing: Cell) -> Arena:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from enum import Enum
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -44,7 +45,7 @@ def open_game(backend: Backend, profile: str | None, scenario: Scenario) -> Iter
     if backend is Backend.SIM:
         yield GridGame(scenario), None
         return
-    with open_live_game(scenario, profile or DEFAULT_PROFILE) as live:
+    with open_live_game(scenario, profile or DEFAULT_PROFILE, partial(typer.echo, err=True)) as live:
         yield live
 
 

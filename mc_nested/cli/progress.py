@@ -59,5 +59,5 @@ class TrainingProgress:
         done = np.where(trainer.runs_finished, trainer.preset.episodes, trainer.episodes_done)
         main, nested = (float(epsilon.mean()) for epsilon in trainer.epsilon)
         rate = (trainer.agent.updates - self._updates_before) / max(now - self._began, 1e-9)
-        figures = f"score {score} of {self._scenario.optimum:g}  ε {main:.2f} {nested:.2f}  {rate:,.0f} updates/s"
+        figures = f"mean score {score} of {self._scenario.optimum:g}  ε {main:.2f} {nested:.2f}  {rate:,.0f} updates/s"
         self._bar.update(self._task, completed=int(done.sum()), figures=figures)

@@ -31,7 +31,7 @@ def read(
                 "name the game's font: --font with its client jar or ascii.png, or --profile with one that has it"
             )
         font = known.screen.font_path()
-    glyphs = load_font(font)
+    glyphs = load_font(font.expanduser())
     overlay = overlay_of(known) if known else None
     for image in images:
         found = read_picture(image, glyphs, overlay)

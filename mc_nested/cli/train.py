@@ -108,6 +108,9 @@ def run_training(folder: RunFolder, profile: str | None, saved: dict[str, torch.
     if not trainer.finished:
         raise Stopped(f"stopped and saved: go on with mc-nested train --resume {folder.path}")
     scores = ", ".join(f"{score:g}" for score in summary["final_scores"])
+    if folder.config.stop_at_optimum:
+        reached = ", ".join("never" if done is None else f"{done}" for done in summary["episodes_to_optimum"])
+        typer.echo(f"episodes to the optimum: {reached}")
     typer.echo(f"final scores (optimum {summary['optimum']:g}): {scores}")
     typer.echo(f"run:        {folder.path}")
     typer.echo(f"curve:      {folder.path / 'curve.png'}")

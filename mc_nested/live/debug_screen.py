@@ -79,6 +79,7 @@ def _without_position(screen: Screen) -> str:
 def _nothing_seen(overlay: Overlay | None) -> str:
     scale = f"GUI scale {overlay.scale}" if overlay else "a GUI scale from 1 to 4"
     return (
-        f"no debug screen is to be seen at {scale}: press F3 in the game; if it is on, turn Force Unicode Font off and "
-        "give the font of the game's own jar, or of the resource pack in use"
+        f"no debug screen is to be seen at {scale}: press F3 in the game, and Esc if a menu is open; if it is on, set "
+        "GUI Scale to 1, 2, 3 or 4, turn Force Unicode Font off, and give the font of the game's own jar, or of the "
+        "resource pack in use"
     )

@@ -27,7 +27,7 @@ ENTRY = "assets/minecraft/textures/font/ascii.png"
 SPACE = 4
 """Columns that a space moves the pen by (FACTS: The bitmap font)."""
 
-_GIVE = "give the game's jar, a resource pack or its ascii.png"
+_GIVE = "give the game's jar (versions/1.20.1/1.20.1.jar in its folder), a resource pack or its ascii.png"
 _CELLS = 16
 _DOTS = 8
 _NEEDED = string.digits + string.ascii_letters + ".,:/-()_#"

@@ -96,7 +96,7 @@ class Keys(ProfileTable):
 
 
 class Screen(ProfileTable):
-    """How the debug screen is drawn. What is left out is found on the screen."""
+    """How the debug screen is drawn. Without a GUI scale, all of it is found on the screen, for scales 1 to 4."""
 
     font: str | None = Field(
         default=None,
@@ -106,10 +106,12 @@ class Screen(ProfileTable):
         default=None, description="screen pixels to a dot of the font; left out, it is found on the screen"
     )
     line_pitch: Annotated[int, Field(ge=8, le=20)] | None = Field(
-        default=None, description="dots from one line to the next; left out, it is found on the screen"
+        default=None,
+        description="dots from one line to the next; counts beside gui_scale only, the game's 9 if left out",
     )
     text_colour: tuple[Shade, Shade, Shade] | None = Field(
-        default=None, description="red, green, blue of the text; left out, it is found on the screen"
+        default=None,
+        description="red, green, blue of the text; counts beside gui_scale only, the game's 224 224 224 if left out",
     )
 
     @field_validator("font")

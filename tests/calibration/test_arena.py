@@ -13,9 +13,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from calibration.arena import NEAR_MIDDLE, PATIENCE_S, arena_seen, calibrate_arena, question_for, read_at_rest
+from calibration.arena import NEAR_MIDDLE, arena_seen, calibrate_arena, question_for
 from mc_nested.arena.rules import SIZE, Cell
 from mc_nested.errors import DesktopError, NotInFrontError, ProfileError, UnreadableError, UserError
+from mc_nested.live.at_rest import PATIENCE_S, read_at_rest
 from mc_nested.live.coordinates import Facing, centre_of, yaw_of
 from mc_nested.live.desktop import Desktop
 from mc_nested.live.devices import Frame, Region

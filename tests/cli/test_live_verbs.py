@@ -57,7 +57,7 @@ def open_live(monkeypatch: pytest.MonkeyPatch, lasts: float, error: McNestedErro
     """From here on a live game is one that lasts so many actions."""
 
     @contextmanager
-    def opened(scenario: Scenario, profile: str) -> Iterator[tuple[FragileGame, GreyDisplay]]:
+    def opened(scenario: Scenario, profile: str, _say: object) -> Iterator[tuple[FragileGame, GreyDisplay]]:
         assert profile == "mine"
         yield FragileGame(scenario, lasts, error or LiveError("never raised")), GreyDisplay()
 

@@ -26,7 +26,7 @@ def test_the_contract_of_every_game_holds_in_a_real_window(standin: Standin) -> 
 def play_in_the_window(profile: str) -> None:
     """AssertionError or LiveError where the game in the profile's window doesn't keep the contract."""
     line = load_scenario("line")
-    with open_live_game(line, profile) as (game, _):
+    with open_live_game(line, profile, print) as (game, _):
         check_game(game, line, BUMPS)
 
 
