@@ -26,7 +26,7 @@ cells = st.tuples(st.integers(4, 8), st.integers(4, 8))
 
 
 @given(design=st.frozensets(cells, min_size=1, max_size=3), start=cells)
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 def test_a_plain_search_finds_the_same(design: frozenset[Cell], start: Cell) -> None:
     scenario = _scenario(design, start)
     found = fewest_steps(scenario)

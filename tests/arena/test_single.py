@@ -80,7 +80,7 @@ def test_an_ended_episode_stands_still_until_it_is_reset() -> None:
 
 
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 def test_arrays_and_single_arenas_agree(seed: int) -> None:
     random = np.random.default_rng(seed)
     arrays = single(3)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.learn import replay as replay_module
@@ -70,7 +70,6 @@ def test_draws_are_uniform() -> None:
 
 
 @given(steps=st.integers(1, 40), capacity=st.integers(5, 30))
-@settings(deadline=None)
 def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(replay_module, "FIRST_ROOM", 4)

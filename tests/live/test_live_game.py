@@ -79,7 +79,7 @@ def test_the_line_is_built_walking_backward(material: int) -> None:
     assert world.blocks == {arena.block_of(cell): block for cell in LINE.design}
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(facings, st.lists(actions, max_size=14))
 def test_every_outcome_is_the_rules_outcome_and_the_worlds(facing: Facing, chosen: list[Action]) -> None:
     world = _world(facing)
@@ -100,7 +100,7 @@ def test_every_outcome_is_the_rules_outcome_and_the_worlds(facing: Facing, chose
         assert world.built == {arena.block_of(block) for block in placed}
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(actions, max_size=4), st.floats(0.0, 12.0), st.integers(-1, 250), st.integers(0, 3))
 def test_whatever_happens_no_key_stays_down_or_goes_to_another_window(
     chosen: list[Action], front_s: float, fail_after: int, refused: int

@@ -17,7 +17,7 @@ LINE, ZIGZAG, DIAMOND = (load_scenario(name) for name in ("line", "zigzag", "dia
 
 
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_arrays_and_single_arenas_agree_on_everything(seed: int) -> None:
     random = np.random.default_rng(seed)
     arrays, singles = GridVectorEnv([LINE] * 4), ArenaVectorEnv([arena_env(LINE) for _ in range(4)])
