@@ -15,8 +15,7 @@ from hypothesis import strategies as st
 
 from calibration.arena import NEAR_MIDDLE, arena_seen, calibrate_arena, question_for
 from mc_nested.arena.rules import SIZE, Cell
-from mc_nested.errors import DesktopError, NotInFrontError, ProfileError, UnreadableError, UserError
-from mc_nested.live.at_rest import PATIENCE_S, read_at_rest
+from mc_nested.errors import DesktopError, ProfileError, UserError
 from mc_nested.live.coordinates import Facing, centre_of, yaw_of
 from mc_nested.live.desktop import Desktop
 from mc_nested.live.devices import Frame, Region
@@ -131,33 +130,6 @@ class NoInput:
 
 
 BLANK = np.zeros((8, 8, 3), np.uint8)
-HERE = Reading((0.5, 64.0, 0.5), 0.0, 30.0)
-THERE = Reading((0.7, 64.0, 0.5), 0.0, 30.0)
-
-
-def at_rest(readings: list[Reading], looks_until_front: int = 0) -> Reading:
-    """What is taken for the player's stand from readings of which the last one stays."""
-    later = iter(readings)
-    return read_at_rest(DrawnDisplay(BLANK, looks_until_front), SkippingClock(), lambda: next(later, readings[-1]))
-
-
-def test_a_stand_is_believed_once_it_was_seen_twice_in_a_row() -> None:
-    assert at_rest([Reading(problem="off"), THERE, HERE], looks_until_front=3) == HERE
-
-
-def test_a_game_that_stays_behind_another_window_is_told() -> None:
-    with pytest.raises(NotInFrontError, match="click on it"):
-        at_rest([HERE], looks_until_front=10**6)
-
-
-def test_a_debug_screen_that_stays_off_is_told_with_the_readers_reason() -> None:
-    with pytest.raises(UnreadableError, match=r"can't be read \(no XYZ line"):
-        at_rest([Reading(problem="no XYZ line: press F3")])
-
-
-def test_a_player_who_never_stands_still_is_told() -> None:
-    with pytest.raises(UnreadableError, match="keeps moving"):
-        at_rest([HERE, THERE] * int(PATIENCE_S * 10))
 
 
 @pytest.fixture
