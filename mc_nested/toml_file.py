@@ -2,6 +2,8 @@
 
 import difflib
 import json
+from collections.abc import Sequence
+from importlib import resources
 from pathlib import Path
 from typing import TypeVar, get_args
 
@@ -25,6 +27,23 @@ def read_toml_text(path: Path, error: type[UserError]) -> str:
     except (OSError, UnicodeDecodeError) as cause:
         reason = cause.strerror if isinstance(cause, OSError) else "it is not UTF-8 text"
         raise error(f"{path}: can't be read, {reason}: name a TOML file") from cause
+
+
+def read_shipped_or_named(
+    name_or_file: str | Path, what: str, folder: str, shipped: Sequence[str], error: type[UserError]
+) -> str:
+    """The text of a TOML file that comes with the project, by its name in a package's folder, or of any, by its path.
+
+    ``error``, one line that says ``what`` was looked for and what there is, where there is none or it can't be read.
+    """
+    name = str(name_or_file)
+    if name in shipped:
+        package, _, inside = folder.rpartition(".")
+        return (resources.files(package) / inside / f"{name}.toml").read_text("utf-8")
+    if not Path(name).is_file():
+        meant = f"; did you mean {name}.toml?" if Path(f"{name}.toml").is_file() else ""
+        raise error(f"no {what} {name!r}: name one of {', '.join(shipped)}, or a TOML file that exists{meant}")
+    return read_toml_text(Path(name), error)
 
 
 def parse_document(text: str, source: str, error: type[UserError]) -> tomlkit.TOMLDocument:

@@ -1,6 +1,5 @@
 """Scenario files: TOML with the design as an ASCII grid, the far edge (y = 14) on top."""
 
-from importlib import resources
 from pathlib import Path
 from typing import Annotated
 
@@ -9,7 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from mc_nested.arena.rules import SIZE, Cell, is_inside
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.errors import ScenarioError
-from mc_nested.toml_file import parse_toml, read_toml_text
+from mc_nested.toml_file import parse_toml, read_shipped_or_named
 
 BLOCK, FREE = "#", "."
 
@@ -47,14 +46,9 @@ def shipped_scenarios() -> list[str]:
 
 def load_scenario(name_or_file: str | Path) -> Scenario:
     """The scenario of a shipped name or of a TOML file; ScenarioError, one line, where it can't be used."""
-    if str(name_or_file) in shipped_scenarios():
-        text = (resources.files("mc_nested.arena") / "designs" / f"{name_or_file}.toml").read_text("utf-8")
-        return parse_scenario(text, str(name_or_file))
-    path = Path(name_or_file)
-    if not path.is_file():
-        known = ", ".join(shipped_scenarios())
-        raise ScenarioError(f"no scenario {str(name_or_file)!r}: name one of {known}, or a TOML file that exists")
-    return parse_scenario(read_toml_text(path, ScenarioError), str(path))
+    shipped = shipped_scenarios()
+    text = read_shipped_or_named(name_or_file, "scenario", "mc_nested.arena.designs", shipped, ScenarioError)
+    return parse_scenario(text, str(name_or_file))
 
 
 def parse_scenario(text: str, source: str) -> Scenario:

@@ -1,7 +1,9 @@
 """The ``mc-nested`` command: its verbs, and one line with exit code 2 for every mistake."""
 
+import importlib.metadata
 import sys
 from collections.abc import Sequence
+from typing import Annotated
 
 import typer
 
@@ -12,11 +14,19 @@ from mc_nested.live.ending import EndedBySignal
 
 app = typer.Typer(
     name="mc-nested",
-    help="Teach an agent to build in Minecraft Java Edition through the keyboard, the mouse and the screen.",
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
 )
+
+
+@app.callback(invoke_without_command=True)
+def version(show: Annotated[bool, typer.Option("--version", help="print the version")] = False) -> None:
+    """Teach an agent to build in Minecraft Java Edition through the keyboard, the mouse and the screen."""
+    if show:
+        typer.echo(f"mc-nested {importlib.metadata.version('mc-nested')}")
+
+
 app.command()(train.train)
 app.command()(evaluate.evaluate)
 app.command()(play.play)

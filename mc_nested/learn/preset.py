@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field
 
 from mc_nested.errors import PresetError
-from mc_nested.toml_file import parse_toml, read_toml_text
+from mc_nested.toml_file import parse_toml, read_shipped_or_named
 
 MOST = 1_000_000_000
 """The highest count of anything: fits 32 bits, and no training comes near it."""
@@ -64,14 +64,9 @@ def shipped_presets() -> list[str]:
 
 def load_preset(name_or_file: str | Path) -> Preset:
     """The preset of a shipped name or of a TOML file; PresetError, one line, where it can't be used."""
-    if str(name_or_file) in shipped_presets():
-        folder = resources.files("mc_nested.learn") / "presets"
-        return parse_preset((folder / f"{name_or_file}.toml").read_text("utf-8"), str(name_or_file))
-    path = Path(name_or_file)
-    if not path.is_file():
-        known = ", ".join(shipped_presets())
-        raise PresetError(f"no preset {str(name_or_file)!r}: name one of {known}, or a TOML file that exists")
-    return parse_preset(read_toml_text(path, PresetError), str(path))
+    shipped = shipped_presets()
+    text = read_shipped_or_named(name_or_file, "preset", "mc_nested.learn.presets", shipped, PresetError)
+    return parse_preset(text, str(name_or_file))
 
 
 def parse_preset(text: str, source: str) -> Preset:

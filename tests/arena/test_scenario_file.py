@@ -116,6 +116,12 @@ def test_an_unknown_name_lists_the_known_ones() -> None:
         load_scenario("pyramid")
 
 
+def test_a_name_that_lacks_its_ending_is_recognised(tmp_path: Path) -> None:
+    (tmp_path / "dot.toml").write_text(OWN)
+    with pytest.raises(ScenarioError, match=r"did you mean .*dot\.toml\?$"):
+        load_scenario(tmp_path / "dot")
+
+
 def test_an_unknown_material_lists_the_known_ones() -> None:
     with pytest.raises(ScenarioError, match="no material 'gold': choose one of wood, stone"):
         load_scenario("line").material_index("gold")

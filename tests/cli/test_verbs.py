@@ -1,6 +1,7 @@
 """The command line: what each verb prints and writes, and one line with exit code 2 for every mistake."""
 
 import csv
+import importlib.metadata
 import json
 import os
 import shutil
@@ -299,6 +300,11 @@ def test_a_truncated_checkpoint_is_refused(trained: Path, tmp_path: Path, capsys
     assert run("train", "--resume", broken) == 2
     assert "damaged or cut short" in capsys.readouterr().err
     assert (broken / "checkpoint" / FILE).read_bytes() == whole[: len(whole) // 2]
+
+
+def test_the_version_is_the_packages(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("--version") == 0
+    assert capsys.readouterr().out == f"mc-nested {importlib.metadata.version('mc-nested')}\n"
 
 
 def test_nothing_but_the_verb_asks_for_help(capsys: pytest.CaptureFixture[str]) -> None:
