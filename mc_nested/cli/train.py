@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 import torch
 import typer
+from numpy.typing import NDArray
 
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
@@ -84,7 +85,7 @@ def train(
     run_training(RunFolder.new(out, config), config.profile, None)
 
 
-def run_training(folder: RunFolder, profile: str | None, saved: dict[str, torch.Tensor] | None) -> None:
+def run_training(folder: RunFolder, profile: str | None, saved: dict[str, NDArray[Any]] | None) -> None:
     """Train until the run is finished or somebody stops it, saving as it goes and at the end."""
     config = folder.config
     began = time.monotonic() - (folder.wall_s_so_far() if saved else 0.0)

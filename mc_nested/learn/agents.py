@@ -10,16 +10,17 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import torch
 from gymnasium.vector import VectorEnv
+from numpy.typing import NDArray
 
 from mc_nested.arena.rules import SIZE, Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.learn.checkpoint import part_of
-from mc_nested.learn.learner import Floats, Ints, Learner, StateSpace
+from mc_nested.learn.learner import Floats, Ints, Learner
 from mc_nested.learn.networks import parameter_count
 from mc_nested.learn.preset import Preset
+from mc_nested.learn.states import StateSpace
 from mc_nested.learn.streams import initial_stream
 
 
@@ -60,10 +61,14 @@ class Agent:
         scenarios: each run's scenario; all with the same number of materials.
         preset: the hyper-parameters of all its learners.
         seed: of the initial parameters.
+        runs: each run's number (streams.py); from 0 on unless named.
     """
 
-    def __init__(self, form: Form, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> None:
-        streams = [initial_stream(seed, run) for run in range(len(scenarios))]
+    def __init__(
+        self, form: Form, scenarios: Sequence[Scenario], preset: Preset, seed: int, runs: Sequence[int] | None = None
+    ) -> None:
+        self.runs = tuple(range(len(scenarios)) if runs is None else runs)
+        streams = [initial_stream(seed, run) for run in self.runs]
         materials = len(scenarios[0].materials)
         observed = np.array([[SIZE - 1, SIZE - 1, scenario.blocks] for scenario in scenarios])
         self.form = form
@@ -115,7 +120,7 @@ class Agent:
         """Updates done, over all runs and agents."""
         return sum(int(learner.ddqn.updates.sum()) for learner in self._learners().values())
 
-    def state(self) -> dict[str, torch.Tensor]:
+    def state(self) -> dict[str, NDArray[Any]]:
         """Everything later choices and updates depend on, by name."""
         return {
             f"{role}.{name}": kept
@@ -123,17 +128,17 @@ class Agent:
             for name, kept in learner.state().items()
         }
 
-    def load(self, state: dict[str, torch.Tensor]) -> None:
-        """Go on from what ``state`` gave; KeyError, ValueError or RuntimeError where it is of another shape."""
+    def load(self, state: dict[str, NDArray[Any]]) -> None:
+        """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
         for role, learner in self._learners().items():
             learner.load(part_of(state, role))
 
-    def load_networks(self, state: dict[str, torch.Tensor]) -> None:
+    def load_networks(self, state: dict[str, NDArray[Any]]) -> None:
         """Take over the networks alone: enough to act."""
         for role, learner in self._learners().items():
             learner.load_networks(part_of(state, role))
 
-    def networks_of(self, run: int) -> dict[str, torch.Tensor]:
+    def networks_of(self, run: int) -> dict[str, NDArray[Any]]:
         """One run's networks, for ``load_networks`` of an agent in that run alone."""
         rows = {"main": slice(run, run + 1), "low": slice(run * self._lows, (run + 1) * self._lows)}
         return {

@@ -8,7 +8,9 @@ from pathlib import Path
 from pickle import UnpicklingError
 from typing import Any
 
+import numpy as np
 import torch
+from numpy.typing import NDArray
 
 from mc_nested.errors import RunError
 from mc_nested.learn.whole_file import written_whole
@@ -16,17 +18,18 @@ from mc_nested.learn.whole_file import written_whole
 FILE = "state.pt"
 
 
-def write_checkpoint(folder: Path, state: Mapping[str, torch.Tensor], identity: Mapping[str, Any]) -> None:
-    """Save tensors by name, with what they belong to; OSError where the disk refuses, the last one then intact."""
+def write_checkpoint(folder: Path, state: Mapping[str, NDArray[Any]], identity: Mapping[str, Any]) -> None:
+    """Save arrays by name, with what they belong to; OSError where the disk refuses, the last one then intact."""
     folder.mkdir(exist_ok=True)
     with written_whole(folder / FILE) as path, path.open("wb") as file:
-        torch.save({"identity": fingerprint(identity), "state": dict(state)}, file)
+        tensors = {name: torch.from_numpy(np.ascontiguousarray(kept)) for name, kept in state.items()}
+        torch.save({"identity": fingerprint(identity), "state": tensors}, file)
         file.flush()
         os.fsync(file.fileno())
 
 
-def read_checkpoint(folder: Path, identity: Mapping[str, Any]) -> dict[str, torch.Tensor]:
-    """The saved tensors; RunError where there are none, where they are cut short, or belong to something else."""
+def read_checkpoint(folder: Path, identity: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
+    """The saved arrays; RunError where there are none, where they are cut short, or belong to something else."""
     path = folder / FILE
     if not path.is_file():
         raise RunError(f"{path}: there is no checkpoint yet: train this run first")
@@ -44,7 +47,7 @@ def read_checkpoint(folder: Path, identity: Mapping[str, Any]) -> dict[str, torc
         )
     if not isinstance(state, dict):
         raise RunError(f"{path}: the checkpoint is damaged: bring back a whole copy, or train the run anew")
-    return state
+    return {name: kept.numpy() for name, kept in state.items()}
 
 
 def fingerprint(identity: Mapping[str, Any]) -> str:
@@ -52,6 +55,6 @@ def fingerprint(identity: Mapping[str, Any]) -> str:
     return hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()
 
 
-def part_of(state: dict[str, torch.Tensor], whose: str) -> dict[str, torch.Tensor]:
+def part_of(state: Mapping[str, NDArray[Any]], whose: str) -> dict[str, NDArray[Any]]:
     """The entries of a saved state that belong to one of its parts, under the part's own names."""
     return {name.removeprefix(f"{whose}."): kept for name, kept in state.items() if name.startswith(f"{whose}.")}

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import tomlkit
-import torch
+from numpy.typing import NDArray
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from mc_nested.arena.scenario import Scenario
@@ -129,8 +129,8 @@ class RunFolder:
         """Whether nothing was ever saved here: the training was killed before its first checkpoint."""
         return not (self.path / "checkpoint").exists() and not (self.path / "episodes.csv").exists()
 
-    def load(self) -> dict[str, torch.Tensor]:
-        """The last checkpoint's tensors by name; RunError where there is none that fits."""
+    def load(self) -> dict[str, NDArray[Any]]:
+        """The last checkpoint's arrays by name; RunError where there is none that fits."""
         return read_checkpoint(self.path / "checkpoint", self.config.identity())
 
     def wall_s_so_far(self) -> float:

@@ -3,6 +3,8 @@
 A run's numbers don't depend on how many runs train beside it, nor on where a training was interrupted.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,22 +26,22 @@ class Streams:
 
     Args:
         seed: the training's seed, not negative.
-        runs: how many runs.
+        runs: each run's number, the same wherever and beside whatever it trains.
         width: numbers that a run needs at a tick.
     """
 
-    def __init__(self, seed: int, runs: int, width: int) -> None:
+    def __init__(self, seed: int, runs: Sequence[int], width: int) -> None:
         self._seed = seed
-        self._shape = runs, TICKS_A_CHUNK, width
+        self._runs = runs
         self._chunk = -1
-        self._numbers = np.empty(self._shape)
+        self._numbers = np.empty((len(runs), TICKS_A_CHUNK, width))
 
     def at(self, tick: int) -> NDArray[np.float64]:
         """The numbers of that tick, (runs, width)."""
         chunk, within = divmod(tick, TICKS_A_CHUNK)
         if chunk != self._chunk:
-            for run in range(self._shape[0]):
+            for numbers, run in zip(self._numbers, self._runs, strict=True):
                 key = np.random.SeedSequence(self._seed, spawn_key=(run, TICKS, chunk))
-                np.random.Generator(np.random.PCG64(key)).random(out=self._numbers[run])
+                np.random.Generator(np.random.PCG64(key)).random(out=numbers)
             self._chunk = chunk
         return self._numbers[:, within]

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeVar, get_type_hints
 
 import numpy as np
-import torch
 from gymnasium.vector import VectorEnv
+from numpy.typing import NDArray
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ResumableEnv
@@ -20,7 +20,6 @@ from mc_nested.learn.agents import Agent, chosen_materials
 from mc_nested.learn.checkpoint import part_of
 from mc_nested.learn.learner import CHOICE_NUMBERS, Bools, Floats, Ints
 from mc_nested.learn.preset import Exploration, Preset
-from mc_nested.learn.replay import Transitions
 from mc_nested.learn.schedules import LinearDecay
 from mc_nested.learn.streams import Streams
 
@@ -96,7 +95,7 @@ class Trainer:
         self._start = np.array([scenario.start_state for scenario in scenarios])
         self._explore_main = _decay(preset.explore_main)
         self._explore_nested = _decay(preset.explore_nested)
-        self._streams = Streams(seed, runs, 2 * (CHOICE_NUMBERS + preset.update.batch))
+        self._streams = Streams(seed, agent.runs, 2 * (CHOICE_NUMBERS + preset.update.batch))
         self._runs = _Runs(
             observations=np.zeros((runs, agent.observed), dtype=np.int64),
             materials=np.zeros(runs, dtype=np.int64),
@@ -146,10 +145,10 @@ class Trainer:
         next_states = self.agent.low_states(observations, runs.materials)
 
         rows = np.flatnonzero(training)
-        done = terminated[rows]
-        seen = Transitions(states[rows], actions[rows], rewards[rows], next_states[rows], done)
         learners = self.agent.low_rows(rows, runs.materials)
-        self.agent.low.replay.add(learners, seen)
+        self.agent.low.remember(
+            learners, states[rows], actions[rows], rewards[rows], next_states[rows], terminated[rows]
+        )
         self.agent.low.learn(learners, low_draws[rows])
 
         runs.observations = observations
@@ -169,30 +168,30 @@ class Trainer:
         """Begin anew every episode that is under way: its env is gone or in an unknown state."""
         self._runs.between_episodes[:] = True
 
-    def state(self) -> dict[str, torch.Tensor]:
+    def state(self) -> dict[str, NDArray[Any]]:
         """Everything the rest of the training depends on, by name; as it stands between two ticks."""
-        runs = {f"runs.{name}": torch.from_numpy(kept) for name, kept in vars(self._runs).items()}
+        runs = {f"runs.{name}": kept for name, kept in vars(self._runs).items()}
         arenas = self._env.snapshot() if isinstance(self._env, ResumableEnv) else {}
         return {
-            "counts": torch.tensor([self.ticks, self.env_steps, self.evaluation_steps]),
+            "counts": np.array([self.ticks, self.env_steps, self.evaluation_steps]),
             "rows.episodes": _table(self.episode_rows, EpisodeRow),
             "rows.evaluations": _table(self.evaluation_rows, EvaluationRow),
             **runs,
-            **{f"env.{name}": torch.from_numpy(kept) for name, kept in arenas.items()},
+            **{f"env.{name}": kept for name, kept in arenas.items()},
             **{f"agent.{name}": kept for name, kept in self.agent.state().items()},
         }
 
-    def load(self, state: dict[str, torch.Tensor]) -> None:
-        """Go on from what ``state`` gave; KeyError, ValueError or RuntimeError where it is of another shape."""
+    def load(self, state: dict[str, NDArray[Any]]) -> None:
+        """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
         self.ticks, self.env_steps, self.evaluation_steps = (int(count) for count in state["counts"])
         self.episode_rows = _rows(state["rows.episodes"], EpisodeRow)
         self.evaluation_rows = _rows(state["rows.evaluations"], EvaluationRow)
         for name, kept in part_of(state, "runs").items():
-            getattr(self._runs, name)[:] = kept.numpy()
+            getattr(self._runs, name)[:] = kept
         self.agent.load(part_of(state, "agent"))
         arenas = part_of(state, "env")
         if isinstance(self._env, ResumableEnv) and arenas:
-            self._env.restore({name: kept.numpy() for name, kept in arenas.items()})
+            self._env.restore(arenas)
         else:
             self.abandon_episodes()
 
@@ -209,7 +208,8 @@ class Trainer:
         runs.evaluating = np.where(begins, due & (runs.episodes > runs.evaluated_at), runs.evaluating)
         epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
         if self.agent.main:
-            runs.materials = np.where(begins, self.agent.main.act(self._start, epsilon, choice), runs.materials)
+            rows = np.flatnonzero(begins)
+            runs.materials[rows] = self.agent.main.act(self._start[rows], epsilon[rows], choice[rows], rows)
         runs.observations, _ = self._env.reset(options={"reset_mask": begins, "material": runs.materials})
         runs.steps_in_episode[begins] = 0
         runs.between_episodes &= ~begins
@@ -235,9 +235,8 @@ class Trainer:
         if not self.agent.main:
             return
         # The main agent's one transition an episode: after its choice, nothing is left for it to decide.
-        ended = np.ones(len(rows), dtype=np.bool_)
-        seen = Transitions(self._start[rows], runs.materials[rows], scores[rows], runs.observations[rows], ended)
-        self.agent.main.replay.add(rows, seen)
+        ended, start, after = np.ones(len(rows), dtype=np.bool_), self._start[rows], runs.observations[rows]
+        self.agent.main.remember(rows, start, runs.materials[rows], scores[rows], after, ended)
         self.agent.main.learn(rows, draws[rows])
 
     def _end_evaluations(self, rows: Ints, scores: Floats) -> None:
@@ -258,11 +257,11 @@ def _decay(exploration: Exploration) -> LinearDecay:
 Row = TypeVar("Row", EpisodeRow, EvaluationRow)
 
 
-def _table(rows: list[Row], kind: type[Row]) -> torch.Tensor:
-    return torch.tensor(rows, dtype=torch.float64).reshape(len(rows), len(kind._fields))
+def _table(rows: list[Row], kind: type[Row]) -> NDArray[Any]:
+    return np.array(rows, dtype=np.float64).reshape(len(rows), len(kind._fields))
 
 
-def _rows(table: torch.Tensor, kind: type[Row]) -> list[Row]:
+def _rows(table: NDArray[Any], kind: type[Row]) -> list[Row]:
     types = get_type_hints(kind)
     return [
         kind(*(types[name](value) for name, value in zip(kind._fields, row, strict=True))) for row in table.tolist()

@@ -12,22 +12,21 @@ from mc_nested.learn.replay import Replay, Transitions
 def transition(*numbers: int) -> Transitions:
     """A transition for each number, made so that every field tells the number."""
     n = np.array(numbers)
-    return Transitions(np.stack([n, n + 1], 1), n % 8, n / 2, np.stack([n + 2, n + 3], 1), n % 2 == 0)
+    return Transitions(n, n % 8, n / 2, n + 2, n / 4)
 
 
 def numbers(drawn: Transitions) -> list[list[int]]:
     """The numbers that drawn transitions were made of, every field checked."""
-    found = drawn.states[..., 0]
-    np.testing.assert_array_equal(drawn.states[..., 1], found + 1)
+    found = drawn.states
     np.testing.assert_array_equal(drawn.actions, found % 8)
     np.testing.assert_array_equal(drawn.rewards, found / 2)
-    np.testing.assert_array_equal(drawn.next_states, np.stack([found + 2, found + 3], -1))
-    np.testing.assert_array_equal(drawn.terminated, found % 2 == 0)
+    np.testing.assert_array_equal(drawn.next_states, found + 2)
+    np.testing.assert_array_equal(drawn.discounts, found / 4)
     return [[int(number) for number in row] for row in found]
 
 
 def test_what_the_numbers_point_at_is_drawn() -> None:
-    replay = Replay(runs=2, width=2, capacity=10)
+    replay = Replay(runs=2, states=200, capacity=10)
     for step in range(4):
         replay.add(np.array([0, 1]), transition(step, 100 + step))
     uniforms = np.array([[0.0, 0.24, 0.25, 0.5, 0.999999], [0.75, 0.0, 0.5, 0.26, 0.3]])
@@ -35,7 +34,7 @@ def test_what_the_numbers_point_at_is_drawn() -> None:
 
 
 def test_runs_fill_at_their_own_pace() -> None:
-    replay = Replay(runs=3, width=2, capacity=10)
+    replay = Replay(runs=3, states=200, capacity=10)
     replay.add(np.array([2]), transition(7))
     replay.add(np.array([0, 2]), transition(8, 9))
     assert replay.sizes().tolist() == [1, 0, 2]
@@ -43,7 +42,7 @@ def test_runs_fill_at_their_own_pace() -> None:
 
 
 def test_the_oldest_gives_way_when_it_is_full() -> None:
-    replay = Replay(runs=1, width=2, capacity=3)
+    replay = Replay(runs=1, states=200, capacity=3)
     for step in range(5):
         replay.add(np.array([0]), transition(step))
     assert replay.sizes().tolist() == [3]
@@ -53,7 +52,7 @@ def test_the_oldest_gives_way_when_it_is_full() -> None:
 
 @given(uniform=st.floats(0, 1, exclude_max=True), size=st.integers(1, 9))
 def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
-    replay = Replay(runs=2, width=2, capacity=100)
+    replay = Replay(runs=2, states=200, capacity=100)
     for step in range(size):
         replay.add(np.array([0]), transition(step))
     replay.add(np.array([1]), transition(50))
@@ -61,7 +60,7 @@ def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
 
 
 def test_draws_are_uniform() -> None:
-    replay = Replay(runs=1, width=2, capacity=100)
+    replay = Replay(runs=1, states=200, capacity=100)
     for step in range(8):
         replay.add(np.array([0]), transition(step))
     uniforms = np.random.default_rng(0).random((1, 80_000))
@@ -73,9 +72,9 @@ def test_draws_are_uniform() -> None:
 def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(replay_module, "FIRST_ROOM", 4)
-        grown = Replay(runs=1, width=2, capacity=capacity)
-        copy = Replay(runs=1, width=2, capacity=capacity)
-    large = Replay(runs=1, width=2, capacity=capacity)
+        grown = Replay(runs=1, states=200, capacity=capacity)
+        copy = Replay(runs=1, states=200, capacity=capacity)
+    large = Replay(runs=1, states=200, capacity=capacity)
     for step in range(steps):
         for replay in (grown, large):
             replay.add(np.array([0]), transition(step))
@@ -85,3 +84,18 @@ def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> N
     assert set(expected[0]) == set(range(max(0, steps - capacity), steps))
     assert numbers(grown.sample(np.array([0]), grid)) == expected
     assert numbers(copy.sample(np.array([0]), grid)) == expected
+
+
+def test_a_run_that_holds_nothing_yields_blanks() -> None:
+    replay = Replay(runs=2, states=200, capacity=10)
+    replay.add(np.array([1]), transition(8))
+    assert replay.sample(np.array([0, 1]), np.array([[0.0], [0.9]])).states.tolist() == [[0], [8]]
+
+
+@pytest.mark.parametrize(("states", "bytes_a_number"), [(256, 2), (65_535, 2), (200_000, 4)])
+def test_states_are_kept_in_as_few_bytes_as_their_number_takes(states: int, bytes_a_number: int) -> None:
+    replay = Replay(runs=1, states=states, capacity=10)
+    replay.add(np.array([0]), Transitions(*(np.array([v]) for v in (states - 1, 7, 1.0, states - 1, 0.95))))
+    kept = replay.state()
+    assert kept["states"].itemsize == bytes_a_number
+    assert kept["next_states"].tolist() == [[states - 1]]

@@ -1,0 +1,40 @@
+"""States as numbers, and what a network takes for each."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.learn.states import StateSpace, scaled
+
+
+@given(st.lists(st.integers(0, 9), min_size=1, max_size=4), st.data())
+def test_every_state_has_a_number_of_its_own(highest: list[int], data: st.DataObject) -> None:
+    space = StateSpace(np.array([highest]), actions=2)
+    states = [np.array([data.draw(st.integers(0, top)) for top in highest]) for _ in range(2)]
+    one, other = (int(space.number(state)) for state in states)
+    assert (one == other) == (states[0].tolist() == states[1].tolist())
+    assert 0 <= min(one, other) <= max(one, other) < space.count == np.prod(np.array(highest) + 1)
+
+
+def test_x_y_b_are_scaled_to_one_around_zero_and_the_main_action_is_plus_or_minus_one() -> None:
+    highest = np.array([14, 14, 11, 1])
+    assert scaled(np.array([0, 7, 11, 0]), highest).tolist() == [-1.0, 0.0, 1.0, -1.0, 1.0]
+    assert scaled(np.array([14, 14, 0, 1]), highest).tolist() == [1.0, 1.0, -1.0, 1.0, 1.0]
+
+
+def test_the_choice_of_a_single_material_says_nothing() -> None:
+    assert scaled(np.array([14, 0]), np.array([14, 0])).tolist() == [1.0, 0.0, 1.0]
+
+
+def test_three_materials_lie_on_one_dimension() -> None:
+    assert scaled(np.array([[0], [1], [2]]), np.array([2]))[:, 0].tolist() == [-1.0, 0.0, 1.0]
+
+
+@pytest.mark.parametrize("rows", [[0, 1], [1, 0], [1]])
+def test_each_row_is_scaled_by_its_own_scenario(rows: list[int]) -> None:
+    blocks = np.array([11, 16])
+    space = StateSpace(np.array([[14, 14, 11], [14, 14, 16]]), actions=8)
+    states = np.array([[[0, 14, blocks[row]], [7, 7, 0]] for row in rows])
+    inputs = space.inputs_for(space.number(states), np.array(rows))
+    assert inputs.tolist() == [[[-1.0, 0.0], [1.0, 0.0], [1.0, -1.0], [1.0, 1.0]]] * len(rows)
