@@ -6,7 +6,6 @@ from typing import Annotated, Any
 
 import torch
 import typer
-from numpy.typing import NDArray
 
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
@@ -63,7 +62,7 @@ def train(
             option = "--" + beside[0].replace("_", "-")
             raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
         folder = RunFolder.open(resume)
-        run_training(folder, profile or folder.config.profile, None if folder.only_begun else folder.load())
+        run_training(folder, profile or folder.config.profile, resumed=not folder.only_begun)
         return
     if out is None:
         raise UserError("name a new folder for the run with --out DIR, or a run to go on with, --resume DIR")
@@ -82,20 +81,20 @@ def train(
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
         scenario=table_of(load_scenario(DEFAULTS["scenario"] if scenario is None else scenario)),
     )
-    run_training(RunFolder.new(out, config), config.profile, None)
+    run_training(RunFolder.new(out, config), config.profile, resumed=False)
 
 
-def run_training(folder: RunFolder, profile: str | None, saved: dict[str, NDArray[Any]] | None) -> None:
+def run_training(folder: RunFolder, profile: str | None, resumed: bool) -> None:
     """Train until the run is finished or somebody stops it, saving as it goes and at the end."""
     config = folder.config
-    began = time.monotonic() - (folder.wall_s_so_far() if saved else 0.0)
+    began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
     with catch_interrupts() as interrupt:
         with open_arenas(Backend(config.backend), profile, folder.scenarios) as env:
             agent = folder.new_agent(config.trials)
             view = view_of(agent.form, env, folder.scenarios)
             trainer = Trainer(view, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
-            if saved:
-                trainer.load(saved)
+            if resumed:
+                folder.checkpoint.load_into(trainer)
             else:
                 folder.begin()
             try:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.rules import SIZE, Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
-from mc_nested.learn.checkpoint import part_of
+from mc_nested.learn.checkpoint import Arrays, named_for, part_of
 from mc_nested.learn.learner import Floats, Ints, Learner
 from mc_nested.learn.networks import parameter_count
 from mc_nested.learn.preset import Preset
@@ -120,32 +120,40 @@ class Agent:
         """Updates done, over all runs and agents."""
         return sum(int(learner.ddqn.updates.sum()) for learner in self._learners().values())
 
-    def state(self) -> dict[str, NDArray[Any]]:
-        """Everything later choices and updates depend on, by name."""
+    def networks_state(self) -> Arrays:
+        """The networks and their optimisers, by name: enough to act, and with the replays to go on learning."""
         return {
-            f"{role}.{name}": kept
-            for role, learner in self._learners().items()
-            for name, kept in learner.state().items()
+            k: v for role, learner in self._learners().items() for k, v in named_for(role, learner.ddqn.state()).items()
         }
 
-    def load(self, state: dict[str, NDArray[Any]]) -> None:
-        """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
+    def load_networks(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Take over the networks; KeyError or ValueError where they are of another shape."""
         for role, learner in self._learners().items():
-            learner.load(part_of(state, role))
+            learner.ddqn.load(part_of(state, role))
 
-    def load_networks(self, state: dict[str, NDArray[Any]]) -> None:
-        """Take over the networks alone: enough to act."""
+    def marks(self) -> Arrays:
+        """How many transitions each row has remembered so far, by role."""
+        return {role: learner.replay.added.copy() for role, learner in self._learners().items()}
+
+    def transitions_since(self, marks: Mapping[str, NDArray[Any]] | None) -> Arrays:
+        """What was remembered since those marks; everything without them."""
+        return {
+            k: v
+            for role, learner in self._learners().items()
+            for k, v in named_for(
+                role, learner.replay.added_since(marks[role] if marks else np.zeros_like(learner.replay.added))
+            ).items()
+        }
+
+    def remember_again(self, transitions: Mapping[str, NDArray[Any]]) -> None:
+        """Take back what ``transitions_since`` gave; KeyError or ValueError where it is of another shape."""
         for role, learner in self._learners().items():
-            learner.load_networks(part_of(state, role))
+            learner.replay.extend(part_of(transitions, role))
 
-    def networks_of(self, run: int) -> dict[str, NDArray[Any]]:
+    def networks_of(self, run: int) -> Arrays:
         """One run's networks, for ``load_networks`` of an agent in that run alone."""
         rows = {"main": slice(run, run + 1), "low": slice(run * self._lows, (run + 1) * self._lows)}
-        return {
-            f"{role}.ddqn.{name}": kept[rows[role]]
-            for role, learner in self._learners().items()
-            for name, kept in learner.ddqn.state().items()
-        }
+        return {name: kept[rows[name.split(".")[0]]] for name, kept in self.networks_state().items()}
 
     def _learners(self) -> dict[str, Learner]:
         return {"main": self.main, "low": self.low} if self.main else {"low": self.low}

@@ -1,8 +1,5 @@
 """Learning agents side by side, each a row: ε-greedy over a Q-network, a replay, and DDQN updates from it."""
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -73,20 +70,6 @@ class Learner:
             self.ddqn.update_all(self._batch(self._every_row, numbers), active)
         elif len(rows):
             self.ddqn.update_some(rows, self._batch(rows, uniforms))
-
-    def state(self) -> dict[str, NDArray[Any]]:
-        """Everything later choices and updates depend on, by name."""
-        replay = {f"replay.{name}": kept for name, kept in self.replay.state().items()}
-        return {**{f"ddqn.{name}": kept for name, kept in self.ddqn.state().items()}, **replay}
-
-    def load(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
-        self.load_networks(state)
-        self.replay.load({name.removeprefix("replay."): kept for name, kept in state.items()})
-
-    def load_networks(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Take over the networks and their optimiser alone."""
-        self.ddqn.load({name.removeprefix("ddqn."): kept for name, kept in state.items()})
 
     def _batch(self, rows: Ints, uniforms: Floats) -> Batch:
         drawn = self.replay.sample(rows, uniforms)

@@ -62,19 +62,32 @@ class Replay:
         places = rows[:, None] * self._room + np.minimum((uniforms * sizes).astype(np.int64), np.maximum(sizes - 1, 0))
         return Transitions(*(kept.reshape(-1).take(places) for kept in self._kept))
 
-    def state(self) -> dict[str, NDArray[Any]]:
-        """Everything a later draw depends on, by name; memory not yet filled left out."""
-        filled = int(self.sizes().max(initial=0))
-        return {"added": self.added, **{name: kept[:, :filled] for name, kept in self._kept._asdict().items()}}
+    def added_since(self, marks: NDArray[np.int64]) -> dict[str, NDArray[Any]]:
+        """What was added to each run since it had added so many (runs,), by name, oldest first and run behind run.
 
-    def load(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
-        filled = state["actions"].shape[1]
-        while self._room < filled:
+        What has already given way is left out.
+        """
+        begins = np.maximum(marks, self.added - self.sizes())
+        counts = self.added - begins
+        places = self._places(begins, counts)
+        found = {name: kept.reshape(-1).take(places) for name, kept in self._kept._asdict().items()}
+        return {"begins": begins, "counts": counts, **found}
+
+    def extend(self, added: Mapping[str, NDArray[Any]]) -> None:
+        """Take back what ``added_since`` gave; KeyError or ValueError where it is of another shape."""
+        begins, counts = added["begins"], added["counts"]
+        while self._room < min(int((begins + counts).max(initial=0)), self.capacity):
             self._grow()
-        self.added[:] = state["added"]
+        places = self._places(begins, counts)
         for name, kept in self._kept._asdict().items():
-            kept[:, :filled] = state[name]
+            kept.reshape(-1)[places] = added[name]
+        self.added[:] = begins + counts
+
+    def _places(self, begins: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:
+        run = np.repeat(np.arange(len(counts)), counts)
+        behind = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+        places: NDArray[np.int64] = run * self._room + (np.repeat(begins, counts) + behind) % self.capacity
+        return places
 
     def _grow(self) -> None:
         room = min(2 * self._room, self.capacity)

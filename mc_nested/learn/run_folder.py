@@ -8,14 +8,13 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import tomlkit
-from numpy.typing import NDArray
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
 from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import FORMS, Agent
-from mc_nested.learn.checkpoint import read_checkpoint, write_checkpoint
+from mc_nested.learn.checkpoint import Checkpoint
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.trainer import EpisodeRow, EvaluationRow, Trainer
 from mc_nested.learn.whole_file import written_whole
@@ -60,6 +59,7 @@ class RunFolder:
         self.path = path
         self.config = config
         self.scenario: Scenario = scenario_of(config.scenario, str(path / "config.toml"))
+        self.checkpoint = Checkpoint(path / "checkpoint", config.identity())
 
     @classmethod
     def new(cls, path: Path, config: RunConfig) -> "RunFolder":
@@ -118,7 +118,7 @@ class RunFolder:
         """
         summary = summarise(self.config, self.scenario, trainer, wall_s)
         with self.writing():
-            write_checkpoint(self.path / "checkpoint", trainer.state(), self.config.identity())
+            self.checkpoint.save(trainer, finished=trainer.finished)
             _write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)
             _write_table(self.path / "evaluations.csv", EvaluationRow._fields, trainer.evaluation_rows)
             _write_text(self.path / "summary.json", json.dumps(summary, indent=2) + "\n")
@@ -127,11 +127,7 @@ class RunFolder:
     @property
     def only_begun(self) -> bool:
         """Whether nothing was ever saved here: the training was killed before its first checkpoint."""
-        return not (self.path / "checkpoint").exists() and not (self.path / "episodes.csv").exists()
-
-    def load(self) -> dict[str, NDArray[Any]]:
-        """The last checkpoint's arrays by name; RunError where there is none that fits."""
-        return read_checkpoint(self.path / "checkpoint", self.config.identity())
+        return not self.checkpoint.exists and not (self.path / "episodes.csv").exists()
 
     def wall_s_so_far(self) -> float:
         """Seconds that the training took until it was last saved; 0 where the summary doesn't say."""

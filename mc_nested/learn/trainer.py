@@ -6,7 +6,7 @@ the arenas as a gymnasium VectorEnv with autoreset disabled and nothing else, so
 game.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeVar, get_type_hints
 
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ResumableEnv
 from mc_nested.learn.agents import Agent, chosen_materials
-from mc_nested.learn.checkpoint import part_of
+from mc_nested.learn.checkpoint import Arrays, named_for, part_of
 from mc_nested.learn.learner import CHOICE_NUMBERS, Bools, Floats, Ints
 from mc_nested.learn.preset import Exploration, Preset
 from mc_nested.learn.schedules import LinearDecay
@@ -168,27 +168,40 @@ class Trainer:
         """Begin anew every episode that is under way: its env is gone or in an unknown state."""
         self._runs.between_episodes[:] = True
 
-    def state(self) -> dict[str, NDArray[Any]]:
-        """Everything the rest of the training depends on, by name; as it stands between two ticks."""
-        runs = {f"runs.{name}": kept for name, kept in vars(self._runs).items()}
+    def state(self) -> Arrays:
+        """What the rest of the training depends on, the journal left out, as it stands between two ticks."""
         arenas = self._env.snapshot() if isinstance(self._env, ResumableEnv) else {}
         return {
             "counts": np.array([self.ticks, self.env_steps, self.evaluation_steps]),
-            "rows.episodes": _table(self.episode_rows, EpisodeRow),
-            "rows.evaluations": _table(self.evaluation_rows, EvaluationRow),
-            **runs,
-            **{f"env.{name}": kept for name, kept in arenas.items()},
-            **{f"agent.{name}": kept for name, kept in self.agent.state().items()},
+            **named_for("runs", vars(self._runs)),
+            **named_for("env", arenas),
+            **named_for("agent", self.agent.networks_state()),
         }
 
-    def load(self, state: dict[str, NDArray[Any]]) -> None:
-        """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
+    def marks(self) -> Arrays:
+        """Where the journal stands: how many rows there are, and how many transitions."""
+        rows = np.array([len(self.episode_rows), len(self.evaluation_rows)])
+        return {"rows": rows, **named_for("agent", self.agent.marks())}
+
+    def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
+        """The rows and transitions that came since those marks; all of them without."""
+        episodes, evaluations = since["rows"] if since else (0, 0)
+        return {
+            "rows.episodes": _table(self.episode_rows[episodes:], EpisodeRow),
+            "rows.evaluations": _table(self.evaluation_rows[evaluations:], EvaluationRow),
+            **named_for("agent", self.agent.transitions_since(part_of(since, "agent") if since else None)),
+        }
+
+    def load(self, state: Mapping[str, NDArray[Any]], journals: Sequence[Mapping[str, NDArray[Any]]]) -> None:
+        """Go on from what ``state`` and ``journal`` gave; KeyError or ValueError where they are of another shape."""
         self.ticks, self.env_steps, self.evaluation_steps = (int(count) for count in state["counts"])
-        self.episode_rows = _rows(state["rows.episodes"], EpisodeRow)
-        self.evaluation_rows = _rows(state["rows.evaluations"], EvaluationRow)
         for name, kept in part_of(state, "runs").items():
             getattr(self._runs, name)[:] = kept
-        self.agent.load(part_of(state, "agent"))
+        self.agent.load_networks(part_of(state, "agent"))
+        for journal in journals:
+            self.episode_rows += _rows(journal["rows.episodes"], EpisodeRow)
+            self.evaluation_rows += _rows(journal["rows.evaluations"], EvaluationRow)
+            self.agent.remember_again(part_of(journal, "agent"))
         arenas = part_of(state, "env")
         if isinstance(self._env, ResumableEnv) and arenas:
             self._env.restore(arenas)

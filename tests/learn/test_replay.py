@@ -78,12 +78,29 @@ def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> N
     for step in range(steps):
         for replay in (grown, large):
             replay.add(np.array([0]), transition(step))
-    copy.load({name: kept.copy() for name, kept in grown.state().items()})
+    copy.extend(grown.added_since(np.array([0])))
     grid = (np.arange(50) / 50)[None]
     expected = numbers(large.sample(np.array([0]), grid))
     assert set(expected[0]) == set(range(max(0, steps - capacity), steps))
     assert numbers(grown.sample(np.array([0]), grid)) == expected
     assert numbers(copy.sample(np.array([0]), grid)) == expected
+
+
+@given(st.lists(st.integers(0, 25), min_size=1, max_size=5).filter(any), st.integers(5, 30))
+def test_what_was_added_in_parts_is_the_whole(parts: list[int], capacity: int) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(replay_module, "FIRST_ROOM", 4)
+        replay, copy = (Replay(runs=2, states=200, capacity=capacity) for _ in range(2))
+    number = 0
+    for part in parts:
+        marks = replay.added.copy()
+        for _ in range(part):
+            replay.add(np.array([1]), transition(number))
+            number += 1
+        copy.extend(replay.added_since(marks))
+    grid = (np.arange(50) / 50)[None]
+    assert copy.added.tolist() == [0, number]
+    assert numbers(copy.sample(np.array([1]), grid)) == numbers(replay.sample(np.array([1]), grid))
 
 
 def test_a_run_that_holds_nothing_yields_blanks() -> None:
@@ -96,6 +113,6 @@ def test_a_run_that_holds_nothing_yields_blanks() -> None:
 def test_states_are_kept_in_as_few_bytes_as_their_number_takes(states: int, bytes_a_number: int) -> None:
     replay = Replay(runs=1, states=states, capacity=10)
     replay.add(np.array([0]), Transitions(*(np.array([v]) for v in (states - 1, 7, 1.0, states - 1, 0.95))))
-    kept = replay.state()
+    kept = replay.added_since(np.array([0]))
     assert kept["states"].itemsize == bytes_a_number
-    assert kept["next_states"].tolist() == [[states - 1]]
+    assert kept["next_states"].tolist() == [states - 1]

@@ -11,6 +11,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv, Ints
 from mc_nested.learn.agents import FORMS, Agent, Form, view_of
+from mc_nested.learn.checkpoint import Arrays
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import Preset, load_preset
@@ -56,6 +57,18 @@ def main_of(agent: Agent) -> Learner:
     return agent.main
 
 
+def kept_by(learner: Learner, row: int) -> Arrays:
+    """The transitions that a row remembers, oldest first."""
+    every = learner.replay.added_since(np.zeros(learner.space.rows, dtype=np.int64))
+    ends = np.cumsum(every["counts"])
+    return {name: kept[ends[row] - every["counts"][row] : ends[row]] for name, kept in every.items()}
+
+
+def saved(trainer: Trainer) -> tuple[Arrays, list[Arrays]]:
+    """A training as it would be on disk."""
+    return {name: kept.copy() for name, kept in trainer.state().items()}, [trainer.journal(None)]
+
+
 def weights(trainer: Trainer, run: int) -> list[NDArray[np.float32]]:
     return [learner.ddqn.online[run] for learner in _learners(trainer.agent)]
 
@@ -98,31 +111,31 @@ def test_evaluations_are_neither_learnt_from_nor_counted_as_training(three_runs:
 
 
 def test_the_main_agents_one_transition_is_the_start_its_choice_and_the_score(three_runs: Trainer) -> None:
-    kept = main_of(three_runs.agent).replay.state()
+    kept = kept_by(main_of(three_runs.agent), 1)
     rows = [row for row in three_runs.episode_rows if row.trial == 1]
     start = main_of(three_runs.agent).space.number(np.array([7, 14, 11]))
-    assert kept["states"][1].tolist() == [start] * 20
-    assert kept["actions"][1].tolist() == [row.material for row in rows]
-    assert kept["rewards"][1].tolist() == [row.score for row in rows]
+    assert kept["states"].tolist() == [start] * 20
+    assert kept["actions"].tolist() == [row.material for row in rows]
+    assert kept["rewards"].tolist() == [row.score for row in rows]
     assert not kept["discounts"][1].any()
 
 
 def test_the_nested_agents_states_carry_the_main_action(three_runs: Trainer) -> None:
-    kept = three_runs.agent.low.replay.state()
+    kept = kept_by(three_runs.agent.low, 2)
     rows = [row for row in three_runs.episode_rows if row.trial == 2]
     carried = np.concatenate([[row.material] * row.steps for row in rows])
     # a_M comes last in a nested state, so it is what is left of its number when divided by the two materials.
-    assert (kept["states"][2, : len(carried)] % 2).tolist() == carried.tolist()
-    assert (kept["next_states"][2, : len(carried)] % 2).tolist() == carried.tolist()
+    assert (kept["states"] % 2).tolist() == carried.tolist()
+    assert (kept["next_states"] % 2).tolist() == carried.tolist()
     assert set(carried) == {0, 1}
 
 
 def test_truncation_bootstraps_and_termination_does_not(three_runs: Trainer) -> None:
-    kept = three_runs.agent.low.replay.state()
+    kept = kept_by(three_runs.agent.low, 0)
     rows = [row for row in three_runs.episode_rows if row.trial == 0]
     ends = np.cumsum([row.steps for row in rows]) - 1
-    terminated = kept["discounts"][0, : ends[-1] + 1] == 0
-    blocks_left = kept["next_states"][0, : ends[-1] + 1] // 2 % 12
+    terminated = kept["discounts"] == 0
+    blocks_left = kept["next_states"] // 2 % 12
     np.testing.assert_array_equal(terminated, blocks_left == 0)
     assert set(np.flatnonzero(terminated)) <= set(ends)
     assert len(set(ends) - set(np.flatnonzero(terminated))) > 0, "some early episode ran out of steps"
@@ -155,9 +168,8 @@ def test_a_saved_training_goes_on_to_the_bit(three_runs: Trainer, ticks: int) ->
     first = trainer_of([LINE] * 3)
     for _ in range(ticks):
         first.tick()
-    saved = {name: kept.copy() for name, kept in first.state().items()}
     resumed = trainer_of([LINE] * 3)
-    resumed.load(saved)
+    resumed.load(*saved(first))
     finish(resumed)
     assert resumed.episode_rows == three_runs.episode_rows
     assert resumed.evaluation_rows == three_runs.evaluation_rows
@@ -175,7 +187,7 @@ def test_a_game_that_can_not_be_saved_half_way_goes_on_with_a_new_episode() -> N
     for _ in range(100):
         first.tick()
     resumed = Trainer(games(), [LINE], Agent(NESTED, [LINE], SHORT, 0), SHORT, 0)
-    resumed.load(first.state())
+    resumed.load(*saved(first))
     done = int(resumed.episodes_done[0])
     assert 0 < done < 20
     assert [row.episode for row in finish(resumed).episode_rows] == list(range(1, 21))
@@ -189,7 +201,7 @@ def test_single_games_and_arrays_train_the_same(three_runs: Trainer) -> None:
 
 def test_designs_train_side_by_side() -> None:
     trainer = finish(trainer_of([LINE, DIAMOND], SHORT.model_copy(update={"episodes": 5})))
-    assert (trainer.agent.low.replay.state()["states"][:, 0] // 2 % 17).tolist() == [11, 16]
+    assert [kept_by(trainer.agent.low, run)["states"][0] // 2 % 17 for run in (0, 1)] == [11, 16]
 
 
 def test_a_run_that_stops_at_the_optimum_has_its_best_policy() -> None:
@@ -261,15 +273,15 @@ def test_each_low_agent_of_the_hierarchy_learns_from_its_own_material_alone() ->
 
 def test_the_single_agent_learns_from_its_choice_as_from_any_action() -> None:
     trainer = finish(trainer_of([LINE] * 2, SHORT.model_copy(update={"episodes": 60}), form=SINGLE))
-    kept = trainer.agent.low.replay.state()
     for run in (0, 1):
+        kept = kept_by(trainer.agent.low, run)
         rows = [row for row in trainer.episode_rows if row.trial == run]
         begins = np.concatenate(([0], np.cumsum([row.steps for row in rows])[:-1]))
         unchosen = trainer.agent.low.space.number(np.array([7, 14, 11, 0]))
-        assert kept["states"][run, begins].tolist() == [unchosen] * 60
-        choices = kept["actions"][run, begins].astype(int)
+        assert kept["states"][begins].tolist() == [unchosen] * 60
+        choices = kept["actions"][begins].astype(int)
         assert [row.material for row in rows] == np.where(choices < 2, choices, -1).tolist()
-        assert kept["rewards"][run, begins].tolist() == [{0: -5.0, 1: 10.0}.get(int(choice), 0.0) for choice in choices]
+        assert kept["rewards"][begins].tolist() == [{0: -5.0, 1: 10.0}.get(int(choice), 0.0) for choice in choices]
         assert [row.score for row in rows if row.material == -1] == [0.0] * int((choices >= 2).sum())
     assert {row.material for row in trainer.episode_rows} == {-1, 0, 1}
 
@@ -280,7 +292,7 @@ def test_every_agents_training_can_be_repeated_and_resumed(form: Form) -> None:
     for _ in range(150):
         first.tick()
     resumed = trainer_of([LINE] * 2, form=form)
-    resumed.load({name: kept.copy() for name, kept in first.state().items()})
+    resumed.load(*saved(first))
     finish(resumed)
     assert resumed.episode_rows == whole.episode_rows
     for name, kept in whole.state().items():
