@@ -44,7 +44,9 @@ def load_agent(folder: RunFolder) -> Agent:
     """The agent of a training's last checkpoint, every trial, able to act."""
     torch.set_num_threads(1)
     agent = folder.new_agent(folder.config.trials)
-    agent.load_networks(part_of(folder.checkpoint.state(), "agent"))
+    kept = part_of(folder.checkpoint.state(), "kept")
+    for role, online in agent.online().items():
+        online[:] = kept[role]
     return agent
 
 

@@ -30,22 +30,24 @@ class Form:
 
     ``has_main``: a main (top) agent chooses the material before the first move. ``appends_material``: its choice is
     appended to the low agent's state. ``one_low_a_material``: each material has a low agent of its own.
+    ``sees_choice``: an agent that chooses the material itself sees which; without it x, y and b alone.
     """
 
     has_main: bool
     appends_material: bool
     one_low_a_material: bool
+    sees_choice: bool
 
     @property
     def width(self) -> int:
-        """Integers in the low agent's state: x, y, b, and for all but the hierarchical agent's the material."""
-        return 4 if self.appends_material or not self.has_main else 3
+        """Integers in the low agent's state: x, y, b, and the material where it is told or seen."""
+        return 4 if self.appends_material or self.sees_choice else 3
 
 
 FORMS: Mapping[str, Form] = {
-    "nested": Form(has_main=True, appends_material=True, one_low_a_material=False),
-    "hierarchical": Form(has_main=True, appends_material=False, one_low_a_material=True),
-    "single": Form(has_main=False, appends_material=False, one_low_a_material=False),
+    "nested": Form(has_main=True, appends_material=True, one_low_a_material=False, sees_choice=False),
+    "hierarchical": Form(has_main=True, appends_material=False, one_low_a_material=True, sees_choice=False),
+    "single": Form(has_main=False, appends_material=False, one_low_a_material=False, sees_choice=True),
 }
 """The agents that can be trained, by name."""
 
@@ -72,14 +74,18 @@ class Agent:
         materials = len(scenarios[0].materials)
         observed = np.array([[SIZE - 1, SIZE - 1, scenario.blocks] for scenario in scenarios])
         self.form = form
-        self.main = Learner(StateSpace(observed, materials), preset, streams) if form.has_main else None
+        encoding = preset.encoding
+        self.main = Learner(StateSpace(observed, materials, encoding), preset, streams) if form.has_main else None
         self._lows = materials if form.one_low_a_material else 1
         appended = np.full((len(scenarios), 1), _highest_appended(form, materials))[:, : form.width - 3]
         highest = np.hstack([observed, appended])
+        actions = len(Action) + (0 if form.has_main else materials)
+        longest = max(scenario.step_limit for scenario in scenarios)
         self.low = Learner(
-            StateSpace(np.repeat(highest, self._lows, axis=0), len(Action) + (0 if form.has_main else materials)),
+            StateSpace(np.repeat(highest, self._lows, axis=0), actions, encoding),
             preset,
             [stream for stream in streams for _ in range(self._lows)],
+            (preset.imitation, longest) if preset.imitation else None,
         )
 
     @property
@@ -90,7 +96,7 @@ class Agent:
     def low_states(self, observations: Ints, materials: Ints) -> Ints:
         """What the low agents decide on, (runs, width): for the nested agent s_N = [s_M, a_M] (paper, section 4.1)."""
         if not self.form.appends_material:
-            return observations
+            return observations[:, : self.form.width]
         return np.concatenate((observations, materials[:, None]), axis=1)
 
     def low_rows(self, runs: Ints, materials: Ints) -> Ints:
@@ -131,6 +137,14 @@ class Agent:
         for role, learner in self._learners().items():
             learner.ddqn.load(part_of(state, role))
 
+    def online(self) -> Arrays:
+        """The online networks' parameters, by role: what acting takes."""
+        return {role: learner.ddqn.online for role, learner in self._learners().items()}
+
+    def rows_of(self, run: int) -> dict[str, slice]:
+        """A run's rows, by role."""
+        return {"main": slice(run, run + 1), "low": slice(run * self._lows, (run + 1) * self._lows)}
+
     def marks(self) -> Arrays:
         """How many transitions each row has remembered so far, by role."""
         return {role: learner.replay.added.copy() for role, learner in self._learners().items()}
@@ -152,7 +166,7 @@ class Agent:
 
     def networks_of(self, run: int) -> Arrays:
         """One run's networks, for ``load_networks`` of an agent in that run alone."""
-        rows = {"main": slice(run, run + 1), "low": slice(run * self._lows, (run + 1) * self._lows)}
+        rows = self.rows_of(run)
         return {name: kept[rows[name.split(".")[0]]] for name, kept in self.networks_state().items()}
 
     def _learners(self) -> dict[str, Learner]:

@@ -13,6 +13,7 @@ import torch
 from numpy.typing import NDArray
 
 from mc_nested.learn.adam import Moments, adam_step
+from mc_nested.learn.imitation import margin_slope
 from mc_nested.learn.networks import Activations, Floats, Sizes, backward, forward, split
 
 Bools = NDArray[np.bool_]
@@ -21,12 +22,16 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class UpdateRule:
-    """What an update does (README: the task): batch size, Adam's rate, the target's period and Huber's δ."""
+    """What an update does (README: the task): batch size, Adam's rate, the target's period and Huber's δ.
+
+    ``margin`` is that of imitated actions (imitation.py).
+    """
 
     batch: int
     learning_rate: float
     target_period: int
     huber_delta: float
+    margin: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -34,13 +39,15 @@ class Batch:
     """Transitions for k rows: actions, rewards and discounts (k, batch), and the features of their states.
 
     ``inputs`` (2, k, inputs + 1, batch) holds every s and behind them every s', each column ending in a 1;
-    ``discounts`` is what the value of s' counts: γ, or 0 where the episode terminated.
+    ``discounts`` is what the value of s' counts: γ, or 0 where the episode terminated. ``imitated`` (k, batch) says
+    which actions are to be the greedy ones, if any are.
     """
 
     inputs: Floats
     actions: NDArray[np.integer[Any]]
     rewards: Floats
     discounts: Floats
+    imitated: Bools | None = None
 
 
 def td_targets(rewards: Floats, discounts: Floats, next_online: Floats, next_target: Floats) -> Floats:
@@ -173,6 +180,9 @@ def _find_gradient(work: _Workspace, batch: Batch, rule: UpdateRule) -> None:
     output_gradient = next_target  # its values are used up
     output_gradient.fill(0.0)
     output_gradient.reshape(-1)[taken] = slope
+    if batch.imitated is not None:
+        towards = margin_slope(values, batch.actions, rule.margin) * batch.imitated[:, None]
+        output_gradient += towards / np.float32(rule.batch)
     now = [hidden[0] for hidden in work.now_and_next.hidden]
     backward(work.online_layers, batch.inputs[0], now, output_gradient, work.gradient_layers, work.scratch)
 

@@ -4,8 +4,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.learn.ddqn import DDQN, Batch, UpdateRule
+from mc_nested.learn.imitation import BestEpisodes
 from mc_nested.learn.networks import initial_parameters
-from mc_nested.learn.preset import Preset
+from mc_nested.learn.preset import Imitation, Preset
 from mc_nested.learn.replay import Replay, Transitions
 from mc_nested.learn.states import StateSpace
 
@@ -27,21 +28,35 @@ class Learner:
         space: its states and actions.
         preset: its hyper-parameters.
         streams: a generator for each row's initial parameters.
+        imitation: how it imitates its own best episodes, if it does, and how long they can be.
     """
 
-    def __init__(self, space: StateSpace, preset: Preset, streams: list[np.random.Generator]) -> None:
-        sizes = (space.width, *preset.hidden, space.actions)
+    def __init__(
+        self,
+        space: StateSpace,
+        preset: Preset,
+        streams: list[np.random.Generator],
+        imitation: tuple[Imitation, int] | None = None,
+    ) -> None:
+        sizes = (space.inputs, *preset.hidden, space.actions)
         update = preset.update
         self.space = space
         self.ddqn = DDQN(
             sizes,
-            UpdateRule(update.batch, update.learning_rate, update.target_period, update.huber_delta),
+            UpdateRule(
+                update.batch,
+                update.learning_rate,
+                update.target_period,
+                update.huber_delta,
+                imitation[0].margin if imitation else 0.0,
+            ),
             np.stack([initial_parameters(sizes, stream) for stream in streams]),
         )
         self.replay = Replay(space.rows, space.count, preset.replay_capacity)
         self._gamma = update.gamma
         self._learning_starts = update.learning_starts
         self._every_row = np.arange(space.rows)
+        self.best = BestEpisodes(space.rows, imitation[1], imitation[0].batch) if imitation else None
 
     def act(self, states: Ints, epsilon: Floats, uniforms: Floats, rows: Ints | None = None) -> Ints:
         """ε-greedy actions (k,) for states (k, width), ε (k,) and uniform numbers (k, 2); all rows unless named."""
@@ -54,8 +69,13 @@ class Learner:
     ) -> None:
         """Keep one transition for each of the named rows (k,), states (k, width); termination ends the bootstrap."""
         number = self.space.number
-        discounts = np.where(terminated, 0.0, self._gamma)
-        self.replay.add(rows, Transitions(number(states), actions, rewards, number(next_states), discounts))
+        self.replay.add(
+            rows, Transitions(number(states), actions, rewards, number(next_states), self.discounts(terminated))
+        )
+
+    def discounts(self, terminated: Bools) -> Floats:
+        """What the value of the next state counts: γ, and nothing behind the end."""
+        return np.where(terminated, 0.0, self._gamma)
 
     def learn(self, rows: Ints, uniforms: Floats) -> None:
         """One update of each named row (k,) that holds enough transitions; numbers (k, batch) draw its batch."""
@@ -73,5 +93,6 @@ class Learner:
 
     def _batch(self, rows: Ints, uniforms: Floats) -> Batch:
         drawn = self.replay.sample(rows, uniforms)
+        imitated = self.best.mix_in(rows, drawn, uniforms) if self.best else None
         both = np.stack((drawn.states, drawn.next_states))
-        return Batch(self.space.inputs_for(both, rows), drawn.actions, drawn.rewards, drawn.discounts)
+        return Batch(self.space.inputs_for(both, rows), drawn.actions, drawn.rewards, drawn.discounts, imitated)

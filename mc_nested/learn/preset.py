@@ -2,9 +2,9 @@
 
 from importlib import resources
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from mc_nested.errors import PresetError
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
@@ -14,6 +14,9 @@ MOST = 1_000_000_000
 
 WIDEST, DEEPEST, LARGEST_BATCH = 4096, 16, 4096
 """The largest networks and batches: a slip of the pen beyond them would eat the machine's memory first."""
+
+MOST_UPDATES_A_STEP = 1000
+"""More would take longer than the slowest game's step."""
 
 Count = Annotated[int, Field(ge=1, le=MOST)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
@@ -31,6 +34,27 @@ class Exploration(_Table):
     start: Probability
     floor: Probability
     share: Share
+
+
+class ExcursionRule(_Table):
+    """Exploration from the own best episode (excursions.py): in the place of ε.
+
+    ``at_end`` is the share of excursions that follow it to its end; the others leave it at a step of it, by chance,
+    and wander at most ``wander`` steps; ``rejoin`` is the probability, each time its path is met, to go on along it;
+    ``repeat`` the probability to place where it is known to lie on the design.
+    """
+
+    at_end: Probability
+    wander: Count
+    rejoin: Probability
+    repeat: Probability
+
+
+class Imitation(_Table):
+    """Self-imitation (imitation.py): how much of each batch is of the own best episode, and its actions' margin."""
+
+    batch: Count
+    margin: Positive
 
 
 class Update(_Table):
@@ -52,8 +76,23 @@ class Preset(_Table):
     hidden: Annotated[list[Annotated[int, Field(ge=1, le=WIDEST)]], Field(min_length=1, max_length=DEEPEST)]
     replay_capacity: Count
     update: Update
+    encoding: Literal["scaled", "one-hot"] = "scaled"
+    updates_a_step: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)] = 1
+    keep: Literal["last", "best"] = "last"
     explore_main: Exploration
-    explore_nested: Exploration
+    explore_nested: Exploration | None = None
+    excursions: ExcursionRule | None = None
+    imitation: Imitation | None = None
+
+    @model_validator(mode="after")
+    def _explores_in_one_way(self) -> "Preset":
+        if (self.explore_nested is None) == (self.excursions is None):
+            raise ValueError("name one way to explore: [explore_nested] or [excursions]")
+        if self.imitation and not self.excursions:
+            raise ValueError("[imitation] needs a best episode: add [excursions], or leave it out")
+        if self.imitation and self.imitation.batch > self.update.batch:
+            raise ValueError("[imitation] batch is a part of the [update] batch: no more than that")
+        return self
 
 
 def shipped_presets() -> list[str]:

@@ -16,7 +16,8 @@ from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import FORMS, Agent
 from mc_nested.learn.checkpoint import Checkpoint
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.trainer import EpisodeRow, EvaluationRow, Trainer
+from mc_nested.learn.records import EpisodeRow, EvaluationRow
+from mc_nested.learn.trainer import Trainer
 from mc_nested.learn.whole_file import written_whole
 from mc_nested.toml_file import parse_toml, read_toml_text
 
@@ -153,8 +154,8 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Trainer, wall_s: f
         "episodes": config.preset.episodes,
         "optimum": scenario.optimum,
         "final_scores": [
-            rows[-1].score if finished else None
-            for rows, finished in zip(evaluations, trainer.runs_finished, strict=True)
+            float(score) if finished else None
+            for score, finished in zip(trainer.kept_scores, trainer.runs_finished, strict=True)
         ],
         "episodes_to_optimum": [
             next((row.episode for row in rows if row.score >= scenario.optimum), None) for rows in evaluations

@@ -20,17 +20,21 @@ class StateSpace:
     Args:
         highest: the highest value of each integer of a state, (rows, width); the lowest is 0.
         actions: how many actions there are.
+        encoding: how a network takes a state: each integer ``scaled`` to [-1, 1], or ``one-hot``.
     """
 
-    def __init__(self, highest: Ints, actions: int) -> None:
+    def __init__(self, highest: Ints, actions: int, encoding: str = "scaled") -> None:
         self.actions = actions
-        self.rows, self.width = highest.shape
+        self.rows = len(highest)
         radix = highest.max(axis=0) + 1
         self.count = int(radix.prod())
         self._place_values = np.append(radix[:0:-1].cumprod()[::-1], 1)
         every = np.stack(np.unravel_index(np.arange(self.count), radix), axis=1)
         kinds, kind_of = np.unique(highest, axis=0, return_inverse=True)
-        self._table = np.concatenate([scaled(every, kind) for kind in kinds])
+        self._table = np.concatenate(
+            [scaled(every, kind) if encoding == "scaled" else one_hot(every, radix) for kind in kinds]
+        )
+        self.inputs = self._table.shape[1] - 1
         self._first = kind_of.reshape(-1) * self.count
 
     def number(self, states: NDArray[np.integer[Any]]) -> Ints:
@@ -39,7 +43,7 @@ class StateSpace:
         return numbers
 
     def inputs_for(self, numbers: NDArray[np.integer[Any]], rows: Ints) -> Floats:
-        """What the networks of the named rows (k,) take for numbered states (…, k, batch): (…, k, width + 1, batch)."""
+        """What networks of the named rows (k,) take for numbered states (…, k, batch): (…, k, inputs + 1, batch)."""
         features = self._table.take(numbers + self._first[rows, None], axis=0)
         columns: Floats = features.swapaxes(-1, -2)
         return columns
@@ -52,3 +56,9 @@ def scaled(states: NDArray[np.integer[Any]], highest: Ints) -> Floats:
     """
     values = (2.0 * states - highest) / np.maximum(highest, 1)
     return np.concatenate((values, np.ones((*values.shape[:-1], 1))), axis=-1).astype(np.float32)
+
+
+def one_hot(states: NDArray[np.integer[Any]], radix: Ints) -> Floats:
+    """Each integer of the states (…, width) as a 1 among as many numbers as it has values, and behind them a 1."""
+    parts = [np.eye(values, dtype=np.float32)[states[..., part]] for part, values in enumerate(radix)]
+    return np.concatenate((*parts, np.ones((*states.shape[:-1], 1), np.float32)), axis=-1)

@@ -8,7 +8,7 @@ game.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, TypeVar, get_type_hints
+from typing import Any
 
 import numpy as np
 from gymnasium.vector import VectorEnv
@@ -20,30 +20,13 @@ from mc_nested.learn.agents import Agent, chosen_materials
 from mc_nested.learn.checkpoint import Arrays, named_for, part_of
 from mc_nested.learn.learner import CHOICE_NUMBERS, Bools, Floats, Ints
 from mc_nested.learn.preset import Exploration, Preset
+from mc_nested.learn.records import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
 from mc_nested.learn.schedules import LinearDecay
+from mc_nested.learn.scouts import NUMBERS, Scouts
 from mc_nested.learn.streams import Streams
 
-
-class EpisodeRow(NamedTuple):
-    """One finished training episode; ``episode`` counts from 1, ε are those it was played with."""
-
-    trial: int
-    episode: int
-    score: float
-    material: int
-    steps: int
-    epsilon_main: float
-    epsilon_nested: float
-
-
-class EvaluationRow(NamedTuple):
-    """One greedy episode after ``episode`` training episodes."""
-
-    trial: int
-    episode: int
-    score: float
-    material: int
-    steps: int
+EXCURSIONS_ONLY = LinearDecay(1.0, 1.0, 1.0)
+"""The nested agent's ε where every training episode is an excursion: no step is the greedy policy's."""
 
 
 @dataclass
@@ -94,8 +77,14 @@ class Trainer:
         self._optimum = np.array([scenario.optimum for scenario in scenarios])
         self._start = np.array([scenario.start_state for scenario in scenarios])
         self._explore_main = _decay(preset.explore_main)
-        self._explore_nested = _decay(preset.explore_nested)
-        self._streams = Streams(seed, agent.runs, 2 * (CHOICE_NUMBERS + preset.update.batch))
+        self._explore_nested = _decay(preset.explore_nested) if preset.explore_nested else EXCURSIONS_ONLY
+        self._scouts = Scouts(preset.excursions, agent) if preset.excursions else None
+        self._kept = {role: online.copy() for role, online in agent.online().items()}
+        self._kept_scores = np.full(runs, -np.inf)
+        batch, scouting = preset.update.batch, NUMBERS if preset.excursions else 0
+        widths = [CHOICE_NUMBERS, batch, CHOICE_NUMBERS, batch * preset.updates_a_step, scouting]
+        self._cuts = np.cumsum(widths)[:-1]
+        self._streams = Streams(seed, agent.runs, sum(widths))
         self._runs = _Runs(
             observations=np.zeros((runs, agent.observed), dtype=np.int64),
             materials=np.zeros(runs, dtype=np.int64),
@@ -123,6 +112,11 @@ class Trainer:
         return self._runs.finished
 
     @property
+    def kept_scores(self) -> Floats:
+        """The greedy score of the policy that each run keeps, (runs,); -inf before the first evaluation."""
+        return self._kept_scores
+
+    @property
     def epsilon(self) -> tuple[Floats, Floats]:
         """The main and the nested agent's ε of the training episodes now, (runs,) each."""
         done, episodes = self._runs.episodes, self.preset.episodes
@@ -134,22 +128,27 @@ class Trainer:
         An error of the env passes through; what was learnt until then stays valid, and the next tick goes on with new
         episodes where ``abandon_episodes`` was called.
         """
-        main_choice, main_draws, low_choice, low_draws = np.split(self._streams.at(self.ticks), self._cuts(), 1)
-        self._begin_episodes(main_choice)
+        numbers = self._streams.at(self.ticks)
+        main_choice, main_draws, low_choice, low_draws, scouting = np.split(numbers, self._cuts, 1)
+        self._begin_episodes(main_choice, scouting)
         runs = self._runs
         training = ~(runs.finished | runs.evaluating)
         states = self.agent.low_states(runs.observations, runs.materials)
         epsilon = np.where(training, self._explore_nested.epsilon(runs.episodes, self.preset.episodes), 0.0)
         actions = self.agent.act(states, runs.materials, epsilon, low_choice)
+        rows = np.flatnonzero(training)
+        if self._scouts:
+            actions[rows] = self._scouts.act(rows, runs.observations, scouting)
         observations, rewards, terminated, truncated, info = self._env.step(actions)
         next_states = self.agent.low_states(observations, runs.materials)
 
-        rows = np.flatnonzero(training)
         learners = self.agent.low_rows(rows, runs.materials)
-        self.agent.low.remember(
-            learners, states[rows], actions[rows], rewards[rows], next_states[rows], terminated[rows]
-        )
-        self.agent.low.learn(learners, low_draws[rows])
+        seen = states[rows], actions[rows], rewards[rows], next_states[rows], terminated[rows]
+        self.agent.low.remember(learners, *seen)
+        if self._scouts:
+            self._scouts.saw(rows, runs.observations[rows], *seen)
+        for draws in np.split(low_draws[rows], self.preset.updates_a_step, 1):
+            self.agent.low.learn(learners, draws)
 
         runs.observations = observations
         if self.agent.main is None:
@@ -176,6 +175,8 @@ class Trainer:
             **named_for("runs", vars(self._runs)),
             **named_for("env", arenas),
             **named_for("agent", self.agent.networks_state()),
+            **named_for("kept", {**self._kept, "scores": self._kept_scores}),
+            **named_for("scouts", self._scouts.state() if self._scouts else {}),
         }
 
     def marks(self) -> Arrays:
@@ -187,8 +188,8 @@ class Trainer:
         """The rows and transitions that came since those marks; all of them without."""
         episodes, evaluations = since["rows"] if since else (0, 0)
         return {
-            "rows.episodes": _table(self.episode_rows[episodes:], EpisodeRow),
-            "rows.evaluations": _table(self.evaluation_rows[evaluations:], EvaluationRow),
+            "rows.episodes": table_of_rows(self.episode_rows[episodes:], EpisodeRow),
+            "rows.evaluations": table_of_rows(self.evaluation_rows[evaluations:], EvaluationRow),
             **named_for("agent", self.agent.transitions_since(part_of(since, "agent") if since else None)),
         }
 
@@ -198,9 +199,13 @@ class Trainer:
         for name, kept in part_of(state, "runs").items():
             getattr(self._runs, name)[:] = kept
         self.agent.load_networks(part_of(state, "agent"))
+        for name, kept in {**self._kept, "scores": self._kept_scores}.items():
+            kept[:] = state[f"kept.{name}"]
+        if self._scouts:
+            self._scouts.load(part_of(state, "scouts"))
         for journal in journals:
-            self.episode_rows += _rows(journal["rows.episodes"], EpisodeRow)
-            self.evaluation_rows += _rows(journal["rows.evaluations"], EvaluationRow)
+            self.episode_rows += rows_of_table(journal["rows.episodes"], EpisodeRow)
+            self.evaluation_rows += rows_of_table(journal["rows.evaluations"], EvaluationRow)
             self.agent.remember_again(part_of(journal, "agent"))
         arenas = part_of(state, "env")
         if isinstance(self._env, ResumableEnv) and arenas:
@@ -208,11 +213,7 @@ class Trainer:
         else:
             self.abandon_episodes()
 
-    def _cuts(self) -> list[int]:
-        batch = self.preset.update.batch
-        return [CHOICE_NUMBERS, CHOICE_NUMBERS + batch, 2 * CHOICE_NUMBERS + batch]
-
-    def _begin_episodes(self, choice: Floats) -> None:
+    def _begin_episodes(self, choice: Floats, scouting: Floats) -> None:
         runs = self._runs
         begins = runs.between_episodes & ~runs.finished
         if not begins.any():
@@ -224,6 +225,8 @@ class Trainer:
             rows = np.flatnonzero(begins)
             runs.materials[rows] = self.agent.main.act(self._start[rows], epsilon[rows], choice[rows], rows)
         runs.observations, _ = self._env.reset(options={"reset_mask": begins, "material": runs.materials})
+        if self._scouts:
+            self._scouts.begin(np.flatnonzero(begins & ~runs.evaluating), scouting)
         runs.steps_in_episode[begins] = 0
         runs.between_episodes &= ~begins
 
@@ -245,6 +248,8 @@ class Trainer:
                     float(epsilon_nested[run]),
                 )
             )
+        if self._scouts:
+            self._scouts.end(rows, self.agent.low_rows(rows, runs.materials))
         if not self.agent.main:
             return
         # The main agent's one transition an episode: after its choice, nothing is left for it to decide.
@@ -259,23 +264,16 @@ class Trainer:
             steps, material = int(runs.steps_in_episode[run]), int(runs.materials[run])
             self.evaluation_rows.append(EvaluationRow(int(run), episode, score, material, steps))
             runs.evaluated_at[run] = episode
+            if self.preset.keep == "last" or score > self._kept_scores[run]:
+                self._keep(run, score)
             reached = self._stop_at_optimum and score >= self._optimum[run]
             runs.finished[run] = episode >= self.preset.episodes or reached
+
+    def _keep(self, run: int, score: float) -> None:
+        self._kept_scores[run] = score
+        for role, online in self.agent.online().items():
+            self._kept[role][self.agent.rows_of(run)[role]] = online[self.agent.rows_of(run)[role]]
 
 
 def _decay(exploration: Exploration) -> LinearDecay:
     return LinearDecay(exploration.start, exploration.floor, exploration.share)
-
-
-Row = TypeVar("Row", EpisodeRow, EvaluationRow)
-
-
-def _table(rows: list[Row], kind: type[Row]) -> NDArray[Any]:
-    return np.array(rows, dtype=np.float64).reshape(len(rows), len(kind._fields))
-
-
-def _rows(table: NDArray[Any], kind: type[Row]) -> list[Row]:
-    types = get_type_hints(kind)
-    return [
-        kind(*(types[name](value) for name, value in zip(kind._fields, row, strict=True))) for row in table.tolist()
-    ]

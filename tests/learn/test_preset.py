@@ -44,6 +44,12 @@ PAPER = (Path(__file__).parents[2] / "mc_nested/learn/presets/paper.toml").read_
         (("gamma = 0.95", "gamma = nan"), "update.gamma"),
         (("floor = 0.001", "floor = nan"), "explore_nested.floor"),
         (("episodes = 3000", "episodes = "), "not TOML"),
+        (("[explore_nested]", "[excursions]"), "excursions."),
+        (("[update]", 'encoding = "binary"\n[update]'), "encoding"),
+        (
+            ("[explore_nested]", "[imitation]\nbatch = 4\nmargin = 0.5\n[explore_nested]"),
+            "[imitation] needs a best episode",
+        ),
     ],
 )
 def test_a_mistake_is_one_line_that_names_the_key(change: tuple[str, str], says: str) -> None:
@@ -51,6 +57,27 @@ def test_a_mistake_is_one_line_that_names_the_key(change: tuple[str, str], says:
         parse_preset(PAPER.replace(*change, 1), "mine.toml")
     assert str(caught.value).startswith("mine.toml: ")
     assert says in str(caught.value)
+
+
+TUNED = (Path(__file__).parents[2] / "mc_nested/learn/presets/tuned.toml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (
+            ("[imitation]", "[explore_nested]\nstart = 1.0\nfloor = 0.1\nshare = 0.5\n[imitation]"),
+            "name one way to explore",
+        ),
+        (("[imitation]\nbatch = 8", "[imitation]\nbatch = 33"), "no more than that"),
+        (("wander = 12", "wander = 0"), "excursions.wander"),
+    ],
+)
+def test_excursions_that_do_not_fit_the_rest_are_one_line(change: tuple[str, str], says: str) -> None:
+    with pytest.raises(PresetError) as caught:
+        parse_preset(TUNED.replace(*change, 1), "mine.toml")
+    assert says in str(caught.value)
+    assert "\n" not in str(caught.value)
 
 
 def test_an_unknown_name_lists_the_known_ones() -> None:

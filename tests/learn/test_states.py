@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.learn.states import StateSpace, scaled
+from mc_nested.learn.states import StateSpace, one_hot, scaled
 
 
 @given(st.lists(st.integers(0, 9), min_size=1, max_size=4), st.data())
@@ -38,3 +38,15 @@ def test_each_row_is_scaled_by_its_own_scenario(rows: list[int]) -> None:
     states = np.array([[[0, 14, blocks[row]], [7, 7, 0]] for row in rows])
     inputs = space.inputs_for(space.number(states), np.array(rows))
     assert inputs.tolist() == [[[-1.0, 0.0], [1.0, 0.0], [1.0, -1.0], [1.0, 1.0]]] * len(rows)
+
+
+def test_one_hot_gives_each_value_an_input_of_its_own() -> None:
+    assert one_hot(np.array([1, 0, 2]), np.array([2, 2, 3])).tolist() == [0, 1, 1, 0, 0, 0, 1, 1]
+
+
+def test_one_hot_networks_of_other_scenarios_have_inputs_enough_for_all() -> None:
+    space = StateSpace(np.array([[14, 14, 11], [14, 14, 16]]), actions=8, encoding="one-hot")
+    assert space.inputs == 15 + 15 + 17
+    inputs = space.inputs_for(space.number(np.array([[[14, 0, 11]], [[14, 0, 11]]])), np.array([0, 1]))
+    assert inputs[0].tolist() == inputs[1].tolist()
+    assert np.flatnonzero(inputs[0, :, 0]).tolist() == [14, 15, 30 + 11, 47]

@@ -14,7 +14,7 @@ from mc_nested.learn.agents import FORMS, Agent, Form, view_of
 from mc_nested.learn.checkpoint import Arrays
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.learner import Learner
-from mc_nested.learn.preset import Preset, load_preset
+from mc_nested.learn.preset import ExcursionRule, Imitation, Preset, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv, arena_env
 
@@ -224,6 +224,64 @@ def test_the_last_evaluation_is_what_the_saved_policy_plays(three_runs: Trainer)
     assert [len(episode.actions) for episode in played] == [last[run].steps for run in range(3)]
 
 
+SCOUTING = SHORT.model_copy(
+    update={
+        "episodes": 60,
+        "evaluate_every": 5,
+        "encoding": "one-hot",
+        "keep": "best",
+        "updates_a_step": 2,
+        "explore_nested": None,
+        "excursions": ExcursionRule(at_end=0.1, wander=12, rejoin=0.4, repeat=0.8),
+        "imitation": Imitation(batch=4, margin=0.5),
+    }
+)
+
+
+@pytest.fixture(scope="module")
+def scouting() -> Trainer:
+    return finish(trainer_of([LINE, DIAMOND], SCOUTING))
+
+
+def test_excursions_find_more_than_chance_does(scouting: Trainer) -> None:
+    by_chance = finish(trainer_of([LINE, DIAMOND], SHORT.model_copy(update={"episodes": 60})))
+    for run in (0, 1):
+        best = [max(row.score for row in t.episode_rows if row.trial == run) for t in (scouting, by_chance)]
+        assert best[0] >= best[1] + 2
+
+
+def test_a_run_keeps_its_best_policy_where_the_preset_says_so(scouting: Trainer) -> None:
+    scores = [max(row.score for row in scouting.evaluation_rows if row.trial == run) for run in (0, 1)]
+    assert scouting.kept_scores.tolist() == scores
+    agent = Agent(NESTED, [LINE, DIAMOND], SCOUTING, seed=0)
+    for role, online in agent.online().items():
+        online[:] = scouting.state()[f"kept.{role}"]
+    played = play_greedily(GridVectorEnv([LINE, DIAMOND]), [LINE, DIAMOND], agent)
+    assert [episode.score for episode in played] == scores
+
+
+def test_there_are_as_many_updates_a_step_as_the_preset_says(scouting: Trainer) -> None:
+    steps = sum(row.steps for row in scouting.episode_rows)
+    assert int(scouting.agent.low.ddqn.updates.sum()) == 2 * (steps - 2 * 15)
+
+
+@pytest.mark.parametrize("form", [NESTED, HIERARCHICAL], ids=["nested", "hierarchical"])
+def test_excursions_can_be_saved_resumed_and_taken_out_of_a_batch(form: Form) -> None:
+    preset = SCOUTING.model_copy(update={"episodes": 15})
+    whole, first = finish(trainer_of([LINE] * 2, preset, form=form)), trainer_of([LINE] * 2, preset, form=form)
+    for _ in range(333):
+        first.tick()
+    resumed = trainer_of([LINE] * 2, preset, form=form)
+    resumed.load(*saved(first))
+    finish(resumed)
+    assert resumed.episode_rows == whole.episode_rows
+    for name, kept in whole.state().items():
+        assert np.array_equal(resumed.state()[name], kept), name
+    agent = Agent(form, [LINE], preset, 0, runs=[1])
+    alone = finish(Trainer(GridVectorEnv([LINE]), [LINE], agent, preset, 0))
+    assert [row[1:] for row in alone.episode_rows] == [row[1:] for row in whole.episode_rows if row.trial == 1]
+
+
 class Fails(GridVectorEnv):
     """Breaks down once, in the middle of an episode."""
 
@@ -266,7 +324,7 @@ def test_each_low_agent_of_the_hierarchy_learns_from_its_own_material_alone() ->
         for material in (0, 1):
             rows = [row for row in trainer.episode_rows if (row.trial, row.material) == (run, material)]
             assert trainer.agent.low.replay.added[2 * run + material] == sum(row.steps for row in rows)
-    assert trainer.agent.low.space.width == 3, "nothing of the top agent is in the low agents' state"
+    assert trainer.agent.low.space.inputs == 3, "nothing of the top agent is in the low agents' state"
     added = trainer.agent.low.replay.added
     assert trainer.agent.low.ddqn.updates.tolist() == np.maximum(added - 15, 0).tolist()
 
