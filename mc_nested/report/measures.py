@@ -1,0 +1,66 @@
+"""What is measured of a trial: its early score, its final score, and how much its evaluations still spread late."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mc_nested.report.curve import align_trials
+from mc_nested.report.results import Results
+
+Floats = NDArray[np.float64]
+
+EARLY_EPISODES = 1000
+"""Early is the first 1,000 episodes, or the first third of a training of fewer than 3,000."""
+
+
+def early_limit(episodes: int) -> int:
+    """The last episode that counts as early in a training of so many."""
+    return min(EARLY_EPISODES, episodes // 3)
+
+
+@dataclass(frozen=True)
+class Curve:
+    """The greedy scores of an agent on a scenario.
+
+    Args:
+        episodes: after which the agent was evaluated, (evaluations,).
+        scores: (trials, evaluations).
+        trained: episodes of the whole training.
+    """
+
+    episodes: NDArray[np.int64]
+    scores: Floats
+    trained: int
+
+    @property
+    def final(self) -> Floats:
+        """Each trial's last score, (trials,); empty where not every trial was evaluated."""
+        return self.scores[:, -1] if len(self.episodes) else np.empty(0)
+
+    @property
+    def early(self) -> Floats:
+        """Each trial's mean score over the early evaluations, (trials,); empty where there are none."""
+        early = self.episodes <= early_limit(self.trained)
+        return self.scores[:, early].mean(axis=1) if early.any() else np.empty(0)
+
+    @property
+    def spread(self) -> Floats:
+        """Each trial's standard deviation over the evaluations of the last third; empty where there are not two."""
+        late = 3 * self.episodes > 2 * self.trained
+        return self.scores[:, late].std(axis=1, ddof=1) if late.sum() > 1 else np.empty(0)
+
+
+def curves_of(results: Results) -> Mapping[tuple[str, str], Curve]:
+    """The curve of every agent and scenario that was trained."""
+    rows: dict[tuple[str, str], list[tuple[int, int, float]]] = {
+        (agent, scenario): [] for agent in results.agents for scenario in results.scenarios
+    }
+    for row in results.evaluations:
+        rows[row.agent, row.scenario].append((row.trial, row.episode, row.score))
+    curves = {}
+    for key, own in rows.items():
+        episodes, scores = align_trials(own, results.trials)
+        curves[key] = Curve(np.array(episodes, dtype=np.int64), scores, results.episodes)
+    return curves

@@ -1,0 +1,26 @@
+"""The files of a repeated experiment: results.csv, figure5.png, figure5.svg and report.md."""
+
+from pathlib import Path
+
+from mc_nested.learn.whole_file import written_whole
+from mc_nested.report.claims import judge
+from mc_nested.report.figure5 import draw_figure5
+from mc_nested.report.report_text import report_text
+from mc_nested.report.results import Results, write_evaluations
+from mc_nested.report.verdicts import JudgedClaim
+
+
+def write_reproduction(folder: Path, results: Results, longer: Results | None = None) -> tuple[JudgedClaim, ...]:
+    """Write the files, each whole or not at all, and return what was judged; OSError where the disk refuses.
+
+    ``longer``, the same with ten times the episodes, is judged for claim (f) and kept in results_longer.csv. All but
+    report.md's line of seconds is the same for the same results, to the byte.
+    """
+    claims = judge(results, longer)
+    write_evaluations(folder / "results.csv", results.evaluations)
+    if longer:
+        write_evaluations(folder / "results_longer.csv", longer.evaluations)
+    draw_figure5(folder, results)
+    with written_whole(folder / "report.md") as unfinished:
+        unfinished.write_text(report_text(results, claims, longer), encoding="utf-8", newline="\n")
+    return claims

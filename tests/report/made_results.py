@@ -1,0 +1,73 @@
+"""Made-up results in which every measure of every trial is known."""
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from mc_nested.report.results import Cost, Evaluation, Results
+
+OPTIMUM = {"line": 21.0, "zigzag": 21.0, "diamond": 26.0, "hut": 15.0}
+NETWORKS = {"nested": 2, "hierarchical": 3, "single": 1}
+PARAMETERS = {"nested": 3_000, "hierarchical": 4_500, "single": 1_500}
+EPISODES = 90
+
+
+class Trial(NamedTuple):
+    """A trial's early score, final score and spread."""
+
+    early: float
+    final: float
+    spread: float = 1.0
+
+
+def made(trials: Mapping[tuple[str, str], Sequence[Trial]], episodes: int = EPISODES) -> Results:
+    """Nine evaluations a trial; agents and scenarios in the order of their first appearance."""
+    every = episodes // 9
+    rows = [
+        Evaluation(agent, scenario, trial, every * (index + 1), score, "stone", 13)
+        for (agent, scenario), own in trials.items()
+        for trial, (early, final, spread) in enumerate(own)
+        # The late three lie around the final score, their standard deviation is the spread.
+        for index, score in enumerate([early] * 3 + [final] * 3 + [final + spread, final - spread, final])
+    ]
+    scenarios = list(dict.fromkeys(scenario for _, scenario in trials))
+    return Results(
+        agents=list(dict.fromkeys(agent for agent, _ in trials)),
+        scenarios=scenarios,
+        trials=len(next(iter(trials.values()))),
+        episodes=episodes,
+        evaluate_every=every,
+        seed=0,
+        preset="paper",
+        optimum={scenario: OPTIMUM[scenario] for scenario in scenarios},
+        builder={scenario: OPTIMUM[scenario] for scenario in scenarios},
+        evaluations=rows,
+        costs=[
+            Cost(agent, scenario, NETWORKS[agent], PARAMETERS[agent], 1200, 1000, 2.5) for agent, scenario in trials
+        ],
+    )
+
+
+def level(score: float, trials: int = 6, early: float = 5.0, spread: float = 1.0) -> list[Trial]:
+    """Trials whose final scores are ``score``, and an eighth of a block more or less in turn."""
+    return [Trial(early, score + (0.125, -0.125)[trial % 2], spread) for trial in range(trials)]
+
+
+def scattered(score: float, early: float = 5.0) -> list[Trial]:
+    """Trials from six blocks below ``score`` to six above: little can be told from them."""
+    return [Trial(early + off, score + off, spread=4 + off / 2) for off in (-6, 6, -3, 3, -1, 1)]
+
+
+def the_papers(*scenarios: str) -> dict[tuple[str, str], list[Trial]]:
+    """Six trials of all three agents on those scenarios, all where none is named, in which the paper's claims hold."""
+    trials = {
+        ("nested", "line"): level(20, early=12, spread=0.5),
+        ("hierarchical", "line"): level(17, early=7, spread=1.5),
+        ("single", "line"): level(13, early=2, spread=2),
+        ("nested", "zigzag"): level(16, spread=0.5),
+        ("hierarchical", "zigzag"): level(16, spread=1.5),
+        ("single", "zigzag"): level(8, spread=2),
+        ("nested", "diamond"): level(18, spread=0.5),
+        ("hierarchical", "diamond"): level(18, spread=1.5),
+        ("single", "diamond"): level(9, spread=2),
+    }
+    return {key: own for key, own in trials.items() if not scenarios or key[1] in scenarios}
