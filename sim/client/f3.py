@@ -1,18 +1,18 @@
-"""The virtual client's debug screen: every layout of the facts' table but 26.4, and the stand-in's, over a world.
+"""The virtual client's debug screen: every layout of the facts' table, and the stand-in's, over a world.
 
 What a version writes is in ``f3_text.py``; here is where it is put and in which colours (FACTS: The F3 debug screen).
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-
-import numpy as np
+from functools import lru_cache
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.font import Font
+from sim.client.f3_groups import group_layers
 from sim.client.f3_text import F3Screen, TextLine, left_lines, right_lines
-
-Colour = tuple[int, int, int]
+from sim.client.layers import Blend, Colour, Layer, draw_all
+from sim.client.letters import Letters
 
 
 @dataclass(frozen=True)
@@ -36,72 +36,72 @@ _STANDIN = _Style(pitch=10, empty=9, edge=1, box=(110, 110, 110), alpha=128, mar
 
 _VALUES: dict[str, Colour] = {"true": (85, 255, 85), "false": (255, 85, 85)}
 
+_KEPT = 512
+"""Lines whose layers are kept: a screen has about forty, and the next one shares most of them."""
+
 
 def paint(world: Frame, screen: F3Screen, font: Font) -> Frame:
     """The world (height, width, 3), blue green red, with the debug screen over it. The world itself is left as it is.
 
     Text that doesn't fit is cut at the window's side, and the right column is drawn over the left one, as in the game.
     """
-    style = _STANDIN if screen.layout == "standin" else _VANILLA
-    canvas = _Canvas(world.copy(), screen.gui_scale)
-    for lines, is_right in ((left_lines(screen), False), (right_lines(screen), True)):
-        placed = list(_placed(lines, style, font, canvas.columns if is_right else None))
-        for _, left, top, width in placed:
-            margin = style.margin
-            canvas.blend((left - margin, top - margin), (left + width + margin, top + style.pitch - margin), style)
-        for line, left, top, width in placed:
-            _write(canvas, style, font, line, (left, top), width)
-    return canvas.frame
+    frame: Frame = world.copy()
+    height, width = world.shape[:2]
+    layers = F3Layers(Letters(font, screen.gui_scale), width).of(screen)
+    draw_all(frame, layers, (0, 0, width, height))
+    return frame
 
 
-def _placed(
-    lines: Iterable[TextLine], style: _Style, font: Font, columns: int | None
-) -> Iterator[tuple[TextLine, int, int, int]]:
-    """Each line that isn't empty, its left, top and width in GUI pixels; right-aligned in ``columns`` if given."""
+class F3Layers:
+    """Debug screens as layers in a window ``width`` pixels wide; a line that didn't change is the same layer again."""
+
+    def __init__(self, letters: Letters, width: int) -> None:
+        self._letters = letters
+        # The last GUI pixel may be cut (FACTS: The F3 debug screen).
+        self._columns = -(-width // letters.scale)
+        self._line = lru_cache(_KEPT)(self._drawn)
+
+    def of(self, screen: F3Screen) -> list[Layer]:
+        """The layers of one debug screen, from the back to the front."""
+        if screen.layout == "26.4":
+            return group_layers(screen, self._letters)
+        style = _STANDIN if screen.layout == "standin" else _VANILLA
+        layers: list[Layer] = []
+        for lines, is_right in ((left_lines(screen), False), (right_lines(screen), True)):
+            drawn = [
+                self._line(line.text, line.value, line.underlined, top, is_right, style)
+                for line, top in _placed(lines, style)
+            ]
+            layers += [box for box, _ in drawn]
+            layers += [layer for _, texts in drawn for layer in texts]
+        return layers
+
+    def _drawn(
+        self, text: str, value: str, underlined: bool, top: int, is_right: bool, style: _Style
+    ) -> tuple[Layer, list[Layer]]:
+        width = self._letters.width(text)
+        left = self._columns - style.edge - width if is_right else style.edge
+        margin = style.margin
+        box = (left - margin, top - margin, left + width + margin, top + style.pitch - margin)
+        texts: list[Layer] = []
+        if label := text.removesuffix(value):
+            texts.append(self._letters.text(label, left, top, style.text))
+        if value:
+            at = left + width - self._letters.width(value)
+            texts.append(self._letters.text(value, at, top, _VALUES.get(value, style.text)))
+        if underlined:
+            texts.append(self._blend((left - 1, top + 8, left + width, top + 9), style.text, 255))
+        return self._blend(box, style.box, style.alpha), texts
+
+    def _blend(self, gui: tuple[int, int, int, int], colour: Colour, alpha: int) -> Blend:
+        scale = self._letters.scale
+        return Blend((gui[0] * scale, gui[1] * scale, gui[2] * scale, gui[3] * scale), colour, alpha)
+
+
+def _placed(lines: list[TextLine], style: _Style) -> Iterator[tuple[TextLine, int]]:
+    """Each line that isn't empty, and its top in GUI pixels."""
     top = style.edge
     for line in lines:
-        width = len(font.columns(line.text))
-        if width:
-            yield line, style.edge if columns is None else columns - style.edge - width, top, width
-        top += style.pitch if width else style.empty
-
-
-def _write(canvas: "_Canvas", style: _Style, font: Font, line: TextLine, at: tuple[int, int], width: int) -> None:
-    left, top = at
-    value = font.columns(line.value)
-    canvas.draw(font.columns(line.text.removesuffix(line.value)), at, style.text)
-    canvas.draw(value, (left + width - len(value), top), _VALUES.get(line.value, style.text))
-    if line.underlined:
-        canvas.part((left - 1, top + 8), (left + width, top + 9))[:] = style.text[::-1]
-
-
-@dataclass(frozen=True)
-class _Canvas:
-    """A frame that is drawn on in GUI pixels; what lies beside it is cut off."""
-
-    frame: Frame
-    scale: int
-
-    @property
-    def columns(self) -> int:
-        """The window's width in GUI pixels, the last of which may be cut (FACTS: The F3 debug screen)."""
-        return -(-int(self.frame.shape[1]) // self.scale)
-
-    def part(self, upper_left: tuple[int, int], lower_right: tuple[int, int]) -> Frame:
-        """The pixels of a rectangle, to be drawn on."""
-        left, top, right, bottom = (max(0, side) * self.scale for side in (*upper_left, *lower_right))
-        return self.frame[top:bottom, left:right]
-
-    def blend(self, upper_left: tuple[int, int], lower_right: tuple[int, int], style: _Style) -> None:
-        part = self.part(upper_left, lower_right)
-        box = np.array(style.box[::-1], np.uint16) * style.alpha
-        part[:] = (part.astype(np.uint16) * (255 - style.alpha) + box + 127) // 255
-
-    def draw(self, columns: bytes, at: tuple[int, int], colour: Colour) -> None:
-        if not columns:
-            return
-        left, top = at
-        bits = np.unpackbits(np.frombuffer(columns, np.uint8)[np.newaxis], axis=0, bitorder="little").astype(bool)
-        ink = bits[:, max(0, -left) :].repeat(self.scale, 0).repeat(self.scale, 1)
-        part = self.part(at, (left + len(columns), top + 8))
-        part[ink[: part.shape[0], : part.shape[1]]] = colour[::-1]
+        if line.text:
+            yield line, top
+        top += style.pitch if line.text else style.empty

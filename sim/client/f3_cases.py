@@ -9,11 +9,12 @@ from mc_nested.live.font import Font
 from mc_nested.live.reading import Block, Reading, Target
 from sim.client.f3 import paint
 from sim.client.f3_text import LAYOUTS, F3Screen, Layout
+from sim.client.scenery import WORLDS, random_world
+
+__all__ = ["WINDOWS", "WORLDS", "expected", "frames", "random_screen", "random_world"]
 
 WINDOWS = ((854, 480), (1280, 720), (1366, 768), (1600, 900), (1920, 1080), (2560, 1440))
 """Widths and heights in pixels, wide enough that the two columns don't run into each other."""
-
-WORLDS = ("flat", "noise", "grey noise", "blocks", "gradient", "specks")
 
 _IDS = ("stone", "oak_planks", "oak_log", "grass_block", "dirt", "polished_blackstone_brick_wall", "tnt", "white_wool")
 _PROPERTIES = (("axis", "y"), ("snowy", "false"), ("waterlogged", "true"), ("facing", "north"))
@@ -56,26 +57,6 @@ def random_screen(rng: np.random.Generator, layout: Layout, gui_scale: int) -> F
         fluid=block if rng.random() < 0.2 else None,
         swapped=layout == "1.21.9-26.3" and bool(rng.random() < 0.5),
     )
-
-
-def random_world(rng: np.random.Generator, kind: str, width: int, height: int) -> Frame:
-    """A picture (height, width, 3) of one kind of ``WORLDS``."""
-    if kind == "flat":
-        return np.full((height, width, 3), rng.integers(0, 256, 3), np.uint8)
-    if kind == "noise":
-        return rng.integers(0, 256, (height, width, 3), np.uint8)
-    if kind == "grey noise":
-        return np.repeat(rng.integers(0, 256, (height, width, 1), np.uint8), 3, 2)
-    if kind == "gradient":
-        slope = np.linspace(rng.integers(0, 256, 3), rng.integers(0, 256, 3), width)
-        return np.array(np.broadcast_to(slope, (height, width, 3)), np.uint8)
-    size = int(rng.choice([2, 3, 4, 16]))
-    coarse = rng.integers(0, 256, (-(-height // size), -(-width // size), 3), np.uint8)
-    if kind == "specks":
-        coarse = (
-            np.where(rng.random((*coarse.shape[:2], 1)) < 0.3, 224, rng.integers(0, 120)).astype(np.uint8).repeat(3, 2)
-        )
-    return np.ascontiguousarray(coarse.repeat(size, 0).repeat(size, 1)[:height, :width])
 
 
 def expected(screen: F3Screen) -> Reading:

@@ -6,8 +6,9 @@ from typing import Literal, get_args
 
 from mc_nested.live.reading import Block, Target
 
-Layout = Literal["1.8-1.12", "1.13-1.15", "1.16-1.19.2", "1.19.3-1.21.8", "1.21.9-26.3", "standin"]
-LAYOUTS: tuple[Layout, ...] = get_args(Layout)
+Layout = Literal["1.8-1.12", "1.13-1.15", "1.16-1.19.2", "1.19.3-1.21.8", "1.21.9-26.3", "standin", "26.4"]
+LAYOUTS: tuple[Layout, ...] = tuple(layout for layout in get_args(Layout) if layout != "26.4")
+"""Those that can be read; 26.4 puts the same contents into boxes, see ``f3_groups.py``."""
 
 _VERSIONS: dict[Layout, str] = {
     "1.8-1.12": "Minecraft 1.12.2 (1.12.2/vanilla)",
@@ -16,6 +17,7 @@ _VERSIONS: dict[Layout, str] = {
     "1.19.3-1.21.8": "Minecraft 1.20.2 (1.20.2/vanilla)",
     "1.21.9-26.3": "Minecraft 26.1 (26.1/vanilla)",
     "standin": "Prismarine Web Client (1.18.2)",
+    "26.4": "Minecraft 26.4-snapshot-1 (26.4-snapshot-1/vanilla)",
 }
 _FACINGS = (
     "south (Towards positive Z)",
@@ -40,7 +42,8 @@ class F3Screen:
 
     ``target`` is the block looked at, its id with the namespace where the layout shows one. ``properties`` and ``tags``
     are that block's. ``fluid`` is a water block looked at. ``swapped`` puts the groups of 1.21.9 and later, which are
-    spread by their count, on the other side. ``reduced`` is reducedDebugInfo.
+    spread by their count, on the other side. ``reduced`` is reducedDebugInfo. ``version`` is the game's, without it one
+    that has this layout.
     """
 
     layout: Layout
@@ -54,6 +57,12 @@ class F3Screen:
     fluid: Block | None = None
     swapped: bool = False
     reduced: bool = False
+    version: str = ""
+
+    @property
+    def title(self) -> str:
+        """The first line: which game this is."""
+        return f"Minecraft {self.version} ({self.version}/vanilla)" if self.version else _VERSIONS[self.layout]
 
     @property
     def block(self) -> Block:
@@ -66,7 +75,7 @@ def left_lines(screen: F3Screen) -> list[TextLine]:
     """The left column, from the top."""
     if screen.layout == "standin":
         return _standin_left(screen)
-    lines = [_VERSIONS[screen.layout], *_counts(screen)]
+    lines = [screen.title, *_counts(screen)]
     if screen.reduced:
         x, y, z = screen.block
         return _plain(*lines, "", f"Chunk-relative: {x & 15} {y & 15} {z & 15}")
@@ -105,12 +114,16 @@ def _counts(screen: F3Screen) -> list[str]:
 def _position(screen: F3Screen) -> list[str]:
     (px, py, pz), (x, y, z) = screen.xyz, screen.block
     inside = f"{x & 15} {y & 15} {z & 15}"
-    regional = screen.layout in ("1.19.3-1.21.8", "1.21.9-26.3")
+    regional = screen.layout in ("1.19.3-1.21.8", "1.21.9-26.3", "26.4")
     block = f"Block: {x} {y} {z}" + (f" [{inside}]" if screen.layout == "1.19.3-1.21.8" else "")
     chunk = f"Chunk: {inside} in {x >> 4} {y >> 4} {z >> 4}"
     if regional:
         chunk = f"Chunk: {x >> 4} {y >> 4} {z >> 4} [{x >> 4 & 31} {z >> 4 & 31} in r.{x >> 9}.{z >> 9}.mca]"
-    section = [f"Section-relative: {x & 15:02d} {y & 15:02d} {z & 15:02d}"] if screen.layout == "1.21.9-26.3" else []
+    section = (
+        [f"Section-relative: {x & 15:02d} {y & 15:02d} {z & 15:02d}"]
+        if screen.layout in ("1.21.9-26.3", "26.4")
+        else []
+    )
     facing = f"Facing: {_towards(screen.yaw)} ({screen.yaw:.1f} / {screen.pitch:.1f})"
     biome = "Biome: Plains" if screen.layout == "1.8-1.12" else "Biome: minecraft:plains"
     light = "Client Light: 15 (15 sky, 0 block)"

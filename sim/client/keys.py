@@ -1,0 +1,62 @@
+"""What the game makes of its keys: which are down, and how often each was pressed since the last tick.
+
+Movement counts where a key is down at a tick; everything else counts its presses (FACTS: Keys).
+"""
+
+from collections import Counter
+
+BINDINGS = {
+    "w": "forward",
+    "s": "back",
+    "a": "left",
+    "d": "right",
+    "space": "jump",
+    " ": "jump",
+    "left.shift": "sneak",
+    "q": "drop",
+    "e": "inventory",
+    "t": "chat",
+    "/": "command",
+    "left button": "attack",
+    "right button": "use",
+    **{str(slot + 1): f"hotbar.{slot}" for slot in range(9)},
+}
+"""The game's own keys."""
+
+
+class GameKeys:
+    """The keys as the game knows them: ``physical`` are those that its window saw go down and not up."""
+
+    def __init__(self) -> None:
+        self.physical: set[str] = set()
+        self._held: set[str] = set()
+        self._presses: Counter[str] = Counter()
+
+    def press(self, key: str) -> None:
+        """A key goes down in the world."""
+        if action := BINDINGS.get(key.lower()):
+            self._held.add(action)
+            self._presses[action] += 1
+
+    def release(self, key: str) -> None:
+        """A key goes up, whatever screen is open."""
+        self._held.discard(BINDINGS.get(key.lower(), ""))
+
+    def forget(self) -> None:
+        """Every key counts as up, and no press is waiting: a screen opens, or the focus goes."""
+        self._held.clear()
+        self._presses.clear()
+
+    def read_again(self) -> None:
+        """A screen closes: keys that are down, but no buttons, count again."""
+        self._held |= {
+            action for key in self.physical if (action := BINDINGS.get(key.lower())) and not key.endswith("button")
+        }
+
+    def is_held(self, action: str) -> bool:
+        """Whether the key of that action is down."""
+        return action in self._held
+
+    def presses(self, action: str) -> int:
+        """How often it was pressed since this was last asked."""
+        return self._presses.pop(action, 0) if self._presses else 0

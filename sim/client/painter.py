@@ -1,0 +1,83 @@
+"""A moment of the game as layers, from the world in the back to the menu in front."""
+
+from functools import lru_cache
+
+import numpy as np
+
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.font import Font
+from mc_nested.live.reading import Block
+from sim.client.edition import Edition
+from sim.client.f3 import F3Layers
+from sim.client.hud_layers import HudLayers
+from sim.client.layers import Layer
+from sim.client.letters import Letters
+from sim.client.menu_layers import MenuLayers
+from sim.client.picture import Picture
+from sim.client.scenery import random_world
+from sim.client.screens import IN_WORLD
+from sim.client.view import View
+
+_SHIFTS = 16
+"""Pixels, in each direction, by which the world behind the text is moved from one place to another."""
+
+_DIRT, _TILE = 40, 32
+"""How bright the ground behind the title and the list of worlds is at most, and after how many pixels it repeats."""
+
+
+class Painter:
+    """Draws a game in a window of one size, at one GUI scale.
+
+    Args:
+        size: the window's width and height in framebuffer pixels.
+        scale: framebuffer pixels a GUI pixel.
+        font: what is written with.
+        edition: the game's version.
+        kind: what the world behind looks like, of ``scenery.WORLDS``, bright or dark.
+        seed: makes it that world.
+    """
+
+    def __init__(self, size: tuple[int, int], scale: int, font: Font, edition: Edition, kind: str, seed: int) -> None:
+        width, height = size
+        rng = np.random.default_rng(seed)
+        self._size = size
+        self._world = random_world(rng, kind, width + _SHIFTS, height + _SHIFTS)
+        tile = rng.integers(0, _DIRT, (_TILE, _TILE, 3), np.uint8)
+        self._ground: Frame = np.tile(tile, (-(-height // _TILE), -(-width // _TILE), 1))[:height, :width]
+        letters = Letters(font, scale)
+        gui = (-(-width // scale), -(-height // scale))
+        self._f3 = F3Layers(letters, width)
+        self._hud = HudLayers(letters, gui, edition)
+        self._menu = MenuLayers(letters, gui, edition)
+        self._scene = lru_cache(2 * _SHIFTS)(self._moved)
+        self._shown: View | None = None
+        self._picture = Picture(self._ground)
+
+    def grab(self, view: View, region: Region | None = None) -> Frame:
+        """The picture of that moment, or a region of it."""
+        if view is not self._shown:
+            self._shown = view
+            self._picture.show(self._background(view), self._layers(view))
+        return self._picture.grab(region)
+
+    def _background(self, view: View) -> Frame:
+        if view.menu.name not in IN_WORLD:
+            return self._ground
+        return self._scene(*_shift(view.scene))
+
+    def _moved(self, right: int, down: int) -> Frame:
+        width, height = self._size
+        return self._world[down : down + height, right : right + width]
+
+    def _layers(self, view: View) -> list[Layer]:
+        layers: list[Layer] = []
+        if view.menu.name in IN_WORLD:
+            layers += self._hud.of(view)
+            layers += self._f3.of(view.f3) if view.f3 else []
+            layers += self._hud.chat(view.chat, view.typed) if view.chat or view.typed is not None else []
+        return layers + self._menu.of(view)
+
+
+def _shift(block: Block) -> tuple[int, int]:
+    x, y, z = block
+    return (7 * x + 3 * y) % _SHIFTS, (5 * z + y) % _SHIFTS

@@ -1,0 +1,82 @@
+"""A window's picture, drawn when it is looked at, and of it only what changed and what is looked at."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mc_nested.live.devices import Frame, Region
+from sim.client.layers import Layer, Rect, common, draw_all
+
+
+class Picture:
+    """Layers over a background (height, width, 3), which is kept as it is.
+
+    ``show`` says what is to be seen; nothing is drawn before ``grab``.
+    """
+
+    def __init__(self, background: Frame) -> None:
+        height, width = background.shape[:2]
+        self._whole: Rect = (0, 0, width, height)
+        self._frame = np.empty_like(background)
+        self._background = background
+        self._layers: Sequence[Layer] = ()
+        self._stale: list[Rect] = [self._whole]
+        self._last: tuple[Region | None, Frame] | None = None
+
+    def show(self, background: Frame, layers: Sequence[Layer]) -> None:
+        """From now on, these layers over this background of the same size."""
+        self._last = None
+        if background is not self._background:
+            self._stale = [self._whole]
+        else:
+            before, after = set(map(id, self._layers)), set(map(id, layers))
+            changed = [layer for layer in self._layers if id(layer) not in after]
+            changed += [layer for layer in layers if id(layer) not in before]
+            for layer in changed:
+                self._spoil(layer.rect)
+        self._background, self._layers = background, layers
+
+    def grab(self, region: Region | None = None) -> Frame:
+        """The picture, or a region of it; what lies beside the window is cut off.
+
+        It can't be written to: where nothing has changed, it is the same array again.
+        """
+        if self._last is not None and self._last[0] == region:
+            return self._last[1]
+        frame = self._grab(region)
+        frame.flags.writeable = False
+        self._last = region, frame
+        return frame
+
+    def _grab(self, region: Region | None) -> Frame:
+        part = self._whole
+        if region is not None:
+            wanted = (region.left, region.top, region.left + region.width, region.top + region.height)
+            part = common(wanted, self._whole) or (0, 0, 0, 0)
+        kept = []
+        for stale in self._stale:
+            if common(stale, part):
+                left, top, right, bottom = stale
+                upper, lower = max(top, part[1]), min(bottom, part[3])
+                self._redraw((left, upper, right, lower))
+                kept += [(left, top, right, upper)] if top < upper else []
+                kept += [(left, lower, right, bottom)] if lower < bottom else []
+            else:
+                kept.append(stale)
+        self._stale = kept
+        left, top, right, bottom = part
+        return np.array(self._frame[top:bottom, left:right])
+
+    def _spoil(self, rect: Rect) -> None:
+        inside = common(rect, self._whole)
+        if inside is None or self._whole in self._stale or inside in self._stale:
+            return
+        if inside == self._whole:
+            self._stale = [self._whole]
+        else:
+            self._stale.append(inside)
+
+    def _redraw(self, part: Rect) -> None:
+        left, top, right, bottom = part
+        self._frame[top:bottom, left:right] = self._background[top:bottom, left:right]
+        draw_all(self._frame, self._layers, part)

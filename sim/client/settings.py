@@ -1,0 +1,52 @@
+"""How a virtual client is set up."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from mc_nested.live.font import Font
+from sim.client.physics import Vector
+from sim.client.realm import Mode
+
+Size = tuple[int, int]
+"""A window's width and height in framebuffer pixels."""
+
+
+@dataclass(frozen=True)
+class ClientSettings:
+    """What a virtual client is like. Two of the same settings, used alike, do the same to the bit.
+
+    ``size`` in framebuffer pixels, ``scale`` the GUI scale asked for (0 is auto); ``world`` is what is seen behind the
+    text, of ``scenery.WORLDS``, bright or dark; ``font`` the project's own where it is None. Latencies are from and to,
+    in seconds: until an event reaches the game, and how old a picture is. ``feet``, ``yaw`` and ``pitch`` are where the
+    player begins and begins again after a death. ``shows_target`` is whether the debug screen names the block looked
+    at. With a ``world_folder`` the world is written into it whenever it is left, and read from it when it is entered.
+    """
+
+    seed: int = 0
+    version: str = "1.20.1"
+    size: Size = (854, 480)
+    scale: int = 2
+    world: str = "noise"
+    font: Font | None = None
+    fps: float = 60.0
+    input_latency_s: tuple[float, float] = (0.005, 0.020)
+    capture_latency_s: tuple[float, float] = (0.010, 0.030)
+    feet: Vector = (0.5, 64.0, 0.5)
+    yaw: float = 0.0
+    pitch: float = 0.0
+    floor_block: str = "bedrock"
+    mode: Mode = "creative"
+    has_cheats: bool = True
+    has_f3: bool = True
+    shows_target: bool = True
+    pauses_unfocused: bool = True
+    world_folder: Path | None = None
+
+
+def gui_scale(size: Size, wanted: int) -> int:
+    """The GUI scale that a window of that size gets: the one asked for, or the largest below it that fits.
+
+    0 asks for the largest that fits (FACTS: The F3 debug screen).
+    """
+    largest = max(1, min(size[0] // 320, size[1] // 240))
+    return min(wanted, largest) if wanted else largest

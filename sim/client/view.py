@@ -1,0 +1,27 @@
+"""What is to be seen of the game at one moment, before anything is drawn."""
+
+from dataclasses import dataclass
+
+from mc_nested.live.reading import Block
+from sim.client.chat import ChatLine
+from sim.client.f3_text import F3Screen
+from sim.client.realm import Stack
+from sim.client.screens import MenuState
+
+
+@dataclass(frozen=True)
+class View:
+    """One moment. ``f3`` is None while the debug screen is off, ``typed`` while the chat is closed.
+
+    ``scene`` names what of the world is in sight; ``pointer`` is the mouse in GUI pixels where a menu is open.
+    """
+
+    menu: MenuState
+    scene: Block
+    f3: F3Screen | None = None
+    hotbar: tuple[Stack | None, ...] = ()
+    slot: int = 0
+    chat: tuple[ChatLine, ...] = ()
+    typed: str | None = None
+    is_creative: bool = True
+    pointer: tuple[int, int] = (-1, -1)

@@ -1,0 +1,167 @@
+import numpy as np
+import pytest
+
+from sim.client.client import VirtualClient
+from sim.client.mishaps import KINDS, Kind
+from sim.client.physics import displacement
+from sim.client.realm import Stack
+from tests.sim.client.playing import read, tap
+
+
+def struck(kind: Kind) -> VirtualClient:
+    client = VirtualClient(pitch=65.0)
+    client.clock.sleep(0.2)
+    client.mishaps.plan(kind, 0.1)
+    client.clock.sleep(0.11)
+    assert [mishap.kind for mishap in client.mishaps.happened] == [kind]
+    return client
+
+
+def test_the_focus_is_lost_and_comes_back() -> None:
+    client = struck("lost_focus")
+    assert not client.display.is_in_front()
+    client.clock.sleep(2.5)
+    assert client.display.is_in_front()
+
+
+@pytest.mark.parametrize("kind", ["pause", "chat", "inventory", "death"])
+def test_a_screen_opens_over_the_world(kind: Kind) -> None:
+    assert struck(kind).game.screen == kind
+
+
+def test_a_disconnect_shows_its_screen_and_leads_to_the_title() -> None:
+    client = struck("disconnect")
+    assert client.game.screen == "disconnected"
+    assert client.display.title() == "Minecraft 1.20.1"
+
+
+def test_a_frozen_picture_stays_while_the_game_goes_on() -> None:
+    client = struck("frozen_frame")
+    client.freeze(1.0)
+    before = client.display.grab()
+    client.keyboard.press("w")
+    client.clock.sleep(0.8)
+    assert client.realm.player.feet[2] > 2
+    assert np.array_equal(client.display.grab(), before)
+    client.clock.sleep(0.5)
+    assert not np.array_equal(client.display.grab(), before)
+
+
+def test_a_black_picture_passes() -> None:
+    client = struck("black_frame")
+    assert not client.display.grab().any()
+    client.clock.sleep(0.6)
+    assert client.display.grab().any()
+
+
+def test_after_a_lag_the_ticks_are_caught_up_with_before_the_keys_are_let_go() -> None:
+    client = VirtualClient(seed=3)
+    client.clock.sleep(0.1)
+    client.keyboard.press("w")
+    client.clock.sleep(0.1)
+    at = client.realm.player.feet[2]
+    client.stall(0.5)
+    client.keyboard.release("w")
+    client.clock.sleep(0.45)
+    assert client.realm.player.feet[2] == at
+    client.clock.sleep(2.0)
+    ways = [displacement(ticks, "walk") for ticks in range(10, 14)]
+    assert any(client.realm.player.feet[2] - 0.5 == pytest.approx(way, abs=1e-6) for way in ways)
+
+
+def test_of_a_long_lag_only_ten_ticks_are_caught_up_with() -> None:
+    client = VirtualClient(seed=3)
+    client.keyboard.press("w")
+    client.clock.sleep(0.1)
+    before = client.game.ticks
+    client.stall(3.0)
+    client.clock.sleep(3.0)
+    assert client.game.ticks == before + 10
+
+
+def test_a_dropped_press_never_arrives() -> None:
+    client = struck("dropped_key")
+    tap(client, "5")
+    assert client.realm.player.slot == 0
+    tap(client, "5")
+    assert client.realm.player.slot == 4
+
+
+def test_a_dropped_release_leaves_the_key_down_for_the_game_only() -> None:
+    client = VirtualClient()
+    client.keyboard.press("w")
+    client.mishaps.plan("dropped_key")
+    client.clock.sleep(0.1)
+    client.keyboard.release("w")
+    client.clock.sleep(1.0)
+    assert client.window.down == set()
+    assert client.game.keys.is_held("forward")
+    tap(client, "w")
+    assert not client.game.keys.is_held("forward")
+
+
+def test_a_late_key_holds_up_those_behind_it() -> None:
+    client = struck("late_key")
+    client.keyboard.type("57")
+    client.clock.sleep(0.04)
+    assert client.realm.player.slot == 0
+    client.clock.sleep(0.4)
+    assert client.realm.player.slot == 6
+
+
+def test_the_debug_screen_is_switched_off() -> None:
+    client = struck("f3_off")
+    client.clock.sleep(0.2)
+    assert read(client).problem is not None
+    tap(client, "f3")
+    assert read(client).problem is None
+
+
+def test_a_moved_window_takes_the_mouse_elsewhere_and_a_resized_one_has_another_size() -> None:
+    moved = VirtualClient()
+    tap(moved, "esc")
+    moved.pointer.move(100, 100)
+    moved.shift_window(30, -20)
+    assert moved.pointer.position() == (70, 120)
+    resized = struck("resized_window")
+    assert resized.display.size() != (854, 480)
+    assert resized.display.grab().shape[:2] == resized.display.size()[::-1]
+
+
+def test_a_knocked_away_player_lands_somewhere_else() -> None:
+    client = struck("knocked_away")
+    client.clock.sleep(2.0)
+    x, y, z = client.realm.player.feet
+    assert y == 64.0
+    assert max(abs(x - 0.5), abs(z - 0.5)) > 0.5
+
+
+@pytest.mark.parametrize(("kind", "most"), [("refused_placing", 0), ("ghost_block", 1)])
+def test_a_placing_comes_to_nothing(kind: Kind, most: int) -> None:
+    client = struck(kind)
+    client.realm.player.hotbar[0] = Stack("stone", 64)
+    client.pointer.press("right")
+    client.clock.sleep(0.08)
+    assert len(client.built) <= most
+    client.pointer.release("right")
+    client.clock.sleep(0.3)
+    assert client.built == {}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_outside_the_world_nothing_happens_in_it(kind: Kind) -> None:
+    client = VirtualClient()
+    client.game.open("title")
+    client.mishaps.plan(kind)
+    client.clock.sleep(3.0)
+    assert client.game.screen == "title"
+
+
+def test_mishaps_come_at_their_rate() -> None:
+    client = VirtualClient(seed=5)
+    planned = sum(client.mishaps.maybe(0.1, 0.2, ("lag",)) for _ in range(1000))
+    assert 70 < planned < 130
+    client = VirtualClient(seed=5)
+    client.mishaps.every(2.0, ("black_frame",))
+    client.clock.sleep(100.0)
+    assert 150 < len(client.mishaps.happened) < 250
