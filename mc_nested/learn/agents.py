@@ -126,8 +126,17 @@ class Agent:
         """Updates done, over all runs and agents."""
         return sum(int(learner.ddqn.updates.sum()) for learner in self._learners().values())
 
+    def state(self) -> Arrays:
+        """All that later choices and updates depend on but the transitions, by name."""
+        return {k: v for role, learner in self._learners().items() for k, v in named_for(role, learner.state()).items()}
+
+    def load(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
+        for role, learner in self._learners().items():
+            learner.load(part_of(state, role))
+
     def networks_state(self) -> Arrays:
-        """The networks and their optimisers, by name: enough to act, and with the replays to go on learning."""
+        """The networks and their optimisers, by name: enough to act."""
         return {
             k: v for role, learner in self._learners().items() for k, v in named_for(role, learner.ddqn.state()).items()
         }

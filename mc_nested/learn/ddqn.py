@@ -40,7 +40,7 @@ class Batch:
 
     ``inputs`` (2, k, inputs + 1, batch) holds every s and behind them every s', each column ending in a 1;
     ``discounts`` is what the value of s' counts: γ, or 0 where the episode terminated. ``imitated`` (k, batch) says
-    which actions are to be the greedy ones, if any are.
+    which actions are to be the greedy ones, if any are; ``weights`` (k, batch) what each error counts, if not 1.
     """
 
     inputs: Floats
@@ -48,6 +48,7 @@ class Batch:
     rewards: Floats
     discounts: Floats
     imitated: Bools | None = None
+    weights: Floats | None = None
 
 
 def td_targets(rewards: Floats, discounts: Floats, next_online: Floats, next_target: Floats) -> Floats:
@@ -97,22 +98,26 @@ class DDQN:
         layers = split(self.online[rows], self.sizes)
         return forward(layers, inputs, Activations((len(rows),), 1, self.sizes))[..., 0]
 
-    def update_all(self, batch: Batch, active: Bools) -> None:
-        """One update of each active row (rows,), each on its own part of the batch, which has a part for every row."""
-        self.updates += active
-        _update(self._all_rows, batch, self.rule, self.updates, active)
+    def update_all(self, batch: Batch, active: Bools) -> Floats:
+        """One update of each active row (rows,), each on its own part of the batch, which has a part for every row.
 
-    def update_some(self, rows: Ints, batch: Batch) -> None:
-        """One update of each of the named rows (k,), each on its own part of the batch."""
+        Returns the TD errors, (rows, batch).
+        """
+        self.updates += active
+        return _update(self._all_rows, batch, self.rule, self.updates, active)
+
+    def update_some(self, rows: Ints, batch: Batch) -> Floats:
+        """One update of each of the named rows (k,), each on its own part of the batch; the TD errors, (k, batch)."""
         work = self._some_rows.get(len(rows))
         if work is None:
             work = self._some_rows[len(rows)] = _Workspace(self._learners.of(rows), self.sizes, self.rule.batch)
         for own, copy in zip(self._learners.arrays(), work.learners.arrays(), strict=True):
             own.take(rows, axis=0, out=copy, mode="clip")  # "clip" writes straight into the copy
         self.updates[rows] += 1
-        _update(work, batch, self.rule, self.updates[rows], np.ones(len(rows), dtype=np.bool_))
+        errors = _update(work, batch, self.rule, self.updates[rows], np.ones(len(rows), dtype=np.bool_))
         for own, copy in zip(self._learners.arrays(), work.learners.arrays(), strict=True):
             own[rows] = copy
+        return errors
 
     def state(self) -> dict[str, NDArray[Any]]:
         """Everything the next update depends on, by name."""
@@ -162,21 +167,24 @@ class _Workspace:
         self.gradient_layers = split(self.gradient, sizes)
 
 
-def _update(work: _Workspace, batch: Batch, rule: UpdateRule, updates: Ints, active: Bools) -> None:
-    _find_gradient(work, batch, rule)
+def _update(work: _Workspace, batch: Batch, rule: UpdateRule, updates: Ints, active: Bools) -> Floats:
+    errors = _find_gradient(work, batch, rule)
     adam_step(work.learners.online, work.learners.moments, work.gradient, updates, rule.learning_rate, active)
     due = active & (updates % rule.target_period == 0)
     if due.any():
         work.learners.target[due] = work.learners.online[due]
+    return errors
 
 
-def _find_gradient(work: _Workspace, batch: Batch, rule: UpdateRule) -> None:
+def _find_gradient(work: _Workspace, batch: Batch, rule: UpdateRule) -> Floats:
     values, next_online = forward(work.online_layers, batch.inputs, work.now_and_next)
     next_target = forward(work.target_layers, batch.inputs[1], work.target_next)
     targets = td_targets(batch.rewards, batch.discounts, next_online, next_target)
     taken = _places(batch.actions, values.shape)
-    errors = values.reshape(-1)[taken] - targets
+    errors: Floats = values.reshape(-1)[taken] - targets
     slope = np.clip(errors, -rule.huber_delta, rule.huber_delta) / np.float32(rule.batch)
+    if batch.weights is not None:
+        slope *= batch.weights
     output_gradient = next_target  # its values are used up
     output_gradient.fill(0.0)
     output_gradient.reshape(-1)[taken] = slope
@@ -185,6 +193,7 @@ def _find_gradient(work: _Workspace, batch: Batch, rule: UpdateRule) -> None:
         output_gradient += towards / np.float32(rule.batch)
     now = [hidden[0] for hidden in work.now_and_next.hidden]
     backward(work.online_layers, batch.inputs[0], now, output_gradient, work.gradient_layers, work.scratch)
+    return errors
 
 
 def _places(actions: NDArray[np.integer[Any]], shape: tuple[int, ...]) -> Ints:

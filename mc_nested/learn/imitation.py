@@ -24,7 +24,7 @@ class BestEpisodes:
     """
 
     def __init__(self, rows: int, longest: int, share: int) -> None:
-        self._share = share
+        self.share = share
         whole = [np.zeros((rows, longest), dtype=np.int64) for _ in range(3)]
         real = [np.zeros((rows, longest), dtype=np.float32) for _ in range(2)]
         self._kept = Transitions(whole[0], whole[1], real[0], whole[2], real[1])
@@ -46,7 +46,7 @@ class BestEpisodes:
         ``uniforms`` (k, batch) say which; returns which transitions are imitated, (k, batch). A row without a best
         episode keeps what was drawn.
         """
-        share, length = self._share, self._length[rows]
+        share, length = self.share, self._length[rows]
         imitated = np.zeros(drawn.actions.shape, dtype=np.bool_)
         imitated[:, :share] = length[:, None] > 0
         steps = (uniforms[:, :share] * length[:, None]).astype(np.int64)

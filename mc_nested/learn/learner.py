@@ -1,13 +1,18 @@
 """Learning agents side by side, each a row: ε-greedy over a Q-network, a replay, and DDQN updates from it."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
+from mc_nested.learn.checkpoint import Arrays, named_for, part_of
 from mc_nested.learn.ddqn import DDQN, Batch, UpdateRule
 from mc_nested.learn.imitation import BestEpisodes
 from mc_nested.learn.networks import initial_parameters
 from mc_nested.learn.preset import Imitation, Preset
-from mc_nested.learn.replay import Replay, Transitions
+from mc_nested.learn.priorities import Priorities
+from mc_nested.learn.replay import FIRST_ROOM, Replay, Transitions
 from mc_nested.learn.states import StateSpace
 
 Bools = NDArray[np.bool_]
@@ -53,6 +58,8 @@ class Learner:
             np.stack([initial_parameters(sizes, stream) for stream in streams]),
         )
         self.replay = Replay(space.rows, space.count, preset.replay_capacity)
+        wanted = preset.prioritized
+        self.priorities = Priorities(space.rows, FIRST_ROOM, wanted.alpha, wanted.beta) if wanted else None
         self._gamma = update.gamma
         self._learning_starts = update.learning_starts
         self._every_row = np.arange(space.rows)
@@ -69,6 +76,8 @@ class Learner:
     ) -> None:
         """Keep one transition for each of the named rows (k,), states (k, width); termination ends the bootstrap."""
         number = self.space.number
+        if self.priorities and len(rows):
+            self.priorities.add(rows, self.replay.added[rows] % self.replay.capacity)
         self.replay.add(
             rows, Transitions(number(states), actions, rewards, number(next_states), self.discounts(terminated))
         )
@@ -87,12 +96,35 @@ class Learner:
             active[rows] = True
             numbers = np.zeros((self.space.rows, uniforms.shape[1]))
             numbers[rows] = uniforms
-            self.ddqn.update_all(self._batch(self._every_row, numbers), active)
+            places, batch = self._batch(self._every_row, numbers)
+            self._learnt(rows, places[rows], self.ddqn.update_all(batch, active)[rows])
         elif len(rows):
-            self.ddqn.update_some(rows, self._batch(rows, uniforms))
+            places, batch = self._batch(rows, uniforms)
+            self._learnt(rows, places, self.ddqn.update_some(rows, batch))
 
-    def _batch(self, rows: Ints, uniforms: Floats) -> Batch:
-        drawn = self.replay.sample(rows, uniforms)
+    def state(self) -> Arrays:
+        """The networks, their optimisers and the priorities, by name: with the replay, all that later updates need."""
+        return {**self.ddqn.state(), **named_for("priorities", self.priorities.state() if self.priorities else {})}
+
+    def load(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
+        self.ddqn.load(state)
+        if self.priorities:
+            self.priorities.load(part_of(state, "priorities"))
+
+    def _learnt(self, rows: Ints, places: Ints, errors: NDArray[np.float32]) -> None:
+        if self.priorities:
+            drawn = slice(self.best.share if self.best else 0, None)
+            self.priorities.learnt(rows, places[:, drawn], errors[:, drawn])
+
+    def _batch(self, rows: Ints, uniforms: Floats) -> tuple[Ints, Batch]:
+        draw = self.priorities.draw if self.priorities else self.replay.draw
+        places = draw(rows, uniforms)
+        drawn = self.replay.at(rows, places)
+        weights = self.priorities.weights(rows, places, self.replay.sizes()[rows]) if self.priorities else None
         imitated = self.best.mix_in(rows, drawn, uniforms) if self.best else None
+        if weights is not None and imitated is not None:
+            weights[imitated] = 1.0
         both = np.stack((drawn.states, drawn.next_states))
-        return Batch(self.space.inputs_for(both, rows), drawn.actions, drawn.rewards, drawn.discounts, imitated)
+        inputs = self.space.inputs_for(both, rows)
+        return places, Batch(inputs, drawn.actions, drawn.rewards, drawn.discounts, imitated, weights)

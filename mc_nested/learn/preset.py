@@ -57,6 +57,13 @@ class Imitation(_Table):
     margin: Positive
 
 
+class Prioritized(_Table):
+    """Prioritized replay (priorities.py): how much priorities count, and how much of their bias is taken back."""
+
+    alpha: Probability
+    beta: Probability
+
+
 class Update(_Table):
     """What an update of either agent does, and from how many transitions on there are updates."""
 
@@ -83,6 +90,7 @@ class Preset(_Table):
     explore_nested: Exploration | None = None
     excursions: ExcursionRule | None = None
     imitation: Imitation | None = None
+    prioritized: Prioritized | None = None
 
     @model_validator(mode="after")
     def _explores_in_one_way(self) -> "Preset":

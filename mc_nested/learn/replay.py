@@ -1,4 +1,4 @@
-"""Uniform experience replay for many runs at once (paper, appendix: one million transitions, no priority)."""
+"""Experience replay for many runs at once (paper, appendix: one million transitions, uniform)."""
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -52,15 +52,16 @@ class Replay:
             kept.reshape(-1)[places] = new
         self.added[rows] += 1
 
-    def sample(self, rows: NDArray[np.int64], uniforms: NDArray[np.float64]) -> Transitions:
-        """Draw from each of the named runs (k,) what the numbers in [0, 1) point at, (k, batch), with replacement.
-
-        Of a run that holds none, blank ones.
-        """
+    def draw(self, rows: NDArray[np.int64], uniforms: NDArray[np.float64]) -> NDArray[np.int64]:
+        """Places that the numbers in [0, 1) point at, (k, batch), each of the named runs' (k,) as likely as another."""
         sizes = self.sizes()[rows, None]
         # The product can round up to the size itself.
-        places = rows[:, None] * self._room + np.minimum((uniforms * sizes).astype(np.int64), np.maximum(sizes - 1, 0))
-        return Transitions(*(kept.reshape(-1).take(places) for kept in self._kept))
+        return np.minimum((uniforms * sizes).astype(np.int64), np.maximum(sizes - 1, 0))
+
+    def at(self, rows: NDArray[np.int64], places: NDArray[np.int64]) -> Transitions:
+        """The transitions at those places (k, batch) of the named runs (k,); blank ones of a run that holds none."""
+        flat = rows[:, None] * self._room + places
+        return Transitions(*(kept.reshape(-1).take(flat) for kept in self._kept))
 
     def added_since(self, marks: NDArray[np.int64]) -> dict[str, NDArray[Any]]:
         """What was added to each run since it had added so many (runs,), by name, oldest first and run behind run.

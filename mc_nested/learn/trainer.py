@@ -174,7 +174,7 @@ class Trainer:
             "counts": np.array([self.ticks, self.env_steps, self.evaluation_steps]),
             **named_for("runs", vars(self._runs)),
             **named_for("env", arenas),
-            **named_for("agent", self.agent.networks_state()),
+            **named_for("agent", self.agent.state()),
             **named_for("kept", {**self._kept, "scores": self._kept_scores}),
             **named_for("scouts", self._scouts.state() if self._scouts else {}),
         }
@@ -198,7 +198,7 @@ class Trainer:
         self.ticks, self.env_steps, self.evaluation_steps = (int(count) for count in state["counts"])
         for name, kept in part_of(state, "runs").items():
             getattr(self._runs, name)[:] = kept
-        self.agent.load_networks(part_of(state, "agent"))
+        self.agent.load(part_of(state, "agent"))
         for name, kept in {**self._kept, "scores": self._kept_scores}.items():
             kept[:] = state[f"kept.{name}"]
         if self._scouts:

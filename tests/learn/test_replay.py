@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from mc_nested.learn import replay as replay_module
 from mc_nested.learn.replay import Replay, Transitions
@@ -13,6 +14,10 @@ def transition(*numbers: int) -> Transitions:
     """A transition for each number, made so that every field tells the number."""
     n = np.array(numbers)
     return Transitions(n, n % 8, n / 2, n + 2, n / 4)
+
+
+def drawn_from(replay: Replay, rows: NDArray[np.int64], uniforms: NDArray[np.float64]) -> Transitions:
+    return replay.at(rows, replay.draw(rows, uniforms))
 
 
 def numbers(drawn: Transitions) -> list[list[int]]:
@@ -30,7 +35,7 @@ def test_what_the_numbers_point_at_is_drawn() -> None:
     for step in range(4):
         replay.add(np.array([0, 1]), transition(step, 100 + step))
     uniforms = np.array([[0.0, 0.24, 0.25, 0.5, 0.999999], [0.75, 0.0, 0.5, 0.26, 0.3]])
-    assert numbers(replay.sample(np.array([0, 1]), uniforms)) == [[0, 0, 1, 2, 3], [103, 100, 102, 101, 101]]
+    assert numbers(drawn_from(replay, np.array([0, 1]), uniforms)) == [[0, 0, 1, 2, 3], [103, 100, 102, 101, 101]]
 
 
 def test_runs_fill_at_their_own_pace() -> None:
@@ -38,7 +43,7 @@ def test_runs_fill_at_their_own_pace() -> None:
     replay.add(np.array([2]), transition(7))
     replay.add(np.array([0, 2]), transition(8, 9))
     assert replay.sizes().tolist() == [1, 0, 2]
-    assert numbers(replay.sample(np.array([2, 0]), np.array([[0.9], [0.9]]))) == [[9], [8]]
+    assert numbers(drawn_from(replay, np.array([2, 0]), np.array([[0.9], [0.9]]))) == [[9], [8]]
 
 
 def test_the_oldest_gives_way_when_it_is_full() -> None:
@@ -46,7 +51,7 @@ def test_the_oldest_gives_way_when_it_is_full() -> None:
     for step in range(5):
         replay.add(np.array([0]), transition(step))
     assert replay.sizes().tolist() == [3]
-    drawn = numbers(replay.sample(np.array([0]), np.array([[0.1, 0.5, 0.9]])))
+    drawn = numbers(drawn_from(replay, np.array([0]), np.array([[0.1, 0.5, 0.9]])))
     assert sorted(drawn[0]) == [2, 3, 4]
 
 
@@ -56,7 +61,7 @@ def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
     for step in range(size):
         replay.add(np.array([0]), transition(step))
     replay.add(np.array([1]), transition(50))
-    assert numbers(replay.sample(np.array([0]), np.array([[uniform]])))[0][0] in range(size)
+    assert numbers(drawn_from(replay, np.array([0]), np.array([[uniform]])))[0][0] in range(size)
 
 
 def test_draws_are_uniform() -> None:
@@ -64,7 +69,7 @@ def test_draws_are_uniform() -> None:
     for step in range(8):
         replay.add(np.array([0]), transition(step))
     uniforms = np.random.default_rng(0).random((1, 80_000))
-    counts = np.bincount(numbers(replay.sample(np.array([0]), uniforms))[0])
+    counts = np.bincount(numbers(drawn_from(replay, np.array([0]), uniforms))[0])
     assert counts.tolist() == [pytest.approx(10_000, rel=0.05)] * 8
 
 
@@ -80,10 +85,10 @@ def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> N
             replay.add(np.array([0]), transition(step))
     copy.extend(grown.added_since(np.array([0])))
     grid = (np.arange(50) / 50)[None]
-    expected = numbers(large.sample(np.array([0]), grid))
+    expected = numbers(drawn_from(large, np.array([0]), grid))
     assert set(expected[0]) == set(range(max(0, steps - capacity), steps))
-    assert numbers(grown.sample(np.array([0]), grid)) == expected
-    assert numbers(copy.sample(np.array([0]), grid)) == expected
+    assert numbers(drawn_from(grown, np.array([0]), grid)) == expected
+    assert numbers(drawn_from(copy, np.array([0]), grid)) == expected
 
 
 @given(st.lists(st.integers(0, 25), min_size=1, max_size=5).filter(any), st.integers(5, 30))
@@ -100,13 +105,13 @@ def test_what_was_added_in_parts_is_the_whole(parts: list[int], capacity: int) -
         copy.extend(replay.added_since(marks))
     grid = (np.arange(50) / 50)[None]
     assert copy.added.tolist() == [0, number]
-    assert numbers(copy.sample(np.array([1]), grid)) == numbers(replay.sample(np.array([1]), grid))
+    assert numbers(drawn_from(copy, np.array([1]), grid)) == numbers(drawn_from(replay, np.array([1]), grid))
 
 
 def test_a_run_that_holds_nothing_yields_blanks() -> None:
     replay = Replay(runs=2, states=200, capacity=10)
     replay.add(np.array([1]), transition(8))
-    assert replay.sample(np.array([0, 1]), np.array([[0.0], [0.9]])).states.tolist() == [[0], [8]]
+    assert drawn_from(replay, np.array([0, 1]), np.array([[0.0], [0.9]])).states.tolist() == [[0], [8]]
 
 
 @pytest.mark.parametrize(("states", "bytes_a_number"), [(256, 2), (65_535, 2), (200_000, 4)])

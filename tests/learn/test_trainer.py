@@ -14,7 +14,7 @@ from mc_nested.learn.agents import FORMS, Agent, Form, view_of
 from mc_nested.learn.checkpoint import Arrays
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.learner import Learner
-from mc_nested.learn.preset import ExcursionRule, Imitation, Preset, load_preset
+from mc_nested.learn.preset import ExcursionRule, Imitation, Preset, Prioritized, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv, arena_env
 
@@ -280,6 +280,24 @@ def test_excursions_can_be_saved_resumed_and_taken_out_of_a_batch(form: Form) ->
     agent = Agent(form, [LINE], preset, 0, runs=[1])
     alone = finish(Trainer(GridVectorEnv([LINE]), [LINE], agent, preset, 0))
     assert [row[1:] for row in alone.episode_rows] == [row[1:] for row in whole.episode_rows if row.trial == 1]
+
+
+def test_prioritized_replay_trains_and_resumes_to_the_bit_too() -> None:
+    preset = SHORT.model_copy(update={"prioritized": Prioritized(alpha=0.6, beta=0.5)})
+    whole, first, uniform = (
+        finish(trainer_of([LINE] * 2, preset)),
+        trainer_of([LINE] * 2, preset),
+        trainer_of([LINE] * 2),
+    )
+    for _ in range(400):
+        first.tick()
+    resumed = trainer_of([LINE] * 2, preset)
+    resumed.load(*saved(first))
+    finish(resumed)
+    assert resumed.episode_rows == whole.episode_rows
+    for name, kept in whole.state().items():
+        assert np.array_equal(resumed.state()[name], kept), name
+    assert finish(uniform).episode_rows != whole.episode_rows
 
 
 class Fails(GridVectorEnv):
