@@ -1,6 +1,7 @@
 """``mc-nested evaluate``: replay a training's greedy policies."""
 
 import json
+from pathlib import Path
 from typing import Annotated
 
 import torch
@@ -10,8 +11,9 @@ from rich.table import Table
 from rich.text import Text
 
 from mc_nested.cli.options import RunArgument
+from mc_nested.errors import RunError
 from mc_nested.learn.agents import Agent, view_of
-from mc_nested.learn.checkpoint import part_of
+from mc_nested.learn.checkpoint import Arrays, part_of
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.run_folder import RunFolder
 from sim.grid import GridVectorEnv
@@ -48,6 +50,20 @@ def load_agent(folder: RunFolder) -> Agent:
     for role, online in agent.online().items():
         online[:] = kept[role]
     return agent
+
+
+def best_policy(run: Path, wanted: RunFolder) -> Arrays:
+    """The networks of that training's best trial, by role, to begin another with; RunError where they don't fit it."""
+    folder = RunFolder.open(run)
+    theirs, ours = folder.new_agent(1), wanted.new_agent(1)
+    if (theirs.form, theirs.sizes) != (ours.form, ours.sizes):
+        raise RunError(
+            f"{run}: its {folder.config.agent} agent has other networks than this {wanted.config.agent} agent: take "
+            f"the same agent, a preset with the same networks, and a design of as many blocks"
+        )
+    kept = part_of(folder.checkpoint.state(), "kept")
+    rows = load_agent(folder).rows_of(int(kept["scores"].argmax()))
+    return {role: kept[role][rows[role]] for role in theirs.online()}
 
 
 def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:

@@ -8,6 +8,7 @@ import torch
 import typer
 
 from mc_nested.arena.scenario_file import load_scenario, table_of
+from mc_nested.cli.evaluate import best_policy
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
 from mc_nested.cli.options import DEFAULT_PROFILE, Backend, ProfileOption, open_arenas
 from mc_nested.cli.progress import TrainingProgress
@@ -50,6 +51,9 @@ def train(
         bool, typer.Option("--stop-at-optimum", help="end a trial at its first greedy evaluation at the optimum")
     ] = False,
     profile: ProfileOption = None,
+    begin_from: Annotated[
+        Path | None, typer.Option("--from", metavar="RUN", help="begin with the best policy of an earlier training")
+    ] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="a new or empty folder for the run")] = None,
     resume: Annotated[Path | None, typer.Option(metavar="DIR", help="go on from a run's last checkpoint")] = None,
 ) -> None:
@@ -59,7 +63,7 @@ def train(
         given = [name for name, value in context.params.items() if value is not None and value is not False]
         beside = [name for name in given if name not in ("resume", "profile")]
         if beside:
-            option = "--" + beside[0].replace("_", "-")
+            option = "--from" if beside[0] == "begin_from" else "--" + beside[0].replace("_", "-")
             raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
         folder = RunFolder.open(resume)
         run_training(folder, profile or folder.config.profile, resumed=not folder.only_begun)
@@ -81,12 +85,13 @@ def train(
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
         scenario=table_of(load_scenario(DEFAULTS["scenario"] if scenario is None else scenario)),
     )
-    run_training(RunFolder.new(out, config), config.profile, resumed=False)
+    run_training(RunFolder.new(out, config), config.profile, resumed=False, begin_from=begin_from)
 
 
-def run_training(folder: RunFolder, profile: str | None, resumed: bool) -> None:
+def run_training(folder: RunFolder, profile: str | None, resumed: bool, begin_from: Path | None = None) -> None:
     """Train until the run is finished or somebody stops it, saving as it goes and at the end."""
     config = folder.config
+    earlier = best_policy(begin_from, folder) if begin_from else None
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
     with catch_interrupts() as interrupt:
         with open_arenas(Backend(config.backend), profile, folder.scenarios) as env:
@@ -97,6 +102,9 @@ def run_training(folder: RunFolder, profile: str | None, resumed: bool) -> None:
                 folder.checkpoint.load_into(trainer)
             else:
                 folder.begin()
+                if earlier:
+                    trainer.begin_from(earlier)
+                    folder.save(trainer, 0.0)
             try:
                 _tick_until_done(folder, trainer, interrupt, began)
             except (LiveError, DesktopError) as error:

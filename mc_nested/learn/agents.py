@@ -16,9 +16,10 @@ from numpy.typing import NDArray
 from mc_nested.arena.rules import SIZE, Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
+from mc_nested.errors import PresetError
 from mc_nested.learn.checkpoint import Arrays, named_for, part_of
 from mc_nested.learn.learner import Floats, Ints, Learner
-from mc_nested.learn.networks import parameter_count
+from mc_nested.learn.networks import Sizes, parameter_count
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.states import StateSpace
 from mc_nested.learn.streams import initial_stream
@@ -64,11 +65,18 @@ class Agent:
         preset: the hyper-parameters of all its learners.
         seed: of the initial parameters.
         runs: each run's number (streams.py); from 0 on unless named.
+
+    Raises:
+        PresetError: where the preset explores in a way that the form can't.
     """
 
     def __init__(
         self, form: Form, scenarios: Sequence[Scenario], preset: Preset, seed: int, runs: Sequence[int] | None = None
     ) -> None:
+        if preset.excursions and not form.has_main:
+            raise PresetError(
+                "[excursions] are for agents whose material is chosen before: take nested or hierarchical"
+            )
         self.runs = tuple(range(len(scenarios)) if runs is None else runs)
         streams = [initial_stream(seed, run) for run in self.runs]
         materials = len(scenarios[0].materials)
@@ -111,6 +119,11 @@ class Agent:
         return self.low.act(states, epsilon, uniforms, rows)
 
     @property
+    def sizes(self) -> dict[str, Sizes]:
+        """The widths of the networks, by role."""
+        return {role: learner.ddqn.sizes for role, learner in self._learners().items()}
+
+    @property
     def networks(self) -> int:
         """Networks that one run trains: 2 nested, 3 hierarchical with two materials, 1 single (paper, section 6)."""
         return self._lows + (self.main is not None)
@@ -149,6 +162,11 @@ class Agent:
     def online(self) -> Arrays:
         """The online networks' parameters, by role: what acting takes."""
         return {role: learner.ddqn.online for role, learner in self._learners().items()}
+
+    def take_over(self, online: Mapping[str, NDArray[Any]]) -> None:
+        """Give every run one run's online networks, by role; ValueError where they are of another shape."""
+        for role, learner in self._learners().items():
+            learner.ddqn.take_over(np.tile(online[role], (len(self.runs), 1)))
 
     def rows_of(self, run: int) -> dict[str, slice]:
         """A run's rows, by role."""

@@ -88,6 +88,12 @@ class DDQN:
         """The target networks' parameters, (rows, parameters)."""
         return self._learners.target
 
+    def take_over(self, online: Floats) -> None:
+        """Go on from other networks (rows, parameters), the targets too; ValueError where their shape differs."""
+        if online.shape != self.online.shape:
+            raise ValueError(f"networks of {online.shape}, not {self.online.shape}")
+        self.online[:] = self.target[:] = online
+
     def q_values(self, inputs: Floats, rows: Ints | None = None) -> Floats:
         """The online networks' values (k, actions) of a state a row, inputs (k, inputs + 1, 1); of all rows by default.
 

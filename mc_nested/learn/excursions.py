@@ -98,7 +98,9 @@ class Excursions:
             self._walk.append(step)
 
     def end(self, row: int) -> bool:
-        """The episode is over; whether it is the best so far, or as good. ``row`` is the learner's that walked.
+        """The episode, an excursion or a greedy one, is over; whether it is the best so far, or as good.
+
+        ``row`` is the learner's that walked.
 
         What counts are the blocks on the design before the first that was wasted, then the fewest steps.
         """

@@ -141,9 +141,11 @@ class RunFolder:
 def summarise(config: RunConfig, scenario: Scenario, trainer: Trainer, wall_s: float) -> dict[str, Any]:
     """What a training has come to, for summary.json; scores are r_M, one a trial, of the policy that the run keeps.
 
-    A trial that isn't finished has no final score: it has learnt since its last greedy evaluation.
+    A trial that isn't finished has no final score: it has learnt since its last greedy evaluation. What was played to
+    the optimum counts the greedy episodes too: in a live game they take as long as any other.
     """
     evaluations = [[row for row in trainer.evaluation_rows if row.trial == trial] for trial in range(config.trials)]
+    firsts = [next((row.episode for row in rows if row.score >= scenario.optimum), None) for rows in evaluations]
     return {
         "scenario": scenario.name,
         "agent": config.agent,
@@ -157,9 +159,8 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Trainer, wall_s: f
             float(score) if finished else None
             for score, finished in zip(trainer.kept_scores, trainer.runs_finished, strict=True)
         ],
-        "episodes_to_optimum": [
-            next((row.episode for row in rows if row.score >= scenario.optimum), None) for rows in evaluations
-        ],
+        "episodes_to_optimum": firsts,
+        "played_to_optimum": [_played_until(trainer, trial, first) for trial, first in enumerate(firsts)],
         "episodes_done": [int(done) for done in trainer.episodes_done],
         "env_steps": trainer.env_steps,
         "evaluation_steps": trainer.evaluation_steps,
@@ -168,6 +169,15 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Trainer, wall_s: f
         "networks": trainer.agent.networks,
         "parameters": trainer.agent.parameters,
     }
+
+
+def _played_until(trainer: Trainer, trial: int, episode: int | None) -> dict[str, int] | None:
+    if episode is None:
+        return None
+    played = [row for row in trainer.episode_rows if row.trial == trial and row.episode <= episode]
+    greedy = [row for row in trainer.evaluation_rows if row.trial == trial and row.episode <= episode]
+    steps = sum(row.steps for row in played) + sum(row.steps for row in greedy)
+    return {"episodes": len(played) + len(greedy), "steps": steps}
 
 
 def _write_text(path: Path, text: str) -> None:

@@ -33,7 +33,10 @@ class Scouts:
         self._excursions = [Excursions(rule, agent.low.space.actions) for _ in agent.runs]
 
     def begin(self, runs: Ints, numbers: Floats) -> None:
-        """Plan an excursion in each of the named runs, by the numbers (all runs, NUMBERS)."""
+        """An episode begins in each of the named runs: plan an excursion by the numbers (all runs, NUMBERS).
+
+        A greedy episode is only watched: it may turn out to be the best.
+        """
         for run in runs:
             self._excursions[run].begin(numbers[run, :PLAN_NUMBERS])
 

@@ -122,6 +122,11 @@ class Trainer:
         done, episodes = self._runs.episodes, self.preset.episodes
         return self._explore_main.epsilon(done, episodes), self._explore_nested.epsilon(done, episodes)
 
+    def begin_from(self, online: Mapping[str, NDArray[Any]]) -> None:
+        """Begin with every run's networks as given, one run's by role, and evaluate them before the first episode."""
+        self.agent.take_over(online)
+        self._runs.evaluated_at[:] = -1
+
     def tick(self) -> None:
         """One step of every run that isn't finished.
 
@@ -146,7 +151,9 @@ class Trainer:
         seen = states[rows], actions[rows], rewards[rows], next_states[rows], terminated[rows]
         self.agent.low.remember(learners, *seen)
         if self._scouts:
-            self._scouts.saw(rows, runs.observations[rows], *seen)
+            active = np.flatnonzero(~runs.finished)
+            before, came_to = runs.observations[active], (rewards[active], next_states[active], terminated[active])
+            self._scouts.saw(active, before, states[active], actions[active], *came_to)
         for draws in np.split(low_draws[rows], self.preset.updates_a_step, 1):
             self.agent.low.learn(learners, draws)
 
@@ -158,6 +165,9 @@ class Trainer:
         self.evaluation_steps += int((runs.evaluating & ~runs.finished).sum())
         ended = (terminated | truncated) & ~runs.finished
         if ended.any():
+            if self._scouts:
+                over = np.flatnonzero(ended)
+                self._scouts.end(over, self.agent.low_rows(over, runs.materials))
             self._end_training_episodes(np.flatnonzero(ended & training), info["score"], main_draws)
             self._end_evaluations(np.flatnonzero(ended & runs.evaluating), info["score"])
             runs.between_episodes |= ended
@@ -226,7 +236,7 @@ class Trainer:
             runs.materials[rows] = self.agent.main.act(self._start[rows], epsilon[rows], choice[rows], rows)
         runs.observations, _ = self._env.reset(options={"reset_mask": begins, "material": runs.materials})
         if self._scouts:
-            self._scouts.begin(np.flatnonzero(begins & ~runs.evaluating), scouting)
+            self._scouts.begin(np.flatnonzero(begins), scouting)
         runs.steps_in_episode[begins] = 0
         runs.between_episodes &= ~begins
 
@@ -248,8 +258,6 @@ class Trainer:
                     float(epsilon_nested[run]),
                 )
             )
-        if self._scouts:
-            self._scouts.end(rows, self.agent.low_rows(rows, runs.materials))
         if not self.agent.main:
             return
         # The main agent's one transition an episode: after its choice, nothing is left for it to decide.

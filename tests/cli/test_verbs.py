@@ -70,6 +70,56 @@ def test_evaluate_prints_the_scores_of_the_summary_in_a_fresh_process(trained: P
     assert found["optimum"] == 21.0
 
 
+@pytest.fixture(scope="module")
+def optimal(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A training that has reached the optimum on the line."""
+    out = tmp_path_factory.mktemp("runs") / "optimal"
+    assert run("train", "--preset", "live", "--stop-at-optimum", "--trials", "2", "--seed", "4", "--out", out) == 0
+    return out
+
+
+def test_the_preset_live_reaches_the_optimum_on_the_line_in_few_episodes(optimal: Path) -> None:
+    summary = json.loads((optimal / "summary.json").read_text())
+    assert summary["final_scores"] == [21.0, 21.0]
+    for trial, first in enumerate(summary["episodes_to_optimum"]):
+        assert first <= 200
+        # Every 5 episodes a greedy one, which counts as played.
+        assert summary["played_to_optimum"][trial]["episodes"] == first + first // 5
+        rows = [row for name in ("episodes", "evaluations") for row in table(optimal / f"{name}.csv")]
+        steps = sum(int(row["steps"]) for row in rows if row["trial"] == str(trial))
+        assert summary["played_to_optimum"][trial]["steps"] == steps
+
+
+def test_a_training_begun_from_another_has_its_policy_before_the_first_episode(optimal: Path, tmp_path: Path) -> None:
+    live = ("train", "--preset", "live", "--episodes", "6", "--trials", "2", "--seed", "9")
+    assert run(*live, "--from", optimal, "--out", tmp_path / "on") == 0
+    summary = json.loads((tmp_path / "on" / "summary.json").read_text())
+    assert summary["episodes_to_optimum"] == [0, 0]
+    assert summary["final_scores"] == [21.0, 21.0]
+    assert summary["played_to_optimum"] == [{"episodes": 1, "steps": rows} for rows in _first_steps(tmp_path / "on")]
+
+
+def _first_steps(folder: Path) -> list[int]:
+    rows = [row for row in table(folder / "evaluations.csv") if row["episode"] == "0"]
+    return [int(row["steps"]) for row in sorted(rows, key=lambda row: row["trial"])]
+
+
+@pytest.mark.parametrize("other", [("--preset", "paper"), ("--agent", "hierarchical"), ("--scenario", "diamond")])
+def test_networks_that_do_not_fit_are_one_line(
+    optimal: Path, tmp_path: Path, other: tuple[str, str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    base = [] if other[0] == "--preset" else ["--preset", "live"]
+    assert run("train", *base, *other, "--from", optimal, "--out", tmp_path / "new") == 2
+    assert "has other networks than this" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
+def test_excursions_of_a_single_agent_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("train", "--preset", "tuned", "--agent", "single", "--out", tmp_path / "new") == 2
+    assert "take nested or hierarchical" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
 def test_the_same_seed_gives_the_same_files(trained: Path, tmp_path: Path) -> None:
     assert run(*TRAIN, "--out", tmp_path / "again") == 0
     for name in ("episodes.csv", "evaluations.csv", "config.toml", "curve.png"):
