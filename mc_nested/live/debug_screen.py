@@ -36,11 +36,13 @@ def read_debug_screen(frame: Frame, font: Font, overlay: Overlay | None = None) 
     A reading with a problem holds nothing else: a position isn't given while the block looked at can't be read.
     """
     sight = see(frame, font, overlay)
-    if sight is None:
-        return Reading(problem=_nothing_seen(overlay))
-    screen = Screen(sight, font)
+    return read_screen(Screen(sight, font)) if sight else nothing_seen(overlay)
+
+
+def read_screen(screen: Screen) -> Reading:
+    """What a debug screen says that has been found."""
     try:
-        if sight.prefix != POSITION:
+        if screen.sight.prefix != POSITION:
             raise Unreadable(_without_position(screen))
         return Reading(_position(screen), *_facing(screen), looked_at(screen))
     except Unreadable as reason:
@@ -76,10 +78,11 @@ def _without_position(screen: Screen) -> str:
     return f"no XYZ line is to be seen: press F3 if it is off (from 1.21.9 on, F3+F6 adds the line), else {CLEAR}"
 
 
-def _nothing_seen(overlay: Overlay | None) -> str:
+def nothing_seen(overlay: Overlay | None) -> Reading:
+    """The reading of a frame without a debug screen that is drawn that way."""
     scale = f"GUI scale {overlay.scale}" if overlay else "a GUI scale from 1 to 4"
-    return (
-        f"no debug screen is to be seen at {scale}: press F3 in the game, and Esc if a menu is open; if it is on, set "
-        "GUI Scale to 1, 2, 3 or 4, turn Force Unicode Font off, and give the font of the game's own jar, or of the "
-        "resource pack in use"
+    return Reading(
+        problem=f"no debug screen is to be seen at {scale}: press F3 in the game, and Esc if a menu is open; if it is "
+        "on, set GUI Scale to 1, 2, 3 or 4, turn Force Unicode Font off, and give the font of the game's own jar, or "
+        "of the resource pack in use"
     )

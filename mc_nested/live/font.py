@@ -27,6 +27,9 @@ ENTRY = "assets/minecraft/textures/font/ascii.png"
 SPACE = 4
 """Columns that a space moves the pen by (FACTS: The bitmap font)."""
 
+Glyph = tuple[str, int, int]
+"""A character, the blank columns on its left, and the columns from its first ink to its last."""
+
 _GIVE = "give the game's jar (versions/1.20.1/1.20.1.jar in its folder), a resource pack or its ascii.png"
 _CELLS = 16
 _DOTS = 8
@@ -44,8 +47,8 @@ class Font:
     glyphs: Mapping[str, bytes]
 
     @cached_property
-    def lookup(self) -> Mapping[bytes, tuple[str, int]]:
-        """From a glyph's columns, its blank left ones taken away, to the character and the count of those taken away.
+    def lookup(self) -> Mapping[bytes, Glyph]:
+        """From a glyph's columns, its blank left ones taken away, to the glyph.
 
         Characters that look alike are left out, so that neither is ever read for the other. So is a glyph with a gap
         inside whose left part is a glyph too, and that part: ``"`` may be two ``'``.
@@ -56,15 +59,16 @@ class Font:
         parts = {columns.split(b"\0")[0] for columns in gapped} & set(inked.values())
         doubtful = parts | {columns for columns in gapped if columns.split(b"\0")[0] in parts}
         return {
-            columns: (char, len(self.glyphs[char]) - len(columns))
+            columns: (char, len(self.glyphs[char]) - len(columns), len(columns))
             for char, columns in inked.items()
             if alike[columns] == 1 and columns not in doubtful
         }
 
     @cached_property
-    def lengths(self) -> tuple[int, ...]:
-        """The widths in columns that a glyph of ``lookup`` can have, the widest first."""
-        return tuple(sorted({len(columns) for columns in self.lookup}, reverse=True))
+    def gapped(self) -> Mapping[bytes, Glyph]:
+        """Those of ``lookup`` with a gap inside, the widest first. None begins with columns that are a glyph too."""
+        widest_first = sorted(self.lookup.items(), key=lambda item: -len(item[0]))
+        return {columns: glyph for columns, glyph in widest_first if b"\0" in columns}
 
     def columns(self, text: str) -> bytes:
         """A line of text as columns, its last one blank; its length is the width that the game gives it.
@@ -138,7 +142,7 @@ def _check(font: Font, name: str) -> None:
     missing = "".join(char for char in _NEEDED if char not in font.glyphs)
     if missing:
         raise FontError(f"{name} has no glyph for {missing}: give the game's jar, or its ascii.png")
-    known = {char for char, _ in font.lookup.values()}
+    known = {char for char, *_ in font.lookup.values()}
     alike = "".join(char for char in _NUMERIC if char not in known)
     if alike:
         raise FontError(f"{name} draws {alike} like other characters: use the game's own font, without that pack")

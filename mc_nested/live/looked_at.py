@@ -16,11 +16,15 @@ from mc_nested.live.reading import Block, Target
 from mc_nested.live.screen_lines import CLEAR, WHOLE, Screen, Unreadable, check_whole, matched, shown
 from mc_nested.live.text_lines import STANDIN_PITCH, UNKNOWN, Line
 
-_TARGETED_AT = re.compile(rf"Targeted Block: {WHOLE}, {WHOLE}, {WHOLE}")
-_LOOKING_AT = re.compile(rf"Looking at(?: block)?: {WHOLE} {WHOLE} {WHOLE}")
+_BESIDE = rf"(?:[ {UNKNOWN}].*)?"
+"""What is read behind a line's end where the world beside its box has the text's colour."""
+
+_TARGETED_AT = re.compile(rf"(Targeted Block: {WHOLE}, {WHOLE}, {WHOLE}){_BESIDE}")
+_LOOKING_AT = re.compile(rf"(Looking at(?: block)?: {WHOLE} {WHOLE} {WHOLE}){_BESIDE}")
 _NAMESPACED = re.compile(r"([a-z0-9_.-]+):[a-z0-9_./-]+")
+_ID = re.compile(rf"(([a-z0-9_.-]+):[a-z0-9_./-]+){_BESIDE}")
 _BARE = re.compile(r"[a-z0-9_]+")
-_PROPERTY = re.compile(r"[a-z_0-9]+:.*")
+_PROPERTY = re.compile(rf"[{UNKNOWN}a-z_0-9]+: .*")
 _ALONE = re.compile(rf"(?:.*{UNKNOWN})?minecraft:(?!overworld|the_)[a-z0-9_./-]+")
 _OTHER_LABEL = re.compile(r"Targeted (?:Fluid|Entity)")
 
@@ -40,7 +44,7 @@ def looked_at(screen: Screen) -> Target | None:
     if looking is None:
         _check_nothing_hidden(screen)
         return None
-    place = _place(_LOOKING_AT, looking)
+    place = _place(screen, _LOOKING_AT, looking)
     if looking.text.startswith("Looking at block"):
         raise Unreadable(f"the 'Targeted Block' lines of the block looked at can't be seen: {CLEAR}")
     return Target(place, _id_in_right_column(screen) if screen.is_left(looking) else _id_above(screen, looking))
@@ -48,17 +52,17 @@ def looked_at(screen: Screen) -> Target | None:
 
 def _targeted(screen: Screen, targeted: Line) -> Target:
     if targeted.text != "Targeted Block":
-        return Target(_place(_TARGETED_AT, targeted), _id_below(screen, targeted))
+        return Target(_place(screen, _TARGETED_AT, targeted), _id_below(screen, targeted))
     looking = screen.line("Looking at block: ")
     if looking is None:
         raise Unreadable(f"the place of the block looked at can't be seen: {CLEAR}")
-    return Target(_place(_LOOKING_AT, looking), _id_below(screen, targeted))
+    return Target(_place(screen, _LOOKING_AT, looking), _id_below(screen, targeted))
 
 
-def _place(form: re.Pattern[str], line: Line) -> Block:
-    x, y, z = (int(text) for text in matched(form, line))
-    check_whole(line)
-    return x, y, z
+def _place(screen: Screen, form: re.Pattern[str], line: Line) -> Block:
+    text, x, y, z = matched(form, line)
+    check_whole(screen.without_what_follows(line, text))
+    return int(x), int(y), int(z)
 
 
 def _id_below(screen: Screen, label: Line) -> str:
@@ -70,7 +74,7 @@ def _id_below(screen: Screen, label: Line) -> str:
         line = screen.line_ending(row, label.end)
     if line is None:
         raise Unreadable(f"the id below 'Targeted Block' can't be seen: {CLEAR}")
-    return _id_of(line)
+    return _id_of(screen, line)
 
 
 def _id_in_right_column(screen: Screen) -> str:
@@ -84,7 +88,7 @@ def _id_in_right_column(screen: Screen) -> str:
         right = [line for line in screen.right_column() if _NAMESPACED.fullmatch(line.text)]
     if len(right) != 1:
         raise Unreadable(f"{len(right)} lines may be the id of the block looked at: {CLEAR}")
-    return _id_of(right[0])
+    return _id_of(screen, right[0])
 
 
 def _id_above(screen: Screen, looking: Line) -> str:
@@ -96,7 +100,7 @@ def _id_above(screen: Screen, looking: Line) -> str:
         raise Unreadable(f"the end of {shown(looking.text)} may be covered: {CLEAR}")
     for lines in range(1, _MOST_PROPERTIES + 1):
         line = screen.line_ending(looking.row - lines * screen.sight.overlay.pitch, looking.end)
-        if line is not None and _BARE.fullmatch(line.text):
+        if line is not None and not line.has_value and _BARE.fullmatch(line.text):
             check_whole(line)
             return line.text
         if line is not None and not _PROPERTY.fullmatch(line.text):
@@ -104,15 +108,15 @@ def _id_above(screen: Screen, looking: Line) -> str:
     raise Unreadable(f"the name of the block looked at can't be seen: {CLEAR}")
 
 
-def _id_of(line: Line) -> str:
+def _id_of(screen: Screen, line: Line) -> str:
     # Bright specks of the world may stand just left of the box, where a glyph could be: the game's own namespace tells
     # where the id begins, and a part of it that some of it is covered.
-    text = line.text[line.text.rfind("minecraft:") :] if "minecraft:" in line.text else line.text
-    form = _NAMESPACED.fullmatch(text)
-    if form is None or (form[1] != "minecraft" and "minecraft".endswith(form[1])):
+    before = max(0, line.text.rfind("minecraft:"))
+    form = _ID.fullmatch(line.text, before)
+    if form is None or (form[2] != "minecraft" and "minecraft".endswith(form[2])):
         raise Unreadable(f"the id of the block looked at reads {shown(line.text)}: {CLEAR}")
-    check_whole(line)
-    return text
+    check_whole(screen.without_what_follows(line, line.text[:before] + form[1]))
+    return form[1]
 
 
 def _check_nothing_hidden(screen: Screen) -> None:

@@ -13,7 +13,10 @@ from numpy.typing import NDArray
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.dots import Dots
-from mc_nested.live.font import SPACE, Font
+from mc_nested.live.font import SPACE, Font, Glyph
+
+Colour = tuple[int, int, int]
+"""Red, green, blue."""
 
 UNKNOWN = "\N{REPLACEMENT CHARACTER}"
 
@@ -22,6 +25,9 @@ INK_SPREAD = 4
 
 STANDIN_PITCH = 10
 """Dots from line to line in the stand-in, whose boxes end one column earlier (its debug_overlay.js); vanilla has 9."""
+
+_VALUE_COLOURS: tuple[Colour, ...] = ((85, 255, 85), (255, 85, 85))
+"""``true`` and ``false`` (FACTS: The F3 debug screen)."""
 
 _DARKEST, _BRIGHTEST = 40, 190
 """Darkest and brightest ground under any box: vanilla's gives 45 to 157, the stand-in's 55 to 183; the rest is for
@@ -32,6 +38,13 @@ _WIDEST_BLANK = 13
 
 _LONGEST = 480
 """Columns that a line can have: the narrowest screen has 320 (FACTS: The F3 debug screen), no line used many more."""
+
+_BITS = (1 << np.arange(8, dtype=np.uint8))[:, np.newaxis]
+_THREE_LETTERS = 24
+"""Columns that hold three letters or more in any font."""
+
+_MOSTLY = 288
+"""Columns that most lines end in: reading no more of them is faster."""
 
 _FLAT = 2
 _LIKE_THE_BOX = 5
@@ -48,14 +61,14 @@ class Overlay:
 
     scale: int
     pitch: int
-    colour: tuple[int, int, int]
+    colour: Colour
 
 
 @dataclass(frozen=True)
 class Line:
     """A line's text, its row, its first and last column, and whether its box is seen to go on behind that and end.
 
-    Where ``whole`` is False something may lie over the line's end.
+    Where ``whole`` is False something may lie over the line's end. ``has_value``: it ends in a value's own colour.
     """
 
     text: str
@@ -63,16 +76,17 @@ class Line:
     start: int
     end: int
     whole: bool
+    has_value: bool = False
 
 
 @dataclass(frozen=True)
 class _Strip:
-    """One line from column ``first`` on: the colours, the ink as a byte a column, and which columns lie in a box."""
+    """One line from column ``first`` on: its pixels, and a byte a column of ink and of lying in a box."""
 
     first: int
-    colours: Frame
+    picture: Frame
     ink: bytes
-    boxed: NDArray[np.bool_]
+    boxed: bytes
 
 
 def line_from(dots: Dots, font: Font, overlay: Overlay, row: int, start: int, edge: int | None = None) -> Line:
@@ -80,31 +94,45 @@ def line_from(dots: Dots, font: Font, overlay: Overlay, row: int, start: int, ed
 
     Where text is aligned at a last column ``edge``, and the line is seen to end there, what lies behind is not read.
     """
-    strip = _strip(dots, overlay, row, start, start + _LONGEST)
-    columns = strip.ink[: _run(strip.boxed)]
+    strip = _strip(dots, row, start, start + _MOSTLY, overlay.colour)
+    if 0 not in strip.boxed:
+        strip = _strip(dots, row, start, start + _LONGEST, overlay.colour)
+    columns = _in_the_box(strip)
     text, last = decode(columns, font)
-    if edge is not None and start + last != edge:
+    if edge is not None and start + last > edge:
         aligned, end = decode(columns[: edge - start + 1], font)
         text, last = (aligned, end) if start + end == edge and UNKNOWN not in aligned else (text, last)
     return Line(text, row, start, start + last, _is_whole(strip, last, overlay))
 
 
+def is_text(dots: Dots, font: Font, overlay: Overlay, row: int, start: int) -> bool:
+    """Whether a line begins there, as far as its first three characters say."""
+    if not 0 <= row < dots.rows:
+        return False
+    text, _ = decode(_in_the_box(_strip(dots, row, start, start + _THREE_LETTERS, overlay.colour)), font)
+    return len(text) > 2 and UNKNOWN not in text[:3]
+
+
 def line_up_to(dots: Dots, font: Font, overlay: Overlay, row: int, end: int) -> Line | None:
     """The line whose last ink is in column ``end``, back to a wide gap or its box's side; None if no ink is there."""
-    if not 0 <= row < dots.codes.shape[0]:
+    if not 0 <= row < dots.rows:
         return None
-    strip = _strip(dots, overlay, row, max(0, end + 1 - _LONGEST), end + 4)
-    last = end - strip.first
+    first = max(0, end + 1 - _LONGEST)
+    last = end - first
+    strip = _strip(dots, row, first, end + 4, overlay.colour)
+    has_value = not strip.ink[last]
+    if has_value:
+        strip = _strip(dots, row, first, end + 4, overlay.colour, *_VALUE_COLOURS)
     if not strip.ink[last] or any(strip.ink[last + 1 : last + 2]):
         return None
-    left = last + 1 - _run(strip.boxed[last::-1])
+    left = strip.boxed.rfind(0, 0, last + 1) + 1
     gap = strip.ink.rfind(b"\0" * (_WIDEST_BLANK + 1), left, last)
     left, text, stop = gap + _WIDEST_BLANK + 1 if gap >= 0 else left, "", -1
     while stop < last:
-        left += _blank(strip.ink[left:])
+        left += len(strip.ink[left:]) - len(strip.ink[left:].lstrip(b"\0"))
         text, width = decode(strip.ink[left : last + 1], font)
         left, start, stop = left + width + 1, left, left + width
-    return Line(text, row, strip.first + start, end, _is_whole(strip, last, overlay))
+    return Line(text, row, strip.first + start, end, _is_whole(strip, last, overlay), has_value)
 
 
 def decode(columns: bytes, font: Font) -> tuple[str, int]:
@@ -112,48 +140,60 @@ def decode(columns: bytes, font: Font) -> tuple[str, int]:
 
     A glyph counts only in the place where the pen, moved by the glyphs and spaces before it, would draw it.
     """
-    text, pen, end = "", 0, -1
-    while (inked := pen + _blank(columns[pen:])) < len(columns):
-        if inked - pen > _WIDEST_BLANK:
-            break
-        char, lead, width = _glyph(columns, inked, font)
-        spaces, rest = divmod(inked - pen - lead, SPACE) if text else (0, 0)
-        if rest and char == UNKNOWN:
-            break
-        text += UNKNOWN + char if rest else " " * spaces + char
-        end, pen = inked + width - 1, inked + width + 1
+    lookup = font.lookup
+    text, at, pen, end = "", 0, 0, -1
+    for run in columns.split(b"\0"):
+        if run and at >= pen:  # else it is the right part of a glyph with a gap inside
+            if at - pen > _WIDEST_BLANK:
+                break
+            char, lead, width = lookup.get(run) or _gapped(columns, at, font) or (UNKNOWN, 0, len(run))
+            if text and at - pen != lead:
+                spaces, rest = divmod(at - pen - lead, SPACE)
+                if rest and char == UNKNOWN:
+                    break
+                char = UNKNOWN + char if rest else " " * spaces + char
+            text += char
+            end, pen = at + width - 1, at + width + 1
+        at += len(run) + 1
     return text, end
 
 
-def _blank(columns: bytes) -> int:
-    """How many columns are blank before the first ink."""
-    return len(columns) - len(columns.lstrip(b"\0"))
+def _gapped(columns: bytes, at: int, font: Font) -> Glyph | None:
+    """The glyph with a gap inside whose ink begins at ``at``."""
+    for glyph, known in font.gapped.items():
+        if columns.startswith(glyph, at) and not any(columns[at + len(glyph) : at + len(glyph) + 1]):
+            return known
+    return None
 
 
-def _glyph(columns: bytes, at: int, font: Font) -> tuple[str, int, int]:
-    """The character whose ink begins at ``at``, its blank columns on the left, and how many columns of ink it has."""
-    for width in font.lengths:
-        known = font.lookup.get(columns[at : at + width])
-        if known and not any(columns[at + width : at + width + 1]):
-            return known[0], known[1], min(width, len(columns) - at)
-    gap = columns.find(b"\0", at)
-    return UNKNOWN, 0, (gap if gap >= 0 else len(columns)) - at
+def _strip(dots: Dots, row: int, first: int, last: int, *colours: Colour) -> _Strip:
+    """The line's columns from ``first`` to before ``last``, with these colours as ink."""
+    picture = dots.strip(row, first, last)
+    ink = ink_of(picture, *colours)
+    ground = np.asarray(cv2.inRange(picture, (_DARKEST,) * 3, (_BRIGHTEST,) * 3), np.uint8)
+    return _Strip(first, picture, columns_of(ink), np.bitwise_and.reduce(ink | ground, axis=0).tobytes())
 
 
-def _strip(dots: Dots, overlay: Overlay, row: int, first: int, last: int) -> _Strip:
-    colours = dots.strip(row, first, last)
-    red, green, blue = overlay.colour
+def _in_the_box(strip: _Strip) -> bytes:
+    """The ink from the first column on, as far as the box goes without a break."""
+    end = strip.boxed.find(0)
+    return strip.ink if end < 0 else strip.ink[:end]
+
+
+def ink_of(picture: Frame, *colours: Colour) -> NDArray[np.uint8]:
+    """A mask (rows, columns), 255 where a picture has one of these colours, else 0."""
     near = INK_SPREAD
-    ink = cv2.inRange(colours, (blue - near, green - near, red - near), (blue + near, green + near, red + near))
-    ground = cv2.inRange(colours, (_DARKEST,) * 3, (_BRIGHTEST,) * 3)
-    bits = np.packbits(np.asarray(ink), axis=0, bitorder="little")[0]
-    return _Strip(first, colours, bits.tobytes(), np.asarray(cv2.bitwise_or(ink, ground).all(0)))
+    masks = [
+        np.asarray(cv2.inRange(picture, (b - near, g - near, r - near), (b + near, g + near, r + near)), np.uint8)
+        for r, g, b in colours
+    ]
+    return masks[0] if len(masks) == 1 else np.bitwise_or.reduce(masks)
 
 
-def _run(boxed: NDArray[np.bool_]) -> int:
-    """How many columns from the first on lie in the box without a break."""
-    outside = np.flatnonzero(~boxed)
-    return int(outside[0]) if outside.size else len(boxed)
+def columns_of(ink: NDArray[np.uint8]) -> bytes:
+    """From a mask (8, columns) of 0 and 255 to a byte a column."""
+    columns: NDArray[np.uint8] = np.bitwise_or.reduce(ink & _BITS, axis=0)
+    return columns.tobytes()
 
 
 def _is_whole(strip: _Strip, last: int, overlay: Overlay) -> bool:
@@ -163,10 +203,11 @@ def _is_whole(strip: _Strip, last: int, overlay: Overlay) -> bool:
     all the way, something is drawn over both, and may hide more of the line.
     """
     behind, grey = (1, 110) if overlay.pitch == STANDIN_PITCH else (2, 80)
-    if not strip.boxed[last + 1 : last + 1 + behind].all():
+    if 0 in strip.boxed[last + 1 : last + 1 + behind] or any(strip.ink[last + 1 : last + 1 + behind]):
         return False
-    sides = strip.colours[:, last + behind : last + behind + 2].astype(np.int16)
+    sides = strip.picture[:, last + behind : last + behind + 2].astype(np.int16)
     if sides.shape[1] < 2:
         return True
-    alike = (np.abs(sides[:, 0] - sides[:, 1]) <= _FLAT).all()
-    return bool(not alike or (np.abs(sides - grey) <= _LIKE_THE_BOX).all())
+    if np.abs(sides[:, 0] - sides[:, 1]).max() > _FLAT:
+        return True
+    return bool(np.abs(sides - grey).max() <= _LIKE_THE_BOX)

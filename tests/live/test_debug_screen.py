@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 
 from mc_nested.live.debug_screen import Overlay, find_overlay, read_debug_screen
 from mc_nested.live.devices import Frame
-from mc_nested.live.dots import dots_of
+from mc_nested.live.dots import Dots
 from mc_nested.live.font import Font, font_of
-from mc_nested.live.overlay import places_of
+from mc_nested.live.overlay import places_of, see
 from mc_nested.live.reading import Reading, Target
+from mc_nested.live.screen_lines import Screen
 from sim.client.f3 import paint
 from sim.client.f3_cases import WORLDS, expected, frames, random_screen, random_world
 from sim.client.f3_text import LAYOUTS, F3Screen, Layout
@@ -40,7 +41,7 @@ def painted(shown: F3Screen, grey: int = 120) -> Frame:
 
 def place(frame: Frame, scale: int, prefix: str) -> tuple[int, int]:
     """Row and column, in GUI pixels, at which a line begins."""
-    return places_of(dots_of(frame, scale, 200), FONT, prefix)[0]
+    return places_of(Dots(frame, scale, 200), FONT, prefix)[0]
 
 
 def write(frame: Frame, scale: int, text: str, at: tuple[int, int], grey: int) -> None:
@@ -100,6 +101,40 @@ def test_text_a_little_off_its_colour_is_read_with_the_overlay_known(grey: int) 
     assert read_debug_screen(frame, FONT, VANILLA) == expected(shown)
 
 
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_text_with_a_shadow_is_read(layout: Layout) -> None:
+    shown = screen(layout)
+    frame = painted(shown)
+    ink = (frame == frame.max()).all(2)
+    frame[np.roll(ink, (2, 2), (0, 1)) & ~ink] = 56
+    assert read_debug_screen(frame, FONT) == expected(shown)
+
+
+@pytest.mark.parametrize("value", ["true", "false"])
+def test_a_line_that_ends_in_a_coloured_value_is_read(value: str) -> None:
+    shown = dataclasses.replace(screen(), properties=(("snowy", value),))
+    frame = painted(shown)
+    sight = see(frame, FONT)
+    assert sight is not None
+    row, _ = place(frame, 2, "snowy:")
+    line = Screen(sight, FONT).line_ending(row, 430 - 4)
+    assert line is not None
+    assert (line.text, line.has_value) == (f"snowy: {value}", True)
+
+
+@pytest.mark.parametrize("layout", ["1.8-1.12", "1.13-1.15"])
+@pytest.mark.parametrize("gap", [4, 5, 9])
+def test_specks_of_the_texts_colour_beside_a_line_are_not_read_as_part_of_it(layout: Layout, gap: int) -> None:
+    shown = screen(layout)
+    frame = painted(shown)
+    row, column = place(frame, 2, "Looking at")
+    behind = column + len(
+        FONT.columns("Looking at: -9 63 12345" if layout == "1.8-1.12" else "Looking at block: -9 63 12345")
+    )
+    frame[2 * row : 2 * row + 6, 2 * (behind + gap) : 2 * (behind + gap + 3)] = 224
+    assert read_debug_screen(frame, FONT) == expected(shown)
+
+
 def test_an_overlay_of_another_scale_is_a_problem() -> None:
     assert "GUI scale 3" in (read_debug_screen(painted(screen()), FONT, Overlay(3, 9, (224,) * 3)).problem or "")
 
@@ -117,6 +152,11 @@ def test_reduced_debug_info_is_said() -> None:
     reading = read_debug_screen(painted(dataclasses.replace(screen(), reduced=True)), FONT)
     assert reading.xyz is None
     assert "reducedDebugInfo" in (reading.problem or "")
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_the_boxed_groups_of_26_4_are_named_as_not_supported(scale: int) -> None:
+    assert "26.4" in (read_debug_screen(painted(screen("26.4", scale)), FONT).problem or "")
 
 
 def test_a_layout_that_is_not_supported_is_said() -> None:
@@ -221,10 +261,10 @@ def cover(frame: Frame, kind: str, rng: np.random.Generator) -> None:
 
 
 @pytest.mark.slow
-def test_a_thousand_frames_hold_no_wrong_reading_and_ten_unread_at_most() -> None:
+def test_a_thousand_frames_hold_no_wrong_reading_and_one_unread_at_most() -> None:
     unread = 0
     for shown, frame in itertools.islice(frames(FONT, seed=0), 1000):
         reading = read_debug_screen(frame, FONT)
         assert reading.problem or reading == expected(shown)
         unread += reading.problem is not None
-    assert unread <= 10
+    assert unread <= 1
