@@ -19,6 +19,7 @@ from mc_nested.learn.run_folder import RunConfig, RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.learn.whole_file import written_whole
 from mc_nested.report.curve import align_trials, draw_curve
+from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 
 SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.LIVE: 15.0}
 """Seconds between checkpoints: what a kill can cost, in a game that moves a block a second or a simulator."""
@@ -128,13 +129,24 @@ def run_training(folder: RunFolder, profile: str | None, resumed: bool, begin_fr
 def _tick_until_done(folder: RunFolder, trainer: Trainer, interrupt: Interrupt, began: float) -> None:
     every = SAVE_EVERY_S[Backend(folder.config.backend)]
     save_at = time.monotonic() + every
+    events = _events(folder, trainer)
     with TrainingProgress(folder.scenario, trainer) as progress:
         while not (trainer.finished or interrupt.requested):
             trainer.tick()
             progress.show()
+            if events:
+                with folder.writing():
+                    events.write()
             if time.monotonic() >= save_at:
                 folder.save(trainer, time.monotonic() - began)
                 save_at = time.monotonic() + every
+
+
+def _events(folder: RunFolder, trainer: Trainer) -> TensorBoard | None:
+    if not is_installed():
+        return None
+    with folder.writing():
+        return TensorBoard([folder.path / FOLDER / f"trial-{trial}" for trial in range(folder.config.trials)], trainer)
 
 
 def _draw(folder: RunFolder, trainer: Trainer) -> None:

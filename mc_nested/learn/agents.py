@@ -139,6 +139,22 @@ class Agent:
         """Updates done, over all runs and agents."""
         return sum(int(learner.ddqn.updates.sum()) for learner in self._learners().values())
 
+    def last_figures(self) -> Arrays:
+        """Loss and mean Q of each run's last updates, (runs,), by name; nan where an agent hasn't learnt yet.
+
+        Of several low agents of a run, the mean over those that have learnt.
+        """
+        figures = {}
+        for role, learner in self._learners().items():
+            for name, values in (("loss", learner.ddqn.last_loss()), ("q", learner.ddqn.last_q())):
+                of_run = values.reshape(len(self.runs), -1)
+                known = np.isfinite(of_run)
+                total = np.where(known, of_run, 0.0).sum(axis=1)
+                figures[f"{name}/{role}"] = np.where(
+                    known.any(axis=1), total / np.maximum(known.sum(axis=1), 1), np.nan
+                )
+        return figures
+
     def state(self) -> Arrays:
         """All that later choices and updates depend on but the transitions, by name."""
         return {k: v for role, learner in self._learners().items() for k, v in named_for(role, learner.state()).items()}

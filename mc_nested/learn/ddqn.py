@@ -74,6 +74,8 @@ class DDQN:
         self.rule = rule
         self.updates: Ints = np.zeros(len(online), dtype=np.int64)
         self._learners = _Learners(online, online.copy(), Moments(np.zeros_like(online), np.zeros_like(online)))
+        self._last_values = np.full((len(online), rule.batch), np.nan, np.float32)
+        self._last_errors = np.full((len(online), rule.batch), np.nan, np.float32)
         self._acting = Activations((len(online),), 1, sizes)
         self._all_rows = _Workspace(self._learners, sizes, rule.batch)
         self._some_rows: dict[int, _Workspace] = {}
@@ -110,7 +112,9 @@ class DDQN:
         Returns the TD errors, (rows, batch).
         """
         self.updates += active
-        return _update(self._all_rows, batch, self.rule, self.updates, active)
+        values, errors = _update(self._all_rows, batch, self.rule, self.updates, active)
+        self._take_note(np.flatnonzero(active), values[active], errors[active])
+        return errors
 
     def update_some(self, rows: Ints, batch: Batch) -> Floats:
         """One update of each of the named rows (k,), each on its own part of the batch; the TD errors, (k, batch)."""
@@ -120,10 +124,23 @@ class DDQN:
         for own, copy in zip(self._learners.arrays(), work.learners.arrays(), strict=True):
             own.take(rows, axis=0, out=copy, mode="clip")  # "clip" writes straight into the copy
         self.updates[rows] += 1
-        errors = _update(work, batch, self.rule, self.updates[rows], np.ones(len(rows), dtype=np.bool_))
+        values, errors = _update(work, batch, self.rule, self.updates[rows], np.ones(len(rows), dtype=np.bool_))
+        self._take_note(rows, values, errors)
         for own, copy in zip(self._learners.arrays(), work.learners.arrays(), strict=True):
             own[rows] = copy
         return errors
+
+    def last_loss(self) -> Floats:
+        """The mean Huber loss of each row's last update, (rows,); nan before the first."""
+        size, delta = np.abs(self._last_errors), np.float32(self.rule.huber_delta)
+        losses = np.where(size <= delta, size**2 / 2, delta * (size - delta / 2))
+        mean: Floats = losses.mean(axis=1)
+        return mean
+
+    def last_q(self) -> Floats:
+        """The mean value, Q(s, a), of the transitions of each row's last update, (rows,); nan before the first."""
+        mean: Floats = self._last_values.mean(axis=1)
+        return mean
 
     def state(self) -> dict[str, NDArray[Any]]:
         """Everything the next update depends on, by name."""
@@ -140,6 +157,9 @@ class DDQN:
         """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
         for name, own in self.state().items():
             own[:] = state[name]
+
+    def _take_note(self, rows: Ints, values: Floats, errors: Floats) -> None:
+        self._last_values[rows], self._last_errors[rows] = values, errors
 
 
 @dataclass(frozen=True)
@@ -173,21 +193,22 @@ class _Workspace:
         self.gradient_layers = split(self.gradient, sizes)
 
 
-def _update(work: _Workspace, batch: Batch, rule: UpdateRule, updates: Ints, active: Bools) -> Floats:
-    errors = _find_gradient(work, batch, rule)
+def _update(work: _Workspace, batch: Batch, rule: UpdateRule, updates: Ints, active: Bools) -> tuple[Floats, Floats]:
+    values, errors = _find_gradient(work, batch, rule)
     adam_step(work.learners.online, work.learners.moments, work.gradient, updates, rule.learning_rate, active)
     due = active & (updates % rule.target_period == 0)
     if due.any():
         work.learners.target[due] = work.learners.online[due]
-    return errors
+    return values, errors
 
 
-def _find_gradient(work: _Workspace, batch: Batch, rule: UpdateRule) -> Floats:
+def _find_gradient(work: _Workspace, batch: Batch, rule: UpdateRule) -> tuple[Floats, Floats]:
     values, next_online = forward(work.online_layers, batch.inputs, work.now_and_next)
     next_target = forward(work.target_layers, batch.inputs[1], work.target_next)
     targets = td_targets(batch.rewards, batch.discounts, next_online, next_target)
     taken = _places(batch.actions, values.shape)
-    errors: Floats = values.reshape(-1)[taken] - targets
+    own: Floats = values.reshape(-1)[taken]
+    errors: Floats = own - targets
     slope = np.clip(errors, -rule.huber_delta, rule.huber_delta) / np.float32(rule.batch)
     if batch.weights is not None:
         slope *= batch.weights
@@ -199,7 +220,7 @@ def _find_gradient(work: _Workspace, batch: Batch, rule: UpdateRule) -> Floats:
         output_gradient += towards / np.float32(rule.batch)
     now = [hidden[0] for hidden in work.now_and_next.hidden]
     backward(work.online_layers, batch.inputs[0], now, output_gradient, work.gradient_layers, work.scratch)
-    return errors
+    return own, errors
 
 
 def _places(actions: NDArray[np.integer[Any]], shape: tuple[int, ...]) -> Ints:

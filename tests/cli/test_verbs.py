@@ -41,7 +41,9 @@ def table(path: Path) -> list[dict[str, str]]:
 
 def test_a_training_leaves_everything_behind(trained: Path) -> None:
     found = {path.name for path in trained.iterdir()}
-    assert found == {"config.toml", "episodes.csv", "evaluations.csv", "curve.png", "checkpoint", "summary.json"}
+    left = {"config.toml", "episodes.csv", "evaluations.csv", "curve.png", "checkpoint", "summary.json", "tensorboard"}
+    assert found == left
+    assert {path.name for path in (trained / "tensorboard").iterdir()} == {"trial-0", "trial-1"}
     summary = json.loads((trained / "summary.json").read_text())
     expected = {
         "scenario": "line",
