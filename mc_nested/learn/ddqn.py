@@ -6,6 +6,7 @@ meet: updating some of them leaves the others untouched.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -57,7 +58,7 @@ def td_targets(rewards: Floats, discounts: Floats, next_online: Floats, next_tar
     ``next_online`` and ``next_target`` are the two networks' values of s', (k, actions, batch); the rest (k, batch).
     """
     chosen = torch.max(torch.from_numpy(next_online), 1).indices.numpy()  # along this axis faster than any argmax
-    return rewards + discounts * next_target.reshape(-1)[_places(chosen, next_target.shape)]
+    return rewards + discounts * next_target.reshape(-1).take(places_of(chosen, next_target.shape))
 
 
 class DDQN:
@@ -206,8 +207,8 @@ def _find_gradient(work: _Workspace, batch: Batch, rule: UpdateRule) -> tuple[Fl
     values, next_online = forward(work.online_layers, batch.inputs, work.now_and_next)
     next_target = forward(work.target_layers, batch.inputs[1], work.target_next)
     targets = td_targets(batch.rewards, batch.discounts, next_online, next_target)
-    taken = _places(batch.actions, values.shape)
-    own: Floats = values.reshape(-1)[taken]
+    taken = places_of(batch.actions, values.shape)
+    own: Floats = values.reshape(-1).take(taken)
     errors: Floats = own - targets
     slope = np.clip(errors, -rule.huber_delta, rule.huber_delta) / np.float32(rule.batch)
     if batch.weights is not None:
@@ -223,9 +224,14 @@ def _find_gradient(work: _Workspace, batch: Batch, rule: UpdateRule) -> tuple[Fl
     return own, errors
 
 
-def _places(actions: NDArray[np.integer[Any]], shape: tuple[int, ...]) -> Ints:
+def places_of(actions: NDArray[np.integer[Any]], shape: tuple[int, ...]) -> Ints:
     """Where the values of those actions (k, batch) lie in a flat array of the shape (k, actions, batch)."""
-    rows, width, batch = shape
-    first = np.arange(rows)[:, None] * (width * batch) + np.arange(batch)
-    places: Ints = first + actions * np.int64(batch)
+    places: Ints = actions * np.int64(shape[2])
+    places += _first_places(shape)
     return places
+
+
+@cache
+def _first_places(shape: tuple[int, ...]) -> Ints:
+    rows, width, batch = shape
+    return np.arange(rows)[:, None] * (width * batch) + np.arange(batch)

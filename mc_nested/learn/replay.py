@@ -70,8 +70,11 @@ class Replay:
         """
         begins = np.maximum(marks, self.added - self.sizes())
         counts = self.added - begins
-        places = self._places(begins, counts)
-        found = {name: kept.reshape(-1).take(places) for name, kept in self._kept._asdict().items()}
+        spans = self._spans(begins, counts)
+        found = {
+            name: np.concatenate([kept[run, span] for run, span in spans])
+            for name, kept in self._kept._asdict().items()
+        }
         return {"begins": begins, "counts": counts, **found}
 
     def extend(self, added: Mapping[str, NDArray[Any]]) -> None:
@@ -79,16 +82,20 @@ class Replay:
         begins, counts = added["begins"], added["counts"]
         while self._room < min(int((begins + counts).max(initial=0)), self.capacity):
             self._grow()
-        places = self._places(begins, counts)
+        spans = self._spans(begins, counts)
+        ends = np.cumsum([span.stop - span.start for _, span in spans])[:-1]
         for name, kept in self._kept._asdict().items():
-            kept.reshape(-1)[places] = added[name]
+            for (run, span), part in zip(spans, np.split(added[name], ends), strict=True):
+                kept[run, span] = part
         self.added[:] = begins + counts
 
-    def _places(self, begins: NDArray[np.int64], counts: NDArray[np.int64]) -> NDArray[np.int64]:
-        run = np.repeat(np.arange(len(counts)), counts)
-        behind = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
-        places: NDArray[np.int64] = run * self._room + (np.repeat(begins, counts) + behind) % self.capacity
-        return places
+    def _spans(self, begins: NDArray[np.int64], counts: NDArray[np.int64]) -> list[tuple[int, slice]]:
+        """Where each run's transitions from ``begins`` on lie, oldest first: in two spans where they wrap round."""
+        spans = []
+        for run, (begin, count) in enumerate(zip(begins % self.capacity, counts, strict=True)):
+            behind = max(begin + count - self.capacity, 0)
+            spans += [(run, slice(int(begin), int(begin + count - behind))), (run, slice(0, int(behind)))]
+        return spans
 
     def _grow(self) -> None:
         room = min(2 * self._room, self.capacity)

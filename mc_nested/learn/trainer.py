@@ -83,7 +83,8 @@ class Trainer:
         self._kept_scores = np.full(runs, -np.inf)
         batch, scouting = preset.update.batch, NUMBERS if preset.excursions else 0
         widths = [CHOICE_NUMBERS, batch, CHOICE_NUMBERS, batch * preset.updates_a_step, scouting]
-        self._cuts = np.cumsum(widths)[:-1]
+        ends = [sum(widths[: part + 1]) for part in range(len(widths))]
+        self._numbers = [slice(end - width, end) for width, end in zip(widths, ends, strict=True)]
         self._streams = Streams(seed, agent.runs, sum(widths))
         self._runs = _Runs(
             observations=np.zeros((runs, agent.observed), dtype=np.int64),
@@ -134,7 +135,7 @@ class Trainer:
         episodes where ``abandon_episodes`` was called.
         """
         numbers = self._streams.at(self.ticks)
-        main_choice, main_draws, low_choice, low_draws, scouting = np.split(numbers, self._cuts, 1)
+        main_choice, main_draws, low_choice, low_draws, scouting = (numbers[:, part] for part in self._numbers)
         self._begin_episodes(main_choice, scouting)
         runs = self._runs
         training = ~(runs.finished | runs.evaluating)
@@ -154,8 +155,9 @@ class Trainer:
             active = np.flatnonzero(~runs.finished)
             before, came_to = runs.observations[active], (rewards[active], next_states[active], terminated[active])
             self._scouts.saw(active, before, states[active], actions[active], *came_to)
-        for draws in np.split(low_draws[rows], self.preset.updates_a_step, 1):
-            self.agent.low.learn(learners, draws)
+        draws = low_draws[rows].reshape(len(rows), self.preset.updates_a_step, self.preset.update.batch)
+        for update in range(self.preset.updates_a_step):
+            self.agent.low.learn(learners, draws[:, update])
 
         runs.observations = observations
         if self.agent.main is None:
