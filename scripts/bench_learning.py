@@ -1,37 +1,46 @@
-"""How fast the agents learn: updates a second of many runs at once, beside plain single-run loops doing the same work.
+"""How fast the agents learn: updates a second of many runs at once, beside single-run loops doing the same work.
 
 The same work: the line in the simulator, one environment step and one DDQN update of batch 32 a step, two hidden layers
-of 32, Adam. One core for each. All take turns in short slices, so that a machine whose speed drifts hits them alike;
-quote the ratios.
+of 32, Adam. Every core for each: our runs are shared out over the cores as ``mc-nested reproduce`` does it, of the
+single-run loops there is one on each core. All take turns in short slices, so that a machine whose speed drifts hits
+them alike; quote the ratios.
 
-Usage: python scripts/bench_learning.py [--runs 1 10 30] [--rounds 5] [--slice-s 3] [--json]
+Usage: python scripts/bench_learning.py [--runs 1 10 30 90] [--rounds 5] [--slice-s 2] [--json]
+stable-baselines3 takes part where the bench extra is installed.
 """
 
 import argparse
 import importlib.util
 import json
+import multiprocessing
+import os
 import statistics
+import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
+from contextlib import ExitStack
+from itertools import pairwise
+from multiprocessing.connection import Connection
+from pathlib import Path
 
-import numpy as np
 import torch
 from rich.console import Console
 from rich.progress import track
 from rich.table import Table
-from torch import nn
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.agents import FORMS, Agent
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.trainer import Trainer
-from sim.grid import GridVectorEnv, arena_env
+from sim.grid import GridVectorEnv
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from scripts.bench_learning_loops import Slices, plain_loop, sb3
 
 LINE, PAPER = load_scenario("line"), load_preset("paper")
 WARM_UP_S = 1.0
-
-Slices = Callable[[], int]
-"""Does a little of the work and says how many updates that were."""
+MOST_RUNS = 90
+"""The runs of the paper's experiment: what the ratios are quoted at, if they are measured."""
 
 
 def ours(runs: int) -> Slices:
@@ -49,100 +58,53 @@ def ours(runs: int) -> Slices:
     return work
 
 
-def plain_loop() -> Slices:
-    """A hand-written DDQN loop as one writes it: one run, torch modules, autograd, a replay in NumPy arrays."""
-    updates = _plain_ddqn()
+def matrix_products(runs: int) -> Slices:
+    """The products of the hidden layer alone, as one bmm; counted in FLOPs, in thousands."""
+    width, columns = PAPER.hidden[0], 2 * PAPER.update.batch
+    weights, states = torch.randn(runs, width, width), torch.randn(runs, width, columns)
+    out = torch.empty(runs, width, columns)
 
     def work() -> int:
-        for _ in range(100):
-            next(updates)
-        return 100
+        for _ in range(50):
+            torch.bmm(weights, states, out=out)
+        return 50 * 2 * runs * width * width * columns // 1000
 
     return work
 
 
-def _plain_ddqn() -> Iterator[None]:
-    """Yields after each update."""
-    random = np.random.default_rng(0)
-    env = arena_env(LINE)
-    online, target = _network(), _network()
-    target.load_state_dict(online.state_dict())
-    optimiser = torch.optim.Adam(online.parameters(), lr=PAPER.update.learning_rate)
-    room, batch = 200_000, PAPER.update.batch
-    states, next_states = np.zeros((room, 4), np.float32), np.zeros((room, 4), np.float32)
-    actions, rewards, ends = np.zeros(room, np.int64), np.zeros(room, np.float32), np.zeros(room, np.float32)
-    stored = updates = 0
-    while True:
-        observation, _ = env.reset(options={"material": "stone"})
-        state, over = _features(observation), False
-        while not over:
-            if random.random() < 0.5:
-                action = int(random.integers(8))
-            else:
-                with torch.no_grad():
-                    action = int(online(torch.from_numpy(state)).argmax())
-            observation, reward, terminated, truncated, _ = env.step(action)
-            following, over = _features(observation), terminated or truncated
-            place = stored % room
-            states[place], next_states[place] = state, following
-            actions[place], rewards[place], ends[place] = action, reward, terminated
-            stored, state = stored + 1, following
-            if stored < batch:
-                continue
-            drawn = random.integers(min(stored, room), size=batch)
-            s, s2 = torch.from_numpy(states[drawn]), torch.from_numpy(next_states[drawn])
-            with torch.no_grad():
-                best = online(s2).argmax(1, keepdim=True)
-                bootstrap = target(s2).gather(1, best)[:, 0]
-                goal = torch.from_numpy(rewards[drawn]) + PAPER.update.gamma * bootstrap * (
-                    1 - torch.from_numpy(ends[drawn])
-                )
-            chosen = online(s).gather(1, torch.from_numpy(actions[drawn])[:, None])[:, 0]
-            loss = nn.functional.huber_loss(chosen, goal)
-            optimiser.zero_grad()
-            loss.backward()  # type: ignore[no-untyped-call]  # torch leaves it untyped
-            optimiser.step()
-            updates += 1
-            if updates % PAPER.update.target_period == 0:
-                target.load_state_dict(online.state_dict())
-            yield
+def flops_of_an_update() -> int:
+    """Multiplications and additions in the matrix products of one update of the nested agent (paper, equation 4).
+
+    Forward s and s' in the online network and s' in the target network, back the gradient of every weight, and of every
+    layer's input but the first.
+    """
+    layers = list(pairwise((4, *PAPER.hidden, 8)))
+    passes = sum((5 if layer else 4) * inputs * outputs for layer, (inputs, outputs) in enumerate(layers))
+    return 2 * PAPER.update.batch * passes
 
 
-def _network() -> nn.Sequential:
-    return nn.Sequential(nn.Linear(4, 32), nn.Tanh(), nn.Linear(32, 32), nn.Tanh(), nn.Linear(32, 8))
+def contestant(name: str, core: int, cores: int) -> Slices | None:
+    """What the process on that core does for a contestant; None where it has no part in it."""
+    if name == "plain loop":
+        return plain_loop()
+    if name == "stable-baselines3":
+        return sb3()
+    if name == "bmm":
+        return matrix_products(MOST_RUNS // cores)
+    if name == "plain loop, one":
+        return plain_loop() if core == 0 else None
+    runs = int(name) // cores + (core < int(name) % cores)
+    return ours(runs) if runs else None
 
 
-def _features(observation: np.ndarray) -> np.ndarray:
-    x, y, b = observation
-    return np.array([x / 7 - 1, y / 7 - 1, 2 * b / LINE.blocks - 1, 1.0], dtype=np.float32)
-
-
-def sb3() -> Slices:
-    """stable-baselines3's DQN on the same Env; single, not double, so a little less work."""
-    from stable_baselines3 import DQN
-
-    update = PAPER.update
-    model = DQN(
-        "MlpPolicy",
-        arena_env(LINE),
-        learning_rate=update.learning_rate,
-        buffer_size=200_000,
-        learning_starts=update.batch,
-        batch_size=update.batch,
-        gamma=update.gamma,
-        train_freq=1,
-        gradient_steps=1,
-        target_update_interval=update.target_period,
-        policy_kwargs={"net_arch": [32, 32], "activation_fn": nn.Tanh},
-        device="cpu",
-    )
-    model.learn(200)
-
-    def work() -> int:
-        model.learn(200, reset_num_timesteps=False)
-        return 200
-
-    return work
+def on_a_core(pipe: Connection, names: Sequence[str], core: int, cores: int) -> None:
+    """A process of its own: whenever a contestant and seconds come in, its updates a second go out."""
+    torch.set_num_threads(1)
+    work = {name: contestant(name, core, cores) for name in names}
+    while (task := pipe.recv()) is not None:
+        name, seconds = task
+        slices = work[name]
+        pipe.send(rate(slices, seconds) if slices else 0.0)
 
 
 def rate(work: Slices, seconds: float) -> float:
@@ -153,51 +115,79 @@ def rate(work: Slices, seconds: float) -> float:
     return updates / took
 
 
-def measure(runs: Sequence[int], rounds: int, slice_s: float) -> dict[str, list[float]]:
-    """Updates a second of each contestant, a figure a round."""
-    contestants = {f"{count} runs": ours(count) for count in runs} | {"plain loop": plain_loop()}
+def measure(runs: Sequence[int], rounds: int, slice_s: float, cores: int) -> dict[str, list[float]]:
+    """Updates a second of each contestant on all cores together, a figure a round."""
+    names = [*(str(count) for count in runs), "plain loop", "plain loop, one", "bmm"]
     if importlib.util.find_spec("stable_baselines3"):
-        contestants["stable-baselines3"] = sb3()
-    for work in contestants.values():
-        rate(work, WARM_UP_S)
-    rates: dict[str, list[float]] = {name: [] for name in contestants}
-    for _ in track(range(rounds), "rounds", console=Console(stderr=True)):
-        for name, work in contestants.items():
-            rates[name].append(rate(work, slice_s))
+        names.append("stable-baselines3")
+    context = multiprocessing.get_context("spawn")
+    os.environ["OMP_NUM_THREADS"] = "1"
+    with ExitStack() as ends:
+        pipes = []
+        for core in range(cores):
+            here, there = context.Pipe()
+            process = context.Process(target=on_a_core, args=(there, names, core, cores), daemon=True)
+            process.start()
+            ends.callback(process.join)
+            ends.callback(here.send, None)
+            pipes.append(here)
+        rates: dict[str, list[float]] = {name: [] for name in names}
+        for measured in track(range(-1, rounds), "rounds", console=Console(stderr=True)):
+            for name in names:
+                for pipe in pipes:
+                    pipe.send((name, slice_s if measured >= 0 else WARM_UP_S))
+                together = sum(pipe.recv() for pipe in pipes)
+                if measured >= 0:
+                    rates[name].append(together)
     return rates
+
+
+def ratio(rates: dict[str, list[float]], one: str, other: str) -> float:
+    """How many times the one is as fast as the other: the median over the rounds."""
+    return statistics.median(a / b for a, b in zip(rates[one], rates[other], strict=True))
+
+
+def summary(rates: dict[str, list[float]], runs: Sequence[int], cores: int) -> dict[str, object]:
+    """The figures as one JSON object; every ratio at the largest number of runs but ``ratio_one_run``."""
+    medians = {name: statistics.median(found) for name, found in rates.items()}
+    most, has_sb3 = str(max(runs)), "stable-baselines3" in rates
+    limit = medians["bmm"] * 1000 / flops_of_an_update()
+    return {
+        "cores": cores,
+        "ours": {str(count): round(medians[str(count)]) for count in runs},
+        "plain_loop": round(medians["plain loop"]),
+        "sb3": round(medians["stable-baselines3"]) if has_sb3 else None,
+        "limit": round(limit),
+        "ratio_sb3": round(ratio(rates, most, "stable-baselines3"), 1) if has_sb3 else None,
+        "ratio_plain_loop": round(ratio(rates, most, "plain loop"), 1),
+        "ratio_limit": round(medians[most] / limit, 3),
+        "ratio_one_run": round(ratio(rates, "1", "plain loop, one"), 2) if 1 in runs else None,
+    }
 
 
 def main() -> None:
     """Measure and print a table, or one JSON object."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--runs", type=int, nargs="+", default=[1, 10, 30])
+    parser.add_argument("--runs", type=int, nargs="+", default=[1, 10, 30, MOST_RUNS])
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--slice-s", type=float, default=3.0)
+    parser.add_argument("--slice-s", type=float, default=2.0)
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
-    torch.set_num_threads(1)
-    rates = measure(options.runs, options.rounds, options.slice_s)
-    medians = {name: statistics.median(found) for name, found in rates.items()}
-    ratios = {
-        name: statistics.median(a / b for a, b in zip(found, rates["plain loop"], strict=True))
-        for name, found in rates.items()
-    }
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    rates = measure(options.runs, options.rounds, options.slice_s, cores)
+    found = summary(rates, options.runs, cores)
     if options.json:
-        print(
-            json.dumps(
-                {
-                    "ours": {str(count): round(medians[f"{count} runs"]) for count in options.runs},
-                    "plain_loop": round(medians["plain loop"]),
-                    "sb3": round(medians["stable-baselines3"]) if "stable-baselines3" in medians else None,
-                    "ratio_plain_loop": {str(c): round(ratios[f"{c} runs"], 2) for c in options.runs},
-                }
-            )
-        )
+        print(json.dumps(found))
         return
-    table = Table("", "updates/s", "beside the plain loop", title="median over the rounds, one core")
-    for name, median in medians.items():
-        table.add_row(name, f"{median:,.0f}", f"{ratios[name]:.1f} times")
+    table = Table("", "updates/s", "beside the plain loop", title=f"median over the rounds, {cores} cores")
+    for name in rates:
+        if name not in ("bmm", "plain loop, one"):
+            label = f"{name} runs" if name.isdigit() else name
+            beside = ratio(rates, name, "plain loop")
+            table.add_row(label, f"{statistics.median(rates[name]):,.0f}", f"{beside:.1f} times")
+    table.add_row("the arithmetic limit", f"{found['limit']:,}", f"{found['ratio_limit']} of it are reached")
     Console().print(table)
+    print(f"one run beside one plain loop on one core: {found['ratio_one_run']} times")
 
 
 if __name__ == "__main__":

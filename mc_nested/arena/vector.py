@@ -94,13 +94,14 @@ def reset_options(options: dict[str, Any] | None, scenarios: Sequence[Scenario])
     """
     runs = len(scenarios)
     options = options or {}
-    mask = np.asarray(options.get("reset_mask", np.ones(runs, dtype=np.bool_)), dtype=np.bool_)
+    mask = np.asarray(options["reset_mask"] if "reset_mask" in options else np.ones(runs), dtype=np.bool_)
     materials = options.get("material")
     if materials is None:
         materials = [scenario.best_material for scenario in scenarios]
     materials = np.asarray(materials, dtype=np.int64)
     if mask.shape != (runs,) or materials.shape != (runs,):
         raise ValueError(f"reset_mask and material need one entry for each of the {runs} runs")
-    if any(mask[run] and not 0 <= materials[run] < len(scenarios[run].materials) for run in range(runs)):
+    begun = np.flatnonzero(mask).tolist()
+    if any(not 0 <= materials[run] < len(scenarios[run].materials) for run in begun):
         raise ValueError("material: an index that the scenario doesn't have")
     return mask, materials

@@ -1,21 +1,23 @@
-"""Double deep Q-learning (paper, section 2.4) for many independent networks at once.
+"""Double deep Q-learning (paper, section 2.4) for many independent networks, compiled.
 
 A row is one learner: an online and a target network, its optimiser's moments and its count of updates. Rows never
-meet: updating some of them leaves the others untouched.
+meet: an update takes one row after the other, whose parameters and batch stay in the processor's nearest cache all the
+while, and what comes out of it is the same to the bit whatever other rows there are.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
-import torch
+from numba import njit
 from numpy.typing import NDArray
 
-from mc_nested.learn.adam import Moments, adam_step
-from mc_nested.learn.imitation import margin_slope
-from mc_nested.learn.networks import Activations, Floats, Sizes, backward, forward, split
+from mc_nested.learn.adam import adam_step
+from mc_nested.learn.imitation import rival
+from mc_nested.learn.networks import Floats, Sizes, backward, forward, hidden_for, parameter_count
+from mc_nested.learn.states import StateSpace
+from mc_nested.learn.target_values import TargetValues
 
 Bools = NDArray[np.bool_]
 Ints = NDArray[np.int64]
@@ -37,98 +39,96 @@ class UpdateRule:
 
 @dataclass(frozen=True)
 class Batch:
-    """Transitions for k rows: actions, rewards and discounts (k, batch), and the features of their states.
+    """Transitions for k rows: states (2, k, batch), actions, rewards and discounts (k, batch).
 
-    ``inputs`` (2, k, inputs + 1, batch) holds every s and behind them every s', each column ending in a 1;
-    ``discounts`` is what the value of s' counts: γ, or 0 where the episode terminated. ``imitated`` (k, batch) says
-    which actions are to be the greedy ones, if any are; ``weights`` (k, batch) what each error counts, if not 1.
+    ``states`` holds the number of every s, and of every s'; ``discounts`` is what the value of s' counts: γ, or 0 where
+    the episode terminated. ``imitated`` (k, batch) says which actions are to be the greedy ones; ``weights`` (k, batch)
+    what each error counts.
     """
 
-    inputs: Floats
+    states: NDArray[np.integer[Any]]
     actions: NDArray[np.integer[Any]]
     rewards: Floats
     discounts: Floats
-    imitated: Bools | None = None
-    weights: Floats | None = None
-
-
-def td_targets(rewards: Floats, discounts: Floats, next_online: Floats, next_target: Floats) -> Floats:
-    """Y = r + γ Q(s', argmax Q(s'; θ); θ⁻), the bootstrap dropped where the episode terminated (paper, equation 4).
-
-    ``next_online`` and ``next_target`` are the two networks' values of s', (k, actions, batch); the rest (k, batch).
-    """
-    chosen = torch.max(torch.from_numpy(next_online), 1).indices.numpy()  # along this axis faster than any argmax
-    return rewards + discounts * next_target.reshape(-1).take(places_of(chosen, next_target.shape))
+    imitated: Bools
+    weights: Floats
 
 
 class DDQN:
     """Rows of Q-networks with their targets and optimisers.
 
     Args:
+        space: the states that they value and the actions that they choose among.
         sizes: widths of every network.
         rule: what an update does.
         online: initial parameters, (rows, parameters).
     """
 
-    def __init__(self, sizes: Sizes, rule: UpdateRule, online: Floats) -> None:
+    def __init__(self, space: StateSpace, sizes: Sizes, rule: UpdateRule, online: Floats) -> None:
+        self.space = space
         self.sizes = sizes
         self.rule = rule
+        self.online = online
+        self.target = online.copy()
         self.updates: Ints = np.zeros(len(online), dtype=np.int64)
-        self._learners = _Learners(online, online.copy(), Moments(np.zeros_like(online), np.zeros_like(online)))
+        self._first_moment, self._second_moment = np.zeros_like(online), np.zeros_like(online)
+        self._target_values = TargetValues(space, sizes, self.target)
         self._last_values = np.full((len(online), rule.batch), np.nan, np.float32)
         self._last_errors = np.full((len(online), rule.batch), np.nan, np.float32)
-        self._acting = Activations((len(online),), 1, sizes)
-        self._all_rows = _Workspace(self._learners, sizes, rule.batch)
-        self._some_rows: dict[int, _Workspace] = {}
-
-    @property
-    def online(self) -> Floats:
-        """The online networks' parameters, (rows, parameters)."""
-        return self._learners.online
-
-    @property
-    def target(self) -> Floats:
-        """The target networks' parameters, (rows, parameters)."""
-        return self._learners.target
+        self._every_row = np.arange(len(online))
+        self._widths = np.array(sizes, dtype=np.int64)
+        self._acting = _Workspace.new(sizes, 1)
+        self._learning = _Workspace.new(sizes, rule.batch)
 
     def take_over(self, online: Floats) -> None:
         """Go on from other networks (rows, parameters), the targets too; ValueError where their shape differs."""
         if online.shape != self.online.shape:
             raise ValueError(f"networks of {online.shape}, not {self.online.shape}")
         self.online[:] = self.target[:] = online
+        self._target_values.renew(self._every_row, self.target)
 
-    def q_values(self, inputs: Floats, rows: Ints | None = None) -> Floats:
-        """The online networks' values (k, actions) of a state a row, inputs (k, inputs + 1, 1); of all rows by default.
+    def q_values(self, states: Ints, rows: Ints | None = None) -> Floats:
+        """The online networks' values (k, actions) of one numbered state a row (k,); of all rows unless named."""
+        named = self._every_row if rows is None else rows
+        values = np.empty((len(named), self.space.actions), np.float32)
+        work = self._acting
+        firsts = self.space.first_of(named)
+        _value(named, states + firsts, self.online, self._widths, self.space.table, work.inputs, work.now, values)
+        return values
 
-        Without ``rows`` the array is overwritten by the next call.
+    def update(self, rows: Ints, batch: Batch) -> Floats:
+        """One update of each of the named rows (k,), each on its own part of the batch; the TD errors, (k, batch).
+
+        By the gradient of the mean Huber loss, and of the mean large-margin loss of what is imitated.
         """
-        if rows is None:
-            return forward(self._all_rows.online_layers, inputs, self._acting)[..., 0]
-        layers = split(self.online[rows], self.sizes)
-        return forward(layers, inputs, Activations((len(rows),), 1, self.sizes))[..., 0]
-
-    def update_all(self, batch: Batch, active: Bools) -> Floats:
-        """One update of each active row (rows,), each on its own part of the batch, which has a part for every row.
-
-        Returns the TD errors, (rows, batch).
-        """
-        self.updates += active
-        values, errors = _update(self._all_rows, batch, self.rule, self.updates, active)
-        self._take_note(np.flatnonzero(active), values[active], errors[active])
-        return errors
-
-    def update_some(self, rows: Ints, batch: Batch) -> Floats:
-        """One update of each of the named rows (k,), each on its own part of the batch; the TD errors, (k, batch)."""
-        work = self._some_rows.get(len(rows))
-        if work is None:
-            work = self._some_rows[len(rows)] = _Workspace(self._learners.of(rows), self.sizes, self.rule.batch)
-        for own, copy in zip(self._learners.arrays(), work.learners.arrays(), strict=True):
-            own.take(rows, axis=0, out=copy, mode="clip")  # "clip" writes straight into the copy
+        rule, work = self.rule, self._learning
         self.updates[rows] += 1
-        values, errors = _update(work, batch, self.rule, self.updates[rows], np.ones(len(rows), dtype=np.bool_))
-        self._take_note(rows, values, errors)
-        for own, copy in zip(self._learners.arrays(), work.learners.arrays(), strict=True):
-            own[rows] = copy
+        values, errors = np.empty_like(batch.rewards), np.empty_like(batch.rewards)
+        _update(
+            rows,
+            (self.online, self._first_moment, self._second_moment),
+            (batch.states, batch.actions),
+            (batch.rewards, batch.discounts, batch.weights, values, errors),
+            batch.imitated,
+            self.space.first_of(rows),
+            self.updates,
+            self._widths,
+            self.space.table,
+            self._target_values.values,
+            work.inputs,
+            work.next_inputs,
+            work.now,
+            work.following,
+            work.scratch,
+            work.slope,
+            work.gradient,
+            (rule.learning_rate, rule.huber_delta, rule.margin),
+        )
+        self._last_values[rows], self._last_errors[rows] = values, errors
+        due = rows[self.updates[rows] % rule.target_period == 0]
+        if len(due):
+            self.target[due] = self.online[due]
+            self._target_values.renew(due, self.target[due])
         return errors
 
     def last_loss(self) -> Floats:
@@ -145,12 +145,11 @@ class DDQN:
 
     def state(self) -> dict[str, NDArray[Any]]:
         """Everything the next update depends on, by name."""
-        moments = self._learners.moments
         return {
             "online": self.online,
             "target": self.target,
-            "first_moment": moments.first,
-            "second_moment": moments.second,
+            "first_moment": self._first_moment,
+            "second_moment": self._second_moment,
             "updates": self.updates,
         }
 
@@ -158,80 +157,114 @@ class DDQN:
         """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
         for name, own in self.state().items():
             own[:] = state[name]
-
-    def _take_note(self, rows: Ints, values: Floats, errors: Floats) -> None:
-        self._last_values[rows], self._last_errors[rows] = values, errors
+        self._target_values.renew(self._every_row, self.target)
 
 
 @dataclass(frozen=True)
-class _Learners:
-    """What an update changes, (rows, parameters) each."""
-
-    online: Floats
-    target: Floats
-    moments: Moments
-
-    def arrays(self) -> tuple[Floats, ...]:
-        return self.online, self.target, self.moments.first, self.moments.second
-
-    def of(self, rows: Ints) -> "_Learners":
-        moments = Moments(self.moments.first[rows], self.moments.second[rows])
-        return _Learners(self.online[rows], self.target[rows], moments)
-
-
 class _Workspace:
-    """Learners and the standing arrays that their update works in."""
+    """The standing arrays of one network's passes over one batch."""
 
-    def __init__(self, learners: _Learners, sizes: Sizes, batch: int) -> None:
-        rows = len(learners.online)
-        self.learners = learners
-        self.gradient = np.empty_like(learners.online)
-        self.now_and_next = Activations((2, rows), batch, sizes)
-        self.target_next = Activations((rows,), batch, sizes)
-        self.scratch = [np.empty((rows, width, batch), np.float32) for width in sizes[1:-1]]
-        self.online_layers = split(learners.online, sizes)
-        self.target_layers = split(learners.target, sizes)
-        self.gradient_layers = split(self.gradient, sizes)
+    inputs: Floats
+    next_inputs: Floats
+    now: tuple[Floats, ...]
+    following: tuple[Floats, ...]
+    scratch: tuple[Floats, ...]
+    slope: Floats
+    gradient: Floats
 
-
-def _update(work: _Workspace, batch: Batch, rule: UpdateRule, updates: Ints, active: Bools) -> tuple[Floats, Floats]:
-    values, errors = _find_gradient(work, batch, rule)
-    adam_step(work.learners.online, work.learners.moments, work.gradient, updates, rule.learning_rate, active)
-    due = active & (updates % rule.target_period == 0)
-    if due.any():
-        work.learners.target[due] = work.learners.online[due]
-    return values, errors
-
-
-def _find_gradient(work: _Workspace, batch: Batch, rule: UpdateRule) -> tuple[Floats, Floats]:
-    values, next_online = forward(work.online_layers, batch.inputs, work.now_and_next)
-    next_target = forward(work.target_layers, batch.inputs[1], work.target_next)
-    targets = td_targets(batch.rewards, batch.discounts, next_online, next_target)
-    taken = places_of(batch.actions, values.shape)
-    own: Floats = values.reshape(-1).take(taken)
-    errors: Floats = own - targets
-    slope = np.clip(errors, -rule.huber_delta, rule.huber_delta) / np.float32(rule.batch)
-    if batch.weights is not None:
-        slope *= batch.weights
-    output_gradient = next_target  # its values are used up
-    output_gradient.fill(0.0)
-    output_gradient.reshape(-1)[taken] = slope
-    if batch.imitated is not None:
-        towards = margin_slope(values, batch.actions, rule.margin) * batch.imitated[:, None]
-        output_gradient += towards / np.float32(rule.batch)
-    now = [hidden[0] for hidden in work.now_and_next.hidden]
-    backward(work.online_layers, batch.inputs[0], now, output_gradient, work.gradient_layers, work.scratch)
-    return own, errors
+    @classmethod
+    def new(cls, sizes: Sizes, batch: int) -> "_Workspace":
+        return cls(
+            inputs=np.empty((sizes[0] + 1, batch), np.float32),
+            next_inputs=np.empty((sizes[0] + 1, batch), np.float32),
+            now=hidden_for(sizes, batch),
+            following=hidden_for(sizes, batch),
+            scratch=hidden_for(sizes, batch),
+            slope=np.empty((sizes[-1], batch), np.float32),
+            gradient=np.empty(parameter_count(sizes), np.float32),
+        )
 
 
-def places_of(actions: NDArray[np.integer[Any]], shape: tuple[int, ...]) -> Ints:
-    """Where the values of those actions (k, batch) lie in a flat array of the shape (k, actions, batch)."""
-    places: Ints = actions * np.int64(shape[2])
-    places += _first_places(shape)
-    return places
+@njit(cache=True, error_model="numpy")
+def td_target(reward: float, discount: float, next_online: Floats, next_target: Floats) -> float:
+    """Y = r + γ Q(s', argmax Q(s'; θ); θ⁻), the bootstrap dropped where the episode terminated (paper, equation 4).
+
+    ``next_online`` and ``next_target`` are the two networks' values of s', (actions,).
+    """
+    target: float = reward + discount * next_target[np.argmax(next_online)]
+    return target
 
 
-@cache
-def _first_places(shape: tuple[int, ...]) -> Ints:
-    rows, width, batch = shape
-    return np.arange(rows)[:, None] * (width * batch) + np.arange(batch)
+@njit(cache=True, error_model="numpy")
+def _look_up(states: Ints, table: Floats, inputs: Floats) -> None:
+    for column in range(len(states)):
+        for feature in range(inputs.shape[0]):
+            inputs[feature, column] = table[states[column], feature]
+
+
+@njit(cache=True, error_model="numpy")
+def _value(
+    rows: Ints,
+    states: Ints,
+    online: Floats,
+    sizes: Ints,
+    table: Floats,
+    inputs: Floats,
+    hidden: Sequence[Floats],
+    values: Floats,
+) -> None:
+    for at in range(len(rows)):
+        _look_up(states[at : at + 1], table, inputs)
+        forward(online[rows[at]], sizes, inputs, hidden, values[at].reshape(-1, 1))
+
+
+@njit(cache=True, error_model="numpy")
+def _update(
+    rows: Ints,
+    learners: tuple[Floats, Floats, Floats],
+    whole: tuple[NDArray[np.integer[Any]], NDArray[np.integer[Any]]],
+    real: tuple[Floats, Floats, Floats, Floats, Floats],
+    imitated: Bools,
+    firsts: Ints,
+    updates: Ints,
+    sizes: Ints,
+    table: Floats,
+    target_values: Floats,
+    inputs: Floats,
+    next_inputs: Floats,
+    now: Sequence[Floats],
+    following: Sequence[Floats],
+    scratch: Sequence[Floats],
+    slope: Floats,
+    gradient: Floats,
+    rule: tuple[float, float, float],
+) -> None:
+    """``update``, row by row; what is in the tuples is named as it is unpacked."""
+    online, first_moment, second_moment = learners
+    states, actions = whole
+    rewards, discounts, weights, values, errors = real
+    rate, delta, margin = rule
+    batch = actions.shape[1]
+    next_values, own_values = np.empty_like(slope), np.empty_like(slope)
+    for at in range(len(rows)):
+        row = rows[at]
+        _look_up(states[0, at] + firsts[at], table, inputs)
+        _look_up(states[1, at] + firsts[at], table, next_inputs)
+        forward(online[row], sizes, next_inputs, following, next_values)
+        forward(online[row], sizes, inputs, now, own_values)
+        slope[:] = np.float32(0)
+        for column in range(batch):
+            action = actions[at, column]
+            next_target = target_values[row, states[1, at, column]]
+            target = td_target(rewards[at, column], discounts[at, column], next_values[:, column], next_target)
+            values[at, column] = own_values[action, column]
+            error = own_values[action, column] - target
+            errors[at, column] = error
+            slope[action, column] = min(max(error, -delta), delta) * weights[at, column] / batch
+            if imitated[at, column]:
+                other = rival(own_values[:, column], action, margin)
+                if other != action:
+                    slope[other, column] += np.float32(1 / batch)
+                    slope[action, column] -= np.float32(1 / batch)
+        backward(online[row], sizes, inputs, now, slope, gradient, scratch)
+        adam_step(online[row], first_moment[row], second_moment[row], gradient, updates[row], rate)

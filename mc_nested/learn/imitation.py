@@ -5,6 +5,7 @@ best episode: max_a [Q(s, a) + margin · (a ≠ a*)] - Q(s, a*).
 """
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 from mc_nested.learn.networks import Floats
@@ -25,16 +26,16 @@ class BestEpisodes:
 
     def __init__(self, rows: int, longest: int, share: int) -> None:
         self.share = share
-        whole = [np.zeros((rows, longest), dtype=np.int64) for _ in range(3)]
         real = [np.zeros((rows, longest), dtype=np.float32) for _ in range(2)]
-        self._kept = Transitions(whole[0], whole[1], real[0], whole[2], real[1])
+        whole = np.zeros((2, rows, longest), dtype=np.int64), np.zeros((rows, longest), dtype=np.int64)
+        self._kept = Transitions(*whole, *real)
         self._length = np.zeros(rows, dtype=np.int64)
 
     def keep(self, row: int, episode: Transitions) -> None:
         """Take the episode (steps,) as that row's best."""
         self._length[row] = len(episode.actions)
         for kept, new in zip(self._kept, episode, strict=True):
-            kept[row, : len(new)] = new
+            kept[..., row, : new.shape[-1]] = new
 
     def forget(self, row: int) -> None:
         """That row's best episode is another row's now."""
@@ -51,17 +52,19 @@ class BestEpisodes:
         imitated[:, :share] = length[:, None] > 0
         steps = (uniforms[:, :share] * length[:, None]).astype(np.int64)
         for kept, own in zip(self._kept, drawn, strict=True):
-            own[:, :share] = np.where(imitated[:, :share], kept[rows[:, None], steps], own[:, :share])
+            own[..., :share] = np.where(imitated[:, :share], kept[..., rows[:, None], steps], own[..., :share])
         return imitated
 
 
-def margin_slope(values: Floats, actions: NDArray[np.integer], margin: float) -> Floats:
-    """The large-margin loss's gradient (k, actions, batch) at the values, for the actions (k, batch) to be greedy."""
-    own = actions[:, None].astype(np.int64)
-    raised = values + np.float32(margin)
-    np.put_along_axis(raised, own, np.take_along_axis(values, own, axis=1), axis=1)
-    slope = np.zeros_like(values)
-    np.put_along_axis(slope, raised.argmax(axis=1)[:, None], np.float32(1), axis=1)
-    taken = np.take_along_axis(slope, own, axis=1)
-    np.put_along_axis(slope, own, taken - 1, axis=1)
-    return slope
+@njit(cache=True, error_model="numpy")
+def rival(values: Floats, action: int, margin: float) -> int:
+    """The action that the large-margin loss pushes down for ``action`` to be greedy, of values (actions,).
+
+    ``action`` itself where it is greedy by the margin already.
+    """
+    highest = action
+    for other in range(len(values)):
+        own = values[highest] + (margin if highest != action else 0.0)
+        if other != action and values[other] + margin > own:
+            highest = other
+    return highest

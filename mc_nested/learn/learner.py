@@ -22,9 +22,6 @@ Ints = NDArray[np.int64]
 CHOICE_NUMBERS = 2
 """Random numbers that one ε-greedy choice takes: whether to explore, and which action then."""
 
-MOST_OF_THEM = 0.75
-"""From this share of the rows on, all are updated as they lie and the others' updates dropped: cheaper than copies."""
-
 
 class Learner:
     """Rows of one agent, a run or a part of a run each; every row learns from its own transitions only.
@@ -43,10 +40,11 @@ class Learner:
         streams: list[np.random.Generator],
         imitation: tuple[Imitation, int] | None = None,
     ) -> None:
-        sizes = (space.inputs, *preset.hidden, space.actions)
+        sizes = space.network(preset.hidden)
         update = preset.update
         self.space = space
         self.ddqn = DDQN(
+            space,
             sizes,
             UpdateRule(
                 update.batch,
@@ -62,25 +60,22 @@ class Learner:
         self.priorities = Priorities(space.rows, FIRST_ROOM, wanted.alpha, wanted.beta) if wanted else None
         self._gamma = update.gamma
         self._learning_starts = update.learning_starts
-        self._every_row = np.arange(space.rows)
         self.best = BestEpisodes(space.rows, imitation[1], imitation[0].batch) if imitation else None
 
     def act(self, states: Ints, epsilon: Floats, uniforms: Floats, rows: Ints | None = None) -> Ints:
         """ε-greedy actions (k,) for states (k, width), ε (k,) and uniform numbers (k, 2); all rows unless named."""
-        inputs = self.space.inputs_for(self.space.number(states)[:, None], self._every_row if rows is None else rows)
+        values = self.ddqn.q_values(self.space.number(states), rows)
         random = (uniforms[:, 1] * self.space.actions).astype(np.int64)
-        return np.where(uniforms[:, 0] < epsilon, random, self.ddqn.q_values(inputs, rows).argmax(-1))
+        return np.where(uniforms[:, 0] < epsilon, random, values.argmax(-1))
 
     def remember(
         self, rows: Ints, states: Ints, actions: Ints, rewards: Floats, next_states: Ints, terminated: Bools
     ) -> None:
         """Keep one transition for each of the named rows (k,), states (k, width); termination ends the bootstrap."""
-        number = self.space.number
         if self.priorities and len(rows):
             self.priorities.add(rows, self.replay.added[rows] % self.replay.capacity)
-        self.replay.add(
-            rows, Transitions(number(states), actions, rewards, number(next_states), self.discounts(terminated))
-        )
+        both = self.space.number(np.stack((states, next_states)))
+        self.replay.add(rows, Transitions(both, actions, rewards, self.discounts(terminated)))
 
     def discounts(self, terminated: Bools) -> Floats:
         """What the value of the next state counts: γ, and nothing behind the end."""
@@ -91,16 +86,12 @@ class Learner:
         ready = self.replay.added[rows] >= self._learning_starts
         if not ready.all():
             rows, uniforms = rows[ready], uniforms[ready]
-        if len(rows) >= MOST_OF_THEM * self.space.rows:
-            active = np.zeros(self.space.rows, dtype=np.bool_)
-            active[rows] = True
-            numbers = np.zeros((self.space.rows, uniforms.shape[1]))
-            numbers[rows] = uniforms
-            places, batch = self._batch(self._every_row, numbers)
-            self._learnt(rows, places[rows], self.ddqn.update_all(batch, active)[rows])
-        elif len(rows):
+        if len(rows):
             places, batch = self._batch(rows, uniforms)
-            self._learnt(rows, places, self.ddqn.update_some(rows, batch))
+            errors = self.ddqn.update(rows, batch)
+            if self.priorities:
+                drawn = slice(self.best.share if self.best else 0, None)
+                self.priorities.learnt(rows, places[:, drawn], errors[:, drawn])
 
     def state(self) -> Arrays:
         """The networks, their optimisers and the priorities, by name: with the replay, all that later updates need."""
@@ -112,19 +103,13 @@ class Learner:
         if self.priorities:
             self.priorities.load(part_of(state, "priorities"))
 
-    def _learnt(self, rows: Ints, places: Ints, errors: NDArray[np.float32]) -> None:
-        if self.priorities:
-            drawn = slice(self.best.share if self.best else 0, None)
-            self.priorities.learnt(rows, places[:, drawn], errors[:, drawn])
-
     def _batch(self, rows: Ints, uniforms: Floats) -> tuple[Ints, Batch]:
         draw = self.priorities.draw if self.priorities else self.replay.draw
         places = draw(rows, uniforms)
         drawn = self.replay.at(rows, places)
-        weights = self.priorities.weights(rows, places, self.replay.sizes()[rows]) if self.priorities else None
-        imitated = self.best.mix_in(rows, drawn, uniforms) if self.best else None
-        if weights is not None and imitated is not None:
+        imitated = self.best.mix_in(rows, drawn, uniforms) if self.best else np.zeros(places.shape, dtype=np.bool_)
+        weights = np.ones(places.shape, np.float32)
+        if self.priorities:
+            weights = self.priorities.weights(rows, places, self.replay.sizes()[rows])
             weights[imitated] = 1.0
-        both = np.stack((drawn.states, drawn.next_states))
-        inputs = self.space.inputs_for(both, rows)
-        return places, Batch(inputs, drawn.actions, drawn.rewards, drawn.discounts, imitated, weights)
+        return places, Batch(drawn.states, drawn.actions, drawn.rewards, drawn.discounts, imitated, weights)

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba import njit
 from numpy.typing import NDArray
 
 FIRST_ROOM = 4096
@@ -11,15 +12,15 @@ FIRST_ROOM = 4096
 
 
 class Transitions(NamedTuple):
-    """Transitions side by side, an array of each part in the caller's shape; states are numbers (states.py).
+    """Transitions side by side, an array of each part in the caller's shape.
 
-    ``discounts`` is what the value of the next state counts: γ, or 0 where the episode terminated.
+    ``states`` (2, …) holds every s and every s', as numbers (states.py); ``discounts`` is what the value of s' counts:
+    γ, or 0 where the episode terminated.
     """
 
     states: NDArray[np.integer[Any]]
     actions: NDArray[np.integer[Any]]
     rewards: NDArray[Any]
-    next_states: NDArray[np.integer[Any]]
     discounts: NDArray[Any]
 
 
@@ -47,10 +48,7 @@ class Replay:
         """Store one transition for each of the named runs (k,)."""
         if len(rows) and self.added[rows].max() >= self._room < self.capacity:
             self._grow()
-        places = rows * self._room + self.added[rows] % self.capacity
-        for kept, new in zip(self._kept, transitions, strict=True):
-            kept.reshape(-1)[places] = new
-        self.added[rows] += 1
+        _store(rows, self.added, self.capacity, self._kept, transitions)
 
     def draw(self, rows: NDArray[np.int64], uniforms: NDArray[np.float64]) -> NDArray[np.int64]:
         """Places that the numbers in [0, 1) point at, (k, batch), each of the named runs' (k,) as likely as another."""
@@ -60,8 +58,14 @@ class Replay:
 
     def at(self, rows: NDArray[np.int64], places: NDArray[np.int64]) -> Transitions:
         """The transitions at those places (k, batch) of the named runs (k,); blank ones of a run that holds none."""
-        flat = rows[:, None] * self._room + places
-        return Transitions(*(kept.reshape(-1).take(flat) for kept in self._kept))
+        drawn = Transitions(
+            states=np.empty((2, *places.shape), dtype=np.int64),
+            actions=np.empty(places.shape, dtype=np.int64),
+            rewards=np.empty(places.shape, dtype=np.float32),
+            discounts=np.empty(places.shape, dtype=np.float32),
+        )
+        _gather(rows, places, self._kept, drawn)
+        return drawn
 
     def added_since(self, marks: NDArray[np.int64]) -> dict[str, NDArray[Any]]:
         """What was added to each run since it had added so many (runs,), by name, oldest first and run behind run.
@@ -106,9 +110,36 @@ class Replay:
 
     def _memory(self, runs: int, room: int) -> Transitions:
         return Transitions(
-            states=np.zeros((runs, room), dtype=self._number),
+            states=np.zeros((runs, room, 2), dtype=self._number),
             actions=np.zeros((runs, room), dtype=np.uint8),
             rewards=np.zeros((runs, room), dtype=np.float32),
-            next_states=np.zeros((runs, room), dtype=self._number),
             discounts=np.zeros((runs, room), dtype=np.float32),
         )
+
+
+@njit(cache=True, error_model="numpy")
+def _store(
+    rows: NDArray[np.int64], added: NDArray[np.int64], capacity: int, kept: Transitions, new: Transitions
+) -> None:
+    for at in range(len(rows)):
+        row = rows[at]
+        place = added[row] % capacity
+        kept.states[row, place, 0] = new.states[0, at]
+        kept.states[row, place, 1] = new.states[1, at]
+        kept.actions[row, place] = new.actions[at]
+        kept.rewards[row, place] = new.rewards[at]
+        kept.discounts[row, place] = new.discounts[at]
+        added[row] += 1
+
+
+@njit(cache=True, error_model="numpy")
+def _gather(rows: NDArray[np.int64], places: NDArray[np.int64], kept: Transitions, drawn: Transitions) -> None:
+    for at in range(len(rows)):
+        row = rows[at]
+        for column in range(places.shape[1]):
+            place = places[at, column]
+            drawn.states[0, at, column] = kept.states[row, place, 0]
+            drawn.states[1, at, column] = kept.states[row, place, 1]
+            drawn.actions[at, column] = kept.actions[row, place]
+            drawn.rewards[at, column] = kept.rewards[row, place]
+            drawn.discounts[at, column] = kept.discounts[row, place]

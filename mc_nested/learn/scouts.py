@@ -82,9 +82,8 @@ class Scouts:
     def _transitions(self, walk: list[Step]) -> Transitions:
         terminated = np.array([step.terminated for step in walk], dtype=np.bool_)
         return Transitions(
-            np.array([step.state for step in walk], dtype=np.int64),
+            np.array([[step.state, step.next_state] for step in walk], dtype=np.int64).T,
             np.array([step.action for step in walk], dtype=np.int64),
             np.array([step.reward for step in walk]),
-            np.array([step.next_state for step in walk], dtype=np.int64),
             self._low.discounts(terminated),
         )

@@ -4,18 +4,21 @@ A state is a few small integers; all of a learner's possible states are enumerat
 A replay then keeps one number a state, and a batch is encoded by one look into the table.
 """
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.learn.networks import Floats
+from mc_nested.learn.networks import Floats, Sizes
 
 Ints = NDArray[np.int64]
 
 
 class StateSpace:
     """What the rows of a learner see and do.
+
+    ``table`` (…, inputs + 1) has a line of features for each state of each kind of row, each line ending in a 1.
 
     Args:
         highest: the highest value of each integer of a state, (rows, width); the lowest is 0.
@@ -31,10 +34,10 @@ class StateSpace:
         self._place_values = np.append(radix[:0:-1].cumprod()[::-1], 1)
         every = np.stack(np.unravel_index(np.arange(self.count), radix), axis=1)
         kinds, kind_of = np.unique(highest, axis=0, return_inverse=True)
-        self._table = np.concatenate(
+        self.table = np.concatenate(
             [scaled(every, kind) if encoding == "scaled" else one_hot(every, radix) for kind in kinds]
         )
-        self.inputs = self._table.shape[1] - 1
+        self.inputs = self.table.shape[1] - 1
         self._first = kind_of.reshape(-1) * self.count
 
     def number(self, states: NDArray[np.integer[Any]]) -> Ints:
@@ -42,11 +45,18 @@ class StateSpace:
         numbers: Ints = np.einsum("...w,w->...", states, self._place_values)
         return numbers
 
-    def inputs_for(self, numbers: NDArray[np.integer[Any]], rows: Ints) -> Floats:
-        """What networks of the named rows (k,) take for numbered states (…, k, batch): (…, k, inputs + 1, batch)."""
-        features = self._table.take(numbers + self._first[rows, None], axis=0)
-        columns: Floats = features.swapaxes(-1, -2)
-        return columns
+    def network(self, hidden: Sequence[int]) -> Sizes:
+        """The widths of a network for these states and actions."""
+        return (self.inputs, *hidden, self.actions)
+
+    def first_of(self, rows: Ints) -> Ints:
+        """Where in ``table`` the states of the named rows (k,) begin, (k,)."""
+        return self._first[rows]
+
+    def features_of(self, row: int) -> Floats:
+        """What that row's network takes for every state, by its number: (states, inputs + 1), the last a 1."""
+        first = self._first[row]
+        return self.table[first : first + self.count]
 
 
 def scaled(states: NDArray[np.integer[Any]], highest: Ints) -> Floats:

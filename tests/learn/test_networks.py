@@ -1,4 +1,4 @@
-"""Batched networks against torch's own autograd, and their initial parameters."""
+"""Networks against torch's own autograd, and their initial parameters."""
 
 import numpy as np
 import pytest
@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 from torch import Tensor, nn
 
 from mc_nested.learn.networks import (
-    Activations,
     Sizes,
     backward,
     forward,
+    hidden_for,
     initial_parameters,
     parameter_count,
-    split,
+    tanh_in_place,
 )
 
 
@@ -33,14 +33,12 @@ def test_initial_parameters_are_uniform_within_one_over_root_of_the_inputs() -> 
     assert np.abs(last).max() > 0.045
 
 
-def test_layers_are_views_of_the_flat_parameters() -> None:
-    flat = np.zeros((2, parameter_count((3, 4, 2))), np.float32)
-    hidden, last = split(flat, (3, 4, 2))
-    assert hidden.shape == (2, 4, 3 + 1)
-    assert last.shape == (2, 2, 4 + 1)
-    last[:, 1].fill(1.0)
-    assert flat[:, -5:].tolist() == [[1.0] * 5] * 2
-    assert flat[:, :-5].any() == np.False_
+@given(st.lists(st.floats(-30, 30, width=32), min_size=1, max_size=40))
+def test_tanh_is_right_to_the_last_bits(values: list[float]) -> None:
+    array = np.array([values], np.float32)
+    expected = np.tanh(array.astype(np.float64))
+    tanh_in_place(array)
+    np.testing.assert_allclose(array, expected, rtol=3e-7, atol=1e-30)
 
 
 def reference(flat: Tensor, sizes: Sizes, inputs: Tensor) -> Tensor:
@@ -58,43 +56,27 @@ def reference(flat: Tensor, sizes: Sizes, inputs: Tensor) -> Tensor:
 
 
 def columns(inputs: Tensor) -> NDArray[np.float32]:
-    """(…, batch, inputs) as ``forward`` takes them: states as columns, a 1 below each."""
-    ones = torch.ones(*inputs.shape[:-1], 1)
-    return torch.cat((inputs, ones), -1).transpose(-1, -2).numpy()
+    """(batch, inputs) as ``forward`` takes them: states as columns, a 1 below each."""
+    return np.ascontiguousarray(torch.cat((inputs, torch.ones(len(inputs), 1)), 1).numpy().T)
 
 
 @pytest.mark.parametrize("sizes", [(4, 32, 32, 8), (3, 5, 2), (2, 6, 5, 4, 3)])
 def test_values_and_gradients_are_those_of_autograd(sizes: Sizes) -> None:
-    networks, batch = 3, 7
+    batch = 7
     random = torch.Generator().manual_seed(1)
-    flat = torch.randn(networks, parameter_count(sizes), generator=random)
-    inputs = torch.randn(networks, batch, sizes[0], generator=random)
-    output_gradient = torch.randn(networks, batch, sizes[-1], generator=random)
+    parameters = torch.randn(parameter_count(sizes), generator=random)
+    inputs = torch.randn(batch, sizes[0], generator=random)
+    slope = torch.randn(batch, sizes[-1], generator=random)
 
-    activations = Activations((networks,), batch, sizes)
-    layers = split(flat.numpy(), sizes)
-    values = torch.from_numpy(forward(layers, columns(inputs), activations)).transpose(1, 2)
-    gradient = torch.zeros_like(flat)
-    scratch = [np.empty((networks, width, batch), np.float32) for width in sizes[1:-1]]
-    slope = output_gradient.transpose(1, 2).contiguous().numpy()
-    backward(layers, columns(inputs), activations.hidden, slope, split(gradient.numpy(), sizes), scratch)
+    widths, hidden, values = np.array(sizes), hidden_for(sizes, batch), np.empty((sizes[-1], batch), np.float32)
+    forward(parameters.numpy(), widths, columns(inputs), hidden, values)
+    gradient, scratch = np.empty(parameter_count(sizes), np.float32), hidden_for(sizes, batch)
+    downwards = np.ascontiguousarray(slope.numpy().T)
+    backward(parameters.numpy(), widths, columns(inputs), hidden, downwards, gradient, scratch)
 
-    for network in range(networks):
-        parameters = flat[network].clone().requires_grad_()
-        expected = reference(parameters, sizes, inputs[network])
-        expected.backward(output_gradient[network])  # type: ignore[no-untyped-call]  # torch leaves it untyped
-        torch.testing.assert_close(values[network], expected.detach())
-        torch.testing.assert_close(gradient[network], parameters.grad, rtol=1e-4, atol=5e-5)
-
-
-@given(networks=st.integers(1, 6), batches=st.integers(1, 3))
-def test_a_networks_values_are_the_same_to_the_bit_whatever_lies_beside_it(networks: int, batches: int) -> None:
-    sizes, random = (4, 32, 32, 8), np.random.default_rng(networks)
-    flat = np.stack([initial_parameters(sizes, random) for _ in range(networks)])
-    inputs = np.ones((batches, networks, 5, 32), np.float32)
-    inputs[:, :, :-1] = random.uniform(-1, 1, (batches, networks, 4, 32))
-    together = forward(split(flat, sizes), inputs, Activations((batches, networks), 32, sizes))
-    for network in range(networks):
-        for batch in range(batches):
-            one = forward(split(flat[[network]], sizes), inputs[batch, [network]], Activations((1,), 32, sizes))
-            np.testing.assert_array_equal(one[0], together[batch, network])
+    leaf = parameters.clone().requires_grad_()
+    expected = reference(leaf, sizes, inputs)
+    expected.backward(slope)  # type: ignore[no-untyped-call]  # torch leaves it untyped
+    assert leaf.grad is not None
+    np.testing.assert_allclose(values.T, expected.detach().numpy(), rtol=1e-5, atol=1e-5)
+    np.testing.assert_allclose(gradient, leaf.grad.numpy(), rtol=1e-4, atol=5e-5)

@@ -81,7 +81,7 @@ def test_excursions_that_do_not_fit_the_rest_are_one_line(change: tuple[str, str
 
 
 def test_an_unknown_name_lists_the_known_ones() -> None:
-    with pytest.raises(PresetError, match="no preset 'papr': name one of paper"):
+    with pytest.raises(PresetError, match="no preset 'papr': name one of live, paper, tuned"):
         load_preset("papr")
 
 

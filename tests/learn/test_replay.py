@@ -13,7 +13,7 @@ from mc_nested.learn.replay import Replay, Transitions
 def transition(*numbers: int) -> Transitions:
     """A transition for each number, made so that every field tells the number."""
     n = np.array(numbers)
-    return Transitions(n, n % 8, n / 2, n + 2, n / 4)
+    return Transitions(np.stack([n, n + 2]), n % 8, n / 2, n / 4)
 
 
 def drawn_from(replay: Replay, rows: NDArray[np.int64], uniforms: NDArray[np.float64]) -> Transitions:
@@ -22,10 +22,10 @@ def drawn_from(replay: Replay, rows: NDArray[np.int64], uniforms: NDArray[np.flo
 
 def numbers(drawn: Transitions) -> list[list[int]]:
     """The numbers that drawn transitions were made of, every field checked."""
-    found = drawn.states
+    found, following = drawn.states
     np.testing.assert_array_equal(drawn.actions, found % 8)
     np.testing.assert_array_equal(drawn.rewards, found / 2)
-    np.testing.assert_array_equal(drawn.next_states, found + 2)
+    np.testing.assert_array_equal(following, found + 2)
     np.testing.assert_array_equal(drawn.discounts, found / 4)
     return [[int(number) for number in row] for row in found]
 
@@ -111,13 +111,15 @@ def test_what_was_added_in_parts_is_the_whole(parts: list[int], capacity: int) -
 def test_a_run_that_holds_nothing_yields_blanks() -> None:
     replay = Replay(runs=2, states=200, capacity=10)
     replay.add(np.array([1]), transition(8))
-    assert drawn_from(replay, np.array([0, 1]), np.array([[0.0], [0.9]])).states.tolist() == [[0], [8]]
+    assert drawn_from(replay, np.array([0, 1]), np.array([[0.0], [0.9]])).states[0].tolist() == [[0], [8]]
 
 
 @pytest.mark.parametrize(("states", "bytes_a_number"), [(256, 2), (65_535, 2), (200_000, 4)])
 def test_states_are_kept_in_as_few_bytes_as_their_number_takes(states: int, bytes_a_number: int) -> None:
     replay = Replay(runs=1, states=states, capacity=10)
-    replay.add(np.array([0]), Transitions(*(np.array([v]) for v in (states - 1, 7, 1.0, states - 1, 0.95))))
+    replay.add(
+        np.array([0]), Transitions(np.full((2, 1), states - 1), np.array([7]), np.array([1.0]), np.array([0.95]))
+    )
     kept = replay.added_since(np.array([0]))
     assert kept["states"].itemsize == bytes_a_number
-    assert kept["next_states"].tolist() == [states - 1]
+    assert kept["states"].tolist() == [[states - 1] * 2]

@@ -35,9 +35,11 @@ def test_three_materials_lie_on_one_dimension() -> None:
 def test_each_row_is_scaled_by_its_own_scenario(rows: list[int]) -> None:
     blocks = np.array([11, 16])
     space = StateSpace(np.array([[14, 14, 11], [14, 14, 16]]), actions=8)
-    states = np.array([[[0, 14, blocks[row]], [7, 7, 0]] for row in rows])
-    inputs = space.inputs_for(space.number(states), np.array(rows))
-    assert inputs.tolist() == [[[-1.0, 0.0], [1.0, 0.0], [1.0, -1.0], [1.0, 1.0]]] * len(rows)
+    states = space.number(np.array([[0, 14, blocks[row]] for row in rows]))
+    features = space.table[states + space.first_of(np.array(rows))]
+    assert features.tolist() == [[-1.0, 1.0, 1.0, 1.0]] * len(rows)
+    for row, state in zip(rows, states, strict=True):
+        assert space.features_of(row)[state].tolist() == [-1.0, 1.0, 1.0, 1.0]
 
 
 def test_one_hot_gives_each_value_an_input_of_its_own() -> None:
@@ -47,6 +49,6 @@ def test_one_hot_gives_each_value_an_input_of_its_own() -> None:
 def test_one_hot_networks_of_other_scenarios_have_inputs_enough_for_all() -> None:
     space = StateSpace(np.array([[14, 14, 11], [14, 14, 16]]), actions=8, encoding="one-hot")
     assert space.inputs == 15 + 15 + 17
-    inputs = space.inputs_for(space.number(np.array([[[14, 0, 11]], [[14, 0, 11]]])), np.array([0, 1]))
-    assert inputs[0].tolist() == inputs[1].tolist()
-    assert np.flatnonzero(inputs[0, :, 0]).tolist() == [14, 15, 30 + 11, 47]
+    state = space.number(np.array([14, 0, 11]))
+    for row in (0, 1):
+        assert np.flatnonzero(space.features_of(row)[state]).tolist() == [14, 15, 30 + 11, 47]
