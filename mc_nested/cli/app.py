@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from mc_nested.cli import calibrate, evaluate, play, read, scenarios, train
+from mc_nested.cli import calibrate, evaluate, play, read, reproduce, scenarios, sweep, train
 from mc_nested.cli.interrupt import INTERRUPTED, Stopped
 from mc_nested.errors import McNestedError
 from mc_nested.live.ending import EndedBySignal
@@ -28,6 +28,8 @@ def version(show: Annotated[bool, typer.Option("--version", help="print the vers
 
 
 app.command()(train.train)
+app.command()(reproduce.reproduce)
+app.command()(sweep.sweep)
 app.command()(evaluate.evaluate)
 app.command()(play.play)
 app.command()(scenarios.scenarios)

@@ -25,9 +25,12 @@ def train(unit: Unit, folder: Path) -> UnitOutcome:
     return outcome
 
 
-@pytest.mark.parametrize("agent", ["nested", "hierarchical", "single"])
-def test_what_comes_out_does_not_depend_on_the_cut(agent: str, tmp_path: Path) -> None:
-    runs = runs_of([agent], [DOT, BAR], 3, small_preset())
+@pytest.mark.parametrize(
+    ("agent", "encoding"),
+    [("nested", "scaled"), ("hierarchical", "scaled"), ("single", "scaled"), ("nested", "one-hot")],
+)
+def test_what_comes_out_does_not_depend_on_the_cut(agent: str, encoding: str, tmp_path: Path) -> None:
+    runs = runs_of([agent], [DOT, BAR], 3, small_preset().model_copy(update={"encoding": encoding}))
     found: list[dict[tuple[str, int], RunOutcome]] = []
     for parts in (1, 4):
         found.append({})

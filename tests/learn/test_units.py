@@ -40,7 +40,7 @@ def in_order(units: list[Unit]) -> list[Run]:
 def test_every_run_is_in_one_unit_and_the_longest_unit_comes_first(runs: list[Run], parts: int) -> None:
     units = cut_into_units(runs, parts, seed=0)
     assert in_order(units) == runs
-    assert [unit.episodes for unit in units] == sorted((unit.episodes for unit in units), reverse=True)
+    assert [unit.work for unit in units] == sorted((unit.work for unit in units), reverse=True)
     assert len({unit.name for unit in units}) == len(units)
 
 
@@ -69,14 +69,21 @@ def test_the_papers_experiment_on_two_cores() -> None:
     units = cut_into_units(runs_of(list(FORMS), scenarios, 10, load_preset("paper")), 2, seed=0)
     assert [(unit.groups[0], len(unit.trials)) for unit in units] == [
         ("nested", 30),
+        ("hierarchical", 19),
         ("single", 30),
-        ("hierarchical", 15),
-        ("hierarchical", 15),
+        ("hierarchical", 11),
     ]
 
 
+def test_one_hot_only_scenarios_of_as_many_blocks_train_together() -> None:
+    one_hot = small_preset().model_copy(update={"encoding": "one-hot"})
+    scenarios = [load_scenario(name) for name in ("line", "zigzag", "diamond")]
+    units = cut_into_units(runs_of(["nested"], scenarios, 2, one_hot), 1, seed=0)
+    assert [[scenario.name for scenario in unit.scenarios[::2]] for unit in units] == [["line", "zigzag"], ["diamond"]]
+
+
 def test_a_long_run_weighs_as_much_as_ten_short_ones() -> None:
-    runs = runs_of(["nested"], [DOT], 10, small_preset(10)) + runs_of(["single"], [DOT], 2, small_preset(100))
+    runs = runs_of(["nested"], [DOT], 10, small_preset(10)) + runs_of(["nested"], [DOT], 2, small_preset(100))
     assert [len(unit.trials) for unit in cut_into_units(runs, 3, seed=0)] == [10, 1, 1]
 
 

@@ -1,0 +1,182 @@
+"""``mc-nested reproduce``: the paper's experiment, every agent on every design, and what is left of its claims."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from mc_nested.arena.builder import build
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios, table_of
+from mc_nested.cli.experiment import (
+    MOST_TRIALS,
+    JobsOption,
+    Outcomes,
+    OutOption,
+    ResumeOption,
+    SeedOption,
+    cores,
+    new_folder_needed,
+    refuse_beside_resume,
+    trained,
+)
+from mc_nested.errors import UserError
+from mc_nested.learn.agents import FORMS
+from mc_nested.learn.experiment_folder import ExperimentFolder
+from mc_nested.learn.preset import MOST, load_preset
+from mc_nested.learn.reproduction import LONGER, LONGER_AGENTS, LONGER_SCENARIOS, ReproduceConfig
+from mc_nested.report.results import Cost, Evaluation, Results
+from mc_nested.report.verdicts import JudgedClaim
+from sim.grid import arena_env
+
+VERB = "reproduce"
+TRIALS, PRESET = 10, "paper"
+
+
+def reproduce(
+    context: typer.Context,
+    trials: Annotated[
+        int | None, typer.Option(min=1, max=MOST_TRIALS, help=f"of each agent on each design [{TRIALS}]")
+    ] = None,
+    episodes: Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial [the preset's]")] = None,
+    seed: SeedOption = None,
+    scenario: Annotated[
+        list[str] | None, typer.Option(metavar="NAME|FILE", help="a design, as often as you like [the paper's three]")
+    ] = None,
+    agent: Annotated[
+        list[str] | None, typer.Option(help=f"an agent, as often as you like [{', '.join(FORMS)}]")
+    ] = None,
+    preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=f"hyper-parameters [{PRESET}]")] = None,
+    longer: Annotated[
+        int | None,
+        typer.Option(
+            min=2, max=1000, help="also train nested and hierarchical on zigzag and diamond so many times as long [no]"
+        ),
+    ] = None,
+    jobs: JobsOption = None,
+    out: OutOption = None,
+    resume: ResumeOption = None,
+) -> None:
+    """Repeat the paper's experiment and put its claims to the test; Ctrl+C saves, and --resume goes on from there.
+
+    Writes figure5.png and figure5.svg, results.csv and report.md. The defaults take some minutes on two cores.
+    """
+    if resume is not None:
+        refuse_beside_resume(context.params)
+        _run(ExperimentFolder.open(resume, ReproduceConfig, VERB))
+        return
+    path = new_folder_needed(out)
+    for name in agent or ():
+        if name not in FORMS:
+            raise UserError(f"no agent {name!r}: choose one of {', '.join(FORMS)}")
+    chosen = load_preset(preset or PRESET)
+    config = ReproduceConfig(
+        agents=[name for name in FORMS if name in agent] if agent else list(FORMS),
+        trials=trials or TRIALS,
+        seed=seed or 0,
+        jobs=jobs or cores(),
+        longer=longer or 0,
+        preset_name=preset or PRESET,
+        preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
+        scenarios=[table_of(load_scenario(name)) for name in scenario or shipped_scenarios()],
+    )
+    if longer and not (config.longer_agents and config.longer_scenarios):
+        raise UserError(
+            f"--longer is for {' and '.join(LONGER_AGENTS)} on {' and '.join(LONGER_SCENARIOS)}: "
+            f"leave it out, or name one of each"
+        )
+    _run(ExperimentFolder.new(path, config, VERB))
+
+
+def _run(folder: ExperimentFolder[ReproduceConfig]) -> None:
+    outcomes = trained(folder)
+    results, longer = results_of(folder.config, outcomes)
+    # What tests and draws takes memory and a second to load: not while everything trains.
+    from mc_nested.report.reproduction import write_reproduction
+
+    with folder.writing():
+        claims = write_reproduction(folder.path, results, longer)
+    _print_verdicts(claims)
+    for what, name in (("figure", "figure5.png"), ("table", "results.csv"), ("report", "report.md")):
+        typer.echo(f"{what + ':':8}{folder.path / name}")
+
+
+def results_of(config: ReproduceConfig, outcomes: Outcomes) -> tuple[Results, Results | None]:
+    """The experiment's results, and those of its longer runs if there are any."""
+    usual = _results(config, config.agents, [table.name for table in config.scenarios], outcomes, "")
+    if not config.longer:
+        return usual, None
+    return usual, _results(config, config.longer_agents, config.longer_scenarios, outcomes, LONGER)
+
+
+def _results(
+    config: ReproduceConfig, agents: Sequence[str], names: Sequence[str], outcomes: Outcomes, suffix: str
+) -> Results:
+    evaluations: dict[tuple[str, str, int], list[Evaluation]] = {}
+    costs: dict[tuple[str, str], list[Cost]] = {(agent, name): [] for agent in agents for name in names}
+    for unit, outcome in outcomes:
+        updates = sum(run.updates for run in outcome.runs)
+        for group, scenario, trial, run in zip(unit.groups, unit.scenarios, unit.trials, outcome.runs, strict=True):
+            agent = group.removesuffix(LONGER)
+            if group != agent + suffix:
+                continue
+            evaluations[agent, scenario.name, trial] = [
+                Evaluation(agent, scenario.name, trial, row.episode, row.score, row.material, row.steps)
+                for row in run.evaluations
+            ]
+            seconds = outcome.seconds * run.updates / updates if updates else 0.0
+            costs[agent, scenario.name].append(
+                Cost(agent, scenario.name, outcome.networks, outcome.parameters, run.updates, run.env_steps, seconds)
+            )
+    scenarios = [scenario for scenario in config.loaded_scenarios() if scenario.name in names]
+    preset = config.longer_preset if suffix else config.preset
+    return Results(
+        agents=agents,
+        scenarios=names,
+        trials=config.trials,
+        episodes=preset.episodes,
+        evaluate_every=preset.evaluate_every,
+        seed=config.seed,
+        preset=Path(config.preset_name).stem,
+        optimum={scenario.name: scenario.optimum for scenario in scenarios},
+        builder={scenario.name: builders_score(scenario) for scenario in scenarios},
+        # In an order that doesn't depend on how the runs were shared out.
+        evaluations=[
+            row
+            for agent in agents
+            for name in names
+            for trial in range(config.trials)
+            for row in evaluations[agent, name, trial]
+        ],
+        costs=[_sum(own) for own in costs.values()],
+    )
+
+
+def _sum(costs: Sequence[Cost]) -> Cost:
+    return costs[0]._replace(
+        updates=sum(cost.updates for cost in costs),
+        env_steps=sum(cost.env_steps for cost in costs),
+        seconds=sum(cost.seconds for cost in costs),
+    )
+
+
+def builders_score(scenario: Scenario) -> float:
+    """What the scripted builder scores within the step limit, with the best material."""
+    env = arena_env(scenario)
+    env.reset(options={"material": scenario.materials[scenario.best_material].name})
+    for action in build(scenario):
+        _, _, terminated, truncated, info = env.step(action)
+        if terminated or truncated:
+            return float(info["score"])
+    raise AssertionError("the builder places every block, which ends the episode")
+
+
+def _print_verdicts(claims: Sequence[JudgedClaim]) -> None:
+    table = Table("", "the paper's claim", "verdict", box=None, padding=(0, 1))
+    for judged in claims:
+        table.add_row(f"({judged.claim.letter})", Text(judged.claim.title), judged.verdict.value)
+    Console().print(table)

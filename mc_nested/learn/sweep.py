@@ -1,0 +1,119 @@
+"""A sensitivity run: every agent as the preset has it, and with one choice at a time made otherwise (variants.toml)."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from importlib import resources
+from typing import Annotated, Any
+
+import tomlkit
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import LONGEST, scenario_of, table_of
+from mc_nested.errors import PresetError
+from mc_nested.learn.agents import FORMS, Form
+from mc_nested.learn.experiment_folder import ExperimentConfig
+from mc_nested.learn.preset import Preset, parse_preset
+from mc_nested.learn.units import Run
+from mc_nested.toml_file import parse_toml
+
+FILE = "variants.toml"
+
+
+def _known_agent(name: str) -> str:
+    if name not in FORMS:
+        raise ValueError(f"must be one of {', '.join(FORMS)}")
+    return name
+
+
+class Variant(BaseModel):
+    """One choice made otherwise; what isn't given stays as it is. An empty choice is the base: nothing is otherwise."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    choice: str = ""
+    value: str = ""
+    agent: Annotated[str, AfterValidator(_known_agent)] = "nested"
+    needs: str | None = None
+    preset: dict[str, Any] = Field(default_factory=dict)
+    start: Annotated[list[int], Field(min_length=2, max_length=2)] | None = None
+    step_limit: Annotated[int, Field(ge=1, le=LONGEST)] | None = None
+    sees_choice: bool | None = None
+
+    @property
+    def name(self) -> str:
+        """What tells it from the others."""
+        return f"{self.choice}: {self.value}" if self.choice else f"base, {self.agent}"
+
+    def form(self) -> Form:
+        """The agent's form."""
+        form = FORMS[self.agent]
+        return form if self.sees_choice is None else replace(form, sees_choice=self.sees_choice)
+
+    def preset_from(self, base: Preset) -> Preset:
+        """The preset with its changes; PresetError where they don't fit."""
+        changed = _changed(base.model_dump(exclude_none=True), self.preset)
+        return parse_preset(tomlkit.dumps(changed), f"variant {self.name}")
+
+    def scenario_from(self, base: Scenario) -> Scenario:
+        """The scenario with its changes; ScenarioError where nobody could build it."""
+        start, limit = self.start or list(base.start), self.step_limit or base.step_limit
+        table = table_of(base).model_copy(update={"start": start, "step_limit": limit})
+        return scenario_of(table, f"variant {self.name}, scenario {base.name}")
+
+    def changes(self, preset: Preset, scenarios: list[Scenario]) -> bool:
+        """Whether anything is otherwise with it, and can be."""
+        if self.needs and getattr(preset, self.needs, None) is None:
+            return False
+        return (
+            self.preset_from(preset) != preset
+            or [self.scenario_from(scenario) for scenario in scenarios] != scenarios
+            or self.form() != FORMS[self.agent]
+        )
+
+
+class _Variants(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+    variants: list[Variant]
+
+
+class SweepConfig(ExperimentConfig):
+    """A sensitivity run: the variants, the base of each of their agents first."""
+
+    variants: Annotated[list[Variant], Field(min_length=1)]
+
+    def runs(self) -> list[Run]:
+        """Variant by variant, scenario by scenario, trial by trial; what differs in scenarios alone side by side."""
+        scenarios = self.loaded_scenarios()
+        runs = [
+            Run(variant.name, variant.form(), preset, changed, trial)
+            for variant in self.variants
+            for preset in [variant.preset_from(self.preset)]
+            for changed in [variant.scenario_from(scenario) for scenario in scenarios]
+            for trial in range(self.trials)
+        ]
+        kinds: list[tuple[Form, Preset]] = []
+        for run in runs:
+            if (run.form, run.preset) not in kinds:
+                kinds.append((run.form, run.preset))
+        return sorted(runs, key=lambda run: kinds.index((run.form, run.preset)))
+
+
+def shipped_variants(preset: Preset, scenarios: list[Scenario]) -> list[Variant]:
+    """The variants that come with the project, those that change anything there, with the base of each agent first."""
+    text = (resources.files("mc_nested.learn") / FILE).read_text("utf-8")
+    variants = [
+        variant
+        for variant in parse_toml(_Variants, text, FILE, PresetError).variants
+        if variant.changes(preset, scenarios)
+    ]
+    agents = list(dict.fromkeys(["nested", *(variant.agent for variant in variants)]))
+    return [*(Variant(agent=agent) for agent in agents), *variants]
+
+
+def _changed(base: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """The nested tables with some values otherwise."""
+    both = dict(base)
+    for key, value in changes.items():
+        both[key] = _changed(base.get(key) or {}, value) if isinstance(value, Mapping) else value
+    return both

@@ -1,0 +1,186 @@
+"""A unit on its way: trained tick by tick, saved once every evaluation interval, and what is left of it in the end."""
+
+import shutil
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from gymnasium.vector import VectorEnv
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from mc_nested.arena.vector import Ints
+from mc_nested.errors import RunError
+from mc_nested.learn.agents import Agent, view_of
+from mc_nested.learn.checkpoint import Arrays, Checkpoint, fingerprint
+from mc_nested.learn.evaluation import GreedyEpisode
+from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.units import Unit
+from mc_nested.learn.whole_file import written_whole
+
+OUTCOME = "outcome.json"
+
+
+class Evaluated(BaseModel):
+    """One greedy episode after ``episode`` training episodes; ``score`` is r_M."""
+
+    model_config = ConfigDict(frozen=True)
+
+    episode: int
+    score: float
+    material: str
+    steps: int
+
+
+class RunOutcome(BaseModel):
+    """What came out of one run: its evaluations in order, the score of the policy that it keeps, and what it took."""
+
+    model_config = ConfigDict(frozen=True)
+
+    evaluations: list[Evaluated]
+    score: float
+    updates: int
+    env_steps: int
+
+
+class UnitOutcome(BaseModel):
+    """What came out of a unit; ``networks`` and ``parameters`` are a run's, ``seconds`` those of computing of all."""
+
+    model_config = ConfigDict(frozen=True)
+
+    identity: str
+    networks: int
+    parameters: int
+    seconds: float
+    runs: list[RunOutcome]
+
+
+class UnitTraining:
+    """Trains a unit in its folder, from where it was last saved.
+
+    Args:
+        unit: what is trained.
+        folder: the unit's own; made at the first save.
+        env: an arena for each of its runs, as the simulator makes them.
+    """
+
+    def __init__(self, unit: Unit, folder: Path, env: VectorEnv[Ints, Ints, Any]) -> None:
+        self.unit = unit
+        agent = Agent(unit.form, unit.scenarios, unit.preset, unit.seed, unit.trials)
+        view = view_of(unit.form, env, unit.scenarios)
+        self.trainer = Trainer(view, unit.scenarios, agent, unit.preset, unit.seed)
+        self._folder = folder
+        self._checkpoint = Checkpoint(folder / "checkpoint", unit.identity())
+        self._seconds_before = 0.0
+        self._began = time.process_time()
+        if self._checkpoint.exists:
+            self._checkpoint.load_into(self)
+        self._saved_at = self.trainer.episodes_done.copy()
+
+    def tick(self) -> None:
+        """One step of every run; saved where a run has trained for an evaluation interval since the last save.
+
+        RunError where the disk refuses, the last save then intact.
+        """
+        self.trainer.tick()
+        if (self.trainer.episodes_done - self._saved_at).max() >= self.unit.preset.evaluate_every:
+            self.save()
+
+    def save(self) -> None:
+        """Save it as it stands; RunError as for ``tick``."""
+        with self._writing():
+            self._checkpoint.save(self)
+        self._saved_at = self.trainer.episodes_done.copy()
+
+    def finish(self) -> None:
+        """Write the outcome; the checkpoint, for the most part replays that nobody needs any more, goes.
+
+        RunError where the disk refuses.
+        """
+        with self._writing():
+            self._folder.mkdir(parents=True, exist_ok=True)
+            with written_whole(self._folder / OUTCOME) as unfinished:
+                unfinished.write_text(self._outcome().model_dump_json(), encoding="utf-8")
+        shutil.rmtree(self._folder / "checkpoint", ignore_errors=True)
+
+    def state(self) -> Arrays:
+        """For the checkpoint: the trainer's, and the seconds so far."""
+        return {**self.trainer.state(), "unit.seconds": np.array([self._seconds()])}
+
+    def marks(self) -> Arrays:
+        """For the checkpoint."""
+        return self.trainer.marks()
+
+    def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
+        """For the checkpoint."""
+        return self.trainer.journal(since)
+
+    def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None:
+        """For the checkpoint."""
+        self.trainer.load(state, journals)
+        self._seconds_before = float(state["unit.seconds"][0])
+
+    @contextmanager
+    def _writing(self) -> Iterator[None]:
+        try:
+            yield
+        except (OSError, RuntimeError) as error:  # torch raises a RuntimeError where it can't write
+            raise RunError(f"{self._folder}: can't be written ({error}): make room") from error
+
+    def _seconds(self) -> float:
+        return self._seconds_before + time.process_time() - self._began
+
+    def _outcome(self) -> UnitOutcome:
+        agent, runs = self.trainer.agent, len(self.unit.trials)
+        evaluations: list[list[Evaluated]] = [[] for _ in range(runs)]
+        for row in self.trainer.evaluation_rows:
+            material = GreedyEpisode(row.material).material_name(self.unit.scenarios[row.trial])
+            evaluations[row.trial].append(
+                Evaluated(episode=row.episode, score=row.score, material=material, steps=row.steps)
+            )
+        steps = np.zeros(runs, dtype=np.int64)
+        for trained in self.trainer.episode_rows:
+            steps[trained.trial] += trained.steps
+        updates = updates_by_run(agent)
+        return UnitOutcome(
+            identity=fingerprint(self.unit.identity()),
+            networks=agent.networks,
+            parameters=agent.parameters,
+            seconds=round(self._seconds(), 3),
+            runs=[
+                RunOutcome(
+                    evaluations=evaluations[run],
+                    score=float(self.trainer.kept_scores[run]),
+                    updates=int(updates[run]),
+                    env_steps=int(steps[run]),
+                )
+                for run in range(runs)
+            ],
+        )
+
+
+def updates_by_run(agent: Agent) -> Ints:
+    """Updates of all of a run's networks, (runs,)."""
+    runs = len(agent.runs)
+    updates: Ints = agent.low.ddqn.updates.reshape(runs, -1).sum(axis=1)
+    return updates + (agent.main.ddqn.updates if agent.main else 0)
+
+
+def outcome_of(unit: Unit, folder: Path) -> UnitOutcome | None:
+    """What came out of the unit in that folder; None where it isn't finished.
+
+    RunError where the file can't be read, or is another unit's.
+    """
+    path = folder / OUTCOME
+    if not path.exists():
+        return None
+    try:
+        outcome = UnitOutcome.model_validate_json(path.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError, ValidationError) as error:
+        raise RunError(f"{path}: can't be read as what came out of a training: remove it to train that anew") from error
+    if outcome.identity != fingerprint(unit.identity()):
+        raise RunError(f"{path}: belongs to another experiment: put back the file that was there")
+    return outcome

@@ -1,0 +1,16 @@
+"""The files of a sensitivity run: sweep.csv, sweep.md and sweep.png."""
+
+from pathlib import Path
+
+from mc_nested.learn.whole_file import written_whole
+from mc_nested.report.sweep_figure import draw_sweep
+from mc_nested.report.sweep_results import Sweep, write_rows
+from mc_nested.report.sweep_text import sweep_text
+
+
+def write_sweep(folder: Path, sweep: Sweep) -> None:
+    """Write the files, each whole or not at all, the same for the same rows; OSError where the disk refuses."""
+    write_rows(folder / "sweep.csv", sweep.rows)
+    draw_sweep(folder / "sweep.png", sweep)
+    with written_whole(folder / "sweep.md") as unfinished:
+        unfinished.write_text(sweep_text(sweep), encoding="utf-8", newline="\n")

@@ -1,0 +1,43 @@
+"""The one view of all that trains, on a terminal and where there is none."""
+
+import io
+
+import pytest
+from rich.console import Console
+
+from mc_nested.cli import experiment_progress as progress_module
+from mc_nested.cli.experiment_progress import ExperimentProgress
+from mc_nested.cli.standing import Standing
+from mc_nested.cli.unit_process import Report
+from tests.learn.experiments import BAR, DOT, one_unit
+
+UNIT = one_unit("nested", [DOT, BAR], 2)
+HALF = Report(UNIT.name, [10, 10, 10, 10], (11.0, 10.0, None, 12.0), updates=100)
+
+
+def test_a_terminal_shows_scores_beside_the_optimum() -> None:
+    screen = io.StringIO()
+    console = Console(file=screen, force_terminal=True, width=120)
+    with ExperimentProgress("reproduce", Standing([(UNIT, None)]), console) as progress:
+        progress.watch(HALF)
+    shown = screen.getvalue()
+    for words in ("reproduce", "50 %", "updates/s", "dot of 11", "bar of 13", "nested", "10.5", "12.0"):
+        assert words in shown
+
+
+def test_without_a_terminal_there_is_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(progress_module, "LINE_EVERY_S", 0.0)
+    log = io.StringIO()
+    with ExperimentProgress("sweep", Standing([(UNIT, None)]), Console(file=log, width=40)) as progress:
+        progress.watch(HALF)
+        progress.watch(None)
+    lines = log.getvalue().splitlines()
+    assert len(lines) == 2
+    assert all(line.startswith("sweep: 50 % of 80 episodes  ") for line in lines)
+
+
+def test_without_a_terminal_a_short_experiment_says_nothing() -> None:
+    log = io.StringIO()
+    with ExperimentProgress("sweep", Standing([(UNIT, None)]), Console(file=log)) as progress:
+        progress.watch(HALF)
+    assert log.getvalue() == ""

@@ -1,0 +1,282 @@
+"""``mc-nested reproduce``, tiny: its files, that they are the same however it went, and what it refuses."""
+
+import contextlib
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.cli.app import main
+from mc_nested.cli.reproduce import builders_score
+from mc_nested.learn.checkpoint import FILE
+from mc_nested.report.results import read_evaluations
+from tests.learn.experiments import BAR, DOT, scenario_text, small_preset_text
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals for other processes")
+
+WRITTEN = ("results.csv", "figure5.png", "figure5.svg", "report.md")
+
+
+def run(*arguments: str | Path) -> int:
+    with pytest.raises(SystemExit) as caught:
+        main([str(argument) for argument in arguments])
+    code = caught.value.code
+    return code if isinstance(code, int) else 0
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("files")
+    for scenario in (DOT, BAR):
+        (folder / f"{scenario.name}.toml").write_text(scenario_text(scenario), "utf-8")
+    (folder / "small.toml").write_text(small_preset_text(), "utf-8")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def words(files: Path) -> list[str]:
+    scenarios = ["--scenario", str(files / "dot.toml"), "--scenario", str(files / "bar.toml")]
+    return ["reproduce", *scenarios, "--preset", str(files / "small.toml"), "--trials", "2", "--seed", "5"]
+
+
+@pytest.fixture(scope="module")
+def done(words: list[str], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("done") / "run"
+    assert run(*words, "--jobs", "1", "--out", out) == 0
+    return out
+
+
+def written(folder: Path) -> dict[str, bytes]:
+    """The files that it ends with, the report without its line of seconds."""
+    found = {name: (folder / name).read_bytes() for name in WRITTEN}
+    return {**found, "report.md": re.sub(rb"(?m)^Seconds.*$", b"", found["report.md"])}
+
+
+def test_it_leaves_the_results_and_what_made_them(done: Path) -> None:
+    assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "units"}
+    rows = read_evaluations(done / "results.csv")
+    assert [row.episode for row in rows if (row.agent, row.scenario, row.trial) == ("single", "bar", 1)] == [
+        5,
+        10,
+        15,
+        20,
+    ]
+    assert len(rows) == 3 * 2 * 2 * 4
+    assert [path.name for path in sorted((done / "units").rglob("*")) if path.is_file()] == [
+        *["outcome.json"] * 3,
+        "config.sha256",
+    ]
+    report = (done / "report.md").read_text("utf-8")
+    assert "Preset `small`, seed 5: 2 trials of 20 episodes" in report
+    assert re.search(r"\| dot \| hierarchical \| 3 \(1\.50\) \|", report), "networks, and times the nested agent's"
+
+
+def test_the_same_runs_come_out_of_train(done: Path, files: Path, tmp_path: Path) -> None:
+    train: list[str | Path] = [
+        "train",
+        "--agent",
+        "hierarchical",
+        "--scenario",
+        files / "bar.toml",
+        "--preset",
+        files / "small.toml",
+    ]
+    assert run(*train, "--trials", "2", "--seed", "5", "--out", tmp_path / "run") == 0
+    alone = (tmp_path / "run" / "evaluations.csv").read_text().splitlines()[1:]
+    rows = [row for row in read_evaluations(done / "results.csv") if row[:2] == ("hierarchical", "bar")]
+    assert sorted((row.trial, row.episode, row.score) for row in rows) == sorted(
+        (int(trial), int(episode), float(score)) for trial, episode, score, *_ in (line.split(",") for line in alone)
+    )
+
+
+def test_on_a_finished_one_resume_writes_the_same_files_again(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = {name: (done / name).read_bytes() for name in WRITTEN}
+    (done / "report.md").unlink()
+    assert run("reproduce", "--resume", done) == 0
+    assert {name: (done / name).read_bytes() for name in WRITTEN} == before
+    printed = capsys.readouterr().out
+    assert re.search(r"\(e1\)  nested needs fewer networks and parameters than +holds", printed)
+    assert f"report: {done / 'report.md'}" in printed
+
+
+@pytest.mark.slow
+def test_any_number_of_processes_gives_the_same_files(done: Path, words: list[str], tmp_path: Path) -> None:
+    assert run(*words, "--jobs", "3", "--out", tmp_path / "run") == 0
+    assert written(tmp_path / "run") == written(done)
+
+
+@contextlib.contextmanager
+def long_one(words: list[str], out: Path, episodes: int) -> Iterator[subprocess.Popen[str]]:
+    """A run of its own, from the moment at which both its processes have saved something; at the end all is killed."""
+    command = [sys.executable, "-m", "mc_nested.cli", *words, "--episodes", f"{episodes}", "--jobs", "2"]
+    process = subprocess.Popen([*command, "--out", str(out)], stderr=subprocess.PIPE, text=True, start_new_session=True)
+    try:
+        wait_until(lambda: len(list(out.glob(f"units/*/checkpoint/{FILE}"))) == 2)
+        yield process
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()
+
+
+def wait_until(happened: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + 60
+    while not happened():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+def children(process: subprocess.Popen[str]) -> list[int]:
+    return [int(pid) for pid in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()]
+
+
+def training_processes(process: subprocess.Popen[str]) -> list[int]:
+    """Those of the children that aren't multiprocessing's own."""
+    return [pid for pid in children(process) if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()]
+
+
+LONG = 120
+"""Episodes that take some seconds."""
+
+
+@pytest.fixture(scope="module")
+def straight(words: list[str], tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    out = tmp_path_factory.mktemp("straight") / "run"
+    assert run(*words, "--episodes", f"{LONG}", "--jobs", "1", "--out", out) == 0
+    return written(out)
+
+
+@pytest.mark.slow
+def test_killed_in_the_middle_it_goes_on_to_the_same_files(
+    words: list[str], straight: dict[str, bytes], tmp_path: Path
+) -> None:
+    out = tmp_path / "run"
+    with long_one(words, out, LONG) as process:
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+    assert not (out / "report.md").exists()
+    assert run("reproduce", "--resume", out) == 0
+    assert written(out) == straight
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("whole_group", [True, False], ids=["in a terminal", "to the command alone"])
+def test_ctrl_c_saves_and_says_how_to_go_on(
+    words: list[str], straight: dict[str, bytes], tmp_path: Path, whole_group: bool
+) -> None:
+    out = tmp_path / "run"
+    with long_one(words, out, LONG) as process:
+        if whole_group:
+            os.killpg(process.pid, signal.SIGINT)
+        else:
+            process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert said.strip() == f"mc-nested: stopped and saved: go on with mc-nested reproduce --resume {out}"
+    assert run("reproduce", "--resume", out) == 0
+    assert written(out) == straight
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="finds the processes in /proc")
+@pytest.mark.parametrize(
+    ("number", "says"),
+    [
+        (signal.SIGKILL, "a training process was killed (SIGKILL)"),
+        (signal.SIGTERM, "a training process was told to stop"),
+    ],
+)
+def test_a_lost_process_is_one_line_and_costs_nothing(
+    words: list[str], straight: dict[str, bytes], tmp_path: Path, number: signal.Signals, says: str
+) -> None:
+    out = tmp_path / "run"
+    with long_one(words, out, LONG) as process:
+        os.kill(training_processes(process)[0], number)
+        _, said = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert said.startswith(f"mc-nested: {says}")
+    assert said.count("\n") == 1
+    assert f"mc-nested reproduce --resume {out} goes on from what was saved" in said
+    assert run("reproduce", "--resume", out) == 0
+    assert written(out) == straight
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="finds the processes in /proc")
+def test_without_the_command_the_processes_save_and_end(words: list[str], tmp_path: Path) -> None:
+    with long_one(words, tmp_path / "run", 100_000) as process:
+        left = training_processes(process)
+        process.kill()
+        process.wait()
+        wait_until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in left))
+
+
+def test_a_disk_that_fills_up_at_the_end_costs_one_line_and_no_file(
+    done: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    before = written(done)
+    monkeypatch.setattr("mc_nested.report.reproduction.draw_figure5", full)
+    assert run("reproduce", "--resume", done) == 2
+    said = capsys.readouterr().err
+    assert "No space left on device" in said
+    assert f"make room, then mc-nested reproduce --resume {done} goes on" in said
+    assert said.count("\n") == 1
+    assert written(done) == before
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["reproduce"], "name a new folder with --out DIR, or one to go on with, --resume DIR"),
+        (["reproduce", "--out", "DONE"], "is not empty: name a new folder, nothing was overwritten"),
+        (["reproduce", "--out", "NEW", "--trials", "0"], "'--trials'"),
+        (["reproduce", "--out", "NEW", "--episodes", "0"], "'--episodes'"),
+        (["reproduce", "--out", "NEW", "--jobs", "0"], "'--jobs'"),
+        (["reproduce", "--out", "NEW", "--longer", "1"], "'--longer'"),
+        (["reproduce", "--out", "NEW", "--agent", "double"], "no agent 'double': choose one of nested, hierarchical"),
+        (
+            ["reproduce", "--out", "NEW", "--agent", "single", "--longer", "10"],
+            "--longer is for nested and hierarchical",
+        ),
+        (["reproduce", "--out", "NEW", "--scenario", "line", "--longer", "10"], "on zigzag and diamond"),
+        (["reproduce", "--out", "NEW", "--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
+        (["reproduce", "--out", "NEW", "--preset", "ODD"], "unknown key"),
+        (["reproduce", "--resume", "NEW"], "no config.toml there: name the folder of a reproduce"),
+        (["reproduce", "--resume", "DONE", "--seed", "0"], "goes on with its own config.toml: leave out --seed"),
+        (["reproduce", "--resume", "DONE", "--agent", "nested"], "leave out --agent"),
+        (["reproduce", "--resume", "DONE", "--out", "NEW"], "leave out --out"),
+        (["sweep"], "name a new folder with --out DIR"),
+        (["sweep", "--out", "NEW", "--trials", "0"], "'--trials'"),
+        (["sweep", "--resume", "DONE"], "config.toml: variants: missing"),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_code_2(
+    arguments: list[str], says: str, done: Path, files: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (files / "odd.toml").write_text(small_preset_text() + "\nlearning_rte = 1\n", "utf-8")
+    names = {"DONE": done, "NEW": tmp_path / "new", "ODD": files / "odd.toml"}
+    before = {path: path.read_bytes() for path in done.rglob("*") if path.is_file()}
+    assert run(*(str(names.get(word, word)) for word in arguments)) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("mc-nested: ")
+    assert printed.err.count("\n") == 1
+    assert says in printed.err
+    assert list(tmp_path.iterdir()) == []
+    assert {path: path.read_bytes() for path in done.rglob("*") if path.is_file()} == before
+
+
+def test_the_builder_scores_the_optimum() -> None:
+    for name in ("line", "zigzag", "diamond"):
+        scenario = load_scenario(name)
+        assert builders_score(scenario) == scenario.optimum

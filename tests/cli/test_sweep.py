@@ -1,0 +1,48 @@
+"""``mc-nested sweep``, tiny."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from mc_nested.cli.app import main
+from tests.learn.experiments import DOT, scenario_text, small_preset_text
+
+
+def run(*arguments: str | Path) -> int:
+    with pytest.raises(SystemExit) as caught:
+        main([str(argument) for argument in arguments])
+    code = caught.value.code
+    return code if isinstance(code, int) else 0
+
+
+@pytest.mark.slow
+def test_a_sweep_leaves_a_row_for_each_trial_a_table_and_a_plot(tmp_path: Path) -> None:
+    (tmp_path / "dot.toml").write_text(scenario_text(DOT), "utf-8")
+    (tmp_path / "small.toml").write_text(small_preset_text(), "utf-8")
+    words: list[str | Path] = [
+        "sweep",
+        "--scenario",
+        tmp_path / "dot.toml",
+        "--preset",
+        tmp_path / "small.toml",
+        "--trials",
+        "2",
+    ]
+    found = []
+    for jobs in ("1", "2"):
+        out = tmp_path / jobs
+        assert run(*words, "--episodes", "10", "--jobs", jobs, "--out", out) == 0
+        found.append({name: (out / name).read_bytes() for name in ("sweep.csv", "sweep.md", "sweep.png")})
+        before = found[-1]
+        assert run("sweep", "--resume", out) == 0
+        assert {name: (out / name).read_bytes() for name in before} == before
+    assert found[0] == found[1]
+    with (out / "sweep.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    base = [row for row in rows if (row["agent"], row["choice"]) == ("nested", "")]
+    assert [(row["scenario"], row["trial"]) for row in base] == [("dot", "0"), ("dot", "1")]
+    assert len(rows) % 2 == 0
+    assert ("γ", "0.99") in {(row["choice"], row["value"]) for row in rows}
+    for row in rows:
+        assert float(row["mean_score"]) <= float(row["best_score"]) <= DOT.optimum
