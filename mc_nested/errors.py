@@ -10,6 +10,8 @@ McNestedError
 │   └── DesktopError     no display, Wayland, no window of that title
 └── LiveError            the game did not do what was asked; keys are released before it is raised
     ├── NotInFrontError  another window is in front: nothing was pressed
+    ├── WrongScreenError the screen was not just seen to be the one that a press is meant for: nothing was pressed
+    ├── StoppedError     somebody stopped it, by the panic key or the mouse in a corner: it is not tried again
     ├── UnreadableError  the debug screen stayed unreadable for too long
     └── NotConfirmedError  a move or a placing was not seen on the screen in time
 """
@@ -53,6 +55,14 @@ class LiveError(McNestedError):
 
 class NotInFrontError(LiveError):
     """Another window is in front: nothing was pressed."""
+
+
+class WrongScreenError(LiveError):
+    """The screen was not just seen to be the one that a press is meant for: nothing was pressed."""
+
+
+class StoppedError(LiveError):
+    """Somebody stopped the agent: nothing is pressed any more, and nothing is tried again."""
 
 
 class UnreadableError(LiveError):

@@ -1,6 +1,7 @@
-"""The command line, one verb a file: train, evaluate, play, scenarios, read, calibrate."""
+"""The command line, one verb a file, and the processes that many runs are shared out to."""
 
 import io
+import os
 import signal
 import sys
 from collections.abc import Sequence
@@ -11,6 +12,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a pipe may not know ε
+    # One thread a process, said before anything is loaded: for products this small, two only wait for each other.
+    os.environ.setdefault("OMP_NUM_THREADS", "1")
     try:
         from mc_nested.cli.app import main as run
 

@@ -4,7 +4,6 @@ import json
 from pathlib import Path
 from typing import Annotated
 
-import torch
 import typer
 from rich.console import Console
 from rich.table import Table
@@ -44,7 +43,6 @@ def evaluate(
 
 def load_agent(folder: RunFolder) -> Agent:
     """The agent of a training's last checkpoint, every trial, able to act."""
-    torch.set_num_threads(1)
     agent = folder.new_agent(folder.config.trials)
     kept = part_of(folder.checkpoint.state(), "kept")
     for role, online in agent.online().items():

@@ -16,7 +16,9 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ArenaVectorEnv, Ints
 from mc_nested.errors import RunError
 from mc_nested.live.devices import Display
+from mc_nested.live.live_game import LiveGame
 from mc_nested.live.session import open_live_game
+from mc_nested.live.spoiled import Spoiled
 from sim.grid import GridGame, GridVectorEnv
 
 
@@ -33,34 +35,56 @@ ProfileOption = Annotated[
     str | None, typer.Option(metavar="NAME|FILE", help="the profile of your game and screen (default: 'default')")
 ]
 
+ServerOption = Annotated[
+    bool, typer.Option("--server-allowed", help="play even where the window's title says Multiplayer")
+]
+
 DEFAULT_PROFILE = "default"
 
 
 @contextmanager
-def open_game(backend: Backend, profile: str | None, scenario: Scenario) -> Iterator[tuple[Game, Display | None]]:
+def open_game(
+    backend: Backend,
+    profile: str | None,
+    scenario: Scenario,
+    *,
+    server_allowed: bool = False,
+    evidence: Path | None = None,
+) -> Iterator[tuple[Game, Display | None]]:
     """The backend's game for as long as the block runs, and the window it is seen in, if it has one.
+
+    ``evidence`` is the folder for the last frames of a live game that was given up.
 
     DesktopError or ProfileError, one line each, where a live game can't be played.
     """
     if backend is Backend.SIM:
         yield GridGame(scenario), None
         return
-    with open_live_game(scenario, profile or DEFAULT_PROFILE, partial(typer.echo, err=True)) as live:
+    say = partial(typer.echo, err=True)
+    with open_live_game(
+        scenario, profile or DEFAULT_PROFILE, say, evidence=evidence, is_server_allowed=server_allowed
+    ) as live:
         yield live
 
 
 @contextmanager
 def open_arenas(
-    backend: Backend, profile: str | None, scenarios: Sequence[Scenario]
+    backend: Backend, profile: str | None, scenarios: Sequence[Scenario], **live: Any
 ) -> Iterator[VectorEnv[Ints, Ints, Any]]:
     """The backend's arenas, one a scenario, for as long as the block runs.
 
-    RunError where a live game should be several arenas; else as ``open_game``.
+    RunError where a live game should be several arenas; else as ``open_game``, which takes ``live`` too.
     """
     if backend is Backend.SIM:
         yield GridVectorEnv(scenarios)
         return
     if len(scenarios) != 1:
         raise RunError(f"a live game is one arena, not {len(scenarios)}: train one trial at a time, --trials 1")
-    with open_game(backend, profile, scenarios[0]) as (game, _):
+    with open_game(backend, profile, scenarios[0], **live) as (game, _):
         yield ArenaVectorEnv([ArenaEnv(game, scenarios[0])])
+
+
+def played_live(env: VectorEnv[Ints, Ints, Any], spoiled: Spoiled) -> dict[str, Any]:
+    """What playing in a running game took since it was opened, for a training's summary; nothing for the simulator."""
+    game = env.envs[0].game if isinstance(env, ArenaVectorEnv) else None
+    return {"live": {**game.log.summary(), **spoiled.summary()}} if isinstance(game, LiveGame) else {}

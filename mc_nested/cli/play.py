@@ -12,7 +12,7 @@ from rich.text import Text
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.evaluate import greedy_episodes, load_agent
-from mc_nested.cli.options import Backend, BackendOption, ProfileOption, RunArgument, open_game
+from mc_nested.cli.options import Backend, BackendOption, ProfileOption, RunArgument, ServerOption, open_game
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import Agent, view_of
 from mc_nested.learn.evaluation import play_greedily
@@ -25,6 +25,7 @@ def play(
     run: RunArgument,
     backend: BackendOption = Backend.SIM,
     profile: ProfileOption = None,
+    server_allowed: ServerOption = False,
     trial: Annotated[int | None, typer.Option(min=0, help="which trial plays (default: the best one)")] = None,
     screenshots: Annotated[
         bool, typer.Option("--screenshots", help="keep a picture of the window after each step, under RUN/screenshots")
@@ -36,7 +37,7 @@ def play(
     if screenshots and backend is Backend.SIM:
         raise UserError("the simulator has no window to picture: leave out --screenshots, or play --backend live")
     agent, which = _choose(folder, trial)
-    with open_game(backend, profile, scenario) as (game, display):
+    with open_game(backend, profile, scenario, server_allowed=server_allowed) as (game, display):
         env = ArenaEnv(game, scenario)
         pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
         console = Console()

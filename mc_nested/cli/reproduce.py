@@ -142,6 +142,7 @@ def _results(
         evaluate_every=preset.evaluate_every,
         seed=config.seed,
         preset=Path(config.preset_name).stem,
+        keeps_best=preset.keep == "best",
         optimum={scenario.name: scenario.optimum for scenario in scenarios},
         builder={scenario.name: builders_score(scenario) for scenario in scenarios},
         # In an order that doesn't depend on how the runs were shared out.

@@ -1,16 +1,16 @@
 """``mc-nested train``: begin a training, or go on with one."""
 
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
-import torch
 import typer
 
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.cli.evaluate import best_policy
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
-from mc_nested.cli.options import DEFAULT_PROFILE, Backend, ProfileOption, open_arenas
+from mc_nested.cli.options import DEFAULT_PROFILE, Backend, ProfileOption, ServerOption, open_arenas, played_live
 from mc_nested.cli.progress import TrainingProgress
 from mc_nested.errors import DesktopError, LiveError, UserError
 from mc_nested.learn.agents import FORMS, view_of
@@ -18,6 +18,7 @@ from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.run_folder import RunConfig, RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.learn.whole_file import written_whole
+from mc_nested.live.spoiled import Spoiled
 from mc_nested.report.curve import align_trials, draw_curve
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 
@@ -52,6 +53,7 @@ def train(
         bool, typer.Option("--stop-at-optimum", help="end a trial at its first greedy evaluation at the optimum")
     ] = False,
     profile: ProfileOption = None,
+    server_allowed: ServerOption = False,
     begin_from: Annotated[
         Path | None, typer.Option("--from", metavar="RUN", help="begin with the best policy of an earlier training")
     ] = None,
@@ -59,15 +61,14 @@ def train(
     resume: Annotated[Path | None, typer.Option(metavar="DIR", help="go on from a run's last checkpoint")] = None,
 ) -> None:
     """Train an agent; Ctrl+C saves, and --resume goes on from there."""
-    torch.set_num_threads(1)
     if resume is not None:
         given = [name for name, value in context.params.items() if value is not None and value is not False]
-        beside = [name for name in given if name not in ("resume", "profile")]
+        beside = [name for name in given if name not in ("resume", "profile", "server_allowed")]
         if beside:
             option = "--from" if beside[0] == "begin_from" else "--" + beside[0].replace("_", "-")
             raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
         folder = RunFolder.open(resume)
-        run_training(folder, profile or folder.config.profile, resumed=not folder.only_begun)
+        run_training(folder, profile or folder.config.profile, not folder.only_begun, server_allowed=server_allowed)
         return
     if out is None:
         raise UserError("name a new folder for the run with --out DIR, or a run to go on with, --resume DIR")
@@ -86,16 +87,25 @@ def train(
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
         scenario=table_of(load_scenario(DEFAULTS["scenario"] if scenario is None else scenario)),
     )
-    run_training(RunFolder.new(out, config), config.profile, resumed=False, begin_from=begin_from)
+    folder = RunFolder.new(out, config)
+    run_training(folder, config.profile, resumed=False, begin_from=begin_from, server_allowed=server_allowed)
 
 
-def run_training(folder: RunFolder, profile: str | None, resumed: bool, begin_from: Path | None = None) -> None:
+def run_training(
+    folder: RunFolder,
+    profile: str | None,
+    resumed: bool,
+    begin_from: Path | None = None,
+    *,
+    server_allowed: bool = False,
+) -> None:
     """Train until the run is finished or somebody stops it, saving as it goes and at the end."""
     config = folder.config
     earlier = best_policy(begin_from, folder) if begin_from else None
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
     with catch_interrupts() as interrupt:
-        with open_arenas(Backend(config.backend), profile, folder.scenarios) as env:
+        live = {"server_allowed": server_allowed, "evidence": folder.path / "evidence"}
+        with open_arenas(Backend(config.backend), profile, folder.scenarios, **live) as env:
             agent = folder.new_agent(config.trials)
             view = view_of(agent.form, env, folder.scenarios)
             trainer = Trainer(view, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
@@ -106,13 +116,18 @@ def run_training(folder: RunFolder, profile: str | None, resumed: bool, begin_fr
                 if earlier:
                     trainer.begin_from(earlier)
                     folder.save(trainer, 0.0)
+            spoiled = Spoiled()
+
+            def save() -> dict[str, Any]:
+                return folder.save(trainer, time.monotonic() - began, played_live(env, spoiled))
+
             try:
-                _tick_until_done(folder, trainer, interrupt, began)
+                _tick_until_done(folder, trainer, interrupt, spoiled, save)
             except (LiveError, DesktopError) as error:
                 trainer.abandon_episodes()
-                folder.save(trainer, time.monotonic() - began)
+                save()
                 raise LiveError(f"{error}; saved: go on with mc-nested train --resume {folder.path}") from error
-        summary = folder.save(trainer, time.monotonic() - began)
+            summary = save()
         _draw(folder, trainer)
     if not trainer.finished:
         raise Stopped(f"stopped and saved: go on with mc-nested train --resume {folder.path}")
@@ -126,19 +141,26 @@ def run_training(folder: RunFolder, profile: str | None, resumed: bool, begin_fr
     typer.echo(f"checkpoint: {folder.path / 'checkpoint'}")
 
 
-def _tick_until_done(folder: RunFolder, trainer: Trainer, interrupt: Interrupt, began: float) -> None:
+def _tick_until_done(
+    folder: RunFolder, trainer: Trainer, interrupt: Interrupt, spoiled: Spoiled, save: Callable[[], dict[str, Any]]
+) -> None:
     every = SAVE_EVERY_S[Backend(folder.config.backend)]
     save_at = time.monotonic() + every
     events = _events(folder, trainer)
     with TrainingProgress(folder.scenario, trainer) as progress:
         while not (trainer.finished or interrupt.requested):
-            trainer.tick()
+            try:
+                trainer.tick()
+            except LiveError as error:
+                spoiled.count(error, trainer.env_steps)
+                trainer.abandon_episodes()
+                continue
             progress.show()
             if events:
                 with folder.writing():
                     events.write()
             if time.monotonic() >= save_at:
-                folder.save(trainer, time.monotonic() - began)
+                save()
                 save_at = time.monotonic() + every
 
 

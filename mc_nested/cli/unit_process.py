@@ -4,6 +4,7 @@ A process of its own sees nothing but a pipe. Into it the parent puts units; any
 and the pipe's end, mean: save and stop. Out of it come Reports, and one Ended for each unit.
 """
 
+import re
 import signal
 import time
 from collections.abc import Sequence
@@ -12,11 +13,10 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from types import FrameType
 
-import torch
-
 from mc_nested.errors import UserError
 from mc_nested.learn.unit_training import UnitTraining
 from mc_nested.learn.units import Unit
+from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from sim.grid import GridVectorEnv
 
 REPORT_EVERY_S = 0.25
@@ -45,7 +45,6 @@ class Ended:
 def train_units(pipe: Connection) -> None:
     """What the process runs: units and their folders come in, one by one; None or the pipe's end is the end."""
     stop = _StopSignal()
-    torch.set_num_threads(1)
     try:
         while (task := pipe.recv()) is not None and not stop.came:
             unit, folder = task
@@ -69,7 +68,7 @@ class _StopSignal:
 def _train(pipe: Connection, unit: Unit, folder: Path, stop: _StopSignal) -> Ended:
     try:
         training = UnitTraining(unit, folder, GridVectorEnv(unit.scenarios))
-        _tick_until_done(pipe, training, stop)
+        _tick_until_done(pipe, training, folder, stop)
         if training.trainer.finished:
             training.finish()
         else:
@@ -81,12 +80,28 @@ def _train(pipe: Connection, unit: Unit, folder: Path, stop: _StopSignal) -> End
     return Ended(unit.name, finished=training.trainer.finished)
 
 
-def _tick_until_done(pipe: Connection, training: UnitTraining, stop: _StopSignal) -> None:
+def _events(training: UnitTraining, folder: Path) -> TensorBoard | None:
+    if not is_installed():
+        return None
+    unit = training.unit
+    names = (
+        re.sub(r"[^\w.-]+", "-", f"{group}-{scenario.name}-{trial}")
+        for group, scenario, trial in zip(unit.groups, unit.scenarios, unit.trials, strict=True)
+    )
+    with training.writing():
+        return TensorBoard([folder.parent.parent / FOLDER / name for name in names], training.trainer)
+
+
+def _tick_until_done(pipe: Connection, training: UnitTraining, folder: Path, stop: _StopSignal) -> None:
     report_at = time.monotonic()
+    events = _events(training, folder)
     scores: list[float | None] = [None] * len(training.unit.trials)
     seen = 0
     while not (training.trainer.finished or stop.came):
         training.tick()
+        if events:
+            with training.writing():
+                events.write()
         if time.monotonic() < report_at:
             continue
         report_at = time.monotonic() + REPORT_EVERY_S

@@ -1,7 +1,7 @@
 """A training on disk, written so that a kill at any moment leaves the last save or the new one, whole.
 
 ``state.pt`` is written anew at every save; what only grows (a replay's transitions, finished episodes) goes into a
-journal, a file more a save, so that saving costs what was added, not what there is.
+journal, a file more a save, so that saving costs what was added, not what there is. Both hold torch tensors by name.
 """
 
 import hashlib
@@ -13,7 +13,6 @@ from pickle import UnpicklingError
 from typing import Any, Protocol
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 
 from mc_nested.errors import RunError
@@ -107,6 +106,8 @@ class Checkpoint:
         return found
 
     def _write(self, name: str, arrays: Mapping[str, NDArray[Any]], beside: Mapping[str, Any]) -> None:
+        import torch  # takes 200 MB, which a process that only waits for others can do without
+
         tensors = {key: torch.from_numpy(np.ascontiguousarray(kept)) for key, kept in arrays.items()}
         with written_whole(self._folder / name) as path, path.open("wb") as file:
             torch.save({**beside, "arrays": tensors}, file)
@@ -114,6 +115,8 @@ class Checkpoint:
             os.fsync(file.fileno())
 
     def _read(self, name: str) -> dict[str, Any]:
+        import torch
+
         try:
             found = torch.load(self._folder / name, map_location="cpu", weights_only=True)
             return {**found, "arrays": {key: kept.numpy() for key, kept in found["arrays"].items()}}

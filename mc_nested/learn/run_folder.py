@@ -2,7 +2,7 @@
 
 import csv
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -112,12 +112,13 @@ class RunFolder:
                 f"goes on from the last checkpoint"
             ) from error
 
-    def save(self, trainer: Trainer, wall_s: float) -> dict[str, Any]:
+    def save(self, trainer: Trainer, wall_s: float, beside: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """Write the checkpoint, the tables and the summary as they stand now, and return the summary.
 
-        RunError where the disk refuses. All but the summary's ``wall_s`` is the same for the same training, to the bit.
+        ``beside`` is what the summary shall say too. RunError where the disk refuses. All but that and the summary's
+        ``wall_s`` is the same for the same training, to the bit.
         """
-        summary = summarise(self.config, self.scenario, trainer, wall_s)
+        summary = {**summarise(self.config, self.scenario, trainer, wall_s), **(beside or {})}
         with self.writing():
             self.checkpoint.save(trainer, finished=trainer.finished)
             _write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)

@@ -91,7 +91,7 @@ class UnitTraining:
 
     def save(self) -> None:
         """Save it as it stands; RunError as for ``tick``."""
-        with self._writing():
+        with self.writing():
             self._checkpoint.save(self)
         self._saved_at = self.trainer.episodes_done.copy()
 
@@ -100,7 +100,7 @@ class UnitTraining:
 
         RunError where the disk refuses.
         """
-        with self._writing():
+        with self.writing():
             self._folder.mkdir(parents=True, exist_ok=True)
             with written_whole(self._folder / OUTCOME) as unfinished:
                 unfinished.write_text(self._outcome().model_dump_json(), encoding="utf-8")
@@ -124,7 +124,8 @@ class UnitTraining:
         self._seconds_before = float(state["unit.seconds"][0])
 
     @contextmanager
-    def _writing(self) -> Iterator[None]:
+    def writing(self) -> Iterator[None]:
+        """While something is written in the experiment's folder: RunError, one line, where the disk refuses."""
         try:
             yield
         except (OSError, RuntimeError) as error:  # torch raises a RuntimeError where it can't write

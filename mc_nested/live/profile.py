@@ -28,6 +28,7 @@ from mc_nested.live.profile_tables import (
     Screen,
     Walk,
     Window,
+    World,
 )
 from mc_nested.toml_file import parse_document, parse_toml, read_toml_text, table_of_key
 
@@ -40,6 +41,7 @@ class Profile(ProfileTable):
     keys: Keys = Keys()
     screen: Screen = Screen()
     arena: Arena | None = None
+    world: World | None = None
     blocks: Blocks = Blocks()
     input: Input = Input()
     body: Body = Body()

@@ -77,9 +77,10 @@ class Keys(ProfileTable):
     back: Key = "s"
     left: Key = "a"
     right: Key = "d"
-    sneak: Key = Field(default="left.shift", description="slow steps; not pressed yet")
+    sneak: Key = Field(default="left.shift", description="slow steps")
     chat: Key = "t"
-    debug: Key = Field(default="f3", description="turns the debug screen on; not pressed yet")
+    debug: Key = Field(default="f3", description="turns the debug screen on")
+    panic: Key = Field(default="f12", description="stops the agent at once, whichever window is in front")
     hotbar: Annotated[tuple[Key, ...], Field(min_length=9, max_length=9)] = Field(
         default=tuple("123456789"), description="the keys of the nine hotbar slots, from the left"
     )
@@ -188,6 +189,24 @@ class Arena(ProfileTable):
         return coordinates.place_of(self.origin, self.facing, xyz)
 
 
+class World(ProfileTable):
+    """A world without cheats: a reset leaves it, restores its folder from a copy, and enters it again by clicks."""
+
+    folder: str = Field(description="the world's folder in the game's saves; it must hold a file mc-nested-arena.txt")
+    template: str = Field(
+        description="a copy of that folder, elsewhere, with the agent on the start cell, looking the arena's way and "
+        "body.pitch down, and the scenario's blocks in the hotbar"
+    )
+    name: str = Field(description="the world's name, as the list of worlds shows it")
+
+    @field_validator("folder", "template")
+    @classmethod
+    def _is_a_whole_path(cls, path: str) -> str:
+        if not Path(path).expanduser().is_absolute():
+            raise ValueError(f"{path!r} depends on where you are: write the whole path, or one from ~")
+        return path
+
+
 class Blocks(ProfileTable):
     """How this game names blocks."""
 
@@ -214,6 +233,11 @@ class Input(ProfileTable):
     chat_close_s: Seconds = Field(
         default=0.5,
         description="from Enter until the game takes keys and clicks again",
+    )
+    reads_chat: bool = Field(
+        default=True,
+        description="whether the chat's line is looked at before and after typing; false where it isn't drawn as the "
+        "game does it",
     )
 
 

@@ -2,16 +2,18 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.live.at_rest import read_at_rest
-from mc_nested.live.debug_screen import Overlay, read_debug_screen
+from mc_nested.live.debug_screen import Overlay
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.devices import Display
 from mc_nested.live.font import load_font
+from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile import Profile, load_profile
-from mc_nested.live.reading import Reading
+from mc_nested.live.watchdog import watched
 
 PITCH, TEXT_COLOUR = 9, (224, 224, 224)
 """Dots from a line to the next, and the text's red, green and blue, in the game (FACTS: The F3 debug screen)."""
@@ -19,9 +21,16 @@ PITCH, TEXT_COLOUR = 9, (224, 224, 224)
 
 @contextmanager
 def open_live_game(
-    scenario: Scenario, profile_name: str, say: Callable[[str], None]
+    scenario: Scenario,
+    profile_name: str,
+    say: Callable[[str], None],
+    *,
+    evidence: Path | None = None,
+    is_server_allowed: bool = False,
 ) -> Iterator[tuple[LiveGame, Display]]:
     """The scenario in the profile's window, and the window; every key is up again when the block is left.
+
+    ``evidence`` and ``is_server_allowed`` are as LiveGame takes them.
 
     Waits until the game is in front and its debug screen can be read, and tells the player so with ``say``.
 
@@ -33,13 +42,10 @@ def open_live_game(
     font = load_font(profile.screen.font_path())
     overlay = overlay_of(profile)
     with open_desktop(profile.window.title) as desktop:
-
-        def read() -> Reading:
-            return read_debug_screen(desktop.display.grab(), font, overlay)
-
+        screen = WindowScreen(desktop.display, font, overlay)
         if not desktop.display.is_in_front():
             say("Switch to the game now, with the debug screen on (F3). Switching away again stops the agent.")
-        read_at_rest(desktop.display, desktop.clock, read)
+        read_at_rest(desktop.display, desktop.clock, screen.read)
         game = LiveGame(
             scenario,
             profile,
@@ -47,9 +53,14 @@ def open_live_game(
             keyboard=desktop.keyboard,
             pointer=desktop.pointer,
             clock=desktop.clock,
-            read=read,
+            screen=screen,
+            evidence=evidence,
+            is_server_allowed=is_server_allowed,
         )
-        with game:
+        # Imported here, since it needs the display that is open only now.
+        from mc_nested.live.desktop.panic import open_panic_switch
+
+        with game, watched(game.hands), open_panic_switch(profile.keys.panic, game.hands.stop):
             yield game, desktop.display
 
 

@@ -1,26 +1,45 @@
 """How far a key held for so many ticks walks (FACTS: Walking), and which hold ends nearest a wish."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
 
 TICK_S = 0.05
 """Seconds of a game tick (FACTS: Walking)."""
 
-_INPUT = 0.98
-_INERTIA = 0.6 * 0.91
-_ACCELERATION = 0.1 * 0.1627714 / _INERTIA**3
-_STANDSTILL = 0.003
+INERTIA = 0.6 * 0.91
+"""What a tick leaves of a step, on stone."""
+
+STANDSTILL = 0.003
+"""Blocks a tick: a slower walker stands."""
+
+SNEAKING = 0.3
+"""What sneaking leaves of a push."""
+
+PUSH = 0.98 * 0.1 * 0.1627714 / INERTIA**3
+"""Blocks that a tick of a held key adds to a step, walking."""
+
+Gait = Literal["walk", "sneak"]
+
+
+@dataclass(frozen=True)
+class Steps:
+    """How to hold a key: the gait, and the ticks."""
+
+    gait: Gait
+    ticks: int
 
 
 def displacement(ticks: int) -> float:
     """Blocks covered by holding a direction for ``ticks`` ticks from rest on stone, then coasting to a stop."""
     covered = velocity = 0.0
     held = 0
-    while held < ticks or velocity >= _STANDSTILL:
+    while held < ticks or velocity >= STANDSTILL:
         if held < ticks:
-            velocity += _INPUT * _ACCELERATION
+            velocity += PUSH
             held += 1
         covered += velocity
-        velocity *= _INERTIA
+        velocity *= INERTIA
     return covered
 
 
@@ -36,3 +55,23 @@ def nearest_ticks(distance: float, response: Sequence[float]) -> int:
     """
     ends = [0.0, *response]
     return min(range(len(ends)), key=lambda ticks: abs(ends[ticks] - distance))
+
+
+def push_of(response: Sequence[float]) -> float:
+    """Blocks that a tick of a held key adds to a step, for a walker who covers as much as ``response`` says."""
+    return PUSH * response[-1] / displacement(len(response))
+
+
+def best_steps(distance: float, response: Sequence[float], tolerance: float) -> Steps:
+    """The walk that ends nearest; where even that ends outside the tolerance, walking or sneaking, whichever is nearer.
+
+    One tick at least: whoever has to move must not wait for a smaller step than there is.
+    """
+    walking = max(1, nearest_ticks(distance, response))
+    missed = abs(response[walking - 1] - distance)
+    if missed <= tolerance:
+        return Steps("walk", walking)
+    slow = [SNEAKING * covered for covered in response]
+    sneaking = max(1, nearest_ticks(distance, slow))
+    nearer = abs(slow[sneaking - 1] - distance) < missed
+    return Steps("sneak", sneaking) if nearer else Steps("walk", walking)

@@ -28,16 +28,21 @@ class Curve:
         episodes: after which the agent was evaluated, (evaluations,).
         scores: (trials, evaluations).
         trained: episodes of the whole training.
+        keeps_best: whether the policy kept is the best, not the last.
     """
 
     episodes: NDArray[np.int64]
     scores: Floats
     trained: int
+    keeps_best: bool
 
     @property
     def final(self) -> Floats:
-        """Each trial's last score, (trials,); empty where not every trial was evaluated."""
-        return self.scores[:, -1] if len(self.episodes) else np.empty(0)
+        """The score of each trial's policy, the last or the best, (trials,); empty where not every was evaluated."""
+        if not len(self.episodes):
+            return np.empty(0)
+        best: Floats = self.scores.max(axis=1)
+        return best if self.keeps_best else self.scores[:, -1]
 
     @property
     def early(self) -> Floats:
@@ -62,5 +67,5 @@ def curves_of(results: Results) -> Mapping[tuple[str, str], Curve]:
     curves = {}
     for key, own in rows.items():
         episodes, scores = align_trials(own, results.trials)
-        curves[key] = Curve(np.array(episodes, dtype=np.int64), scores, results.episodes)
+        curves[key] = Curve(np.array(episodes, dtype=np.int64), scores, results.episodes, results.keeps_best)
     return curves

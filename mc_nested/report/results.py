@@ -50,6 +50,7 @@ class Results:
         evaluate_every: episodes between two greedy evaluations.
         seed: of the experiment.
         preset: its name.
+        keeps_best: whether a trial keeps its best policy, not its last: what its final score is then.
         optimum: each scenario's highest score.
         builder: each scenario's score of the scripted builder.
         evaluations: of all trials, in any order.
@@ -63,6 +64,7 @@ class Results:
     evaluate_every: int
     seed: int
     preset: str
+    keeps_best: bool
     optimum: Mapping[str, float]
     builder: Mapping[str, float]
     evaluations: Sequence[Evaluation]

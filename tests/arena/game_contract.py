@@ -1,6 +1,6 @@
 """What every Game must do, whatever is behind it; test_game_contract proves that liars fail it."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from mc_nested.arena.game import Game
 from mc_nested.arena.rules import Action, Cell, landing, moved
@@ -14,12 +14,20 @@ BUMPS = (
 """Moves and placings from the shipped scenarios' start, of which the rules void every kind."""
 
 
-def check_game(game: Game, scenario: Scenario, actions: Iterable[Action]) -> None:
-    """AssertionError where the game's outcomes aren't those of the rules, over one episode after a spoiled one."""
+Truth = Callable[[], tuple[Cell, set[Cell]]]
+"""Where the agent stands and which cells hold a block, by somebody who knows."""
+
+
+def check_game(game: Game, scenario: Scenario, actions: Iterable[Action], truth: Truth | None = None) -> None:
+    """AssertionError where the game's outcomes aren't those of the rules, over one episode after a spoiled one.
+
+    Where somebody knows the ``truth``, the outcomes must be that too.
+    """
     assert game.reset(0) == scenario.start, "a reset leads to the start cell"
     game.act(Action.BD)
     assert game.reset(scenario.best_material) == scenario.start, "a reset leads to the start cell from anywhere"
     cell, placed = scenario.start, set[Cell]()
+    assert truth is None or truth() == (cell, placed), "a reset clears the arena"
     for action in actions:
         cell = moved(cell, action, placed)
         block = landing(cell, action, placed)
@@ -28,3 +36,4 @@ def check_game(game: Game, scenario: Scenario, actions: Iterable[Action]) -> Non
         assert outcome.placed == block, f"{action.name} places a block in {block}"
         if block is not None:
             placed.add(block)
+        assert truth is None or truth() == (cell, placed), f"{action.name} did what was said"

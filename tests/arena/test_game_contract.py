@@ -44,6 +44,40 @@ class ClaimsBlocksThatDidNotLand(GridGame):
         return Outcome(outcome.cell, (outcome.cell[0], outcome.cell[1] + 1))
 
 
+class StartsElsewhere(GridGame):
+    def reset(self, material: int) -> Cell:
+        x, y = super().reset(material)
+        return x, y - 1
+
+
+class PlacesAgainAndAgain(GridGame):
+    def act(self, action: Action) -> Outcome:
+        outcome = super().act(action)
+        self._placed -= {outcome.placed or (-1, -1)}
+        return outcome
+
+
+class PlacesBeforeItMoves(GridGame):
+    def act(self, action: Action) -> Outcome:
+        ahead = (self._cell[0], self._cell[1] + 1)
+        outcome = super().act(action)
+        return Outcome(outcome.cell, ahead if outcome.placed else None)
+
+
+class WalksOutOfTheArena(GridGame):
+    def act(self, action: Action) -> Outcome:
+        outcome = super().act(action)
+        x, y = outcome.cell
+        return Outcome((x - (x == 0 and action is Action.L), y), outcome.placed)
+
+
+class NeverLooks(GridGame):
+    """Says what the rules say, and knows nothing of a world."""
+
+    def truth(self) -> tuple[Cell, set[Cell]]:
+        return LINE.start, set()
+
+
 def test_the_simulator_passes() -> None:
     check_game(GridGame(LINE), LINE, BUMPS)
     check_game(GridGame(LINE), LINE, build(LINE))
@@ -54,7 +88,20 @@ def test_the_simulator_passes_over_any_actions(actions: list[Action]) -> None:
     check_game(GridGame(LINE), LINE, actions)
 
 
-@pytest.mark.parametrize("liar", [ForgetsToReset, StaysPut, WalksThroughBlocks, ClaimsBlocksThatDidNotLand])
+LIARS = [
+    *(ForgetsToReset, StaysPut, WalksThroughBlocks, ClaimsBlocksThatDidNotLand),
+    *(StartsElsewhere, PlacesAgainAndAgain, PlacesBeforeItMoves, WalksOutOfTheArena),
+]
+
+
+@pytest.mark.parametrize("liar", LIARS)
 def test_a_game_that_lies_fails(liar: Callable[..., GridGame]) -> None:
     with pytest.raises(AssertionError):
         check_game(liar(LINE), LINE, BUMPS)
+
+
+def test_a_game_that_tells_the_rules_and_not_the_world_fails_before_somebody_who_knows() -> None:
+    game = NeverLooks(LINE)
+    check_game(game, LINE, BUMPS)
+    with pytest.raises(AssertionError, match="did what was said"):
+        check_game(game, LINE, BUMPS, game.truth)

@@ -22,16 +22,18 @@ from sim.grid import GridGame
 
 
 class FragileGame(GridGame):
-    """A live game that fails at its action number ``lasts``."""
+    """A live game that fails at its action number ``lasts``, and ever after, or only ``failures`` times."""
 
-    def __init__(self, scenario: Scenario, lasts: float, error: McNestedError) -> None:
+    def __init__(self, scenario: Scenario, lasts: float, error: McNestedError, failures: float) -> None:
         super().__init__(scenario)
         self._left = lasts
         self._error = error
+        self._failures = failures
 
     def act(self, action: Action) -> Outcome:
         self._left -= 1
-        if self._left < 0:
+        if self._left < 0 < self._failures:
+            self._failures -= 1
             raise self._error
         return super().act(action)
 
@@ -53,13 +55,18 @@ class GreyDisplay:
         return np.full((3, 4, 3), 99, np.uint8)
 
 
-def open_live(monkeypatch: pytest.MonkeyPatch, lasts: float, error: McNestedError | None = None) -> None:
+def open_live(
+    monkeypatch: pytest.MonkeyPatch, lasts: float, error: McNestedError | None = None, failures: float = float("inf")
+) -> None:
     """From here on a live game is one that lasts so many actions."""
 
     @contextmanager
-    def opened(scenario: Scenario, profile: str, _say: object) -> Iterator[tuple[FragileGame, GreyDisplay]]:
+    def opened(
+        scenario: Scenario, profile: str, _say: object, **live: object
+    ) -> Iterator[tuple[FragileGame, GreyDisplay]]:
         assert profile == "mine"
-        yield FragileGame(scenario, lasts, error or LiveError("never raised")), GreyDisplay()
+        assert live["is_server_allowed"] is False
+        yield FragileGame(scenario, lasts, error or LiveError("never raised"), failures), GreyDisplay()
 
     monkeypatch.setattr(options, "open_live_game", opened)
 
@@ -82,6 +89,14 @@ def test_a_training_whose_game_fails_is_saved_and_goes_on(
     assert told[-1] == f"mc-nested: {error}; saved: go on with mc-nested train --resume {tmp_path / 'run'}"
     open_live(monkeypatch, float("inf"))
     assert code_of("train", "--resume", tmp_path / "run") in (0, None)
+
+
+def test_a_training_bears_an_episode_that_a_mishap_spoils(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    open_live(monkeypatch, 30, LiveError("it lagged"), failures=3)
+    live = ("--backend", "live", "--profile", "mine", "--episodes", "3")
+    assert code_of("train", *live, "--out", tmp_path / "run") in (0, None)
+    rows = (tmp_path / "run" / "episodes.csv").read_text(encoding="utf-8").splitlines()
+    assert [row.split(",")[1] for row in rows[1:]] == ["1", "2", "3"]
 
 
 @pytest.mark.parametrize(("ending", "code"), [(KeyboardInterrupt(), 130), (EndedBySignal(15), 143)])

@@ -60,7 +60,9 @@ def written(folder: Path) -> dict[str, bytes]:
 
 
 def test_it_leaves_the_results_and_what_made_them(done: Path) -> None:
-    assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "units"}
+    assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "units", "tensorboard"}
+    runs = {f"{a}-{s}-{t}" for a in ("nested", "hierarchical", "single") for s in ("dot", "bar") for t in (0, 1)}
+    assert {path.name for path in (done / "tensorboard").iterdir()} == runs
     rows = read_evaluations(done / "results.csv")
     assert [row.episode for row in rows if (row.agent, row.scenario, row.trial) == ("single", "bar", 1)] == [
         5,

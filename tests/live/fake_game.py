@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from mc_nested.live.devices import Button, Frame, Region
+from mc_nested.live.menu_labels import Button as MenuButton
 from mc_nested.live.profile import Profile
 from mc_nested.live.reading import Block, Reading, Target
 
@@ -58,6 +59,7 @@ class FakeGame:
     unreadable: bool = False
     refuse_clicks: int = 0
     front_until: float = math.inf
+    refuse_commands: str = " "
 
     def __post_init__(self) -> None:
         self._velocity = (0.0, 0.0)
@@ -85,6 +87,11 @@ class FakeGame:
         shown = self.profile.blocks.shown_prefix
         target = None if hit is None else Target(hit, shown + self.blocks.get(hit, FLOOR))
         return Reading((round(x, 3), round(y, 5), round(z, 3)), round(self.yaw, 1), round(self.pitch, 1), target)
+
+    def typed(self) -> str | None:
+        """What the open chat holds."""
+        self._catch_up()
+        return self._chat
 
     def send(self, name: str, *, is_down: bool) -> None:
         """A key or button event, as the operating system takes it."""
@@ -143,6 +150,8 @@ class FakeGame:
     def _run(self, command: str) -> None:
         self.commands.append(command)
         words = command.split() or [""]
+        if command.startswith(self.refuse_commands):
+            return
         if words[0] == "/fill":
             low, high = (tuple(map(int, words[start : start + 3])) for start in (1, 4))
             for block in list(self.blocks):
@@ -203,6 +212,42 @@ class FakeGame:
                 return block, before
             before = block
         return None, before
+
+
+class NoMenu:
+    """A menu that isn't there."""
+
+    def shows(self, text: str) -> bool:
+        return text == ""
+
+    def button(self, label: str) -> MenuButton:
+        return MenuButton(problem=f"no {label!r}")
+
+
+class FakeScreen:
+    """The fake game's screen, without pixels. ``readings`` come first, then what the game says."""
+
+    def __init__(self, game: FakeGame, readings: Callable[[], Reading | None] = lambda: None) -> None:
+        self._game = game
+        self._readings = readings
+
+    def read(self) -> Reading:
+        return self._readings() or self._game.read()
+
+    def is_chat_open(self) -> bool:
+        return self._game.typed() is not None
+
+    def is_typed(self, text: str) -> bool:
+        return self._game.typed() == text
+
+    def menu(self) -> NoMenu:
+        return NoMenu()
+
+    def place_of(self, text: str) -> tuple[int, int] | None:
+        raise NotImplementedError(f"the fake game has no menu, nor {text!r} on it")
+
+    def scale(self) -> int:
+        return 2
 
 
 class FakeDisplay:

@@ -12,7 +12,7 @@ from mc_nested.live.hands import Hands
 from mc_nested.live.profile import Profile
 from mc_nested.live.profile_tables import Arena, Walk
 from mc_nested.live.reading import Reading, Target
-from tests.live.fake_game import FLOOR, FakeDisplay, FakeGame, FakeKeyboard, FakePointer
+from tests.live.fake_game import FLOOR, FakeDisplay, FakeGame, FakeKeyboard, FakePointer, FakeScreen
 
 SOUTH = Profile(arena=Arena.around((14, 64, 0), "south"))
 FRONT = (7, 64, 8)
@@ -30,10 +30,13 @@ def _game(cell: Cell = (7, 7), profile: Profile = SOUTH, off: tuple[float, float
 
 def _body(game: FakeGame) -> Body:
     hands = Hands(FakeDisplay(game), FakeKeyboard(game), FakePointer(game), game.clock, game.profile.input)
-    return Body(game.profile, hands, game.read, game.clock)
+    return Body(game.profile, hands, FakeScreen(game), game.clock)
 
 
 def _off(game: FakeGame, cell: Cell) -> float:
+    """How far off a cell's middle the agent is once it has stopped."""
+    game.clock.sleep_until(game.clock.now() + 1.0)
+    game.read()
     place = game.profile.marked_arena().place_of(game.xyz)
     return max(abs(place[0] - cell[0]), abs(place[1] - cell[1]))
 
@@ -48,7 +51,7 @@ def test_a_move_ends_within_the_tolerance_of_the_next_cell(
     facing: Facing, cell: Cell, east: float, south: float
 ) -> None:
     game = _game(profile=Profile(arena=Arena.around((-40, 64, 9), facing)), off=(east, south))
-    assert _body(game).move_to(cell) == cell
+    assert _body(game).move_to(cell).cell == cell
     assert _off(game, cell) <= 0.15
     assert game.down == set()
 
@@ -63,7 +66,7 @@ def test_one_press_is_enough_for_one_cell_from_the_middle(phase: float, latency:
 
 def test_a_move_to_where_the_agent_is_presses_nothing() -> None:
     game = _game(off=(0.1, -0.14))
-    assert _body(game).move_to((7, 7)) == (7, 7)
+    assert _body(game).move_to((7, 7)).cell == (7, 7)
     assert game.presses == []
 
 
@@ -138,7 +141,7 @@ def test_a_block_of_another_material_is_not_taken_for_the_right_one() -> None:
 def test_without_the_looked_at_block_on_the_screen_nothing_is_clicked() -> None:
     game = _game()
     hands = Hands(FakeDisplay(game), FakeKeyboard(game), FakePointer(game), game.clock, SOUTH.input)
-    body = Body(SOUTH, hands, lambda: Reading((7.5, 64.0, 7.5), 0.0, 65.0), game.clock)
+    body = Body(SOUTH, hands, FakeScreen(game, lambda: Reading((7.5, 64.0, 7.5), 0.0, 65.0)), game.clock)
     with pytest.raises(NotConfirmedError, match=r"says that no block is looked at: .* on the debug screen"):
         body.place((7, 7), "minecraft:stone")
     assert game.presses == []
@@ -186,15 +189,16 @@ def test_a_short_unreadable_while_is_waited_out() -> None:
     game = _game()
     readings = iter([Reading(problem="chat covers it")] * 20)
     hands = Hands(FakeDisplay(game), FakeKeyboard(game), FakePointer(game), game.clock, SOUTH.input)
-    body = Body(SOUTH, hands, lambda: next(readings, None) or game.read(), game.clock)
-    assert body.move_to((7, 8)) == (7, 8)
+    body = Body(SOUTH, hands, FakeScreen(game, lambda: next(readings, None)), game.clock)
+    assert body.move_to((7, 8)).cell == (7, 8)
 
 
 def test_a_player_who_is_pushed_on_and_on_is_noticed() -> None:
     game = _game()
     hands = Hands(FakeDisplay(game), FakeKeyboard(game), FakePointer(game), game.clock, SOUTH.input)
     floor = Target((7, 63, 8), "minecraft:" + FLOOR)
-    body = Body(SOUTH, hands, lambda: Reading((7.5, 64.0, game.clock.now() % 15), 0.0, 65.0, floor), game.clock)
+    drift = FakeScreen(game, lambda: Reading((7.5, 64.0, game.clock.now() % 15), 0.0, 65.0, floor))
+    body = Body(SOUTH, hands, drift, game.clock)
     with pytest.raises(NotConfirmedError, match="does not stand still"):
         body.move_to((7, 8))
 
@@ -203,9 +207,8 @@ def test_an_arrival_is_waited_for() -> None:
     game = _game()
     arrival = game.clock.now() + 2.0
     hands = Hands(FakeDisplay(game), FakeKeyboard(game), FakePointer(game), game.clock, SOUTH.input)
-    body = Body(
-        SOUTH, hands, lambda: game.read() if game.clock.now() > arrival else Reading((0, 9, 0), 1, 1), game.clock
-    )
+    late = FakeScreen(game, lambda: None if game.clock.now() > arrival else Reading((0, 9, 0), 1, 1))
+    body = Body(SOUTH, hands, late, game.clock)
     body.arrive((7, 7))
     assert game.clock.now() == pytest.approx(arrival, abs=0.05)
     with pytest.raises(

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.errors import NotInFrontError
+from mc_nested.errors import NotInFrontError, StoppedError, WrongScreenError
 from mc_nested.live.ending import EndedBySignal
-from mc_nested.live.hands import Hands
+from mc_nested.live.hands import FRESH_S, LONGEST_S, OVERDUE_S, Hands, Screen
 from mc_nested.live.profile import Profile
 from mc_nested.live.profile_tables import Arena, Input
 from tests.live.fake_game import FakeClock, FakeDisplay, FakeGame, FakeKeyboard, FakePointer
@@ -18,7 +18,20 @@ PROFILE = Profile(arena=Arena.around((0, 64, 0), "south"))
 
 
 def _hands(game: FakeGame, fail_after: int = -1) -> Hands:
-    return Hands(FakeDisplay(game), FakeKeyboard(game, fail_after), FakePointer(game), game.clock, game.profile.input)
+    """Hands whose owner has just seen the world."""
+    hands = Hands(FakeDisplay(game), FakeKeyboard(game, fail_after), FakePointer(game), game.clock, game.profile.input)
+    hands.saw("world")
+    return hands
+
+
+def _press(hands: Hands, how: str) -> None:
+    {
+        "hold": lambda: hands.hold("w", 5),
+        "tap": lambda: hands.tap("1"),
+        "click": lambda: hands.click("right"),
+        "click_at": lambda: hands.click_at(3, 4),
+        "type_line": lambda: hands.type_line("/fill"),
+    }[how]()
 
 
 @pytest.mark.parametrize("ticks", [1, 2, 3, 5, 12])
@@ -38,34 +51,94 @@ def test_late_wake_ups_never_add_up() -> None:
     assert game.clock.now() - start == pytest.approx(0.604)
 
 
-def test_a_click_is_as_long_as_the_profile_says() -> None:
+def test_a_click_is_as_long_as_the_profile_says_and_ends_while_something_is_waited_for() -> None:
     game = FakeGame(Profile(input=Input(click_s=0.12)))
-    start = game.clock.now()
-    _hands(game).click("right")
-    assert game.clock.now() - start == pytest.approx(0.12)
+    hands = _hands(game)
+    hands.click("right")
+    hands.wait(0.119)
+    assert game.down == {"right button"}
+    hands.wait(0.002)
+    assert game.down == set()
     assert game.presses == ["right button"]
 
 
-def test_a_command_arrives_whole_and_leaks_nothing_into_the_game() -> None:
+def test_a_held_key_may_go_up_at_another_time_than_was_said() -> None:
     game = FakeGame(PROFILE)
-    command = "/tp @s 1.5 64 3.5 -90 65"
-    _hands(game).type_command("t", command)
-    game.read()
-    assert (game.commands, game.leaked, game.yaw, game.down) == ([command], "", -90.0, set())
+    hands = _hands(game)
+    start = game.clock.now()
+    hands.press(start + 0.25, "w")
+    hands.keep_until(start + 0.2, "w")
+    hands.wait_until(start + 0.199)
+    assert game.down == {"w"}
+    hands.wait_until(start + 0.2)
+    assert game.down == set()
 
 
-@pytest.mark.parametrize("press", ["hold", "tap", "click", "type_command"])
+@pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "type_line"])
 def test_nothing_is_pressed_while_another_window_is_in_front(press: str) -> None:
     game = FakeGame(PROFILE, front_until=0.0)
-    hands = _hands(game)
     with pytest.raises(NotInFrontError, match="not in front"):
-        {
-            "hold": lambda: hands.hold("w", 5),
-            "tap": lambda: hands.tap("1"),
-            "click": lambda: hands.click("right"),
-            "type_command": lambda: hands.type_command("t", "/fill"),
-        }[press]()
+        _press(_hands(game), press)
     assert game.presses == []
+
+
+@pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "type_line"])
+@pytest.mark.parametrize("seen", ["world", "chat", "menu"])
+def test_nothing_is_pressed_that_the_screen_just_seen_is_not_there_for(press: str, seen: Screen) -> None:
+    wanted = {"click_at": "menu", "type_line": "chat"}.get(press, "world")
+    game = FakeGame(PROFILE)
+    hands = _hands(game)
+    hands.saw(seen)
+    if seen == wanted:
+        # The right one, but that is some time ago.
+        game.clock.sleep_until(game.clock.now() + FRESH_S + 0.01)
+    with pytest.raises(WrongScreenError, match=f"the {wanted} was not just seen"):
+        _press(hands, press)
+    assert game.presses == []
+
+
+def test_a_stop_releases_everything_at_once_and_ends_what_is_going_on() -> None:
+    game = FakeGame(PROFILE)
+    hands = _hands(game)
+    hands.press(game.clock.now() + 1.0, "w")
+    hands.stop("the panic key was pressed")
+    assert game.down == set()
+    began = game.clock.now()
+    with pytest.raises(StoppedError, match="the panic key was pressed: every key is up"):
+        hands.wait(1.0)
+    assert game.clock.now() - began <= 0.1
+    with pytest.raises(StoppedError):
+        hands.tap("1")
+    assert game.presses == ["w"]
+
+
+def test_nothing_is_held_longer_than_the_longest_hold() -> None:
+    game = FakeGame(PROFILE)
+    hands = _hands(game)
+    hands.press(game.clock.now() + 60.0, "w")
+    hands.wait(LONGEST_S + 0.01)
+    assert game.down == set()
+
+
+def test_what_nobody_released_in_time_is_the_watchdogs() -> None:
+    game = FakeGame(PROFILE)
+    hands = _hands(game)
+    hands.press(game.clock.now() + 0.25, "w")
+    game.clock.sleep_until(game.clock.now() + 0.26)
+    hands.release_overdue()
+    assert game.down == {"w"}
+    game.clock.sleep_until(game.clock.now() + OVERDUE_S)
+    hands.release_overdue()
+    assert game.down == set()
+
+
+def test_what_was_pressed_in_the_world_can_be_released_again() -> None:
+    game = FakeGame(PROFILE)
+    hands = _hands(game)
+    hands.hold("w", 2)
+    game.down = {"w"}
+    hands.release_again()
+    assert game.down == set()
 
 
 def test_a_key_goes_up_within_a_tick_of_losing_the_window() -> None:
@@ -104,15 +177,17 @@ class _JammingKeyboard(FakeKeyboard):
 
 
 def _jamming_hands(game: FakeGame) -> Hands:
-    return Hands(FakeDisplay(game), _JammingKeyboard(game), FakePointer(game), game.clock, PROFILE.input)
+    hands = Hands(FakeDisplay(game), _JammingKeyboard(game), FakePointer(game), game.clock, PROFILE.input)
+    hands.saw("world")
+    return hands
 
 
 def test_one_key_that_can_not_be_released_does_not_keep_the_others_down() -> None:
     game = FakeGame(PROFILE)
     hands = _jamming_hands(game)
-    for key in "ab":
-        with pytest.raises(OSError, match="keyboard is gone"):
-            hands.tap(key)
+    hands.press(game.clock.now() + 1.0, "a", "b", "c")
+    with pytest.raises(OSError, match="keyboard is gone"):
+        hands.release_all()
     assert game.down == {"a", "b"}
     with pytest.raises(OSError, match="keyboard is gone"):
         hands.release_all()
@@ -123,9 +198,11 @@ def test_one_key_that_can_not_be_released_does_not_keep_the_others_down() -> Non
 
 def test_a_letter_that_is_interrupted_after_its_press_goes_up_again() -> None:
     game = FakeGame(PROFILE)
+    hands = _jamming_hands(game)
+    hands.saw("chat")
     with pytest.raises(KeyboardInterrupt):
-        _jamming_hands(game).type_command("t", "c")
-    assert game.presses == ["t", "c"]
+        hands.type_line("c")
+    assert game.presses == ["c"]
     assert game.down == set()
 
 
@@ -144,8 +221,9 @@ class _StealingKeyboard(FakeKeyboard):
 def test_no_letter_of_a_command_goes_to_a_window_that_comes_to_the_front() -> None:
     game = FakeGame(PROFILE)
     hands = Hands(FakeDisplay(game), _StealingKeyboard(game), FakePointer(game), game.clock, PROFILE.input)
+    hands.saw("chat")
     with pytest.raises(NotInFrontError):
-        hands.type_command("t", "/fill")
+        hands.type_line("/fill")
     assert game.presses_behind == []
 
 
@@ -181,9 +259,11 @@ def test_a_signal_in_the_middle_of_a_hold_leaves_nothing_down(number: int, error
 
 hand_actions = st.one_of(
     st.tuples(st.just("hold"), st.sampled_from("wasd"), st.integers(1, 12)),
+    st.tuples(st.just("press"), st.sampled_from("wasd"), st.integers(1, 200)),
     st.tuples(st.just("tap"), st.sampled_from("19t"), st.none()),
     st.tuples(st.just("click"), st.sampled_from(["left", "right"]), st.none()),
-    st.tuples(st.just("type_command"), st.text("/tp @s 0.5", max_size=30), st.none()),
+    st.tuples(st.just("type_line"), st.text("/tp @s 0.5", max_size=30), st.none()),
+    st.tuples(st.just("stop"), st.just(""), st.none()),
 )
 
 
@@ -193,15 +273,20 @@ def test_nothing_stays_down_and_nothing_goes_elsewhere_whatever_happens(
 ) -> None:
     game = FakeGame(PROFILE)
     game.front_until = game.clock.now() + front_s
-    with contextlib.suppress(NotInFrontError, OSError), _hands(game, fail_after) as hands:
+    with contextlib.suppress(NotInFrontError, StoppedError, OSError), _hands(game, fail_after) as hands:
         for kind, what, ticks in actions:
+            hands.saw("chat" if kind == "type_line" else "world")
             if kind == "hold" and ticks is not None:
                 hands.hold(what, ticks)
+            elif kind == "press" and ticks is not None:
+                hands.press(game.clock.now() + ticks * 0.05, what)
             elif kind == "tap":
                 hands.tap(what)
             elif kind == "click":
                 hands.click("left" if what == "left" else "right")
+            elif kind == "stop":
+                hands.stop("enough")
             else:
-                hands.type_command("t", what)
+                hands.type_line(what)
     assert game.down == set()
     assert game.presses_behind == []

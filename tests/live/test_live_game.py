@@ -12,14 +12,14 @@ from mc_nested.arena.builder import build
 from mc_nested.arena.rules import Action, Cell
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.errors import LiveError, NotConfirmedError, NotInFrontError, ProfileError, UnreadableError
+from mc_nested.errors import LiveError, NotConfirmedError, NotInFrontError, ProfileError
 from mc_nested.live.commands import reset_commands
 from mc_nested.live.coordinates import Facing
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile import Profile
 from mc_nested.live.profile_tables import Arena, GameVersion
 from tests.arena.game_contract import BUMPS, check_game
-from tests.live.fake_game import FakeDisplay, FakeGame, FakeKeyboard, FakePointer
+from tests.live.fake_game import FakeDisplay, FakeGame, FakeKeyboard, FakePointer, FakeScreen
 
 LINE = load_scenario("line")
 STONE = LINE.best_material
@@ -40,7 +40,7 @@ def _play(world: FakeGame, scenario: Scenario = LINE, fail_after: int = -1) -> L
         keyboard=FakeKeyboard(world, fail_after),
         pointer=FakePointer(world),
         clock=world.clock,
-        read=world.read,
+        screen=FakeScreen(world),
     )
 
 
@@ -161,6 +161,13 @@ def test_a_release_that_fails_once_is_repeated_before_the_error_is_raised() -> N
 
 def test_a_teleport_that_the_game_refuses_is_not_a_reset() -> None:
     world = _world()
+    world.refuse_commands = "/tp"
+    with pytest.raises(NotConfirmedError, match=r"teleport to cell .* was not seen"):
+        _play(world).reset(STONE)
+
+
+def test_nothing_is_typed_where_the_chat_does_not_open() -> None:
+    world = _world()
     world.profile = world.profile.model_copy(update={"keys": world.profile.keys.model_copy(update={"chat": "y"})})
     game = LiveGame(
         LINE,
@@ -169,10 +176,30 @@ def test_a_teleport_that_the_game_refuses_is_not_a_reset() -> None:
         keyboard=FakeKeyboard(world),
         pointer=FakePointer(world),
         clock=world.clock,
-        read=world.read,
+        screen=FakeScreen(world),
     )
-    with pytest.raises(NotConfirmedError, match=r"teleport to cell .* was not seen"):
+    with pytest.raises(NotConfirmedError, match="the chat did not open"):
         game.reset(STONE)
+    assert world.leaked == ""
+
+
+def test_a_clearing_that_the_game_refuses_is_seen_by_the_block_that_stays() -> None:
+    world = _world()
+    game = _play(world)
+    game.reset(STONE)
+    game.act(Action.BD)
+    world.refuse_commands = "/fill"
+    with pytest.raises(NotConfirmedError, match="only the floor should be at"):
+        game.reset(STONE)
+
+
+def test_a_block_that_somebody_else_put_before_the_agent_is_noticed() -> None:
+    world = _world()
+    game = _play(world)
+    game.reset(STONE)
+    world.blocks[world.profile.marked_arena().block_of((6, 14))] = "dirt"
+    with pytest.raises(NotConfirmedError, match="only the floor should be at"):
+        [game.act(action) for action in (Action.B, Action.L)]
 
 
 def test_an_agent_that_was_carried_off_is_noticed_even_by_an_action_that_presses_nothing() -> None:
@@ -180,6 +207,7 @@ def test_an_agent_that_was_carried_off_is_noticed_even_by_an_action_that_presses
     game = _play(world)
     game.reset(STONE)
     world.xyz = world.profile.marked_arena().centre_of((3, 3))
+    world.clock.sleep_until(world.clock.now() + 0.1)
     with pytest.raises(NotConfirmedError, match=r"left cell \(7, 14\) by itself, it is at \(3.00, 3.00\)"):
         game.act(Action.F)
 
@@ -195,9 +223,9 @@ def test_behind_another_window_nothing_is_pressed() -> None:
 def test_nothing_is_typed_where_no_debug_screen_is_to_be_seen() -> None:
     world = _world()
     world.unreadable = True
-    with pytest.raises(UnreadableError):
+    with pytest.raises(LiveError, match="way back into the world was not found"):
         _play(world).reset(STONE)
-    assert world.presses == []
+    assert set(world.presses) == {"f3", "esc"}
 
 
 def test_more_materials_than_the_hotbar_has_slots_are_refused() -> None:

@@ -38,6 +38,7 @@ def made(trials: Mapping[tuple[str, str], Sequence[Trial]], episodes: int = EPIS
         evaluate_every=every,
         seed=0,
         preset="paper",
+        keeps_best=False,
         optimum={scenario: OPTIMUM[scenario] for scenario in scenarios},
         builder={scenario: OPTIMUM[scenario] for scenario in scenarios},
         evaluations=rows,

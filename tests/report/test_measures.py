@@ -7,8 +7,8 @@ from mc_nested.report.measures import Curve, curves_of, early_limit
 from tests.report.made_results import Trial, made
 
 
-def curve(episodes: list[int], scores: list[list[float]], trained: int) -> Curve:
-    return Curve(np.array(episodes), np.array(scores), trained)
+def curve(episodes: list[int], scores: list[list[float]], trained: int, keeps_best: bool = False) -> Curve:
+    return Curve(np.array(episodes), np.array(scores), trained, keeps_best)
 
 
 @pytest.mark.parametrize(("episodes", "early"), [(30_000, 1000), (3000, 1000), (2999, 999), (90, 30)])
@@ -23,6 +23,10 @@ def test_the_early_score_is_the_mean_of_the_early_evaluations() -> None:
 
 def test_the_final_score_is_that_of_the_last_evaluation() -> None:
     assert curve([30, 60], [[21, 3], [5, 20]], trained=60).final.tolist() == [3.0, 20.0]
+
+
+def test_where_the_best_policy_is_kept_the_final_score_is_its() -> None:
+    assert curve([30, 60], [[21, 3], [5, 20]], trained=60, keeps_best=True).final.tolist() == [21.0, 20.0]
 
 
 def test_the_spread_is_the_standard_deviation_over_the_last_third() -> None:

@@ -4,6 +4,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.live.coordinates import Facing
 from mc_nested.live.debug_screen import Overlay, read_debug_screen
 from mc_nested.live.font import font_of
+from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile import Profile
 from mc_nested.live.profile_tables import Arena, GameVersion
@@ -33,7 +34,7 @@ def play(client: VirtualClient, scenario: Scenario, facing: Facing = "south") ->
         keyboard=client.keyboard,
         pointer=client.pointer,
         clock=client.clock,
-        read=lambda: read(client),
+        screen=WindowScreen(client.display, FONT),
     )
 
 

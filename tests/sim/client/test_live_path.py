@@ -40,7 +40,8 @@ def test_blocks_are_built_where_the_agent_was_told_to(version: str) -> None:
 def test_the_contract_of_every_game_holds_on_the_virtual_client(facing: Facing) -> None:
     client = VirtualClient(seed=3)
     with play(client, LINE, facing) as game:
-        check_game(game, LINE, [*BUMPS, *build(LINE)])
+        arena = arena_of(client, facing)
+        check_game(game, LINE, [*BUMPS, *build(LINE)], lambda: (client.cell(arena), client.placed(arena)))
 
 
 @pytest.mark.slow

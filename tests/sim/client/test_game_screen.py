@@ -1,0 +1,161 @@
+"""What is looked at on the game's window, on the virtual client's: the chat's line, menus, and the last frames."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import LiveError, NotConfirmedError
+from mc_nested.live import way_back
+from mc_nested.live.chat import Chat
+from mc_nested.live.game_screen import WindowScreen
+from mc_nested.live.hands import Hands
+from mc_nested.live.last_frames import LastFrames, without_chat
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile import Profile
+from mc_nested.live.way_back import ScreenName, WayBack
+from sim.client.client import VirtualClient
+from tests.sim.client.playing import FONT, arena_of, command, play
+
+LINE = load_scenario("line")
+
+
+def _screen(client: VirtualClient) -> WindowScreen:
+    client.clock.sleep(0.2)
+    return WindowScreen(client.display, FONT)
+
+
+def _hands(client: VirtualClient) -> Hands:
+    return Hands(client.display, client.keyboard, client.pointer, client.clock, Profile().input)
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
+@pytest.mark.parametrize("scale", [1, 2, 3, 4])
+def test_the_chats_line_is_seen_with_what_is_typed(version: str, scale: int) -> None:
+    client = VirtualClient(version=version, size=(1366, 768) if scale < 4 else (1920, 1080), scale=scale)
+    screen = _screen(client)
+    assert not screen.is_chat_open()
+    client.game.open("chat")
+    client.clock.sleep(0.2)
+    assert screen.is_chat_open()
+    assert screen.is_typed("")
+    client.keyboard.type("/tp @s 1.5 64 3.5 -90 65")
+    client.clock.sleep(0.2)
+    assert screen.is_chat_open()
+    assert screen.is_typed("/tp @s 1.5 64 3.5 -90 65")
+    assert not screen.is_typed("/tp @s 1.5 64 3.5 -90 66")
+    assert not screen.is_typed("/tp @s 1.5 64 3.5 -90 6")
+
+
+def test_of_a_line_that_is_too_long_its_end_is_seen() -> None:
+    client = VirtualClient()
+    screen = _screen(client)
+    client.game.open("chat")
+    line = "/item replace entity @s hotbar.0 with minecraft:waxed_weathered_cut_copper_stairs 64"
+    client.keyboard.type(line)
+    client.clock.sleep(0.2)
+    assert screen.is_typed(line)
+    assert not screen.is_typed(line[:-1])
+
+
+@pytest.mark.parametrize("world", ["bright", "dark", "noise", "grey noise", "specks"])
+def test_no_world_is_taken_for_an_open_chat(world: str) -> None:
+    for seed in range(5):
+        assert not _screen(VirtualClient(world=world, seed=seed, pitch=65.0)).is_chat_open()
+
+
+def test_a_letter_that_is_lost_keeps_the_line_from_being_sent() -> None:
+    client = VirtualClient()
+    screen, hands = _screen(client), _hands(client)
+    hands.saw("world")
+    client.clock.call_at(client.clock.now() + 0.06, lambda: setattr(client.window, "to_drop", 3))
+    with pytest.raises(NotConfirmedError, match=r"not seen in the chat|did not open"):
+        Chat(Profile(), hands, screen, client.clock).send("/time set 1")
+    assert client.realm.day_time == 6000
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.9"])
+@pytest.mark.parametrize("name", ["chat", "pause", "death", "disconnected", "title", "worlds", "inventory"])
+def test_every_screen_leads_back_into_the_world(version: str, name: str) -> None:
+    client = VirtualClient(version=version)
+    screen = _screen(client)
+    if name == "disconnected":
+        client.game.disconnect("Timed out")
+    elif name == "death":
+        client.game.die()
+    elif name == "title":
+        client.game.do("to_title")
+    elif name == "worlds":
+        client.game.do("to_worlds")
+    else:
+        client.game.open("chat" if name == "chat" else "pause" if name == "pause" else "inventory")
+    client.clock.sleep(0.2)
+    way = WayBack(Profile(), _hands(client), screen, client.display, client.clock)
+    shown: ScreenName = "unknown" if name == "inventory" else name  # type: ignore[assignment]  # the rest are names
+    assert way.name() == shown
+    assert way.find().screens[0] == shown
+    assert client.game.screen == "world"
+    assert client.window.down == set()
+
+
+def test_a_debug_screen_that_was_off_is_on_again() -> None:
+    client = VirtualClient(has_f3=False)
+    WayBack(Profile(), _hands(client), _screen(client), client.display, client.clock).find()
+    assert client.game.has_f3
+
+
+def test_it_gives_up_in_bounded_time_and_leaves_the_last_frames(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(way_back, "PATIENCE_S", 3.0)
+    client = VirtualClient()
+    client.clock.sleep(0.2)
+    client.blacken(1000.0)
+    arena = arena_of(client)
+    game = LiveGame(
+        LINE,
+        Profile(arena=arena),
+        display=client.display,
+        keyboard=client.keyboard,
+        pointer=client.pointer,
+        clock=client.clock,
+        screen=WindowScreen(client.display, FONT),
+        evidence=tmp_path / "evidence",
+    )
+    began = client.clock.now()
+    with game, pytest.raises(LiveError, match=r"way back .* was not found .*; what was seen last: .*last-3\.png"):
+        game.reset(1)
+    assert client.clock.now() - began < 60.0
+    assert len(list((tmp_path / "evidence").glob("*.png"))) == 3
+
+
+def test_the_chat_is_blanked_on_a_saved_frame(tmp_path: Path) -> None:
+    client = VirtualClient(world="bright")
+    command(client, "my password is hunter2")
+    last = LastFrames(client.display, tmp_path, lambda: client.scale)
+    last.take()
+    (path,) = last.save()
+    saved = cv2.imread(str(path))
+    assert saved is not None
+    assert not saved[-200 * client.scale :, : 320 * client.scale].any()
+    np.testing.assert_array_equal(saved, without_chat(client.grab(), client.scale))
+
+
+def test_another_window_is_never_pictured(tmp_path: Path) -> None:
+    client = VirtualClient()
+    client.set_front(is_in_front=False)
+    last = LastFrames(client.display, tmp_path, lambda: 2)
+    last.take()
+    assert last.save() == []
+
+
+def test_a_reset_of_a_game_that_was_thrown_out_of_its_world_comes_back() -> None:
+    client = VirtualClient(seed=2)
+    with play(client, LINE) as game:
+        game.reset(1)
+        client.game.do("leave")
+        client.clock.sleep(0.3)
+        assert game.reset(1) == LINE.start
+    assert game.log.recoveries == 1

@@ -1,0 +1,85 @@
+"""A reset without cheats: by clicks, through the title screen, with the world's folder restored from its template."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from mc_nested.arena.rules import Action
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import DesktopError, RunError
+from mc_nested.live.game_screen import WindowScreen
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile import Profile
+from mc_nested.live.profile_tables import GameVersion, World
+from mc_nested.live.world_folder import MARKER
+from sim.client.client import VirtualClient
+from sim.client.realm import Stack
+from sim.client.save import write_world
+from tests.sim.client.playing import FONT, arena_of, play
+
+LINE = load_scenario("line")
+
+
+def _game(client: VirtualClient, folder: Path) -> LiveGame:
+    arena = arena_of(client)
+    player = client.realm.player
+    player.go_to(arena.centre_of(LINE.start))
+    player.look(arena.yaw, 65.0)
+    for slot, material in enumerate(LINE.materials):
+        player.hotbar[slot] = Stack(
+            "planks" if material.block == "oak_planks" and not client.edition.since(1, 13) else material.block, 64
+        )
+    write_world(client.realm, folder)
+    (folder / MARKER).touch()
+    shutil.copytree(folder, folder.parent.parent / "template", dirs_exist_ok=True)
+    world = World(folder=str(folder), template=str(folder.parent.parent / "template"), name="New World")
+    return LiveGame(
+        LINE,
+        Profile(game=GameVersion(version=client.settings.version), arena=arena, world=world),
+        display=client.display,
+        keyboard=client.keyboard,
+        pointer=client.pointer,
+        clock=client.clock,
+        screen=WindowScreen(client.display, FONT),
+    )
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.9"])
+def test_without_cheats_the_world_is_restored_by_clicks(version: str, tmp_path: Path) -> None:
+    folder = tmp_path / "saves" / "arena"
+    client = VirtualClient(version=version, has_cheats=False, world_folder=folder)
+    client.clock.sleep(0.2)
+    with _game(client, folder) as game:
+        arena = arena_of(client)
+        for _ in range(2):
+            assert game.reset(1) == LINE.start == client.cell(arena)
+            assert client.placed(arena) == set()
+            assert game.act(Action.BD).placed == (7, 14)
+            assert client.placed(arena) == {(7, 14)}
+    assert client.window.down == set()
+    assert client.realm.day_time == 6000
+
+
+def test_a_world_without_the_marker_is_left_as_it_is(tmp_path: Path) -> None:
+    folder = tmp_path / "saves" / "arena"
+    client = VirtualClient(has_cheats=False, world_folder=folder)
+    client.clock.sleep(0.2)
+    with _game(client, folder) as game:
+        game.reset(1)
+        game.act(Action.BD)
+        (folder / MARKER).unlink()
+        with pytest.raises(RunError, match=f"has no {MARKER}"):
+            game.reset(1)
+    assert client.placed(arena_of(client)) == {(7, 14)}
+
+
+def test_a_game_that_others_may_share_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    client = VirtualClient()
+    monkeypatch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (3rd-party Server)")
+    with (
+        play(client, LINE) as game,
+        pytest.raises(DesktopError, match=r"others may be playing there.*--server-allowed"),
+    ):
+        game.reset(1)
+    assert client.built == {}
