@@ -1,5 +1,6 @@
 """The ``mc-nested`` command: its verbs, and one line with exit code 2 for every mistake."""
 
+import importlib
 import importlib.metadata
 import sys
 from collections.abc import Sequence
@@ -7,34 +8,35 @@ from typing import Annotated
 
 import typer
 
-from mc_nested.cli import calibrate, evaluate, play, read, reproduce, scenarios, sweep, train
 from mc_nested.cli.interrupt import INTERRUPTED, Stopped
 from mc_nested.errors import McNestedError
 from mc_nested.live.ending import EndedBySignal
 
-app = typer.Typer(
-    name="mc-nested",
-    add_completion=False,
-    rich_markup_mode=None,
-    pretty_exceptions_enable=False,
-)
+VERBS = ("train", "reproduce", "sweep", "evaluate", "play", "scenarios", "read", "calibrate")
+"""Each a module of this package, in the order of the help."""
 
 
-@app.callback(invoke_without_command=True)
+def app_for(words: Sequence[str]) -> typer.Typer:
+    """The command with the one verb that the words begin with, or with all of them where they name none.
+
+    A verb's module is loaded only where it is needed: together they take seconds and hundreds of megabytes.
+    """
+    app = typer.Typer(name="mc-nested", add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+    app.callback(invoke_without_command=True)(version)
+    for verb in words[:1] if words and words[0] in VERBS else VERBS:
+        module = importlib.import_module(f"mc_nested.cli.{verb}")
+        if verb == "calibrate":
+            app.add_typer(module.app, name=verb)
+        else:
+            app.command()(getattr(module, verb))
+    return app
+
+
 def version(show: Annotated[bool, typer.Option("--version", help="print the version")] = False) -> None:
     """Teach an agent to build in Minecraft Java Edition through the keyboard, the mouse and the screen."""
     if show:
         typer.echo(f"mc-nested {importlib.metadata.version('mc-nested')}")
 
-
-app.command()(train.train)
-app.command()(reproduce.reproduce)
-app.command()(sweep.sweep)
-app.command()(evaluate.evaluate)
-app.command()(play.play)
-app.command()(scenarios.scenarios)
-app.command()(read.read)
-app.add_typer(calibrate.app, name="calibrate")
 
 MISTAKE = 2
 """Exit code of a mistake, or of a game that did not obey."""
@@ -46,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if words in ([], ["calibrate"]):
         words.append("--help")
     try:
-        code = app(args=words, standalone_mode=False)
+        code = app_for(words)(args=words, standalone_mode=False)
         if code == INTERRUPTED:  # what typer makes of a KeyboardInterrupt, and of nothing else
             code = _say("stopped", INTERRUPTED)
     except typer.TyperException as error:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
@@ -30,8 +30,10 @@ from mc_nested.learn.experiment_folder import ExperimentFolder
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.reproduction import LONGER, LONGER_AGENTS, LONGER_SCENARIOS, ReproduceConfig
 from mc_nested.report.results import Cost, Evaluation, Results
-from mc_nested.report.verdicts import JudgedClaim
 from sim.grid import arena_env
+
+if TYPE_CHECKING:  # loads scipy, which a process that waits for others can do without
+    from mc_nested.report.verdicts import JudgedClaim
 
 VERB = "reproduce"
 TRIALS, PRESET = 10, "paper"
@@ -176,7 +178,7 @@ def builders_score(scenario: Scenario) -> float:
     raise AssertionError("the builder places every block, which ends the episode")
 
 
-def _print_verdicts(claims: Sequence[JudgedClaim]) -> None:
+def _print_verdicts(claims: "Sequence[JudgedClaim]") -> None:
     table = Table("", "the paper's claim", "verdict", box=None, padding=(0, 1))
     for judged in claims:
         table.add_row(f"({judged.claim.letter})", Text(judged.claim.title), judged.verdict.value)
