@@ -25,7 +25,7 @@ from mc_nested.cli.experiment import (
     trained,
 )
 from mc_nested.errors import UserError
-from mc_nested.learn.agents import FORMS
+from mc_nested.learn.agents import FORMS, check_exploration
 from mc_nested.learn.experiment_folder import ExperimentFolder
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.reproduction import LONGER, LONGER_AGENTS, LONGER_SCENARIOS, ReproduceConfig
@@ -76,6 +76,8 @@ def reproduce(
         if name not in FORMS:
             raise UserError(f"no agent {name!r}: choose one of {', '.join(FORMS)}")
     chosen = load_preset(preset or PRESET)
+    for name in agent or FORMS:
+        check_exploration(FORMS[name], chosen)
     config = ReproduceConfig(
         agents=[name for name in FORMS if name in agent] if agent else list(FORMS),
         trials=trials or TRIALS,

@@ -112,10 +112,10 @@ def run_training(
             if resumed:
                 folder.checkpoint.load_into(trainer)
             else:
-                folder.begin()
                 if earlier:
                     trainer.begin_from(earlier)
-                    folder.save(trainer, 0.0)
+                    folder.save_before_all(trainer)
+                folder.begin()
             spoiled = Spoiled()
 
             def save() -> dict[str, Any]:

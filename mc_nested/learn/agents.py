@@ -53,6 +53,12 @@ FORMS: Mapping[str, Form] = {
 """The agents that can be trained, by name."""
 
 
+def check_exploration(form: Form, preset: Preset) -> None:
+    """PresetError where the preset explores in a way that the form can't."""
+    if preset.excursions and not form.has_main:  # its choice of a material is a step like any other
+        raise PresetError("[excursions] are not for the single agent: take nested or hierarchical, or the preset paper")
+
+
 class Agent:
     """One of the paper's agents in R runs, one scenario a run.
 
@@ -73,10 +79,7 @@ class Agent:
     def __init__(
         self, form: Form, scenarios: Sequence[Scenario], preset: Preset, seed: int, runs: Sequence[int] | None = None
     ) -> None:
-        if preset.excursions and not form.has_main:
-            raise PresetError(
-                "[excursions] are for agents whose material is chosen before: take nested or hierarchical"
-            )
+        check_exploration(form, preset)
         self.runs = tuple(range(len(scenarios)) if runs is None else runs)
         streams = [initial_stream(seed, run) for run in self.runs]
         materials = len(scenarios[0].materials)

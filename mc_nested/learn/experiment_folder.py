@@ -13,6 +13,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
 from mc_nested.errors import RunError
 from mc_nested.learn.checkpoint import fingerprint
+from mc_nested.learn.folder_kind import refuse_others
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.unit_training import UnitOutcome, outcome_of
 from mc_nested.learn.units import Run, Unit, cut_into_units
@@ -85,7 +86,9 @@ class ExperimentFolder(Generic[Config]):
         file = path / CONFIG
         if not file.is_file():
             raise RunError(f"{path}: no {CONFIG} there: name the folder of a {verb} (its --out)")
-        folder = cls(path, parse_toml(model, read_toml_text(file, RunError), str(file), RunError), verb)
+        text = read_toml_text(file, RunError)
+        refuse_others(text, path, verb)
+        folder = cls(path, parse_toml(model, text, str(file), RunError), verb)
         stamp = path / UNITS / STAMP
         if stamp.exists() and stamp.read_text("utf-8", errors="replace").strip() != folder._stamp:
             raise RunError(

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -15,6 +16,7 @@ from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
 from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import FORMS, Agent
 from mc_nested.learn.checkpoint import Checkpoint
+from mc_nested.learn.folder_kind import refuse_others
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.records import EpisodeRow, EvaluationRow
 from mc_nested.learn.trainer import Trainer
@@ -79,6 +81,7 @@ class RunFolder:
         if not (path / "config.toml").is_file():
             raise RunError(f"{path}: no config.toml there: name the folder of a training (its --out)")
         text = read_toml_text(path / "config.toml", RunError)
+        refuse_others(text, path, "train")
         try:
             return cls(path, parse_toml(RunConfig, text, str(path / "config.toml"), RunError))
         except ScenarioError as error:
@@ -92,6 +95,17 @@ class RunFolder:
     def scenarios(self) -> list[Scenario]:
         """Each trial's scenario."""
         return [self.scenario] * self.config.trials
+
+    def save_before_all(self, trainer: Trainer) -> None:
+        """Save what a training begins with, before the folder says that there is one; RunError, and nothing left.
+
+        So a training that is killed here can't be resumed without it.
+        """
+        try:
+            self.checkpoint.save(trainer)
+        except (OSError, RuntimeError) as error:  # torch raises a RuntimeError where it can't write
+            shutil.rmtree(self.path / "checkpoint", ignore_errors=True)
+            raise RunError(f"{self.path}: can't be written ({error}): make room and begin again") from error
 
     def begin(self) -> None:
         """Make the folder and write config.toml; RunError where the disk refuses."""

@@ -10,8 +10,8 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import LONGEST, scenario_of, table_of
-from mc_nested.errors import PresetError
-from mc_nested.learn.agents import FORMS, Form
+from mc_nested.errors import PresetError, ScenarioError
+from mc_nested.learn.agents import FORMS, Form, check_exploration
 from mc_nested.learn.experiment_folder import ExperimentConfig
 from mc_nested.learn.preset import Preset, parse_preset
 from mc_nested.learn.units import Run
@@ -62,14 +62,15 @@ class Variant(BaseModel):
         return scenario_of(table, f"variant {self.name}, scenario {base.name}")
 
     def changes(self, preset: Preset, scenarios: list[Scenario]) -> bool:
-        """Whether anything is otherwise with it, and can be."""
+        """Whether anything is otherwise with it, and can be: in this preset, and with these designs."""
         if self.needs and getattr(preset, self.needs, None) is None:
             return False
-        return (
-            self.preset_from(preset) != preset
-            or [self.scenario_from(scenario) for scenario in scenarios] != scenarios
-            or self.form() != FORMS[self.agent]
-        )
+        try:
+            check_exploration(self.form(), preset)
+            changed = [self.scenario_from(scenario) for scenario in scenarios]
+        except (PresetError, ScenarioError):
+            return False
+        return self.preset_from(preset) != preset or changed != scenarios or self.form() != FORMS[self.agent]
 
 
 class _Variants(BaseModel):

@@ -126,6 +126,7 @@ class Trainer:
     def begin_from(self, online: Mapping[str, NDArray[Any]]) -> None:
         """Begin with every run's networks as given, one run's by role, and evaluate them before the first episode."""
         self.agent.take_over(online)
+        self._kept = {role: taken.copy() for role, taken in self.agent.online().items()}
         self._runs.evaluated_at[:] = -1
 
     def tick(self) -> None:

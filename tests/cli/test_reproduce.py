@@ -59,6 +59,22 @@ def written(folder: Path) -> dict[str, bytes]:
     return {**found, "report.md": re.sub(rb"(?m)^Seconds.*$", b"", found["report.md"])}
 
 
+def test_a_preset_that_an_agent_can_not_use_is_refused_before_anything_is_trained(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("reproduce", "--preset", "tuned", "--out", tmp_path / "run") == 2
+    assert "are not for the single agent" in capsys.readouterr().err
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize("verb", [("evaluate",), ("play",), ("train", "--resume"), ("sweep", "--resume")])
+def test_other_verbs_say_whose_folder_it_is(
+    done: Path, verb: tuple[str, ...], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(*verb, done) == 2
+    assert "the folder of mc-nested reproduce, not of" in capsys.readouterr().err
+
+
 def test_it_leaves_the_results_and_what_made_them(done: Path) -> None:
     assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "units", "tensorboard"}
     runs = {f"{a}-{s}-{t}" for a in ("nested", "hierarchical", "single") for s in ("dot", "bar") for t in (0, 1)}
@@ -259,7 +275,7 @@ def test_a_disk_that_fills_up_at_the_end_costs_one_line_and_no_file(
         (["reproduce", "--resume", "DONE", "--out", "NEW"], "leave out --out"),
         (["sweep"], "name a new folder with --out DIR"),
         (["sweep", "--out", "NEW", "--trials", "0"], "'--trials'"),
-        (["sweep", "--resume", "DONE"], "config.toml: variants: missing"),
+        (["sweep", "--resume", "DONE"], "the folder of mc-nested reproduce, not of sweep"),
     ],
 )
 def test_a_mistake_is_one_line_and_exit_code_2(

@@ -116,6 +116,29 @@ def test_networks_that_do_not_fit_are_one_line(
     assert not (tmp_path / "new").exists()
 
 
+def test_a_training_begun_from_another_that_can_not_be_saved_is_not_begun(
+    optimal: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def full_disk(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    words = ("train", "--preset", "live", "--episodes", "6", "--from", optimal, "--out", tmp_path / "new")
+    with monkeypatch.context() as patch:
+        patch.setattr("os.fsync", full_disk)
+        assert run(*words) == 2
+    assert "make room and begin again" in capsys.readouterr().err
+    assert run(*words) == 0
+    assert json.loads((tmp_path / "new" / "summary.json").read_text())["episodes_to_optimum"] == [0]
+
+
+def test_another_verbs_folder_is_told_by_its_verb(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for verb in ("reproduce", "sweep"):
+        assert run(verb, "--resume", trained) == 2
+        said = capsys.readouterr().err
+        assert f"the folder of mc-nested train, not of {verb}" in said
+        assert f"mc-nested train --resume {trained}" in said
+
+
 def test_excursions_of_a_single_agent_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("train", "--preset", "tuned", "--agent", "single", "--out", tmp_path / "new") == 2
     assert "take nested or hierarchical" in capsys.readouterr().err

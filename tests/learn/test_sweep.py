@@ -4,6 +4,7 @@ from itertools import pairwise
 
 import pytest
 
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.errors import PresetError, ScenarioError
 from mc_nested.learn.agents import FORMS
@@ -93,3 +94,11 @@ def test_runs_that_differ_in_their_scenarios_alone_train_side_by_side() -> None:
     beside_the_base = {run.group for run in runs if (run.form, run.preset) == kinds[0]}
     assert {"base, nested", "start: near edge, middle", "step limit: 120"} <= beside_the_base
     assert changes < len({run.group for run in runs}) - 1
+
+
+def test_what_a_preset_or_a_design_can_not_do_is_left_out() -> None:
+    assert {variant.agent for variant in shipped_variants(load_preset("tuned"), SCENARIOS)} == {"nested"}
+    cells = frozenset((x, y) for x in range(15) for y in range(3, 6))
+    large = Scenario("large", cells, (7, 14), 200, SCENARIOS[0].materials)
+    limits = [variant.value for variant in shipped_variants(PAPER, [large]) if variant.choice == "step limit"]
+    assert limits == ["120"]

@@ -259,6 +259,17 @@ def test_a_run_keeps_its_best_policy_where_the_preset_says_so(scouting: Trainer)
     assert [episode.score for episode in played] == scores
 
 
+def test_a_training_begun_from_a_policy_keeps_it_until_it_has_one_of_its_own(scouting: Trainer) -> None:
+    online = {role: kept[[0]] for role, kept in scouting.agent.online().items()}
+    trainer = trainer_of([LINE, DIAMOND], SCOUTING)
+    trainer.begin_from(online)
+    for role, taken in online.items():
+        np.testing.assert_array_equal(trainer.state()[f"kept.{role}"], np.concatenate([taken, taken]))
+    while not trainer.evaluation_rows:
+        trainer.tick()
+    assert trainer.evaluation_rows[0].episode == 0
+
+
 def test_there_are_as_many_updates_a_step_as_the_preset_says(scouting: Trainer) -> None:
     steps = sum(row.steps for row in scouting.episode_rows)
     assert int(scouting.agent.low.ddqn.updates.sum()) == 2 * (steps - 2 * 15)
