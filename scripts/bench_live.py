@@ -25,23 +25,22 @@ from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from mc_nested.arena import rules  # noqa: E402 - found only with the line above
-from mc_nested.arena.rules import Action, Cell  # noqa: E402
-from mc_nested.arena.scenario import Scenario  # noqa: E402
-from mc_nested.arena.scenario_file import load_scenario  # noqa: E402
-from mc_nested.errors import LiveError  # noqa: E402
-from mc_nested.live.action_log import percentile  # noqa: E402
-from mc_nested.live.font import Font, font_of  # noqa: E402
-from mc_nested.live.game_screen import WindowScreen  # noqa: E402
-from mc_nested.live.live_game import LiveGame  # noqa: E402
-from mc_nested.live.profile import Profile  # noqa: E402
-from mc_nested.live.profile_tables import Arena, GameVersion  # noqa: E402
-from scripts import bench_reader  # noqa: E402
-from sim.client.client import VirtualClient  # noqa: E402
-from sim.client.font import drawn_atlas  # noqa: E402
+from mc_nested.arena import rules
+from mc_nested.arena.rules import Action, Cell
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import LiveError
+from mc_nested.live.action_log import percentile
+from mc_nested.live.font import Font, font_of
+from mc_nested.live.game_screen import WindowScreen
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile import Profile
+from mc_nested.live.profile_tables import Arena, GameVersion
+from scripts import bench_reader
+from sim.client.client import VirtualClient
+from sim.client.font import drawn_atlas
 
 MISHAP_WITHIN_S = 0.5
 """A mishap comes at some moment of the action before which it was drawn, or of the one after."""

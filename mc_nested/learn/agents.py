@@ -7,11 +7,12 @@ single        one agent does it all on (x, y, b, m), in ten actions (arena/singl
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
+from pydantic import AfterValidator
 
 from mc_nested.arena.rules import SIZE, Action
 from mc_nested.arena.scenario import Scenario
@@ -57,6 +58,16 @@ def check_exploration(form: Form, preset: Preset) -> None:
     """PresetError where the preset explores in a way that the form can't."""
     if preset.excursions and not form.has_main:  # its choice of a material is a step like any other
         raise PresetError("[excursions] are not for the single agent: take nested or hierarchical, or the preset paper")
+
+
+def _known(name: str) -> str:
+    if name not in FORMS:
+        raise ValueError(f"must be one of {', '.join(FORMS)}")
+    return name
+
+
+AgentName = Annotated[str, AfterValidator(_known)]
+"""The name of one of FORMS, in a file that pydantic checks."""
 
 
 class Agent:

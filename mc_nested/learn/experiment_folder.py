@@ -13,7 +13,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
 from mc_nested.errors import RunError
 from mc_nested.learn.checkpoint import fingerprint
-from mc_nested.learn.folder_kind import refuse_others
+from mc_nested.learn.folder_kind import refuse_others, refuse_taken
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.unit_training import UnitOutcome, outcome_of
 from mc_nested.learn.units import Run, Unit, cut_into_units
@@ -72,12 +72,7 @@ class ExperimentFolder(Generic[Config]):
     @classmethod
     def new(cls, path: Path, config: Config, verb: str) -> "ExperimentFolder[Config]":
         """A folder to begin an experiment in; RunError where the path holds anything. Nothing is written yet."""
-        try:
-            taken = path.exists() and (not path.is_dir() or any(path.iterdir()))
-        except OSError as error:
-            raise RunError(f"{path}: can't be used, {error.strerror}: name another folder") from error
-        if taken:
-            raise RunError(f"{path}: exists and is not empty: name a new folder, nothing was overwritten")
+        refuse_taken(path)
         return cls(path, config, verb)
 
     @classmethod

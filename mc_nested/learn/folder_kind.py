@@ -1,4 +1,4 @@
-"""Which verb a folder belongs to, told by its config.toml: each has a key that the others' haven't."""
+"""Whose a folder is: nobody's yet, or a verb's, told by a key of its config.toml that the others' haven't."""
 
 from pathlib import Path
 
@@ -17,3 +17,13 @@ def refuse_others(text: str, folder: Path, verb: str) -> None:
             f"{folder}: the folder of mc-nested {found[0]}, not of {verb}: name another, or go on with it by "
             f"mc-nested {found[0]} --resume {folder}"
         )
+
+
+def refuse_taken(path: Path) -> None:
+    """RunError where the path can't be a new folder, because it holds anything or the system refuses."""
+    try:
+        taken = path.exists() and (not path.is_dir() or any(path.iterdir()))
+    except OSError as error:
+        raise RunError(f"{path}: can't be used, {error.strerror}: name another folder") from error
+    if taken:
+        raise RunError(f"{path}: exists and is not empty: name a new folder, nothing was overwritten")

@@ -9,14 +9,14 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import tomlkit
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
 from mc_nested.errors import RunError, ScenarioError
-from mc_nested.learn.agents import FORMS, Agent
+from mc_nested.learn.agents import FORMS, Agent, AgentName
 from mc_nested.learn.checkpoint import Checkpoint
-from mc_nested.learn.folder_kind import refuse_others
+from mc_nested.learn.folder_kind import refuse_others, refuse_taken
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.records import EpisodeRow, EvaluationRow
 from mc_nested.learn.trainer import Trainer
@@ -24,18 +24,12 @@ from mc_nested.learn.whole_file import written_whole
 from mc_nested.toml_file import parse_toml, read_toml_text
 
 
-def _known_agent(name: str) -> str:
-    if name not in FORMS:
-        raise ValueError(f"must be one of {', '.join(FORMS)}")
-    return name
-
-
 class RunConfig(BaseModel):
     """Everything needed to repeat a training: the scenario and the preset whole, so no other file has to be found."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
-    agent: Annotated[str, AfterValidator(_known_agent)]
+    agent: AgentName
     backend: Literal["sim", "live"]
     profile: str | None = None
     trials: Annotated[int, Field(ge=1)]
@@ -67,12 +61,7 @@ class RunFolder:
     @classmethod
     def new(cls, path: Path, config: RunConfig) -> "RunFolder":
         """A folder to begin a training in; RunError where the path holds anything already. Nothing is written yet."""
-        try:
-            taken = path.exists() and (not path.is_dir() or any(path.iterdir()))
-        except OSError as error:
-            raise RunError(f"{path}: can't be used, {error.strerror}: name another folder") from error
-        if taken:
-            raise RunError(f"{path}: exists and is not empty: name a new folder, nothing was overwritten")
+        refuse_taken(path)
         return cls(path, config)
 
     @classmethod

@@ -6,24 +6,18 @@ from importlib import resources
 from typing import Annotated, Any
 
 import tomlkit
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import LONGEST, scenario_of, table_of
 from mc_nested.errors import PresetError, ScenarioError
-from mc_nested.learn.agents import FORMS, Form, check_exploration
+from mc_nested.learn.agents import FORMS, AgentName, Form, check_exploration
 from mc_nested.learn.experiment_folder import ExperimentConfig
 from mc_nested.learn.preset import Preset, parse_preset
 from mc_nested.learn.units import Run
 from mc_nested.toml_file import parse_toml
 
 FILE = "variants.toml"
-
-
-def _known_agent(name: str) -> str:
-    if name not in FORMS:
-        raise ValueError(f"must be one of {', '.join(FORMS)}")
-    return name
 
 
 class Variant(BaseModel):
@@ -33,7 +27,7 @@ class Variant(BaseModel):
 
     choice: str = ""
     value: str = ""
-    agent: Annotated[str, AfterValidator(_known_agent)] = "nested"
+    agent: AgentName = "nested"
     needs: str | None = None
     preset: dict[str, Any] = Field(default_factory=dict)
     start: Annotated[list[int], Field(min_length=2, max_length=2)] | None = None
