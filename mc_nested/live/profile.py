@@ -20,6 +20,7 @@ from mc_nested.live.profile_tables import (
     Arena,
     Blocks,
     Body,
+    Calibrated,
     Fraction,
     GameVersion,
     Input,
@@ -48,8 +49,9 @@ class Profile(ProfileTable):
     walk: Walk = Walk()
     points: dict[str, tuple[Fraction, Fraction]] = Field(
         default_factory=dict,
-        description="places to click, as fractions of the window's size; not clicked yet",
+        description="places to click, as fractions of the window's size; their pictures lie beside this file",
     )
+    calibrated: Calibrated | None = None
 
     def marked_arena(self) -> Arena:
         """The arena; ProfileError where none is marked yet."""

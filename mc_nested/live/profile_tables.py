@@ -10,10 +10,11 @@ from pydantic import BaseModel, ConfigDict, Field, field_validator, model_valida
 from mc_nested.arena.rules import SIZE, Cell
 from mc_nested.errors import ProfileError
 from mc_nested.live import coordinates
+from mc_nested.live.beat import FELT_AFTER_S, SEEN_AFTER_S
 from mc_nested.live.coordinates import Facing
 from mc_nested.live.desktop.keys import check_key
 from mc_nested.live.reading import Block
-from mc_nested.live.walk import walk_response
+from mc_nested.live.walk import INERTIA, SNEAKING, walk_response
 
 Dialect = Literal["1.12", "1.13", "1.17"]
 """The first version of each syntax that the commands came in (FACTS: Commands)."""
@@ -21,7 +22,11 @@ Dialect = Literal["1.12", "1.13", "1.17"]
 FILL_LIMIT = 32768
 """Blocks that one /fill may change (FACTS: Commands)."""
 
+FORMAT: Literal[1] = 1
+"""Of a profile: one more wherever a key gets another meaning, or goes."""
+
 Seconds = Annotated[float, Field(gt=0, le=60)]
+Latency = Annotated[float, Field(ge=0, le=0.5)]
 Fraction = Annotated[float, Field(ge=0, le=1)]
 Shade = Annotated[int, Field(ge=0, le=255)]
 Key = Annotated[str, Field(min_length=1)]
@@ -275,6 +280,18 @@ class Walk(ProfileTable):
         default=tuple(round(blocks, 4) for blocks in walk_response(12)),
         description="blocks covered by 1, 2, 3 ... ticks held, until standstill",
     )
+    inertia: Annotated[float, Field(gt=0, lt=1)] = Field(
+        default=INERTIA, description="what a tick leaves of a step: 0.546 on stone"
+    )
+    sneaking: Annotated[float, Field(gt=0, lt=1)] = Field(
+        default=SNEAKING, description="what sneaking leaves of a step that a key adds"
+    )
+    felt_after_s: Latency = Field(
+        default=FELT_AFTER_S, description="seconds from a press until the game has it, on average"
+    )
+    seen_after_s: Latency = Field(
+        default=SEEN_AFTER_S, description="seconds from a tick until its step is on the screen, on average"
+    )
 
     @field_validator("covered")
     @classmethod
@@ -282,3 +299,20 @@ class Walk(ProfileTable):
         if any(after <= before for before, after in zip((0.0, *covered), covered, strict=False)):
             raise ValueError("must grow with every tick: measure it again, or remove it to take the default")
         return covered
+
+
+class Calibrated(ProfileTable):
+    """What the profile was calibrated on, and when; written by calibration, checked before it is played with."""
+
+    format: Literal[1] = Field(
+        default=FORMAT, description="of this file: another version of mc-nested may know another one"
+    )
+    date: str = Field(description="the day, as year-month-day")
+    version: str | None = Field(default=None, description="the version that the game's window said")
+    window: tuple[int, int] | None = Field(default=None, description="the window's width and height in pixels")
+    gui_scale: Annotated[int, Field(ge=1, le=16)] | None = Field(
+        default=None, description="screen pixels to a dot of the font, as seen"
+    )
+    samples: dict[str, int] = Field(
+        default_factory=dict, description="how many measurements each step rests on, by its name"
+    )
