@@ -42,6 +42,7 @@ class LiveGame:
         screen: what is read on the window.
         evidence: the folder that gets the last frames where a reset is given up.
         is_server_allowed: whether a game that others may share is played.
+        hands: who presses, where somebody else opened and ends them; left out, its own.
 
     Raises:
         ProfileError: the profile has no arena, or fewer hotbar slots than the scenario has materials.
@@ -59,6 +60,7 @@ class LiveGame:
         screen: GameScreen,
         evidence: Path | None = None,
         is_server_allowed: bool = False,
+        hands: Hands | None = None,
     ) -> None:
         if len(scenario.materials) > len(profile.keys.hotbar):
             raise ProfileError(
@@ -71,7 +73,7 @@ class LiveGame:
         self._clock = clock
         self._display = display
         self._is_server_allowed = is_server_allowed
-        self.hands = Hands(display, keyboard, pointer, clock, profile.input)
+        self.hands = hands or Hands(display, keyboard, pointer, clock, profile.input)
         self._body = Body(profile, self.hands, screen, clock)
         self._chat = Chat(profile, self.hands, screen, clock)
         self._way_back = WayBack(profile, self.hands, screen, display, clock)
