@@ -15,7 +15,7 @@ import dataclasses
 import json
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -84,13 +84,25 @@ class Play:
 
 def play(count: int, rate: float, seed: int, scenario: Scenario) -> Play:
     """Play ``count`` actions, with a mishap before a share ``rate`` of them."""
-    done = Play()
     client = VirtualClient(seed=seed)
     arena = Arena.around((-20, client.realm.world.floor, 31), "south")
-    game = live_game(client, scenario, arena)
+    steps = track(range(count), "soak" if rate else "clean", console=Console(stderr=True))
+    return play_in(client, live_game(client, scenario, arena), arena, scenario, steps, rate, seed)
+
+
+def play_in(
+    client: VirtualClient,
+    game: LiveGame,
+    arena: Arena,
+    scenario: Scenario,
+    steps: Iterable[int],
+    rate: float,
+    seed: int,
+) -> Play:
+    """Play as many actions as there are steps in that client's game, each against what the client's world holds."""
+    done = Play()
     rng = np.random.default_rng(seed)
     began, cpu = client.clock.now(), time.process_time()
-    steps = track(range(count), "soak" if rate else "clean", console=Console(stderr=True))
     with game:
         placed: set[Cell] | None = None
         cell, in_episode = scenario.start, 0
