@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from calibration.all import Guided, Run, Step, run_steps
+from calibration.run_steps import Guided, Run, Step, run_steps
 from calibration.step import Bench, Found
 from mc_nested.errors import (
     LiveError,
