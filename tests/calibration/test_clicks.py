@@ -17,6 +17,7 @@ from mc_nested.live.desktop import Desktop
 from mc_nested.live.desktop.clock import MonotonicClock
 from mc_nested.live.devices import Button, Frame, Region
 from mc_nested.live.profile import load_profile
+from sim.client.devices import VirtualClipboard
 
 
 @dataclass
@@ -133,7 +134,7 @@ def opened(player: Player) -> Callable[[str], AbstractContextManager[Desktop]]:
     @contextmanager
     def open_devices(title: str) -> Iterator[Desktop]:
         assert title
-        yield Desktop(player, NoKeys(), Mouse(player), MonotonicClock())
+        yield Desktop(player, NoKeys(), Mouse(player), MonotonicClock(), VirtualClipboard())
 
     return open_devices
 
