@@ -20,7 +20,8 @@ class ClientSettings:
     text, of ``scenery.WORLDS``, bright or dark; ``font`` the project's own where it is None. Latencies are from and to,
     in seconds: until an event reaches the game, and how old a picture is. ``feet``, ``yaw`` and ``pitch`` are where the
     player begins and begins again after a death. ``shows_target`` is whether the debug screen names the block looked
-    at. ``words`` are what menus say in another language, by their English. With a ``world_folder`` the world is written into it whenever it is left, and read from it when it is entered.
+    at. ``words`` are what menus say in another language, by their English. With a ``world_folder`` the world is written
+    into it whenever it is left, and read from it when it is entered.
     """
 
     seed: int = 0
