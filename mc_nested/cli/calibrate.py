@@ -6,14 +6,15 @@ from typing import Annotated
 import typer
 
 from calibration.arena import NEAR_MIDDLE, calibrate_arena
-from calibration.clicks import calibrate_clicks
+from mc_nested.cli.calibrate_clicks import clicks
+from mc_nested.cli.calibrate_font import font
 from mc_nested.cli.calibrate_report import report
-from mc_nested.cli.options import DEFAULT_PROFILE
+from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 
 app = typer.Typer(help="Tell the agent where your arena and your buttons are.")
+app.command()(font)
+app.command()(clicks)
 app.command()(report)
-
-ProfileToWrite = Annotated[str, typer.Option(metavar="NAME|FILE", help="the profile to write; new if there is none")]
 
 
 @app.command()
@@ -30,20 +31,3 @@ def arena(
     """Mark the arena where you stand and look; only what is marked is ever cleared."""
     path = calibrate_arena(profile, ask=typer.confirm, say=typer.echo, standing=standing, font=font, yes=yes)
     typer.echo(f"arena written to {path}" if path else "nothing was written")
-
-
-@app.command()
-def clicks(
-    points: Annotated[
-        list[str] | None, typer.Argument(metavar="[POINT]...", help="which (default: the menus')")
-    ] = None,
-    profile: ProfileToWrite = DEFAULT_PROFILE,
-    hotkey: Annotated[str, typer.Option(help="records the place under the mouse")] = "f8",
-    skip: Annotated[str, typer.Option(help="leaves a point as it is")] = "f9",
-) -> None:
-    """Record the places to click by hand: hover and press the hotkey."""
-    written = calibrate_clicks(profile, say=typer.echo, names=points or (), hotkey=hotkey, skip=skip)
-    if written is None:
-        typer.echo("nothing was written")
-        return
-    typer.echo(f"points written to {written[0]}; look at them in {written[1]}")

@@ -11,12 +11,25 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from calibration.clicks import MARK_COLOUR, MENU_POINTS, TILE_WIDTH, Point, calibrate_clicks, picture_of, record
+from calibration.bench import BenchOf
+from calibration.clicks import MENU_POINTS, calibrate_clicks
+from calibration.clicks_by_hand import record
+from calibration.clicks_shown import MARK_COLOUR, TILE_WIDTH, Point, picture_of
+from calibration.step import Bench, Found
 from mc_nested.errors import ProfileError, UserError
 from mc_nested.live.desktop import Desktop
 from mc_nested.live.desktop.clock import MonotonicClock
 from mc_nested.live.devices import Button, Frame, Region
-from mc_nested.live.profile import load_profile
+from mc_nested.live.hands import Hands
+from mc_nested.live.point_pictures import load_click_points
+from mc_nested.live.profile import Profile, load_profile
+from sim.client.devices import VirtualClipboard
+
+SCREEN = np.random.default_rng(0).integers(0, 256, (300, 400, 3), np.uint8)
+SCREEN[150:, 200:] = 40
+"""Something to be seen everywhere but in one corner."""
+
+LARGE_SCREEN = np.random.default_rng(0).integers(0, 256, (2160, 3840, 3), np.uint8)
 
 
 @dataclass
@@ -49,7 +62,7 @@ class Player:
 
     def grab(self, region: Region | None = None) -> Frame:
         assert region is None
-        return np.zeros((self.window[1], self.window[0], 3), np.uint8)
+        return SCREEN if self.window == (400, 300) else LARGE_SCREEN
 
 
 class Mouse:
@@ -129,13 +142,14 @@ def test_the_picture_shows_every_screen_with_its_mark() -> None:
         assert tuple(picture[y, x]) == MARK_COLOUR
 
 
-def opened(player: Player) -> Callable[[str], AbstractContextManager[Desktop]]:
+def bench_of(player: Player) -> BenchOf:
     @contextmanager
-    def open_devices(title: str) -> Iterator[Desktop]:
-        assert title
-        yield Desktop(player, NoKeys(), Mouse(player), MonotonicClock())
+    def opened(profile: Profile) -> Iterator[Bench]:
+        desktop = Desktop(player, NoKeys(), Mouse(player), MonotonicClock(), VirtualClipboard())
+        hands = Hands(player, NoKeys(), Mouse(player), desktop.clock, profile.input)
+        yield Bench(desktop, hands, player.say, lambda _: False)
 
-    return open_devices
+    return opened
 
 
 def heard(player: Player) -> Callable[[Sequence[str]], AbstractContextManager[Callable[[], str]]]:
@@ -147,13 +161,15 @@ def heard(player: Player) -> Callable[[Sequence[str]], AbstractContextManager[Ca
     return listen
 
 
-def calibrated(file: Path, player: Player, names: Sequence[str] = ()) -> tuple[Path, Path] | None:
-    return calibrate_clicks(file, say=player.say, names=names, open_devices=opened(player), listen=heard(player))
+def calibrated(file: Path, player: Player, names: Sequence[str] = tuple(MENU_POINTS)) -> tuple[Found, Path] | None:
+    return calibrate_clicks(file, bench_of(player), names=names, listen=heard(player))
 
 
 def test_the_menus_points_are_asked_for_and_written_with_a_picture_beside_the_profile(tmp_path: Path) -> None:
     player = Player([("f8", (100, 75), True)] * len(MENU_POINTS))
-    assert calibrated(tmp_path / "mine.toml", player) == (tmp_path / "mine.toml", tmp_path / "mine-clicks.png")
+    written = calibrated(tmp_path / "mine.toml", player)
+    assert written is not None
+    assert written[1] == tmp_path / "mine-clicks.png"
     assert load_profile(tmp_path / "mine.toml").points == dict.fromkeys(MENU_POINTS, (0.25, 0.25))
     picture = cv2.imdecode(np.fromfile(tmp_path / "mine-clicks.png", np.uint8), cv2.IMREAD_COLOR)
     assert picture is not None
@@ -163,8 +179,8 @@ def test_the_menus_points_are_asked_for_and_written_with_a_picture_beside_the_pr
 def test_points_that_are_skipped_stay_as_they_were(tmp_path: Path) -> None:
     file = tmp_path / "old.toml"
     file.write_text("# mine\n[points]\nworld = [0.1, 0.2]\nrespawn = [0.3, 0.4]\n", "utf-8")
-    calibrated(file, Player([("f9", (0, 0), True), ("f8", (200, 150), True)]), ["world", "respawn"])
-    assert load_profile(file).points == {"world": (0.1, 0.2), "respawn": (0.5, 0.5)}
+    calibrated(file, Player([("f9", (0, 0), True), ("f8", (200, 140), True)]), ["world", "respawn"])
+    assert load_profile(file).points == {"world": (0.1, 0.2), "respawn": (0.5, 0.4667)}
     assert file.read_text("utf-8").startswith("# mine\n")
 
 
@@ -184,9 +200,23 @@ def test_ctrl_c_half_way_leaves_the_old_profile_and_no_picture(tmp_path: Path) -
     assert list(tmp_path.iterdir()) == [file]
 
 
+def test_each_point_leaves_its_own_picture(tmp_path: Path) -> None:
+    calibrated(tmp_path / "mine.toml", Player([("f8", (100, 75), True)]), ["world/../x"])
+    point = load_click_points(load_profile(tmp_path / "mine.toml"), tmp_path / "mine.toml")["world/../x"]
+    # At GUI scale 1, the largest that 400 x 300 has: 96 x 10 pixels around the mouse.
+    np.testing.assert_array_equal(point.picture, SCREEN[70:80, 52:148])
+    assert [each.parent for each in (tmp_path / "mine-points").iterdir()] == [tmp_path / "mine-points"]
+
+
+def test_a_place_where_nothing_is_drawn_is_told_and_waits_for_another() -> None:
+    player = Player([("f8", (300, 200), True), ("f8", (100, 75), True)])
+    assert recorded(player, ["world"]) == {"world": (0.25, 0.25)}
+    assert "nothing is drawn" in player.told[-1]
+
+
 def test_one_key_can_not_both_record_and_skip(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="both record and skip"):
-        calibrate_clicks(tmp_path / "new.toml", say=lambda _: None, hotkey="f8", skip="f8")
+        calibrate_clicks(tmp_path / "new.toml", bench_of(Player([])), hotkey="f8", skip="f8")
 
 
 def test_a_profile_that_can_not_be_used_is_told_before_a_window_is_looked_for(tmp_path: Path) -> None:
