@@ -1,7 +1,7 @@
 """The game's ``options.txt``: read, and patched so that every other line stays as it is, to the byte.
 
-A line is ``name:value``. A key is a word in 1.13 and later (``key.keyboard.left.shift``), and a number of LWJGL 2 before
-(42); both become the names that a profile has (FACTS: options.txt).
+A line is ``name:value``. A key is a word in 1.13 and later (``key.keyboard.left.shift``), and a number of LWJGL 2
+before (42); both become the names that a profile has (FACTS: options.txt).
 """
 
 import re
