@@ -55,15 +55,15 @@ def test_what_was_calibrated_on_fits() -> None:
         (
             Seen("Minecraft 1.20.1", (1024, 768), 2),
             (
-                "profile laptop was calibrated in a window of 854 x 480 pixels, and this one has 1024 x 768: make it that "
-                "size again, or run mc-nested calibrate all --profile laptop"
+                "profile laptop was calibrated in a window of 854 x 480 pixels, and this one has 1024 x 768: make it "
+                "that size again, or run mc-nested calibrate all --profile laptop"
             ),
         ),
         (
             Seen("Minecraft 1.20.1", (854, 480), 1),
             (
-                "profile laptop was calibrated at GUI scale 2, and this is 1: set Video Settings > GUI Scale to 2, or run "
-                "mc-nested calibrate all --profile laptop"
+                "profile laptop was calibrated at GUI scale 2, and this is 1: set Video Settings > GUI Scale to 2, or "
+                "run mc-nested calibrate all --profile laptop"
             ),
         ),
     ],
