@@ -60,16 +60,16 @@ def may_hold(process: Process, folder: Path) -> bool:
     if not process.is_game:
         return False
     plays_in = process.plays_in
-    return plays_in is None or _same(plays_in, folder)
+    return plays_in is None or is_same(plays_in, folder)
 
 
-def played_now(folders: Sequence[Path], processes: Iterable[Process]) -> Path | None:
-    """The first of the folders that a running game says it plays in."""
-    played = [each.plays_in for each in processes if each.is_game]
-    return next((folder for folder in folders if any(each and _same(each, folder) for each in played)), None)
+def played_now(processes: Iterable[Process]) -> list[Path]:
+    """The folders that running games say they play in."""
+    return [folder for each in processes if each.is_game and (folder := each.plays_in)]
 
 
-def _same(one: Path, other: Path) -> bool:
+def is_same(one: Path, other: Path) -> bool:
+    """Whether two ways lead to one folder."""
     return os.path.normcase(one.resolve()) == os.path.normcase(other.resolve())
 
 

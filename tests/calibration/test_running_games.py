@@ -28,7 +28,7 @@ def test_a_game_holds_the_folder_that_its_command_line_names(games: tuple[Path, 
         game = Process(line, folder=here)
         assert may_hold(game, there)
         assert not may_hold(game, here)
-        assert played_now(games, [game]) == there
+        assert played_now([game]) == [there]
 
 
 def test_a_game_that_names_no_folder_holds_the_one_that_it_runs_in(games: tuple[Path, Path]) -> None:
@@ -36,13 +36,13 @@ def test_a_game_that_names_no_folder_holds_the_one_that_it_runs_in(games: tuple[
     game = Process(PRISM, folder=there)
     assert may_hold(game, there)
     assert not may_hold(game, here)
-    assert played_now(games, [game]) == there
+    assert played_now([game]) == [there]
 
 
 def test_a_game_of_which_nothing_is_known_may_hold_any_folder_and_is_played_in_none(games: tuple[Path, Path]) -> None:
     game = Process(PRISM)
     assert all(may_hold(game, folder) for folder in games)
-    assert played_now(games, [game]) is None
+    assert played_now([game]) == []
 
 
 @pytest.mark.parametrize(
@@ -57,7 +57,7 @@ def test_a_game_of_which_nothing_is_known_may_hold_any_folder_and_is_played_in_n
 )
 def test_other_programs_hold_nothing(command: str, games: tuple[Path, Path]) -> None:
     assert not may_hold(Process(command, folder=games[0]), games[0])
-    assert played_now(games, [Process(command, folder=games[0])]) is None
+    assert played_now([Process(command, folder=games[0])]) == []
 
 
 def test_what_linux_tells_of_its_processes_is_read(tmp_path: Path, games: tuple[Path, Path]) -> None:
@@ -70,7 +70,7 @@ def test_what_linux_tells_of_its_processes_is_read(tmp_path: Path, games: tuple[
     found = running("linux", tmp_path / "proc")
     assert found is not None
     assert {(each.command, each.folder) for each in found} == {("", None), ("bash", None), (PLAIN, games[1])}
-    assert played_now(games, found) == games[1]
+    assert played_now(found) == [games[1]]
 
 
 def test_a_system_that_tells_nothing_is_not_taken_for_one_without_games(
