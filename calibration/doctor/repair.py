@@ -35,7 +35,11 @@ def repaired(found: Examination, say: Callable[[str], None]) -> bool:
     if not changes:
         say(f"nothing to fix: {found.options.path} is as it should be")
         return False
-    backup = _replaced(found.options, found.options.with_values(wanted))
+    try:
+        backup = _replaced(found.options, found.options.with_values(wanted))
+    except OSError as error:
+        path = found.options.path
+        raise ProfileError(f"{path}: can't be written ({error.strerror or error}): mend its permissions") from error
     told = ", ".join(f"{name} {before} -> {after}" for name, (before, after) in changes.items())
     say(f"{found.options.path}: {told}; as it was: {backup}")
     return True
