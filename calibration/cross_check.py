@@ -8,12 +8,12 @@ import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from calibration.arena import version_in
 from calibration.step import Bench, Found
 from mc_nested.errors import LiveError, NotConfirmedError, UnreadableError
 from mc_nested.live.at_rest import read_at_rest
 from mc_nested.live.coordinates import turn_between
 from mc_nested.live.devices import Clipboard
+from mc_nested.live.fingerprint import game_in
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.profile import Profile
@@ -57,7 +57,7 @@ def cross_check(bench: Bench, profile: Profile) -> Found:
         NotConfirmedError: nothing was copied.
         LiveError: the player was moved meanwhile; what the hands raise.
     """
-    game = version_in(bench.desktop.display.title()) or profile.game
+    game = game_in(bench.desktop.display.title(), profile.game)
     if game.dialect == "1.12":
         return Found(STEP, profile, (f"F3+C is not in Minecraft {game.version}, it came with 1.13: not compared",), 0)
     desktop = bench.desktop

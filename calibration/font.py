@@ -6,7 +6,6 @@ candidates (packs, jars) -> the first whose glyphs read the debug screen -> scal
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from calibration.arena import version_in
 from calibration.bench import BenchOf
 from calibration.cross_check import cross_check
 from calibration.font_problems import Candidate, nothing_fits
@@ -20,6 +19,7 @@ from mc_nested.errors import DesktopError, FontError, NotConfirmedError, Unreada
 from mc_nested.live.at_rest import wait_for_front
 from mc_nested.live.debug_screen import read_debug_screen
 from mc_nested.live.devices import Frame
+from mc_nested.live.fingerprint import version_in
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.overlay import find_overlay
@@ -152,8 +152,7 @@ def _loaded(paths: Sequence[Path]) -> tuple[list[Candidate], list[str]]:
 
 def _sources_for(bench: Bench, profile: Profile, sources: Callable[[str | None], FontSources]) -> FontSources:
     """What there is for the version in the window's title; the profile's own font last, which may be of another."""
-    game = version_in(bench.desktop.display.title())
-    found = sources(game.version if game else None)
+    found = sources(version_in(bench.desktop.display.title()))
     own = (profile.screen.font_path(),) if profile.screen.font else ()
     return FontSources((*found.paths, *own), found.options)
 

@@ -7,7 +7,6 @@ from collections.abc import Callable
 
 import numpy as np
 
-from calibration.arena import version_in
 from calibration.chat_region import without_chat
 from calibration.clicks_shown import Point
 from calibration.step import Bench
@@ -16,6 +15,7 @@ from mc_nested.live.at_rest import read_at_rest, wait_for_front
 from mc_nested.live.click_points import recorded
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.dots import GLYPH_ROWS
+from mc_nested.live.fingerprint import game_in
 from mc_nested.live.font import Font
 from mc_nested.live.game_screen import WORLDS_TITLE, WindowScreen
 from mc_nested.live.menu_labels import Button
@@ -56,7 +56,7 @@ class MenuWalk:
         self._display, self._hands, self._clock = bench.desktop.display, bench.hands, bench.desktop.clock
         self._screen = WindowScreen(self._display, font, overlay_of(profile))
         self._way = WayBack(profile, self._hands, self._screen, self._display, self._clock)
-        self._game = version_in(self._display.title()) or profile.game
+        self._game = game_in(self._display.title(), profile.game)
         self.points: dict[str, Point] = {}
         self.notes: list[str] = []
         self.is_single_player = False

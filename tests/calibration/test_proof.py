@@ -29,7 +29,7 @@ def font(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def bench_of(client: VirtualClient) -> Bench:
-    desktop = Desktop(client.display, client.keyboard, client.pointer, client.clock)
+    desktop = Desktop(client.display, client.keyboard, client.pointer, client.clock, client.clipboard)
     hands = Hands(client.display, client.keyboard, client.pointer, client.clock, Input())
     return Bench(desktop, hands, lambda _: None, lambda _: True)
 

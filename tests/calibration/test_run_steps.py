@@ -47,7 +47,7 @@ class Room:
         self.watcher = Watcher()
         self.ways_back: list[Profile] = []
         client = self.client
-        desktop = Desktop(client.display, client.keyboard, client.pointer, client.clock)
+        desktop = Desktop(client.display, client.keyboard, client.pointer, client.clock, client.clipboard)
         hands = Hands(client.display, client.keyboard, client.pointer, client.clock, Input())
         self.bench = Bench(desktop, hands, lambda _: None, lambda _: True)
 
