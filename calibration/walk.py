@@ -4,6 +4,12 @@ sneak a little with each key -> sneak out and back: that far the floor is free -
 -> fit -> some holds more, timed between two ticks and predicted before they are pressed -> back to where it began
 """
 
+from pathlib import Path
+
+import cv2
+
+from calibration.bench import BenchOf
+from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found
 from calibration.walk_figure import picture_of_walk
 from calibration.walk_fit import rms
@@ -12,13 +18,13 @@ from calibration.walk_keys import keys_in_words
 from calibration.walk_survey import AHEAD, SIDES, Survey
 from calibration.walker import Pose, Walker, seen_from
 from mc_nested.arena.rules import SIZE, Cell
-from mc_nested.errors import NotConfirmedError
+from mc_nested.errors import NotConfirmedError, ProfileError
 from mc_nested.live.at_rest import read_at_rest
 from mc_nested.live.chat import Chat
 from mc_nested.live.commands import clear_command, teleport_command
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import GameScreen, WindowScreen
-from mc_nested.live.profile import Profile
+from mc_nested.live.profile import Profile, save_profile
 from mc_nested.live.profile_tables import Arena
 from mc_nested.live.session import overlay_of
 from mc_nested.live.walk import TICK_S, nearest_ticks
@@ -37,6 +43,28 @@ NEAR = 0.15
 
 MOST_BACK = 6
 """Holds that the way back may take."""
+
+
+def calibrate_walk(profile_name: str | Path, bench_of: BenchOf) -> tuple[Found, Path]:
+    """Measure how the player of a profile's game walks and write it into the profile; what was found, and its picture.
+
+    Args:
+        profile_name: a name or a file.
+        bench_of: opens the window.
+
+    Raises as ``walk``, and ProfileError where the profile or the picture can't be written.
+    """
+    path, profile = profile_to_calibrate(profile_name)
+    profile.screen.font_path()  # before a window is looked for
+    with bench_of(profile) as bench:
+        found = walk(bench, profile)
+    save_profile(found.profile, path)
+    picture = path.with_name(f"{path.stem}-walk.png")
+    try:
+        picture.write_bytes(cv2.imencode(".png", found.pictures[0].frame)[1].tobytes())
+    except OSError as error:
+        raise ProfileError(f"{picture}: the picture can't be written ({error}); the profile is written") from error
+    return found, picture
 
 
 def walk(bench: Bench, profile: Profile) -> Found:
@@ -58,7 +86,7 @@ def walk(bench: Bench, profile: Profile) -> Found:
     began = walker.look()
     if profile.arena is not None and profile.world is None:
         _teleport_into(profile.arena, bench, profile, screen, walker)
-    survey = Survey(walker, profile.keys)
+    survey = Survey(walker, profile.keys, bench.desktop.clock)
     keys = survey.find_keys()
     survey.find_floor()
     survey.walk()
@@ -138,13 +166,13 @@ def _arrive(walker: Walker, pose: Pose) -> None:
 def _words(gauge: Gauge) -> list[str]:
     steady, inertia = gauge.walking.steady, gauge.walking.inertia
     one = nearest_ticks(1.0, gauge.table.covered)
+    speeds = f"walking {gauge.speed:.3f} blocks a second, sneaking {gauge.sneaking.steady / TICK_S:.3f}"
+    fits = f"{len(gauge.good)} holds ended {gauge.off:.4f} blocks (RMS) from where they should"
+    cell = f"One cell is {one} ticks, {gauge.table.covered[one - 1]:.3f} blocks"
     return [
-        f"Walking {gauge.speed:.3f} blocks a second, sneaking {gauge.sneaking.steady / TICK_S:.3f}; a tick leaves "
-        f"{inertia:.3f} of a step.",
-        f"{len(gauge.good)} holds ended {gauge.off:.4f} blocks (RMS) from where they should, those that were kept out "
-        f"of the fit {gauge.held_out:.4f}.",
-        f"One cell is {one} ticks, {gauge.table.covered[one - 1]:.3f} blocks; from anywhere, the nearest hold ends "
-        f"within {steady / 2:.3f} of a cell's middle, {steady / 4:.3f} on average.",
+        f"{speeds.capitalize()}; a tick leaves {inertia:.3f} of a step.",
+        f"{fits}, those that were kept out of the fit {gauge.held_out:.4f}.",
+        f"{cell}; the nearest hold ends within {steady / 2:.3f} of a cell's middle, {steady / 4:.3f} on average.",
         f"From a press to its step on the screen: {gauge.trip * 1000:.0f} ms, and up to a tick more.",
     ]
 

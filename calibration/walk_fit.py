@@ -144,25 +144,13 @@ def _refined(tracks: Sequence[Track], pace: Pace, inertia: float | None) -> Pace
     held = _Held(tracks)
 
     def pace_of(unknown: Numbers) -> Pace:
-        left = float(unknown[1]) if inertia is None else inertia
-        return Pace(float(unknown[0]) * (1 - left), min(0.99, max(0.01, left)))
+        left = min(0.99, max(0.01, float(unknown[1]))) if inertia is None else inertia
+        return Pace(float(unknown[0]) * (1 - left), left)
 
-    start = [pace.steady, pace.inertia][: 2 if inertia is None else 1]
-    found = minimize(
-        lambda unknown: held.cost(pace_of(unknown)),
-        start,
-        method="Nelder-Mead",
-        options={
-            "initial_simplex": [start, *(_nudged(start, index) for index in range(len(start)))],
-            "xatol": 1e-6,
-            "fatol": 1e-10,
-        },
-    )
+    start = np.array([pace.steady, pace.inertia][: 2 if inertia is None else 1])
+    precise = {"xatol": 1e-6, "fatol": 1e-10}
+    found = minimize(lambda unknown: held.cost(pace_of(unknown)), start, method="Nelder-Mead", options=precise)
     return pace_of(found.x)
-
-
-def _nudged(start: list[float], index: int) -> list[float]:
-    return [value * (1.01 if at == index else 1.0) for at, value in enumerate(start)]
 
 
 class _Held:

@@ -37,9 +37,10 @@ class Gauge:
     """How the player of this game walks, and how it was found.
 
     ``walking`` and ``sneaking`` are paces; ``trip`` the seconds from a press to its step on the screen without the wait
-    for a tick; ``good`` the holds that it rests on, in order, each with the path it lies beside; ``lost`` counts those
-    that were no holds of whole ticks, ``late`` those whose ticks came late; ``held_out`` is the root of the mean square,
-    in blocks, of how far off those ended that a fit without them predicted.
+    for a tick; ``good`` the holds that it rests on, in order, each with the path it lies beside. ``lost`` counts those
+    that were no holds of whole ticks, ``late`` those whose ticks came late. ``held_out`` is how far off those ended
+    that a fit without them predicted, as the root of the mean square, in blocks. ``beat`` is a time, in seconds of the
+    clock, at which a tick's step was seen: others are whole ticks from there.
     """
 
     walking: Pace
@@ -81,9 +82,7 @@ class Gauge:
     @property
     def is_plain(self) -> bool:
         """Whether this is how a player walks on most blocks, without an effect."""
-        return (
-            abs(self.speed / PLAIN_SPEED - 1) <= OTHER_SPEED and abs(self.walking.inertia - INERTIA) <= OTHER_INERTIA
-        )
+        return abs(self.speed / PLAIN_SPEED - 1) <= OTHER_SPEED and abs(self.walking.inertia - INERTIA) <= OTHER_INERTIA
 
 
 def gauged(holds: Sequence[Held]) -> Gauge:

@@ -36,14 +36,14 @@ def keys_found(keys: Keys, went: Mapping[Way, Way | None]) -> Keys:
     for way, found in went.items():
         if found is None:
             raise UserError(
-                f"the key {getattr(keys, way)} moves nobody {way}: write the game's own keys into the profile's [keys], "
-                "and leave a block of free floor on every side"
+                f"the key {getattr(keys, way)} moves nobody {way}: write the game's own keys into the profile's "
+                "[keys], and leave a block of free floor on every side"
             )
-    found_keys = {found: getattr(keys, way) for way, found in went.items() if found is not None}
+    found_keys = {str(found): getattr(keys, way) for way, found in went.items()}
     if set(found_keys) != set(WAYS):
         twice = ", ".join(f"{getattr(keys, way)} goes {found}" for way, found in went.items())
         raise UserError(f"the keys don't go four ways ({twice}): write the game's own keys into the profile's [keys]")
-    return keys.model_copy(update=dict(found_keys))
+    return keys.model_copy(update=found_keys)
 
 
 def keys_in_words(before: Keys, after: Keys) -> str:

@@ -4,6 +4,7 @@ Sneaking comes first because who sneaks falls off no edge, and stops at a wall w
 is safe. Every hold goes towards where it all began, or from there, and never farther than sneaking went.
 """
 
+import statistics
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ from calibration.walk_keys import WAYS, Way, keys_found, way_of
 from calibration.walk_timing import Steps
 from calibration.walker import Pose, Walked, Walker, seen_from
 from mc_nested.errors import NotConfirmedError, UserError
+from mc_nested.live.devices import Clock
 from mc_nested.live.profile_tables import Keys
 from mc_nested.live.walk import TICK_S, Gait
 
@@ -23,6 +25,9 @@ PROBE_S, OUT_S = 5 * TICK_S, 31 * TICK_S
 
 LONGEST, SHORTEST = 9, 4
 """Ticks of the longest hold, where the free floor allows it, and of the one that has to be possible."""
+
+LONG_ENOUGH_S = 35.0
+"""Seconds of walking after which no longer holds are begun, as on ice, where each of them coasts for seconds."""
 
 TRIES = 3
 """How often a key is tried that seemed to do nothing: on a busy machine a press may be lost."""
@@ -85,17 +90,18 @@ class Survey:
     Args:
         walker: who walks.
         keys: the keys, perhaps not yet the right ones.
+        clock: the clock that the walker uses.
     """
 
-    def __init__(self, walker: Walker, keys: Keys) -> None:
-        self._walker, self.keys = walker, keys
+    def __init__(self, walker: Walker, keys: Keys, clock: Clock) -> None:
+        self._walker, self.keys, self._clock = walker, keys, clock
         self.home: Pose = walker.stand()
         self.holds: list[Held] = []
         self.reach = REACH
 
     def find_keys(self) -> Keys:
         """A short sneaking step with each key: the keys as they really go; UserError where they don't."""
-        went = {way: self._led(way) for way in ("forward", "back", "left", "right")}
+        went: dict[Way, Way | None] = {way: self._led(way) for way in WAYS}
         self.keys = keys_found(self.keys, went)
         return self.keys
 
@@ -113,8 +119,9 @@ class Survey:
 
     def walk(self) -> None:
         """Walking holds of 1, 2, 3 ticks and more, there and back, as far as the floor is known to be free."""
+        until = self._clock.now() + LONG_ENOUGH_S
         for ticks in range(1, LONGEST + 1):
-            if ticks > SHORTEST and ticks * self._step() > self.reach:
+            if ticks > SHORTEST and (ticks * self._step() > self.reach or self._clock.now() >= until):
                 break
             for axis in (AHEAD, SIDES):
                 for _ in range(2):
@@ -124,7 +131,7 @@ class Survey:
         """A walking hold along an axis, to the side on which there is more floor."""
         offset = self.offset(axis)
         if abs(offset) > CARRIED_OFF:
-            raise NotConfirmedError("you were carried off: leave mouse and keys alone while this walks, and start again")
+            raise NotConfirmedError("you were carried off: leave mouse and keys alone while this walks")
         return self._hold(axis[offset < 0 or (offset == 0 and len(self.holds) % 2)], "walk", ticks, phase)
 
     def offset(self, axis: Axis) -> float:
@@ -133,8 +140,8 @@ class Survey:
 
     def _step(self) -> float:
         """Blocks that a tick of walking covers, by the longest holds so far."""
-        longest = [held for held in self.holds[-8:] if held.gait == "walk" and held.track]
-        return max((held.track.covered[-1] / held.asked for held in longest if held.track), default=0.0)
+        longest = [held.track for held in self.holds[-8:] if held.gait == "walk"]
+        return statistics.median(track.covered[-1] / track.held_s * TICK_S for track in longest if track)
 
     def _led(self, way: Way) -> Way | None:
         """Where the key that should go this way leads, and a step back with whichever key undoes it later."""

@@ -10,8 +10,8 @@ from mc_nested.live.game_screen import GameScreen
 from mc_nested.live.profile import Profile
 from mc_nested.live.walk import TICK_S
 
-LOOK_S = 0.006
-"""Seconds between two looks: two or three a frame, so that each step is seen within a frame of being drawn."""
+LOOK_S = 0.008
+"""Seconds between two looks: two a frame, so that each step is seen within a frame of being drawn."""
 
 SETTLE_S = 0.25
 """Seconds of the same place, five ticks, after which the walker stands."""
@@ -78,14 +78,16 @@ class Walker:
         self._clock = bench.desktop.clock
         self._patience_s = profile.body.patience_s
         self._screen = screen
+        self._rest: XYZ | None = None
 
     def look(self) -> Pose:
         """Where the player is seen; waits while the debug screen can't be read."""
         return self._look()[1]
 
     def stand(self) -> Pose:
-        """Wait until the player stands still; where that is."""
-        return self._settled(self.look(), [], self._clock.now())
+        """Wait until the player stands still; where that is. Where the last wait ended nothing has to be waited for."""
+        pose = self.look()
+        return pose if pose.xyz == self._rest else self._settled(pose, [], self._clock.now())
 
     def hold(self, seconds: float, *keys: str, phase: float | None = None, farthest: float = math.inf) -> Walked:
         """Hold keys of the world from rest, and follow the walker until standstill.
@@ -129,7 +131,8 @@ class Walker:
             now = self._clock.now()
             last = max(began, seen[-1].at) if seen else began
             if now - last >= SETTLE_S:
-                return Pose(seen[-1].xyz, begin.yaw, begin.pitch) if seen else begin
+                self._rest = seen[-1].xyz if seen else begin.xyz
+                return Pose(self._rest, begin.yaw, begin.pitch)
             if now >= until:
                 raise NotConfirmedError("you don't come to a stop: does something push you, or is a key held down?")
             if now >= again:

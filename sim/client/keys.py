@@ -55,7 +55,9 @@ class GameKeys:
     def read_again(self) -> None:
         """A screen closes: keys that are down, but no buttons, count again."""
         self._held |= {
-            action for key in self.physical if (action := self._bindings.get(key.lower())) and not key.endswith("button")
+            action
+            for key in self.physical
+            if (action := self._bindings.get(key.lower())) and not key.endswith("button")
         }
 
     def is_held(self, action: str) -> bool:

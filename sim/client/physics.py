@@ -114,9 +114,7 @@ def step(
     return (moved[0], moved[1], moved[2]), (speeds[0] * inertia, falling, speeds[2] * inertia), stands
 
 
-def _before_an_edge(
-    feet: Vector, way: tuple[float, float], height: float, is_solid: IsSolid
-) -> tuple[float, float]:
+def _before_an_edge(feet: Vector, way: tuple[float, float], height: float, is_solid: IsSolid) -> tuple[float, float]:
     """As much of a way east and south as has ground below it: less of each, then less of both."""
     x, y, z = feet
     east, south = way

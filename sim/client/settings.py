@@ -19,8 +19,9 @@ class ClientSettings:
     text, of ``scenery.WORLDS``, bright or dark; ``font`` the project's own where it is None. Latencies are from and to,
     in seconds: until an event reaches the game, and how old a picture is. ``feet``, ``yaw`` and ``pitch`` are where the
     player begins and begins again after a death. ``shows_target`` is whether the debug screen names the block looked
-    at. ``slipperiness`` is the floor's, ``speed`` what an effect makes of every step, ``swaps_sides`` has A go right and
-    D left. With a ``world_folder`` the world is written into it whenever it is left, and read from it when it is entered.
+    at. ``slipperiness`` is the floor's, ``speed`` what an effect makes of every step; ``swaps_sides`` has A go right
+    and D left. With a ``world_folder`` the world is written into it whenever it is left, and read from it when it is
+    entered.
     """
 
     seed: int = 0
