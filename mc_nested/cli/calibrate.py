@@ -9,11 +9,13 @@ from calibration.arena import NEAR_MIDDLE, calibrate_arena
 from mc_nested.cli.calibrate_clicks import clicks
 from mc_nested.cli.calibrate_font import font
 from mc_nested.cli.calibrate_report import report
+from mc_nested.cli.calibrate_walk import walk
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 from mc_nested.live.profile import profile_path, undo_profile
 
 app = typer.Typer(help="Tell the agent where your arena and your buttons are.")
 app.command()(font)
+app.command()(walk)
 app.command()(clicks)
 app.command()(report)
 
