@@ -5,33 +5,30 @@ default-calibration/found.json     the last findings of each step, and the docto
 default-calibration/font-1.png     their pictures, by step and number
 """
 
+import dataclasses
 import datetime
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import cv2
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from calibration.doctor.check import Check, Status
 from calibration.step import Found, Picture
 from mc_nested.errors import ProfileError
 from mc_nested.learn.whole_file import written_whole
 
 LIST = "found.json"
 
-Status = Literal["pass", "warn", "fail", "skip"]
-
 
 class _Table(BaseModel):
     model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
 
 
-class Check(_Table):
-    """A row of the doctor's table."""
-
+class _Row(_Table):
     name: str
     status: Status
     detail: str
@@ -54,7 +51,7 @@ class _StepEntry(_Table):
 
 class _List(_Table):
     checked: str | None = None
-    checks: list[Check] = []
+    checks: list[_Row] = []
     steps: list[_StepEntry] = []
 
 
@@ -104,7 +101,7 @@ def keep(profile: Path, found: Sequence[Found], checks: Sequence[Check] = (), to
             )
         after = _List(
             checked=day if checks else before.checked,
-            checks=list(checks) or before.checks,
+            checks=[_Row(**dataclasses.asdict(check)) for check in checks] or before.checks,
             steps=list(entries.values()),
         )
         with written_whole(folder / LIST) as unfinished:
@@ -134,7 +131,8 @@ def load_kept(profile: Path) -> Kept:
         )
         for entry in found.steps
     )
-    return Kept(steps, tuple(found.checks), found.checked)
+    checks = tuple(Check(row.name, row.status, row.detail, row.fix) for row in found.checks)
+    return Kept(steps, checks, found.checked)
 
 
 def _read(folder: Path) -> _List:

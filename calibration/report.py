@@ -17,7 +17,8 @@ import cv2
 from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
-from calibration.kept import Kept, KeptStep, Status
+from calibration.doctor.check import Status
+from calibration.kept import Kept, KeptStep
 from calibration.privacy import Names
 from calibration.step import Picture
 from mc_nested.live.devices import Frame

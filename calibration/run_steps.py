@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from calibration.step import Bench, Found
-from mc_nested.errors import LiveError, McNestedError, NotInFrontError, StoppedError, UserError
+from mc_nested.errors import DesktopError, LiveError, McNestedError, NotInFrontError, StoppedError, UserError
 from mc_nested.live.profile import Profile
 
 Run = Callable[[Bench, Profile], Found]
@@ -54,12 +54,13 @@ def run_steps(
     ``way_back`` leads into the world again, where a step that is passed over may have left a menu open.
 
     Raises:
-        McNestedError: a needed step failed, or the game was taken away, whatever the step; it names the step. Every key
-            is up then.
+        McNestedError: a needed step failed, or, whatever the step, the game's window was taken away or made another
+            size; it names the step. Every key is up then.
     """
     found: list[Found] = []
     passed_over: dict[str, str] = {}
-    clock = bench.desktop.clock
+    clock, display = bench.desktop.clock, bench.desktop.display
+    size = display.size()
     for number, step in enumerate(steps, 1):
         progress.begin(step.name, number, len(steps))
         began = clock.now()
@@ -76,10 +77,17 @@ def run_steps(
             continue
         finally:
             bench.hands.release_all()
+        if (now := display.size()) != size:
+            raise _named(step, _resized(size, now))
         found.append(each)
         profile = each.profile
         progress.end(each, clock.now() - began)
     return Guided(profile, tuple(found), passed_over)
+
+
+def _resized(before: tuple[int, int], now: tuple[int, int]) -> DesktopError:
+    was, is_now = (f"{size[0]} x {size[1]}" for size in (before, now))
+    return DesktopError(f"the window was {was} pixels and is {is_now}: leave it as it is, and start again")
 
 
 def _named(step: Step, error: McNestedError) -> McNestedError:

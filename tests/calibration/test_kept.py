@@ -5,7 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibration.kept import Check, Kept, KeptStep, keep, kept_folder, load_kept
+from calibration.doctor.check import Check
+from calibration.kept import Kept, KeptStep, keep, kept_folder, load_kept
 from calibration.step import Found, Picture
 from mc_nested.errors import ProfileError
 from mc_nested.live.profile import Profile
@@ -21,9 +22,9 @@ def found(step: str, *lines: str, pictures: tuple[Picture, ...] = ()) -> Found:
 def test_what_is_kept_comes_back(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
     font = found("font", "scale 2", pictures=(Picture("grey", GREY, "all over"), Picture("red", RED)))
-    keep(profile, [font, found("cross-check")], [Check(name="clipboard", status="skip", detail="none")], "2026-11-21")
+    keep(profile, [font, found("cross-check")], [Check("clipboard", "skip", "none")], "2026-11-21")
     kept = load_kept(profile)
-    assert kept.checks == (Check(name="clipboard", status="skip", detail="none", fix=""),)
+    assert kept.checks == (Check("clipboard", "skip", "none", ""),)
     assert kept.checked == "2026-11-21"
     assert [(step.step, step.date, step.lines, step.samples) for step in kept.steps] == [
         ("font", "2026-11-21", ("scale 2",), 1),
@@ -49,7 +50,7 @@ def test_a_step_done_again_takes_the_place_of_the_old_one_and_of_its_pictures(tm
 
 def test_the_doctors_table_stays_until_there_is_a_new_one(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
-    keep(profile, [], [Check(name="window", status="fail", detail="none", fix="start the game")], "2026-11-20")
+    keep(profile, [], [Check("window", "fail", "none", "start the game")], "2026-11-20")
     keep(profile, [found("font")], today="2026-11-21")
     kept = load_kept(profile)
     assert (kept.checked, [check.status for check in kept.checks]) == ("2026-11-20", ["fail"])

@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from calibration.kept import Check, Kept, KeptStep
+from calibration.doctor.check import Check
+from calibration.kept import Kept, KeptStep
 from calibration.privacy import Names
 from calibration.report import SMALL_BYTES, Report, contents, data_uri, report_html
 from calibration.step import Picture
@@ -23,8 +24,8 @@ GREY = np.full((3, 4, 3), 99, np.uint8)
 FONT = KeptStep("font", "2026-11-21", ("GUI scale 2", "13 lines read"), 12, (Picture("The debug screen", GREY, "F3"),))
 WALK = KeptStep("walk", "2026-11-21", ("0.216 blocks a tick",), 96, (Picture("The curve", GREY),))
 CHECKS = (
-    Check(name="session", status="pass", detail="X11"),
-    Check(name="window", status="fail", detail="not found", fix="start the game"),
+    Check("session", "pass", "X11"),
+    Check("window", "fail", "not found", "start the game"),
 )
 MADE = Report(
     "mine",
@@ -97,7 +98,7 @@ def test_it_shows_the_fingerprint_the_checks_and_the_steps_in_the_order_of_the_r
 
 
 def test_a_fix_is_shown_only_where_something_has_to_be_done() -> None:
-    done = Check(name="game", status="pass", detail="found", fix="not needed")
+    done = Check("game", "pass", "found", "not needed")
     assert "not needed" not in page(dataclasses.replace(MADE, kept=Kept((), (done,)))).texts
 
 
@@ -148,7 +149,7 @@ HTML = st.text(st.sampled_from("<>&\"'/={}%abim sx"), max_size=30)
 @given(HTML)
 def test_whatever_a_text_holds_it_is_text(text: str) -> None:
     step = KeptStep(text, text, (text,), 1, (Picture(text, GREY, text),))
-    check = Check(name=text, status="warn", detail=text, fix=text)
+    check = Check(text, "warn", text, text)
     plain = page(MADE)
     seen = page(Report(text, MADE.profile, text, Kept((FONT, step), (*CHECKS, check), text), text))
     assert seen.open == []
@@ -162,9 +163,7 @@ def test_it_names_nobody(name: str, around: str) -> None:
     names = Names(f"/home/{name}", (name,))
     text = f"{around}{name}{around} in /home/{name}/x, C:\\Users\\{name}\\x"
     step = KeptStep("font", text, (text,), 1, (Picture(text, GREY, text),))
-    made = Report(
-        text, MADE.profile, text, Kept((step,), (Check(name=text, status="warn", detail=text, fix=text),)), ""
-    )
+    made = Report(text, MADE.profile, text, Kept((step,), (Check(text, "warn", text, text),)), "")
     html = report_html(made, names)
     left = re.sub(r"data:image/\w+;base64,[^\"]*", "", html[html.index("</style>") :])
     assert name not in left
