@@ -31,10 +31,10 @@ class Progress(Protocol):
         """Step ``number`` of so many begins, the first being 1."""
 
     def end(self, found: Found, seconds: float) -> None:
-        """It found this."""
+        """The step found this."""
 
-    def passed_over(self, name: str, reason: str, seconds: float) -> None:
-        """It failed, and the run goes on without it."""
+    def passed_over(self, reason: str, seconds: float) -> None:
+        """The step failed, and the run goes on without it."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def run_steps(
             if step.is_needed:
                 raise _named(step, error) from error
             passed_over[step.name] = str(error)
-            progress.passed_over(step.name, str(error), clock.now() - began)
+            progress.passed_over(str(error), clock.now() - began)
             way_back(profile)
             continue
         finally:

@@ -95,7 +95,7 @@ class Silent:
     def end(self, found: Found, seconds: float) -> None:
         """Say nothing."""
 
-    def passed_over(self, name: str, reason: str, seconds: float) -> None:
+    def passed_over(self, reason: str, seconds: float) -> None:
         """Say nothing."""
 
 

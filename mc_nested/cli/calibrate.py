@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from calibration.arena import NEAR_MIDDLE, calibrate_arena
+from mc_nested.cli import calibrate_all
 from mc_nested.cli.calibrate_clicks import clicks
 from mc_nested.cli.calibrate_font import font
 from mc_nested.cli.calibrate_report import report
@@ -14,6 +15,7 @@ from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 from mc_nested.live.profile import profile_path, undo_profile
 
 app = typer.Typer(help="Tell the agent where your arena and your buttons are.")
+app.command("all")(calibrate_all.calibrate)
 app.command()(font)
 app.command()(walk)
 app.command()(clicks)
