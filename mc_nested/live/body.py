@@ -2,10 +2,10 @@
 
 move:  look where the agent is, and where it will stop -> hold the key that ends nearest from there -> look until it is
        certain where that ends: a tick after the key is up, long before the agent stands
-place: see the floor ahead -> click, perhaps while coasting -> wait until the debug screen names the new block there
+place: see the floor ahead -> click, perhaps on the way -> wait until the debug screen names the new block there
 """
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 
 from mc_nested.arena.rules import Cell, front_of, is_inside
@@ -26,6 +26,13 @@ FAR = 2.0
 COASTING_CLICK = 0.19
 """Blocks off the middle that a click is right from, if the agent comes to a stop within the tolerance: the game refuses
 a block from 0.2 on (FACTS: Standing, looking, placing), and at 65 degrees the next cell's floor is hit from there."""
+
+BESIDE, BEHIND = 0.4, 0.2
+"""Blocks off the middle, to a side and back, from which the same floor is hit: it is, at 65 degrees, from 0.5 and 0.25
+(FACTS: Standing, looking, placing)."""
+
+STRAY = 2
+"""Cells that an agent who is carried on may click beyond: an early click is only right where they are arena."""
 
 
 @dataclass
@@ -90,21 +97,47 @@ class Body:
         for attempt in range(self._limits.tries):
             if self._ends_in(going, cell):
                 break
-            self._eyes.permit_press()
-            offset = cell[0] - going.end[0], cell[1] - going.end[1]
-            if max(abs(offset[0]), abs(offset[1])) >= FAR:
-                raise NotConfirmedError(
-                    f"cell {cell} is no neighbour of the agent's, it is at {stance}: was it carried off?"
-                )
-            self.effort.moves += attempt == 0
-            self.effort.corrections += attempt > 0
-            going, stance = self._legs.settle(self._legs.walk(going, offset))
+            going, stance = self._step(going, stance, cell, attempt)
         if not self._ends_in(going, cell):
             raise NotConfirmedError(
                 f"cell {cell} was not reached in {self._limits.tries} tries, the agent is at {stance}: "
                 "is something in the way, the chat or a menu open, or auto-jump on?"
             )
         return stance
+
+    def build(self, cell: Cell, built: Collection[Cell], shown_id: str) -> Cell:
+        """Walk to a cell and place a block in front of it; the cell where it was seen.
+
+        The click goes out on the way where that is right wherever the agent comes to a stop. It comes to the game
+        after the release of the key, in order, so that it finds the agent between where it was seen then and its end.
+
+        Args:
+            cell: where to stand.
+            built: the cells that hold a block already.
+            shown_id: the block's id as the debug screen shows it.
+        """
+        front = front_of(cell)
+        block = self._arena.block_of(front)
+        clicked: list[Stance] = []
+
+        def on_the_way(stance: Stance) -> None:
+            if not clicked and self._looks_at_floor(stance, block) and self._is_right_from(stance.place, cell):
+                self._click(0)
+                clicked.append(stance)
+
+        going, stance = self._legs.settle(self._eyes.look_straight())
+        if not self._ends_in(going, cell):
+            going, stance = self._step(going, stance, cell, 0, on_the_way)
+        if not clicked:
+            stance = self.move_to(cell)
+            self.check_front(stance, built, shown_id)
+            return self.place(cell, shown_id, stance)
+        if not _hits_the_floor(going.end, cell):
+            raise NotConfirmedError(
+                f"the agent was carried on while it clicked, past cell {cell}, to {stance}: does something push it?"
+            )
+        is_placed = self._is_placed(cell, block, shown_id)
+        return front if is_placed else self.place(cell, shown_id)
 
     def check_front(self, stance: Stance, built: Collection[Cell], shown_id: str) -> None:
         """See that what the agent looks at is what should be there: a block of its own in the next cell, or the floor.
@@ -149,15 +182,46 @@ class Body:
         for attempt in range(self._limits.tries):
             if attempt or stance is None or not self._is_aimed(stance, cell, block):
                 stance = self._aim(cell, block, may_walk=attempt == 0)
-            self._eyes.permit_press()
-            self._hands.click("right")
-            self.effort.clicks += attempt == 0
-            self.effort.second_clicks += attempt > 0
+            self._click(attempt)
+            self._wait_for_click()
             if self._is_placed(cell, block, shown_id):
                 return front
         raise NotConfirmedError(
             f"no {shown_id} was seen at {block} after {self._limits.tries} clicks: is the block in the agent's hand?"
         )
+
+    def _step(
+        self,
+        going: Going,
+        stance: Stance,
+        cell: Cell,
+        attempt: int,
+        on_the_way: Callable[[Stance], None] | None = None,
+    ) -> tuple[Going, Stance]:
+        """One hold towards a cell: how the agent goes after it, and what was seen last."""
+        self._eyes.permit_press()
+        offset = cell[0] - going.end[0], cell[1] - going.end[1]
+        if max(abs(offset[0]), abs(offset[1])) >= FAR:
+            raise NotConfirmedError(
+                f"cell {cell} is no neighbour of the agent's, it is at {stance}: was it carried off?"
+            )
+        self.effort.moves += attempt == 0
+        self.effort.corrections += attempt > 0
+        return self._legs.settle(self._legs.walk(going, offset), on_the_way)
+
+    def _click(self, attempt: int) -> None:
+        self._eyes.permit_press()
+        self._hands.click("right")
+        self.effort.clicks += attempt == 0
+        self.effort.second_clicks += attempt > 0
+
+    def _is_right_from(self, place: Pair, cell: Cell) -> bool:
+        """Whether a click is right from there, and from everywhere up to where a tick more would carry the agent."""
+        farthest = self._legs.farthest
+        beyond = [
+            cell[axis] + STRAY * ((farthest[axis] > cell[axis]) - (farthest[axis] < cell[axis])) for axis in (0, 1)
+        ]
+        return is_inside((beyond[0], beyond[1])) and _hits_the_floor(place, cell) and _hits_the_floor(farthest, cell)
 
     def _aim(self, cell: Cell, block: Block, *, may_walk: bool) -> Stance:
         """Wait until the floor below ``block`` is looked at from ``cell``.
@@ -194,14 +258,17 @@ class Body:
             going is not None and self._is_near(going.end, cell) and self._is_near(stance.place, cell, COASTING_CLICK)
         )
 
-    def _is_placed(self, cell: Cell, block: Block, shown_id: str) -> bool:
-        """Whether the block is seen in time; another one there, or the agent elsewhere, is an error."""
-        placed = Target(block, shown_id)
+    def _wait_for_click(self) -> None:
+        """Wait until what a click does is likely to be seen."""
         beat = self._eyes.beat
         if beat.is_known:
             self._eyes.wait_for_step(beat.next(self._clock.now() + self._felt_after_s))
         else:
             self._hands.wait(SOONEST_S)
+
+    def _is_placed(self, cell: Cell, block: Block, shown_id: str) -> bool:
+        """Whether the block is seen in time; another one there, or the agent elsewhere, is an error."""
+        placed = Target(block, shown_id)
         stance = checked(self._eyes.watch(lambda stance: stance.target == placed, self._limits.confirm_s))
         seen = stance.target
         if seen is not None and seen.pos == block and seen.id != shown_id:
@@ -219,6 +286,12 @@ class Body:
     def _is_near(self, place: Pair, cell: Cell, within: float | None = None) -> bool:
         off = max(abs(cell[0] - place[0]), abs(cell[1] - place[1]))
         return off <= (self._limits.tolerance if within is None else within)
+
+
+def _hits_the_floor(place: Pair, cell: Cell) -> bool:
+    """Whether a click from there lands on the floor in front of a cell, and the game does not refuse it."""
+    right, forward = place[0] - cell[0], place[1] - cell[1]
+    return abs(right) <= BESIDE and -BEHIND <= forward <= COASTING_CLICK
 
 
 def _below(block: Block) -> Block:

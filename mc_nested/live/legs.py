@@ -1,5 +1,7 @@
 """Legs: holds that end between two of the game's ticks, and how the agent goes on after them."""
 
+from collections.abc import Callable
+
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.devices import Clock
 from mc_nested.live.eyes import FRAME_S, Eyes, Stance
@@ -70,10 +72,15 @@ class Legs:
         self._hold(steps.ticks, *([keys.sneak] if sneaks else []), key)
         return self._eyes.look_straight()
 
-    def settle(self, stance: Stance) -> tuple[Going, Stance]:
+    @property
+    def farthest(self) -> Pair:
+        """Where the agent comes to a stop whose hold was felt a tick longer than meant."""
+        return self._stride.farthest
+
+    def settle(self, stance: Stance, on_the_way: Callable[[Stance], None] | None = None) -> tuple[Going, Stance]:
         """How the agent goes who was seen like that, by the hold that it was in, or else once it stands.
 
-        Returns that, and what was seen last.
+        ``on_the_way`` is told what is seen before that is certain. Returns how it goes, and what was seen last.
         """
         standstill = Standstill(stance.place, self._clock.now(), self._limits.settle_s)
         began = self._clock.now()
@@ -86,6 +93,8 @@ class Legs:
                 self._eyes.note_timely()
                 self._stride = Stride(going, None, self._walk.inertia)
                 return going, stance
+            if on_the_way:
+                on_the_way(stance)
             if self._clock.now() >= began + self._limits.patience_s:
                 raise NotConfirmedError(f"the agent does not stand still, it is at {stance}: does something push it?")
             looks += 1

@@ -80,6 +80,10 @@ class _Path:
         """The moments that a place may be."""
         return self._moments[bisect_left(self._places, place - MATCH) : bisect_right(self._places, place + MATCH)]
 
+    def longest(self, held: int) -> float:
+        """The farthest end of those who felt the key for so many ticks or fewer."""
+        return max(moment.end for moment in self._moments if moment.is_up and moment.held <= held)
+
 
 class Stride:
     """Knows where a walker can be seen, from ``begin`` on, with one hold or none.
@@ -115,6 +119,15 @@ class Stride:
         moments = self._paths[axis].at((place[axis] - self._begin.place[axis]) * sign)
         counts = {moment.held for moment in moments}
         return counts.pop() if len(counts) == 1 and not any(moment.is_up for moment in moments) else None
+
+    @property
+    def farthest(self) -> Pair:
+        """Where the walker comes to a stop who feels the key one tick longer than meant."""
+        right, forward = (
+            self._begin.place[axis] + sign * self._paths[axis].longest(self._hold.ticks + 1 if self._hold else 0)
+            for axis, sign in enumerate(self._signs)
+        )
+        return right, forward
 
     def _carry(self, axis: int, place: float) -> float | None:
         sign = self._signs[axis]
