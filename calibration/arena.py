@@ -6,7 +6,6 @@ near edge . . . P . . .     and stands, unless told otherwise, in the middle of 
 """
 
 import math
-import re
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -18,6 +17,7 @@ from mc_nested.live.at_rest import read_at_rest
 from mc_nested.live.coordinates import block_of, facing_of, turn_between, yaw_of
 from mc_nested.live.debug_screen import read_debug_screen
 from mc_nested.live.desktop import Desktop, open_desktop
+from mc_nested.live.fingerprint import version_in
 from mc_nested.live.font import load_font
 from mc_nested.live.profile import save_profile
 from mc_nested.live.profile_tables import Arena, GameVersion
@@ -32,9 +32,6 @@ TOLERANCE_DEG = 20.0
 
 FLOOR_TOLERANCE = 0.001
 """How far the feet may be off a whole block's top, in blocks: the debug screen shows three decimals at least."""
-
-_TITLE = re.compile(r"Minecraft\*? (\d+\.\d+(?:\.\d+)?)(?:[ -].*)?")
-"""The title of the game's window, a star standing for a modified one (FACTS: Input and windows)."""
 
 
 def calibrate_arena(
@@ -83,7 +80,7 @@ def calibrate_arena(
             desktop.display, desktop.clock, lambda: read_debug_screen(desktop.display.grab(), glyphs, overlay)
         )
         titled = version_in(desktop.display.title())
-    game = titled or profile.game
+    game = GameVersion(version=titled) if titled else profile.game
     arena = arena_seen(reading, standing)
     if not yes and not ask(question_for(arena)):
         return None
@@ -109,12 +106,6 @@ def arena_seen(reading: Reading, standing: Cell) -> Arena:
     shift = block_of((0, 0, 0), facing, standing)
     origin = (there[0] - shift[0], there[1], there[2] - shift[2])
     return Arena.around(origin, facing)
-
-
-def version_in(title: str) -> GameVersion | None:
-    """The version that the title of the game's window says; None where it says none, as that of a modpack."""
-    found = _TITLE.fullmatch(title)
-    return GameVersion(version=found[1]) if found else None
 
 
 def question_for(arena: Arena) -> str:

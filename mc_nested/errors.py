@@ -7,7 +7,8 @@ McNestedError
 │   ├── ProfileError     a profile that can't be found or read, or doesn't fit the screen
 │   ├── FontError        a font picture or jar that can't be used
 │   ├── RunError         an output folder, a run or a checkpoint that can't be used
-│   └── DesktopError     no display, Wayland, no window of that title
+│   └── DesktopError     no display, Wayland, a window that can't be used
+│       └── NoWindowError    no window of that title is there
 └── LiveError            the game did not do what was asked; keys are released before it is raised
     ├── NotInFrontError  another window is in front: nothing was pressed
     ├── WrongScreenError the screen was not just seen to be the one that a press is meant for: nothing was pressed
@@ -47,6 +48,10 @@ class RunError(UserError):
 
 class DesktopError(UserError):
     """No display, a session whose windows can't be driven, or no window of that title."""
+
+
+class NoWindowError(DesktopError):
+    """A desktop without a window of that title: the game isn't running, or not under that name."""
 
 
 class LiveError(McNestedError):

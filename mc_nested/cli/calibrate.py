@@ -8,6 +8,7 @@ import typer
 from calibration.arena import NEAR_MIDDLE, calibrate_arena
 from calibration.clicks import calibrate_clicks
 from mc_nested.cli.options import DEFAULT_PROFILE
+from mc_nested.live.profile import profile_path, undo_profile
 
 app = typer.Typer(help="Tell the agent where your arena and your buttons are.")
 
@@ -28,6 +29,14 @@ def arena(
     """Mark the arena where you stand and look; only what is marked is ever cleared."""
     path = calibrate_arena(profile, ask=typer.confirm, say=typer.echo, standing=standing, font=font, yes=yes)
     typer.echo(f"arena written to {path}" if path else "nothing was written")
+
+
+@app.command()
+def undo(profile: ProfileToWrite = DEFAULT_PROFILE) -> None:
+    """Put the profile back as it was before the last calibration; a second time undoes that."""
+    path = profile_path(profile)
+    undo_profile(path)
+    typer.echo(f"{path} is as it was before")
 
 
 @app.command()

@@ -17,6 +17,7 @@ from tomlkit.items import Table
 
 from mc_nested.errors import ProfileError
 from mc_nested.live.profile_tables import (
+    FORMAT,
     Arena,
     Blocks,
     Body,
@@ -94,22 +95,72 @@ def load_profile(name_or_file: str | Path) -> Profile:
 
 def parse_profile(text: str, source: str) -> Profile:
     """The profile that a TOML text describes; ``source`` names it in errors."""
+    _check_format(parse_document(text, source, ProfileError).unwrap(), source)
     return parse_toml(Profile, text, source, ProfileError)
 
 
 def save_profile(profile: Profile, path: Path) -> None:
     """Write the profile whole or not at all, keeping the comments and the order of a file that is there.
 
+    What is replaced, if it was a profile and says something else, stays beside it (``earlier_path``).
+
     ProfileError where the file that is there isn't TOML or can't be written; it is left as it is then.
     """
     known = read_toml_text(path, ProfileError) if path.exists() else ""
     document = parse_document(known, str(path), ProfileError)
     _merge(document, json.loads(profile.model_dump_json()), Profile)
+    text = tomlkit.dumps(document)
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        _replace(path, tomlkit.dumps(document))
+        if text != known and path.exists() and _is_profile(known):
+            _replace(earlier_path(path), known)
+        _replace(path, text)
     except OSError as error:
         raise ProfileError(f"{path}: can't be written ({error}): choose another file") from error
+
+
+def earlier_path(path: Path) -> Path:
+    """Where the profile lies that the one in ``path`` took the place of."""
+    return path.with_name(f"{path.name}.before")
+
+
+def undo_profile(path: Path) -> None:
+    """Put the earlier profile back, and what stood in its place where that was: undone twice, nothing has changed.
+
+    ProfileError where there is no earlier one that can be used, or a file can't be written; nothing is lost then.
+    """
+    earlier = earlier_path(path)
+    if not earlier.is_file():
+        raise ProfileError(f"{path}: there is no earlier profile ({earlier.name}): calibrate again instead")
+    text = read_toml_text(earlier, ProfileError)
+    parse_profile(text, str(earlier))
+    undone = read_toml_text(path, ProfileError) if path.exists() else ""
+    try:
+        _replace(path, text)
+        if _is_profile(undone):
+            _replace(earlier, undone)
+    except OSError as error:
+        raise ProfileError(f"{path}: can't be written ({error}): make room, and try again") from error
+
+
+def _check_format(tables: dict[str, Any], source: str) -> None:
+    """ProfileError where another version of this program wrote it: before its keys are found to be wrong ones."""
+    calibrated = tables.get("calibrated")
+    written = calibrated.get("format") if isinstance(calibrated, dict) else None
+    if isinstance(written, int) and written != FORMAT:
+        which, remedy = ("newer", "update mc-nested") if written > FORMAT else ("older", "keep it for that version")
+        raise ProfileError(
+            f"{source}: a profile of format {written}, by {which} mc-nested, and this one knows format {FORMAT}: "
+            f"{remedy}, or make a new one with mc-nested calibrate all --profile another-name"
+        )
+
+
+def _is_profile(text: str) -> bool:
+    try:
+        parse_profile(text, "")
+    except ProfileError:
+        return False
+    return True
 
 
 def _replace(path: Path, text: str) -> None:

@@ -1,14 +1,15 @@
 """Opening a live game from a profile: the window, the reader and the Game over them."""
 
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.live.at_rest import read_at_rest
 from mc_nested.live.debug_screen import Overlay
-from mc_nested.live.desktop import open_desktop
+from mc_nested.live.desktop import Desktop, open_desktop
 from mc_nested.live.devices import Display
+from mc_nested.live.fingerprint import Seen, check_fit
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.live_game import LiveGame
@@ -27,25 +28,29 @@ def open_live_game(
     *,
     evidence: Path | None = None,
     is_server_allowed: bool = False,
+    open_devices: Callable[[str], AbstractContextManager[Desktop]] = open_desktop,
 ) -> Iterator[tuple[LiveGame, Display]]:
     """The scenario in the profile's window, and the window; every key is up again when the block is left.
 
-    ``evidence`` and ``is_server_allowed`` are as LiveGame takes them.
+    ``evidence`` and ``is_server_allowed`` are as LiveGame takes them; ``open_devices`` opens the window of a title.
 
     Waits until the game is in front and its debug screen can be read, and tells the player so with ``say``.
 
-    ProfileError, FontError or DesktopError, one line each, where it can't be played; LiveError where the game did not
-    come to the front.
+    ProfileError, FontError or DesktopError, one line each, where it can't be played, or the profile was calibrated on
+    another version, window or GUI scale; LiveError where the game did not come to the front.
     """
     profile = load_profile(profile_name)
     profile.marked_arena()
     font = load_font(profile.screen.font_path())
     overlay = overlay_of(profile)
-    with open_desktop(profile.window.title) as desktop:
+    with open_devices(profile.window.title) as desktop:
         screen = WindowScreen(desktop.display, font, overlay)
+        # Twice: what can be known before anybody has to switch windows, and the window as it is then.
+        check_fit(profile.calibrated, seen_of(desktop.display), profile_name)
         if not desktop.display.is_in_front():
             say("Switch to the game now, with the debug screen on (F3). Switching away again stops the agent.")
         read_at_rest(desktop.display, desktop.clock, screen.read)
+        check_fit(profile.calibrated, seen_of(desktop.display, screen.scale()), profile_name)
         game = LiveGame(
             scenario,
             profile,
@@ -62,6 +67,11 @@ def open_live_game(
 
         with game, watched(game.hands), open_panic_switch(profile.keys.panic, game.hands.stop):
             yield game, desktop.display
+
+
+def seen_of(display: Display, gui_scale: int | None = None) -> Seen:
+    """What is seen of the game now, to compare with what a profile was calibrated on."""
+    return Seen(display.title(), display.size(), gui_scale)
 
 
 def overlay_of(profile: Profile) -> Overlay | None:

@@ -19,8 +19,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.errors import DesktopError, ProfileError
-from mc_nested.live.desktop import open_desktop
+from mc_nested.errors import DesktopError, NoWindowError, ProfileError
+from mc_nested.live.desktop import open_desktop, session_kind
 from mc_nested.live.desktop.clock import MonotonicClock
 from mc_nested.live.desktop.connection import LOST, told_when_lost
 from mc_nested.live.desktop.keys import WORDS, check_key
@@ -40,7 +40,7 @@ def test_the_game_is_found_among_other_windows_whatever_its_state(title: str) ->
 
 
 def test_a_missing_window_is_told_with_titles_that_exist() -> None:
-    with pytest.raises(DesktopError, match=r"start the game.*'Minecraft Launcher', 'Terminal'"):
+    with pytest.raises(NoWindowError, match=r"start the game.*'Minecraft Launcher', 'Terminal'"):
         pick(MINECRAFT, ["Terminal", "", "Minecraft Launcher"])
 
 
@@ -50,8 +50,9 @@ def test_an_error_names_no_more_titles_than_fit_into_a_line() -> None:
 
 
 def test_two_windows_of_the_title_are_told_apart_by_the_user() -> None:
-    with pytest.raises(DesktopError, match=r"2 windows.*'Minecraft 1\.20\.1', 'Minecraft 1\.21'"):
+    with pytest.raises(DesktopError, match=r"2 windows.*'Minecraft 1\.20\.1', 'Minecraft 1\.21'") as raised:
         pick(MINECRAFT, ["Minecraft 1.21", "Terminal", "Minecraft 1.20.1"])
+    assert not isinstance(raised.value, NoWindowError)
 
 
 def test_a_display_that_closes_under_the_game_is_told() -> None:
@@ -119,7 +120,8 @@ def test_only_the_asked_region_is_pictured_where_points_are_pixels() -> None:
 
 def test_the_size_is_in_pixels_of_the_screen_that_the_window_is_on() -> None:
     window = MovingWindow(Place(5, 7, 40, 30), ratio=2)
-    assert WindowDisplay(window, window.picture).size() == (80, 60)
+    display = WindowDisplay(window, window.picture)
+    assert (display.size(), display.points()) == ((80, 60), (40, 30))
 
 
 def test_nothing_beside_the_window_is_ever_pictured() -> None:
@@ -180,6 +182,8 @@ if sys.platform.startswith("linux"):
             # python-xlib leaves the socket of a connection that failed to the garbage collector.
             warnings.simplefilter("ignore", ResourceWarning)
             text = error_of_opening()
+            with pytest.raises(DesktopError, match=message):
+                session_kind()
             gc.collect()
         assert re.match(message, text)
         assert "\n" not in text

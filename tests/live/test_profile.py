@@ -8,8 +8,17 @@ import tomlkit
 from hypothesis import given
 from hypothesis import strategies as st
 
+from calibration.start import profile_to_calibrate
 from mc_nested.errors import ProfileError
-from mc_nested.live.profile import Profile, load_profile, parse_profile, profile_folder, save_profile
+from mc_nested.live.profile import (
+    Profile,
+    earlier_path,
+    load_profile,
+    parse_profile,
+    profile_folder,
+    save_profile,
+    undo_profile,
+)
 from mc_nested.live.profile_tables import Arena, Blocks, Body, GameVersion, Keys, Screen, Walk, Window
 
 ARENA = Arena.around((5, 64, -20), "west")
@@ -99,6 +108,82 @@ def test_a_write_that_breaks_off_leaves_the_old_profile(tmp_path: Path, monkeypa
         save_profile(Profile(arena=ARENA), path)
     assert path.read_text("utf-8") == before
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_the_profile_that_another_one_replaces_stays_beside_it(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    save_profile(Profile(), path)
+    assert not earlier_path(path).exists()
+    before = path.read_bytes()
+    save_profile(Profile(arena=ARENA), path)
+    assert earlier_path(path) == tmp_path / "mine.toml.before"
+    assert earlier_path(path).read_bytes() == before
+
+
+def test_saving_the_same_again_keeps_the_earlier_one(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    for profile in (Profile(), Profile(arena=ARENA), Profile(arena=ARENA)):
+        save_profile(profile, path)
+    assert parse_profile(earlier_path(path).read_text("utf-8"), "earlier") == Profile()
+
+
+def test_a_file_that_was_no_profile_takes_no_earlier_ones_place(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    save_profile(Profile(), path)
+    save_profile(Profile(arena=ARENA), path)
+    path.write_text("[windw]\ntitle = 'x'\n", "utf-8")
+    save_profile(Profile(arena=ARENA), path)
+    assert parse_profile(earlier_path(path).read_text("utf-8"), "earlier") == Profile()
+
+
+def test_undone_the_earlier_profile_is_back_and_undone_again_the_later_one(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    save_profile(Profile(), path)
+    save_profile(Profile(arena=ARENA), path)
+    undo_profile(path)
+    assert load_profile(path) == Profile()
+    undo_profile(path)
+    assert load_profile(path) == Profile(arena=ARENA)
+
+
+def test_undoing_brings_the_last_good_profile_back_whatever_became_of_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    for spoil in (lambda: path.write_text("[window\n", "utf-8"), path.unlink):
+        path.unlink(missing_ok=True)
+        save_profile(Profile(), path)
+        save_profile(Profile(arena=ARENA), path)
+        spoil()
+        undo_profile(path)
+        assert load_profile(path) == Profile()
+
+
+def test_without_a_good_earlier_profile_nothing_is_undone(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    save_profile(Profile(arena=ARENA), path)
+    with pytest.raises(ProfileError, match="no earlier profile"):
+        undo_profile(path)
+    earlier_path(path).write_text("[window\n", "utf-8")
+    with pytest.raises(ProfileError, match="not TOML"):
+        undo_profile(path)
+    assert load_profile(path) == Profile(arena=ARENA)
+
+
+@pytest.mark.parametrize(("written", "remedy"), [(2, "by newer mc-nested"), (0, "by older mc-nested")])
+def test_a_profile_of_another_format_is_one_line_that_says_so(written: int, remedy: str) -> None:
+    text = f"[calibrated]\nformat = {written}\ndate = '2027-01-01'\n[walking]\nspeed = 4.3\n"
+    with pytest.raises(ProfileError) as caught:
+        parse_profile(text, "mine.toml")
+    assert str(caught.value).startswith(f"mine.toml: a profile of format {written}, {remedy}")
+    assert "mc-nested calibrate all --profile" in str(caught.value)
+
+
+def test_a_profile_of_another_format_is_never_overwritten(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text("[calibrated]\nformat = 2\ndate = '2027-01-01'\n", "utf-8")
+    before = path.read_bytes()
+    with pytest.raises(ProfileError, match="format 2"):
+        profile_to_calibrate(path)
+    assert path.read_bytes() == before
 
 
 def test_a_name_means_a_file_in_the_profile_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,7 +4,7 @@ Importing this works without a display; opening says in one line what is missing
 """
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 
@@ -16,12 +16,16 @@ from mc_nested.live.devices import Clock, Display, Keyboard, Pointer
 
 @dataclass(frozen=True)
 class Desktop:
-    """The devices of one game window."""
+    """The devices of one game window.
+
+    ``points`` gives the client area's width and height in points of the desktop; None where nobody knows them.
+    """
 
     display: Display
     keyboard: Keyboard
     pointer: Pointer
     clock: Clock
+    points: Callable[[], tuple[int, int]] | None = None
 
 
 @contextmanager
@@ -42,7 +46,26 @@ def open_desktop(title: str) -> Iterator[Desktop]:
 
         with open_camera() as camera:
             display = WindowDisplay(window, camera)
-            yield Desktop(display, DesktopKeyboard(), DesktopPointer(window, display.ratio), MonotonicClock())
+            pointer = DesktopPointer(window, display.ratio)
+            yield Desktop(display, DesktopKeyboard(), pointer, MonotonicClock(), points=display.points)
+
+
+def session_kind() -> str:
+    """What kind of session this is, in words.
+
+    DesktopError where no window of it can be pictured and driven: no display, Wayland, a missing permission.
+    """
+    if sys.platform == "win32":
+        from mc_nested.live.desktop import win32
+
+        return win32.session_kind()
+    if sys.platform == "darwin":
+        from mc_nested.live.desktop import quartz
+
+        return quartz.session_kind()
+    from mc_nested.live.desktop import x11
+
+    return x11.session_kind()
 
 
 def _open_window(title: str) -> AbstractContextManager[GameWindow]:

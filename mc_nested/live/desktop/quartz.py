@@ -35,6 +35,12 @@ def open_window(title: str) -> Iterator["QuartzWindow"]:
     yield window
 
 
+def session_kind() -> str:
+    """What this session is, in words; DesktopError where a permission is missing."""
+    _check_permissions()
+    return "a macOS desktop, Screen Recording and Accessibility allowed"
+
+
 class QuartzWindow:
     """A window by its number."""
 

@@ -23,6 +23,11 @@ class WindowDisplay:
         """Framebuffer pixels to a point of the desktop, as the last whole picture measured it."""
         return self._ratio
 
+    def points(self) -> tuple[int, int]:
+        """Width and height of the client area in points of the desktop."""
+        place = self._window.place()
+        return place.width, place.height
+
     def size(self) -> tuple[int, int]:
         place = self._window.place()
         return round(place.width * self._ratio), round(place.height * self._ratio)

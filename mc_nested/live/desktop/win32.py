@@ -37,6 +37,11 @@ def open_window(title: str) -> Iterator["Win32Window"]:
     yield window
 
 
+def session_kind() -> str:
+    """What this session is, in words: windows of a Windows desktop can always be pictured and driven."""
+    return "a Windows desktop"
+
+
 class Win32Window:
     """A window by its handle."""
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from mc_nested.errors import DesktopError
+from mc_nested.errors import DesktopError, NoWindowError
 
 SHOWN_TITLES = 8
 """How many of the titles that exist an error names: enough to find a misspelling, and still one line."""
@@ -34,13 +34,16 @@ class GameWindow(Protocol):
 
 
 def pick(title: str, titles: Sequence[str]) -> int:
-    """Index of the one title in which the regular expression ``title`` is found; DesktopError for none or several."""
+    """Index of the one title in which the regular expression ``title`` is found.
+
+    NoWindowError where there is none, another DesktopError where there are several.
+    """
     found = [index for index, each in enumerate(titles) if re.search(title, each)]
     if len(found) == 1:
         return found[0]
     if not found:
         known = _listed([each for each in titles if each]) or "none"
-        raise DesktopError(
+        raise NoWindowError(
             f"no window's title matches {title!r}: start the game, or set window.title in the profile; "
             f"windows on this desktop: {known}"
         )

@@ -38,6 +38,12 @@ def open_window(title: str) -> Iterator["X11Window"]:
             display.close()
 
 
+def session_kind() -> str:
+    """What this session is, in words; DesktopError where its windows can be neither pictured nor driven."""
+    _connect().close()
+    return f"X11, display {os.environ['DISPLAY']}"
+
+
 class X11Window:
     """A window, asked anew each time; a round trip to the X server takes some tens of microseconds."""
 

@@ -1,0 +1,106 @@
+"""The rows of options.txt: where it is, and each option that keeps an agent from playing."""
+
+from calibration.doctor.check import Check, told
+from calibration.game_folders import GameFolder
+from calibration.options_txt import ACTIONS, MOUSE, OptionsTxt, load_options, same_key
+from mc_nested.errors import ProfileError
+from mc_nested.live.overlay import SCALES
+from mc_nested.live.profile_tables import Keys
+
+FIX = "close the game and run mc-nested doctor --fix"
+
+SWITCHES = (
+    Check("pauseOnLostFocus", "warn", "the game pauses whenever another window is in front", "press F3+P once"),
+    Check("autoJump", "fail", "the player would climb onto the blocks", "Options > Controls > Auto-Jump: OFF"),
+    Check("forceUnicodeFont", "fail", "that font can't be read", "Options > Language > Force Unicode Font: OFF"),
+    Check("fullscreen", "warn", "a game that fills the screen hides all else", "press F11 in the game"),
+    Check("toggleCrouch", "fail", "a sneak key let go goes on sneaking", "Options > Controls > Sneak: Hold"),
+)
+"""The row of each option that should be false, where it is true."""
+
+ROWS = (*(row.name for row in SWITCHES), "guiScale", "language", "keys")
+
+_ENGLISH = "en_"
+
+
+def options_row(folder: GameFolder | None) -> tuple[OptionsTxt | None, Check]:
+    """The options of a game folder, if they can be read, and their row."""
+    if folder is None:
+        fix = "start the game once; a folder of your own is found while its game runs"
+        return None, Check("options.txt", "skip", "no launcher's game folder holds one", fix)
+    try:
+        options = load_options(folder.options)
+    except ProfileError as error:
+        return None, told("options.txt", "fail", str(error).removeprefix(f"{folder.options}: "))
+    return options, Check("options.txt", "pass", f"{folder.launcher}: {folder.options}")
+
+
+def option_rows(options: OptionsTxt | None, keys: Keys, window: tuple[int, int] | None) -> list[Check]:
+    """A row for each option; ``window`` is the game's width and height in pixels, None where it isn't seen."""
+    if options is None:
+        return [Check(name, "skip", "no options.txt to read") for name in ROWS]
+    return [
+        *(_switch(row, options.values.get(row.name)) for row in SWITCHES),
+        gui_scale_row(options.values.get("guiScale"), window),
+        _language(options.values.get("lang")),
+        keys_row(options, keys),
+    ]
+
+
+def gui_scale_row(value: str | None, window: tuple[int, int] | None) -> Check:
+    """Whether the GUI scale that the option gives can be read (FACTS: The F3 debug screen)."""
+    row, fix = "guiScale", f"Video Settings > GUI Scale: 2, or {FIX}"
+    if value is None or not value.isdecimal():
+        return Check(row, "skip", "the file doesn't say")
+    wanted, most = int(value), max(SCALES)
+    if window is None:
+        if wanted == 0:
+            return Check(row, "warn", "Auto: with the window's size it changes too", fix)
+        return Check(row, "pass", value) if wanted <= most else Check(row, "fail", f"{value}: {most} at most", fix)
+    largest = max(1, min(window[0] // 320, window[1] // 240))
+    scale, said = (min(wanted, largest), value) if wanted else (largest, "Auto")
+    if scale > most:
+        return Check(row, "fail", f"{said}, {scale} in this window: {most} at most can be read", fix)
+    if wanted == 0:
+        return Check(row, "warn", f"Auto, {scale} in this window: with its size it changes too", fix)
+    return Check(row, "pass", f"{said}, {scale} in this window" if scale != wanted else said)
+
+
+def keys_row(options: OptionsTxt, keys: Keys) -> Check:
+    """Whether the game's keys are those that the profile presses."""
+    wanted = {action: getattr(keys, name) for name, action in ACTIONS.items()}
+    wanted |= {f"hotbar.{slot}": key for slot, key in enumerate(keys.hotbar, 1)} | MOUSE
+    bound = {action: options.key(action) for action in wanted if f"key_key.{action}" in options.values}
+    if not bound:
+        return Check("keys", "skip", "the file doesn't say")
+    other = {action: key for action, key in bound.items() if key is None or not same_key(key, wanted[action])}
+    if not other:
+        return Check("keys", "pass", f"{len(bound)} are as the profile has them")
+    detail = ", ".join(f"{action}: {_named(key)} for {wanted[action]}" for action, key in other.items())
+    # The game names keys by their place on a QWERTY keyboard, a profile by what is printed on them.
+    if all(key is not None and len(key) == 1 == len(wanted[action]) for action, key in other.items()):
+        return Check(
+            "keys", "warn", detail, "unless your keyboard's layout is why, make [keys] in the profile the same"
+        )
+    return Check("keys", "fail", detail, "Options > Controls, or [keys] in the profile: make them the same")
+
+
+def _switch(row: Check, value: str | None) -> Check:
+    if value is None:
+        return Check(row.name, "skip", "the file doesn't say: this version may not have it")
+    if value != "true":
+        return Check(row.name, "pass", value)
+    return Check(row.name, row.status, f"{value}: {row.detail}", f"{row.fix}, or {FIX}")
+
+
+def _language(value: str | None) -> Check:
+    if value is None:
+        return Check("language", "skip", "the file doesn't say")
+    if value.lower().startswith(_ENGLISH):
+        return Check("language", "pass", value)
+    fix = f"Options > Language > English (US), or {FIX}"
+    return Check("language", "warn", f"{value}: menus are known by their English labels", fix)
+
+
+def _named(key: str | None) -> str:
+    return "another key" if key is None else key or "no key"

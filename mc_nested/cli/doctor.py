@@ -1,0 +1,70 @@
+"""``mc-nested doctor``: one table of all that keeps an agent from playing on this computer, and what to do."""
+
+import dataclasses
+import json
+from collections.abc import Sequence
+from functools import partial
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from calibration.doctor.check import Check, Status
+from calibration.doctor.examination import Examination, examine
+from calibration.doctor.repair import repaired
+from calibration.game_folders import System
+from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption
+
+STYLES: dict[Status, str] = {"pass": "green", "warn": "yellow", "fail": "bold red", "skip": "bright_black"}
+
+WIDTH = 100
+"""Columns that the table takes where there are so many, or no terminal says how many there are."""
+
+FAILED = 1
+"""Exit code where a row fails."""
+
+
+def doctor(
+    profile: ProfileOption = None,
+    as_json: Annotated[bool, typer.Option("--json", help="print one JSON object, and nothing else")] = False,
+    fix: Annotated[
+        bool, typer.Option("--fix", help="write safe values into options.txt, with a backup; the game must be closed")
+    ] = False,
+) -> None:
+    """Look at this computer, the game's window and its options: each row with the one thing to do."""
+    say = partial(typer.echo, err=True)
+    found = _examined(profile)
+    if fix and repaired(found, say):
+        found = _examined(profile)
+    if as_json:
+        print(json.dumps({"checks": [dataclasses.asdict(check) for check in found.checks]}))
+    else:
+        console = Console()
+        console = Console(width=min(WIDTH, console.width) if console.is_terminal else WIDTH)
+        console.print(table_of(found.checks))
+        console.print(summary_of(found.checks))
+    if any(check.status == "fail" for check in found.checks):
+        raise typer.Exit(FAILED)
+
+
+def table_of(checks: Sequence[Check]) -> Table:
+    """The rows as a table, the status coloured."""
+    table = Table(show_edge=False, pad_edge=False)
+    for name, ratio in (("check", None), ("", None), ("found", 5), ("to do", 4)):
+        table.add_column(name, ratio=ratio, no_wrap=ratio is None, overflow="fold")
+    for check in checks:
+        cells = (check.name, Text(check.status, STYLES[check.status]), Text(check.detail), Text(check.fix))
+        table.add_row(*cells)
+    return table
+
+
+def summary_of(checks: Sequence[Check]) -> str:
+    """How many rows there are of each status."""
+    counts = {status: sum(check.status == status for check in checks) for status in STYLES}
+    return ", ".join(f"{count} {status}" for status, count in counts.items() if count)
+
+
+def _examined(profile: str | None) -> Examination:
+    return examine(profile or DEFAULT_PROFILE, say=partial(typer.echo, err=True), system=System.here())

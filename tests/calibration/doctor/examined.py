@@ -1,0 +1,108 @@
+"""The doctor at work on a virtual client, in a computer that is a folder of the test's own."""
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import cv2
+
+from calibration.doctor.check import Check
+from calibration.doctor.examination import Examination, examine
+from calibration.game_folders import System
+from mc_nested.live.desktop import Desktop
+from mc_nested.live.devices import Clipboard
+from mc_nested.live.profile import Profile, save_profile
+from mc_nested.live.profile_tables import Calibrated, Screen
+from sim.client.client import VirtualClient
+from sim.client.font import drawn_atlas
+
+if TYPE_CHECKING:
+    from calibration.running_games import Process
+
+GOOD = """version:3465
+autoJump:false
+forceUnicodeFont:false
+fullscreen:false
+guiScale:2
+lang:en_us
+pauseOnLostFocus:false
+reducedDebugInfo:false
+toggleCrouch:false
+key_key.forward:key.keyboard.w
+key_key.back:key.keyboard.s
+key_key.left:key.keyboard.a
+key_key.right:key.keyboard.d
+key_key.sneak:key.keyboard.left.shift
+key_key.chat:key.keyboard.t
+key_key.attack:key.mouse.left
+key_key.use:key.mouse.right
+key_key.hotbar.1:key.keyboard.1
+"""
+"""An options.txt with nothing to mend."""
+
+
+class Computer:
+    """A home with one game folder, a font and a profile in it, and a desktop with a game's window or without one.
+
+    Args:
+        home: an empty folder.
+        options: what options.txt says; None where there is none.
+    """
+
+    def __init__(self, home: Path, options: str | None = GOOD) -> None:
+        self.system = System("linux", home, {})
+        self.options = home / ".minecraft" / "options.txt"
+        self.options.parent.mkdir()
+        if options is not None:
+            self.options.write_text(options, "utf-8")
+        self.font = home / "ascii.png"
+        self.font.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
+        self.profile = home / "mine.toml"
+        self.save(Profile(screen=Screen(font=str(self.font)), calibrated=calibrated()))
+        self.processes: Sequence[Process] | None = []
+        self.said: list[str] = []
+
+    def save(self, profile: Profile) -> None:
+        self.profile.unlink(missing_ok=True)
+        save_profile(profile, self.profile)
+
+    def examined(
+        self,
+        open_devices: Callable[[str], AbstractContextManager[Desktop]],
+        clipboard: Clipboard | None = None,
+        session: Callable[[], str] = lambda: "a virtual desktop",
+    ) -> Examination:
+        return examine(
+            str(self.profile),
+            say=self.said.append,
+            system=self.system,
+            open_devices=open_devices,
+            clipboard=clipboard,
+            session=session,
+            processes=lambda: self.processes,
+        )
+
+
+def calibrated() -> Calibrated:
+    """What a virtual client is unless told otherwise."""
+    return Calibrated(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
+
+
+def opened(client: VirtualClient) -> Callable[[str], AbstractContextManager[Desktop]]:
+    """Opens a virtual client's window."""
+
+    @contextmanager
+    def open_devices(_title: str) -> Iterator[Desktop]:
+        size = client.display.size
+        yield Desktop(client.display, client.keyboard, client.pointer, client.clock, points=size)
+
+    return open_devices
+
+
+def rows(found: Examination) -> dict[str, Check]:
+    return {check.name: check for check in found.checks}
+
+
+def statuses(found: Examination) -> dict[str, str]:
+    return {check.name: check.status for check in found.checks}

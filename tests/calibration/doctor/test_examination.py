@@ -1,0 +1,392 @@
+"""The doctor on a virtual client: every row in every state, each fault in its own row, and nothing left behind."""
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, suppress
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from calibration.doctor.check import NAMES
+from calibration.running_games import Process
+from mc_nested.errors import DesktopError, NoWindowError
+from mc_nested.live.desktop import Desktop
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.profile import Profile
+from mc_nested.live.profile_tables import Calibrated, Keys, Screen
+from sim.client.client import VirtualClient
+from sim.client.mishaps import Kind
+from sim.client.settings import ClientSettings
+from tests.calibration.doctor.examined import GOOD, Computer, opened, rows, statuses
+
+DOWN = 65.0
+"""Degrees: the ground is looked at."""
+
+LOOKING_DOWN = ClientSettings(pitch=DOWN)
+
+SOON_S = 0.7
+
+
+@pytest.fixture
+def computer(tmp_path: Path) -> Computer:
+    return Computer(tmp_path)
+
+
+def client_in(change: Callable[[VirtualClient], object], choices: ClientSettings = LOOKING_DOWN) -> VirtualClient:
+    """A virtual client to which something has happened a moment ago."""
+    client = VirtualClient(choices)
+    change(client)
+    client.clock.sleep(SOON_S)
+    return client
+
+
+def as_it_was(_client: VirtualClient) -> None:
+    """Nothing happens."""
+
+
+def is_untouched(client: VirtualClient) -> bool:
+    """Whether no key is down, no other window was typed into, and the world is as it was."""
+    return not client.window.down and not client.window.strays and not client.built
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.15.2", "1.20.1", "1.21.9", "26.1"])
+@pytest.mark.parametrize(("size", "scale"), [((640, 480), 1), ((854, 480), 2), ((1280, 720), 3)])
+def test_a_game_that_can_be_played_passes_every_row(
+    version: str, size: tuple[int, int], scale: int, computer: Computer
+) -> None:
+    client = client_in(as_it_was, ClientSettings(pitch=DOWN, version=version, size=size, scale=scale))
+    calibrated = Calibrated(date="2026-11-21", version=version, window=size, gui_scale=scale)
+    computer.save(Profile(screen=Screen(font=str(computer.font)), calibrated=calibrated))
+    computer.options.write_text(GOOD.replace("guiScale:2", f"guiScale:{scale}"), "utf-8")
+    found = computer.examined(opened(client), clipboard=client.clipboard)
+    assert statuses(found) == dict.fromkeys(NAMES, "pass")
+    assert client.game.has_f3
+    assert is_untouched(client)
+    assert not computer.said
+
+
+def test_what_is_seen_is_said(computer: Computer) -> None:
+    said = rows(computer.examined(opened(client_in(as_it_was)), clipboard=None))
+    assert said["game's window"].detail == "'Minecraft 1.20.1 - Singleplayer'"
+    assert said["size and GUI scale"].detail == "854 x 480 pixels, GUI scale 2"
+    assert said["display scaling"].detail == "1 pixels to a point: 854 x 480 for 854 x 480"
+    assert said["position line"].detail == "XYZ: 0.500 / 64.000 / 0.500"
+    assert said["looked-at line"].detail == "minecraft:bedrock at 0 63 1"
+    assert said["options.txt"].detail == f"Minecraft Launcher: {computer.options}"
+    assert said["clipboard"].status == "skip"
+
+
+@pytest.mark.parametrize(
+    ("change", "choices", "failing", "skipped"),
+    [
+        (as_it_was, ClientSettings(has_f3=False), {"debug screen"}, {"size and GUI scale", "position line", "input"}),
+        (
+            lambda client: client.realm.rules.update(reducedDebugInfo="true"),
+            LOOKING_DOWN,
+            {"reduced debug info", "position line"},
+            {"looked-at line", "input"},
+        ),
+        (lambda client: client.game.open("pause"), LOOKING_DOWN, {"debug screen"}, {"position line", "input"}),
+        (lambda client: client.game.open("chat"), LOOKING_DOWN, {"debug screen"}, {"input"}),
+        (lambda client: client.game.die(), LOOKING_DOWN, {"debug screen"}, {"position line", "input"}),
+        (lambda client: client.game.open("title"), LOOKING_DOWN, {"debug screen"}, {"position line", "input"}),
+        (lambda client: client.game.open("worlds"), LOOKING_DOWN, {"debug screen"}, {"position line", "input"}),
+        (lambda client: client.set_front(is_in_front=False), LOOKING_DOWN, {"in front"}, {"debug screen", "input"}),
+        (
+            as_it_was,
+            ClientSettings(pitch=DOWN, version="1.21.9", shows_target=False),
+            {"looked-at line", "profile fits"},
+            set(),
+        ),
+        (as_it_was, ClientSettings(pitch=DOWN, version="1.19.4"), {"profile fits"}, set()),
+        (lambda client: client.resize((1024, 768)), LOOKING_DOWN, {"profile fits"}, set()),
+        (as_it_was, ClientSettings(pitch=DOWN, scale=1), {"profile fits"}, set()),
+    ],
+    ids=[
+        "no F3",
+        "reduced",
+        "pause",
+        "chat",
+        "death",
+        "title",
+        "worlds",
+        "behind",
+        "no looked-at line",
+        "version",
+        "size",
+        "scale",
+    ],
+)
+def test_each_fault_fails_in_its_own_rows_and_nothing_is_pressed_where_it_could_do_harm(
+    change: Callable[[VirtualClient], object],
+    choices: ClientSettings,
+    failing: set[str],
+    skipped: set[str],
+    computer: Computer,
+) -> None:
+    client = client_in(change, choices)
+    screen, has_f3 = client.game.screen, client.game.has_f3
+    found = computer.examined(opened(client), clipboard=client.clipboard)
+    seen = statuses(found)
+    assert tuple(seen) == NAMES
+    assert {name for name, status in seen.items() if status == "fail"} == failing
+    assert {name for name, status in seen.items() if status == "skip"} >= skipped
+    assert (client.game.screen, client.game.has_f3) == (screen, has_f3)
+    assert is_untouched(client)
+    assert all(check.fix for check in found.checks if check.status == "fail")
+
+
+def test_a_version_that_hides_the_looked_at_line_is_told_how_to_switch_it_on(computer: Computer) -> None:
+    client = client_in(as_it_was, ClientSettings(pitch=DOWN, version="1.21.9", shows_target=False))
+    row = rows(computer.examined(opened(client)))["looked-at line"]
+    assert "F3+F6" in row.fix
+    assert "65 degrees down" in row.detail
+
+
+def test_who_looks_into_the_sky_is_told_to_look_down(computer: Computer) -> None:
+    client = VirtualClient(pitch=-30.0)
+    row = rows(computer.examined(opened(client)))["looked-at line"]
+    assert (row.status, row.fix) == ("skip", "look down at the ground, and run this again")
+
+
+def test_the_game_that_comes_to_the_front_in_time_is_looked_at(computer: Computer) -> None:
+    client = client_in(
+        lambda client: client.set_front(is_in_front=False), ClientSettings(pitch=DOWN, pauses_unfocused=False)
+    )
+    client.clock.call_at(client.clock.now() + 12, lambda: client.set_front(is_in_front=True))
+    found = computer.examined(opened(client), clipboard=client.clipboard)
+    assert statuses(found) == dict.fromkeys(NAMES, "pass")
+    assert len(computer.said) == 1
+    assert "Switch to the game" in computer.said[0]
+
+
+def test_the_game_menu_that_a_person_closes_in_time_is_no_fault(computer: Computer) -> None:
+    client = client_in(lambda client: client.game.open("pause"))
+    client.clock.call_at(client.clock.now() + 2, lambda: client.game.open("world"))
+    assert statuses(computer.examined(opened(client)))["debug screen"] == "pass"
+
+
+def no_window(title: str) -> AbstractContextManager[Desktop]:
+    raise NoWindowError(f"no window's title matches {title!r}: start the game")
+
+
+def several(title: str) -> AbstractContextManager[Desktop]:
+    raise DesktopError(f"2 windows' titles match {title!r}: close all but the game's")
+
+
+def no_session() -> str:
+    raise DesktopError("no display (DISPLAY is not set): run this in the desktop session that shows the game")
+
+
+def test_without_a_game_every_row_is_there_and_the_files_are_looked_at(computer: Computer) -> None:
+    found = computer.examined(no_window)
+    seen = statuses(found)
+    assert tuple(seen) == NAMES
+    assert {name for name, status in seen.items() if status == "fail"} == {"game's window"}
+    assert {"profile", "font", "options.txt", "autoJump", "keys"} <= {
+        name for name, status in seen.items() if status == "pass"
+    }
+    assert (seen["input"], seen["profile fits"]) == ("skip", "skip")
+    assert found.is_window_closed is True
+
+
+def test_windows_that_can_not_be_told_apart_are_no_closed_game(computer: Computer) -> None:
+    found = computer.examined(several)
+    assert (statuses(found)["game's window"], found.is_window_closed) == ("fail", False)
+
+
+def test_without_a_desktop_or_anything_else_every_row_is_there(tmp_path: Path) -> None:
+    computer = Computer(tmp_path, options=None)
+    computer.profile.unlink()
+    found = computer.examined(several, session=no_session)
+    seen = statuses(found)
+    assert tuple(seen) == NAMES
+    assert seen.pop("session") == "fail"
+    assert set(seen.values()) == {"skip"}
+    assert found.is_window_closed is None
+    assert rows(found)["session"].fix == "run this in the desktop session that shows the game"
+
+
+def test_a_font_is_found_in_a_launchers_folder_where_the_profile_names_none(computer: Computer) -> None:
+    computer.save(Profile())
+    assert rows(computer.examined(opened(client_in(as_it_was))))["font"].fix.startswith("name your game's client jar")
+    jar = computer.options.parent / "versions" / "1.20.1" / "1.20.1.jar"
+    jar.parent.mkdir(parents=True)
+    jar.write_bytes(computer.font.read_bytes())
+    found = rows(computer.examined(opened(client_in(as_it_was))))
+    assert found["font"].detail == f"found, of Minecraft 1.20.1: {jar}"
+    assert found["debug screen"].status == "pass"
+
+
+def test_a_font_that_can_not_be_read_is_a_fault_and_another_one_is_read_with(computer: Computer) -> None:
+    computer.save(Profile(screen=Screen(font=str(computer.system.home / "gone.jar"))))
+    jar = computer.options.parent / "versions" / "1.20.1" / "1.20.1.jar"
+    jar.parent.mkdir(parents=True)
+    jar.write_bytes(computer.font.read_bytes())
+    found = rows(computer.examined(opened(client_in(as_it_was))))
+    assert found["font"].status == "fail"
+    assert "gone.jar" in found["font"].detail
+    assert found["debug screen"].status == "pass"
+
+
+def test_an_unreadable_jar_is_one_row_and_without_any_font_nothing_is_pressed(computer: Computer) -> None:
+    computer.font.write_bytes(b"no jar")
+    client = client_in(as_it_was)
+    found = rows(computer.examined(opened(client)))
+    assert found["font"].status == "fail"
+    assert (found["debug screen"].status, found["input"].status) == ("skip", "skip")
+    assert is_untouched(client)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("[window", "not TOML"), ("[calibrated]\nformat = 9\ndate = '2030-01-01'", "a profile of format 9")],
+)
+def test_a_profile_that_can_not_be_used_is_a_row_and_the_rest_is_looked_at_without_it(
+    text: str, said: str, computer: Computer
+) -> None:
+    computer.profile.write_text(text, "utf-8")
+    found = rows(computer.examined(opened(client_in(as_it_was))))
+    assert (found["profile"].status, found["profile fits"].status) == ("fail", "skip")
+    assert said in found["profile"].detail
+    assert found["game's window"].status == "pass"
+    assert computer.profile.read_text("utf-8") == text
+
+
+def test_a_gui_scale_that_the_profile_says_otherwise_is_seen_all_the_same(computer: Computer) -> None:
+    computer.save(Profile(screen=Screen(font=str(computer.font), gui_scale=1)))
+    row = rows(computer.examined(opened(client_in(as_it_was))))["size and GUI scale"]
+    assert (row.status, row.detail) == (
+        "fail",
+        "854 x 480 pixels, GUI scale 2, and the profile's screen.gui_scale is 1",
+    )
+
+
+def test_a_key_of_the_debug_screen_that_does_nothing_is_a_fault(computer: Computer) -> None:
+    computer.save(Profile(screen=Screen(font=str(computer.font)), keys=Keys(debug="f9")))
+    client = client_in(as_it_was)
+    row = rows(computer.examined(opened(client)))["input"]
+    assert (row.status, row.detail) == ("fail", "f9 was pressed, and the debug screen stayed on")
+    assert is_untouched(client)
+
+
+@pytest.mark.parametrize("lost", [1, 2, 3])
+def test_a_press_that_is_lost_leaves_the_debug_screen_as_it_was(lost: int, computer: Computer) -> None:
+    client = client_in(as_it_was)
+    client.window.to_drop = lost
+    row = rows(computer.examined(opened(client)))["input"]
+    assert row.status in ("pass", "fail")
+    assert not client.window.down
+    assert client.game.has_f3
+
+
+@pytest.mark.parametrize(
+    "kind",
+    [
+        *("pause", "chat", "inventory", "death", "lost_focus", "disconnect"),
+        *("resized_window", "moved_window", "black_frame", "frozen_frame", "lag"),
+    ],
+)
+@pytest.mark.parametrize("after_s", [0.05, 0.25])
+def test_whatever_happens_midway_no_key_stays_down_and_none_goes_astray(
+    kind: Kind, after_s: float, computer: Computer
+) -> None:
+    client = client_in(as_it_was)
+    client.mishaps.plan(kind, after_s)
+    found = computer.examined(opened(client))
+    assert tuple(statuses(found)) == NAMES
+    assert is_untouched(client)
+    assert client.game.chat.typed in (None, "")
+    assert client.realm.player.feet == (0.5, 64.0, 0.5)
+
+
+def test_a_game_played_in_a_folder_of_its_own_is_found_by_its_process(computer: Computer, tmp_path: Path) -> None:
+    own = tmp_path / "own game"
+    own.mkdir()
+    (own / "options.txt").write_text(GOOD.replace("autoJump:false", "autoJump:true"), "utf-8")
+    computer.processes = [Process(f"java net.minecraft.client.main.Main --gameDir {own} --version 1.20.1")]
+    found = rows(computer.examined(no_window))
+    assert found["options.txt"].detail == f"the game that runs: {own / 'options.txt'}"
+    assert found["autoJump"].status == "fail"
+
+
+def test_what_options_txt_reduces_is_told_while_no_debug_screen_is_seen(computer: Computer) -> None:
+    computer.options.write_text(GOOD.replace("reducedDebugInfo:false", "reducedDebugInfo:true"), "utf-8")
+    assert statuses(computer.examined(no_window))["reduced debug info"] == "fail"
+    assert statuses(computer.examined(opened(client_in(as_it_was))))["reduced debug info"] == "pass"
+
+
+def test_options_that_can_not_be_read_are_one_row(computer: Computer) -> None:
+    computer.options.write_bytes(b"\x89PNG\r\n\0\0")
+    found = rows(computer.examined(no_window))
+    assert found["options.txt"].status == "fail"
+    assert found["options.txt"].detail == "doesn't hold the game's options"
+    assert found["autoJump"].status == "skip"
+
+
+class Interrupted:
+    """A window that is closed, or a person's Ctrl+C, at the look number ``at``."""
+
+    def __init__(self, client: VirtualClient, at: int, error: BaseException) -> None:
+        self._client, self._left, self._error = client, at, error
+
+    def _look(self) -> None:
+        self._left -= 1
+        if self._left < 0:
+            raise self._error
+
+    def size(self) -> tuple[int, int]:
+        self._look()
+        return self._client.display.size()
+
+    def title(self) -> str:
+        self._look()
+        return self._client.display.title()
+
+    def is_in_front(self) -> bool:
+        self._look()
+        return self._client.display.is_in_front()
+
+    def grab(self, region: Region | None = None) -> Frame:
+        self._look()
+        return self._client.display.grab(region)
+
+
+def interrupted(
+    client: VirtualClient, at: int, error: BaseException
+) -> Callable[[str], AbstractContextManager[Desktop]]:
+    @contextmanager
+    def open_devices(_title: str) -> Iterator[Desktop]:
+        yield Desktop(Interrupted(client, at, error), client.keyboard, client.pointer, client.clock)
+
+    return open_devices
+
+
+@settings(max_examples=30)
+@given(at=st.integers(0, 60))
+def test_a_window_that_closes_at_any_moment_leaves_every_row_and_no_key_down(
+    at: int, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    computer, client = Computer(tmp_path_factory.mktemp("home")), client_in(as_it_was)
+    closed = DesktopError("the window 'Minecraft 1.20.1' has closed: start the game again")
+    found = computer.examined(interrupted(client, at, closed))
+    assert tuple(statuses(found)) == NAMES
+    assert not client.window.down
+    told = [check for check in found.checks if "has closed" in check.detail]
+    assert len(told) == (0 if statuses(found)["input"] == "pass" else 1)
+
+
+@settings(max_examples=30)
+@given(at=st.integers(0, 40))
+def test_ctrl_c_at_any_moment_leaves_no_key_down_and_every_file_as_it_was(
+    at: int, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    computer, client = Computer(tmp_path_factory.mktemp("home")), client_in(as_it_was)
+    before = {file: file.read_bytes() for file in computer.system.home.rglob("*") if file.is_file()}
+    client.clipboard.write("a person's text")
+    with suppress(KeyboardInterrupt):
+        computer.examined(interrupted(client, at, KeyboardInterrupt()), clipboard=client.clipboard)
+    assert not client.window.down
+    assert client.clipboard.read() == "a person's text"
+    assert {file: file.read_bytes() for file in computer.system.home.rglob("*") if file.is_file()} == before

@@ -1,0 +1,96 @@
+"""The rows of options.txt, value by value."""
+
+from pathlib import Path
+
+import pytest
+
+from calibration.doctor.check import NAMES
+from calibration.doctor.options_rows import ROWS, gui_scale_row, keys_row, option_rows
+from calibration.options_txt import parse_options
+from mc_nested.live.profile_tables import Keys
+from tests.calibration.doctor.examined import GOOD
+
+
+@pytest.mark.parametrize(
+    ("value", "window", "status", "detail"),
+    [
+        ("2", None, "pass", "2"),
+        ("4", (854, 480), "pass", "4, 2 in this window"),
+        ("2", (854, 480), "pass", "2"),
+        ("0", None, "warn", "Auto: with the window's size it changes too"),
+        ("0", (854, 480), "warn", "Auto, 2 in this window: with its size it changes too"),
+        ("0", (2560, 1440), "fail", "Auto, 6 in this window: 4 at most can be read"),
+        ("6", None, "fail", "6: 4 at most"),
+        ("6", (2560, 1440), "fail", "6, 6 in this window: 4 at most can be read"),
+        ("6", (1280, 720), "pass", "6, 3 in this window"),
+        (None, None, "skip", "the file doesn't say"),
+        ("large", None, "skip", "the file doesn't say"),
+    ],
+)
+def test_a_gui_scale_is_judged_as_the_window_gets_it(
+    value: str | None, window: tuple[int, int] | None, status: str, detail: str
+) -> None:
+    row = gui_scale_row(value, window)
+    assert (row.status, row.detail) == (status, detail)
+    assert bool(row.fix) == (status in ("warn", "fail"))
+
+
+def bound(change: tuple[str, str], keys: Keys) -> tuple[str, str]:
+    row = keys_row(parse_options(GOOD.replace(*change).encode(), Path("options.txt")), keys)
+    return row.status, row.detail
+
+
+@pytest.mark.parametrize(
+    ("change", "keys", "status", "detail"),
+    [
+        (("", ""), Keys(), "pass", "9 are as the profile has them"),
+        (("board.t", "board.enter"), Keys(), "fail", "chat: enter for t"),
+        (("board.w", "board.z"), Keys(forward="z"), "pass", "9 are as the profile has them"),
+        # On an AZERTY keyboard the key at that place is printed z: nothing need be wrong.
+        (("", ""), Keys(forward="z"), "warn", "forward: w for z"),
+        (("mouse.right", "mouse.left"), Keys(), "fail", "use: left button for right button"),
+        (("board.left.shift", "board.unknown"), Keys(), "fail", "sneak: no key for left.shift"),
+        (("board.left.shift", "board.keypad.1"), Keys(), "fail", "sneak: another key for left.shift"),
+        (("board.1", "board.2"), Keys(), "warn", "hotbar.1: 2 for 1"),
+    ],
+)
+def test_keys_are_those_of_the_profile(change: tuple[str, str], keys: Keys, status: str, detail: str) -> None:
+    assert bound(change, keys) == (status, detail)
+
+
+def test_a_file_without_keys_says_nothing_of_them() -> None:
+    assert keys_row(parse_options(b"lang:en_us\n", Path("options.txt")), Keys()).status == "skip"
+
+
+def test_every_option_has_its_row_whether_there_is_a_file_or_not() -> None:
+    for options in (None, parse_options(b"lang:en_us\n", Path("options.txt")), parse_options(GOOD.encode(), Path("o"))):
+        assert {row.name for row in option_rows(options, Keys(), None)} == set(ROWS)
+    assert set(ROWS) < set(NAMES)
+
+
+@pytest.mark.parametrize(
+    ("name", "status"),
+    [
+        ("pauseOnLostFocus", "warn"),
+        ("autoJump", "fail"),
+        ("forceUnicodeFont", "fail"),
+        ("fullscreen", "warn"),
+        ("toggleCrouch", "fail"),
+    ],
+)
+def test_a_switch_that_should_be_off_says_why_and_how(name: str, status: str) -> None:
+    text = GOOD.replace(f"{name}:false", f"{name}:true")
+    rows = {row.name: row for row in option_rows(parse_options(text.encode(), Path("o")), Keys(), None)}
+    assert rows[name].status == status
+    assert rows[name].detail.startswith("true: ")
+    assert "mc-nested doctor --fix" in rows[name].fix
+    assert {row.status for row in rows.values() if row.name != name} == {"pass"}
+
+
+@pytest.mark.parametrize(
+    ("value", "status"), [("en_us", "pass"), ("en_US", "pass"), ("en_gb", "pass"), ("fr_fr", "warn")]
+)
+def test_menus_are_known_in_english(value: str, status: str) -> None:
+    text = GOOD.replace("lang:en_us", f"lang:{value}")
+    rows = {row.name: row for row in option_rows(parse_options(text.encode(), Path("o")), Keys(), None)}
+    assert rows["language"].status == status

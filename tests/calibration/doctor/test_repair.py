@@ -1,0 +1,164 @@
+"""``--fix``: safe values, a backup that nothing overwrites, and never while the game may be open."""
+
+from pathlib import Path
+
+import pytest
+
+from calibration.doctor.examination import Examination
+from calibration.doctor.repair import repaired
+from calibration.running_games import Process
+from mc_nested.errors import ProfileError
+from mc_nested.live.profile import Profile
+from mc_nested.live.profile_tables import Screen
+from sim.client.client import VirtualClient
+from tests.calibration.doctor.examined import GOOD, Computer, opened, statuses
+from tests.calibration.doctor.test_examination import no_session, no_window, several
+
+BAD = (
+    GOOD.replace("pauseOnLostFocus:false", "pauseOnLostFocus:true")
+    .replace("autoJump:false", "autoJump:true")
+    .replace("guiScale:2", "guiScale:0")
+    .replace("lang:en_us", "lang:de_de")
+)
+OLD = (
+    "guiScale:7\r\nlang:en_us\r\npauseOnLostFocus:true\r\nautoJump:true\r\nfullscreen:true\r\n"
+    "key_key.forward:17\r\nkey_key.use:-99\r\n"
+)
+
+
+@pytest.fixture
+def computer(tmp_path: Path) -> Computer:
+    return Computer(tmp_path, BAD)
+
+
+def repaired_in(computer: Computer, found: Examination) -> tuple[bool, str]:
+    """Whether it was repaired, and the last thing that was said."""
+    is_done = repaired(found, computer.said.append)
+    return is_done, computer.said[-1]
+
+
+def files_beside(computer: Computer) -> list[str]:
+    return sorted(file.name for file in computer.options.parent.iterdir())
+
+
+def test_safe_values_are_written_and_the_file_as_it_was_stays_beside_it(computer: Computer) -> None:
+    computer.save(Profile(screen=Screen(font=str(computer.font))))
+    found = computer.examined(no_window)
+    seen = statuses(found)
+    assert [seen[name] for name in ("autoJump", "pauseOnLostFocus", "guiScale", "language")] == [
+        *("fail", "warn", "warn", "warn")
+    ]
+    is_done, said = repaired_in(computer, found)
+    assert is_done
+    assert "autoJump true -> false" in said
+    assert computer.options.read_text("utf-8") == GOOD
+    assert (computer.options.parent / "options.txt.before-1").read_text("utf-8") == BAD
+    after = statuses(computer.examined(no_window))
+    assert {after[name] for name in ("autoJump", "pauseOnLostFocus", "guiScale", "language")} == {"pass"}
+
+
+def test_the_options_of_1_12_are_repaired_in_their_own_form(computer: Computer) -> None:
+    computer.options.write_bytes(OLD.encode())
+    assert repaired_in(computer, computer.examined(no_window))[0]
+    expected = OLD.replace("true", "false").replace("guiScale:7", "guiScale:2")
+    assert computer.options.read_bytes() == expected.encode()
+
+
+def test_the_gui_scale_is_that_of_the_profile(computer: Computer) -> None:
+    computer.save(Profile(screen=Screen(font=str(computer.font), gui_scale=3)))
+    repaired_in(computer, computer.examined(no_window))
+    assert "guiScale:3\n" in computer.options.read_text("utf-8")
+
+
+def test_no_backup_is_ever_overwritten(computer: Computer) -> None:
+    repaired_in(computer, computer.examined(no_window))
+    computer.options.write_text(BAD.replace("lang:de_de", "lang:fr_fr"), "utf-8")
+    repaired_in(computer, computer.examined(no_window))
+    assert files_beside(computer) == ["options.txt", "options.txt.before-1", "options.txt.before-2"]
+    assert "lang:de_de" in (computer.options.parent / "options.txt.before-1").read_text("utf-8")
+
+
+def test_a_file_that_is_as_it_should_be_is_left_alone(computer: Computer) -> None:
+    computer.options.write_text(GOOD, "utf-8")
+    is_done, said = repaired_in(computer, computer.examined(no_window))
+    assert (is_done, said) == (False, f"nothing to fix: {computer.options} is as it should be")
+    assert files_beside(computer) == ["options.txt"]
+
+
+def test_a_file_that_a_link_leads_to_is_changed_where_it_lies(computer: Computer) -> None:
+    shared = computer.system.home / "shared.txt"
+    computer.options.rename(shared)
+    computer.options.symlink_to(shared)
+    assert repaired_in(computer, computer.examined(no_window))[0]
+    assert computer.options.is_symlink()
+    assert "autoJump:false" in shared.read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        ("java net.minecraft.client.main.Main --gameDir {folder} --version 1.20.1", "a game runs that may use"),
+        ("java org.prismlauncher.EntryPoint", "a game runs that may use"),
+    ],
+)
+def test_while_a_game_may_run_in_that_folder_nothing_is_written(command: str, message: str, computer: Computer) -> None:
+    computer.processes = [Process(command.format(folder=computer.options.parent))]
+    is_done, said = repaired_in(computer, computer.examined(no_window))
+    assert not is_done
+    assert message in said
+    assert computer.options.read_text("utf-8") == BAD
+
+
+def test_a_game_in_another_folder_does_not_hinder(computer: Computer) -> None:
+    computer.processes = [Process("java net.minecraft.client.main.Main --gameDir /elsewhere --version 1.20.1")]
+    assert repaired_in(computer, computer.examined(no_window))[0]
+
+
+def test_while_its_window_is_there_nothing_is_written(computer: Computer) -> None:
+    for found in (computer.examined(opened(VirtualClient())), computer.examined(several)):
+        is_done, said = repaired_in(computer, found)
+        assert (is_done, said) == (False, "nothing was changed: the game is open: close it, and run this again")
+    assert computer.options.read_text("utf-8") == BAD
+
+
+def test_where_nobody_knows_whether_it_is_closed_nothing_is_written(computer: Computer) -> None:
+    computer.processes = None
+    is_done, said = repaired_in(computer, computer.examined(no_window, session=no_session))
+    assert not is_done
+    assert "nobody knows whether the game is closed" in said
+    # Either alone is enough: no window on a desktop that was looked at, or no process that could be it.
+    assert repaired_in(computer, computer.examined(no_window))[0]
+    computer.options.write_text(BAD, "utf-8")
+    computer.processes = []
+    assert repaired_in(computer, computer.examined(no_window, session=no_session))[0]
+
+
+def test_without_options_there_is_nothing_to_fix(computer: Computer) -> None:
+    computer.options.unlink()
+    assert repaired_in(computer, computer.examined(no_window)) == (False, "nothing to fix: no options.txt was read")
+
+
+def test_a_file_that_the_game_has_written_meanwhile_is_left_alone(computer: Computer) -> None:
+    found = computer.examined(no_window)
+    computer.options.write_text(GOOD, "utf-8")
+    with pytest.raises(ProfileError, match="has changed meanwhile"):
+        repaired(found, computer.said.append)
+    assert files_beside(computer) == ["options.txt"]
+
+
+@pytest.mark.parametrize(
+    ("error", "told"), [(OSError("the disk is full"), ProfileError), (KeyboardInterrupt(), KeyboardInterrupt)]
+)
+def test_a_repair_that_breaks_off_leaves_the_file_as_it_was(
+    error: BaseException, told: type[BaseException], computer: Computer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = computer.examined(no_window)
+
+    def break_off(_self: Path, _target: Path) -> Path:
+        raise error
+
+    monkeypatch.setattr(Path, "replace", break_off)
+    with pytest.raises(told):
+        repaired(found, computer.said.append)
+    assert computer.options.read_text("utf-8") == BAD
+    assert not [name for name in files_beside(computer) if name.endswith(".part")]
