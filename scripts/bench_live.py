@@ -114,7 +114,7 @@ def play_in(
         for _ in steps:
             while placed is None:
                 placed, cell, in_episode = _reset(game, client, arena, laid, scenario, done, rng)
-            action = _draw(rng, cell, placed)
+            action = drawn_action(rng, cell, placed)
             if rate:
                 client.mishaps.maybe(rate, MISHAP_WITHIN_S)
             done.actions += 1
@@ -180,7 +180,7 @@ def _reset(
     return set(), cell, 0
 
 
-def _draw(rng: np.random.Generator, cell: Cell, placed: set[Cell]) -> Action:
+def drawn_action(rng: np.random.Generator, cell: Cell, placed: set[Cell]) -> Action:
     """One of the actions that the rules don't void."""
     return Action(int(rng.choice([int(action) for action in _possible(cell, placed)])))
 

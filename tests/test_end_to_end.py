@@ -45,18 +45,21 @@ def built(arena: Arena, scenario: Scenario, material: str) -> dict[Block, str]:
 
 
 @pytest.mark.standin
-def test_a_policy_learnt_in_the_simulator_builds_the_line_in_a_real_window(standin: Standin, tmp_path: Path) -> None:
-    run, line = tmp_path / "run", load_scenario("line")
-    mc_nested("train", "--scenario", "line", "--stop-at-optimum", "--out", run)
+@pytest.mark.parametrize(("design", "preset"), [("line", "paper"), ("diamond", "tuned")])
+def test_a_policy_learnt_in_the_simulator_builds_its_design_in_a_real_window(
+    design: str, preset: str, standin: Standin, tmp_path: Path
+) -> None:
+    run, scenario = tmp_path / "run", load_scenario(design)
+    mc_nested("train", "--scenario", design, "--preset", preset, "--stop-at-optimum", "--out", run)
     found = json.loads(mc_nested("evaluate", run, "--json"))
-    assert found["scores"] == [line.optimum]
+    assert found["scores"] == [scenario.optimum]
 
     printed = mc_nested(
         *("play", run, "--backend", "live", "--profile", standin.profile, "--screenshots"), env=standin.env
     )
-    assert f"score {line.optimum:g} of {line.optimum:g}, in {found['materials'][0]}" in printed
+    assert f"score {scenario.optimum:g} of {scenario.optimum:g}, in {found['materials'][0]}" in printed
     arena = load_profile(standin.profile).marked_arena()
-    assert standing(standin, arena) == built(arena, line, found["materials"][0])
+    assert standing(standin, arena) == built(arena, scenario, found["materials"][0])
 
     pictures = sorted((run / "screenshots").glob("*.png"))
     assert len(pictures) == found["steps"][0]

@@ -10,15 +10,20 @@ from rich.live import Live
 from rich.text import Text
 
 from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.game import Game
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.evaluate import greedy_episodes, load_agent
 from mc_nested.cli.options import Backend, BackendOption, ProfileOption, RunArgument, ServerOption, open_game
-from mc_nested.errors import RunError, UserError
+from mc_nested.errors import LiveError, NotInFrontError, RunError, StoppedError, UserError
 from mc_nested.learn.agents import Agent, view_of
-from mc_nested.learn.evaluation import play_greedily
+from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.run_folder import RunFolder
 from mc_nested.live.devices import Display
 from mc_nested.report.terminal import arena_view
+
+TRIES = 3
+"""Episodes that are begun, of which a mishap in the running game may spoil all but the last."""
 
 
 def play(
@@ -31,33 +36,51 @@ def play(
         bool, typer.Option("--screenshots", help="keep a picture of the window after each step, under RUN/screenshots")
     ] = False,
 ) -> None:
-    """Play one greedy episode and show the arena as it is built."""
+    """Play one greedy episode and show the arena as it is built; one that a mishap spoils begins anew."""
     folder = RunFolder.open(run)
     scenario = folder.scenario
     if screenshots and backend is Backend.SIM:
         raise UserError("the simulator has no window to picture: leave out --screenshots, or play --backend live")
     agent, which = _choose(folder, trial)
-    with open_game(backend, profile, scenario, server_allowed=server_allowed) as (game, display):
-        env = ArenaEnv(game, scenario)
+    evidence = folder.path / "evidence"
+    with open_game(backend, profile, scenario, server_allowed=server_allowed, evidence=evidence) as (game, display):
         pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
-        console = Console()
-        with Live(console=console, auto_refresh=False) as live:
-
-            def show() -> None:
-                built = len(env.placed & scenario.design)
-                line = Text(f"  {scenario.name}, trial {which}: {built} of {scenario.blocks} blocks on the design")
-                live.update(Group(arena_view(scenario, env.cell, env.placed), line), refresh=True)
-                if pictures:
-                    pictures.take()
-
-            arenas = view_of(agent.form, ArenaVectorEnv([env]), [scenario])
-            episode = play_greedily(arenas, [scenario], agent, show)[0]
-        if not console.is_terminal:
-            console.print()  # rich leaves the last line open then
+        for tries_left in reversed(range(TRIES)):
+            try:
+                episode = _watch(game, scenario, agent, which, pictures)
+                break
+            except (StoppedError, NotInFrontError):
+                raise
+            except LiveError as error:
+                if not tries_left:
+                    raise
+                typer.echo(f"  {error}; the episode begins anew", err=True)
     material = episode.material_name(scenario)
     typer.echo(f"  score {episode.score:g} of {scenario.optimum:g}, in {material}, {len(episode.actions)} steps")
     if pictures:
         typer.echo(f"  screenshots: {pictures.folder}")
+
+
+def _watch(game: Game, scenario: Scenario, agent: Agent, which: int, pictures: "_Screenshots | None") -> GreedyEpisode:
+    """One greedy episode, shown as it is built."""
+    env = ArenaEnv(game, scenario)
+    console = Console()
+    if pictures:
+        pictures.begin()
+    with Live(console=console, auto_refresh=False) as live:
+
+        def show() -> None:
+            built = len(env.placed & scenario.design)
+            line = Text(f"  {scenario.name}, trial {which}: {built} of {scenario.blocks} blocks on the design")
+            live.update(Group(arena_view(scenario, env.cell, env.placed), line), refresh=True)
+            if pictures:
+                pictures.take()
+
+        arenas = view_of(agent.form, ArenaVectorEnv([env]), [scenario])
+        episode = play_greedily(arenas, [scenario], agent, show)[0]
+    if not console.is_terminal:
+        console.print()  # rich leaves the last line open then
+    return episode
 
 
 def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
@@ -83,8 +106,11 @@ class _Screenshots:
         self.folder = folder
         self._display = display
         self._taken = 0
-        folder.mkdir(exist_ok=True)
-        for old in folder.glob("[0-9][0-9][0-9].png"):
+
+    def begin(self) -> None:
+        self._taken = 0
+        self.folder.mkdir(exist_ok=True)
+        for old in self.folder.glob("[0-9][0-9][0-9].png"):
             old.unlink()
 
     def take(self) -> None:

@@ -26,15 +26,20 @@ ENOUGH = 6.0
 
 
 class Beat:
-    """When ticks come, in seconds of the clock that the sightings are given in."""
+    """When ticks come, in seconds of the clock that the sightings are given in.
 
-    def __init__(self) -> None:
+    Args:
+        seen_after_s: from a tick until its step is on the screen, on average.
+    """
+
+    def __init__(self, seen_after_s: float = SEEN_AFTER_S) -> None:
+        self._seen_after_s = seen_after_s
         self._sum = 0j
         self._weight = 0.0
 
     def saw_step(self, since: float, at: float) -> None:
         """A step was seen at a look, and not yet at the one before."""
-        tick = (since + at) / 2 - SEEN_AFTER_S
+        tick = (since + at) / 2 - self._seen_after_s
         self._sum = KEPT * self._sum + cmath.exp(2j * math.pi * tick / TICK_S)
         self._weight = KEPT * self._weight + 1.0
 

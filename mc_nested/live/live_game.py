@@ -162,11 +162,11 @@ class LiveGame:
         if target == cell and landing is None:
             return Outcome(self._body.stay_in(cell), None)
         shown_id = self._profile.shown_id(self._scenario.materials[self._material].block)
+        if landing is not None:
+            return Outcome(target, self._body.build(target, self._placed, shown_id))
         stance = self._body.move_to(target)
         self._body.check_front(stance, self._placed, shown_id)
-        if landing is None:
-            return Outcome(stance.cell, None)
-        return Outcome(stance.cell, self._body.place(target, shown_id, stance))
+        return Outcome(stance.cell, None)
 
     def _lay_out(self, material: int) -> None:
         if self._profile.world is not None:

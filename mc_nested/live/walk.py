@@ -30,8 +30,8 @@ class Steps:
     ticks: int
 
 
-def displacement(ticks: int) -> float:
-    """Blocks covered by holding a direction for ``ticks`` ticks from rest on stone, then coasting to a stop."""
+def displacement(ticks: int, inertia: float = INERTIA) -> float:
+    """Blocks covered by holding a direction for ``ticks`` ticks from rest, a push as on stone, then coasting."""
     covered = velocity = 0.0
     held = 0
     while held < ticks or velocity >= STANDSTILL:
@@ -39,7 +39,7 @@ def displacement(ticks: int) -> float:
             velocity += PUSH
             held += 1
         covered += velocity
-        velocity *= INERTIA
+        velocity *= inertia
     return covered
 
 
@@ -57,21 +57,22 @@ def nearest_ticks(distance: float, response: Sequence[float]) -> int:
     return min(range(len(ends)), key=lambda ticks: abs(ends[ticks] - distance))
 
 
-def push_of(response: Sequence[float]) -> float:
+def push_of(response: Sequence[float], inertia: float = INERTIA) -> float:
     """Blocks that a tick of a held key adds to a step, for a walker who covers as much as ``response`` says."""
-    return PUSH * response[-1] / displacement(len(response))
+    return PUSH * response[-1] / displacement(len(response), inertia)
 
 
-def best_steps(distance: float, response: Sequence[float], tolerance: float) -> Steps:
+def best_steps(distance: float, response: Sequence[float], tolerance: float, slower: float = SNEAKING) -> Steps:
     """The walk that ends nearest; where even that ends outside the tolerance, walking or sneaking, whichever is nearer.
 
-    One tick at least: whoever has to move must not wait for a smaller step than there is.
+    Sneaking covers ``slower`` times as much. One tick at least: whoever has to move must not wait for a smaller step
+    than there is.
     """
     walking = max(1, nearest_ticks(distance, response))
     missed = abs(response[walking - 1] - distance)
     if missed <= tolerance:
         return Steps("walk", walking)
-    slow = [SNEAKING * covered for covered in response]
+    slow = [slower * covered for covered in response]
     sneaking = max(1, nearest_ticks(distance, slow))
     nearer = abs(slow[sneaking - 1] - distance) < missed
     return Steps("sneak", sneaking) if nearer else Steps("walk", walking)

@@ -15,7 +15,7 @@ from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli import options, scenarios
 from mc_nested.cli.app import main
-from mc_nested.errors import DesktopError, LiveError, McNestedError
+from mc_nested.errors import DesktopError, LiveError, McNestedError, NotInFrontError, StoppedError
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.ending import EndedBySignal
 from sim.grid import GridGame
@@ -122,6 +122,30 @@ def test_the_pictures_of_an_episode_are_of_that_episode_alone(
     assert code_of("play", tmp_path / "run", "--backend", "live", "--profile", "mine", "--screenshots") in (0, None)
     steps = int(capsys.readouterr().out.split(" steps")[0].split()[-1])
     assert [path.name for path in sorted(pictures.iterdir())] == [f"{step:03d}.png" for step in range(1, steps + 1)]
+
+
+@pytest.mark.parametrize(("failures", "code"), [(1, 0), (2, 0), (3, 2)])
+def test_an_episode_that_is_watched_begins_anew_twice_where_mishaps_spoil_it(
+    failures: int, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert code_of("train", "--episodes", "1", "--out", tmp_path / "run") in (0, None)
+    open_live(monkeypatch, 5, LiveError("it lagged"), failures)
+    capsys.readouterr()
+    assert (code_of("play", tmp_path / "run", "--backend", "live", "--profile", "mine") or 0) == code
+    told = capsys.readouterr().err.splitlines()
+    assert told.count("  it lagged; the episode begins anew") == min(failures, 2)
+    assert ("mc-nested: it lagged" in told) is (code == 2)
+
+
+@pytest.mark.parametrize("error", [StoppedError("stopped by f12"), NotInFrontError("another window")])
+def test_an_episode_that_a_person_stops_does_not_begin_anew(
+    error: LiveError, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert code_of("train", "--episodes", "1", "--out", tmp_path / "run") in (0, None)
+    open_live(monkeypatch, 5, error, 1)
+    capsys.readouterr()
+    assert code_of("play", tmp_path / "run", "--backend", "live", "--profile", "mine") == 2
+    assert capsys.readouterr().err == f"mc-nested: {error}\n"
 
 
 def test_the_simulator_has_no_window_to_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

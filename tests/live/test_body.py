@@ -147,11 +147,24 @@ def test_without_the_looked_at_block_on_the_screen_nothing_is_clicked() -> None:
     assert game.presses == []
 
 
-def test_an_agent_too_far_off_does_not_click() -> None:
-    game = _game(off=(0.0, 0.16))
-    with pytest.raises(NotConfirmedError, match=r"left cell \(7, 7\) before placing, it is at \(7.00, 7.16\)"):
-        _body(game).place((7, 7), "minecraft:stone")
-    assert game.presses == []
+@pytest.mark.parametrize("off", [(0.0, 0.16), (0.0, -1.0), (0.9, 0.0)])
+def test_an_agent_too_far_off_walks_back_before_it_clicks(off: tuple[float, float]) -> None:
+    game = _game(off=off)
+    assert _body(game).place((7, 7), "minecraft:stone") == (7, 8)
+    assert game.presses[-1] == "right button"
+    assert game.presses.count("right button") == 1
+    assert len(game.presses) > 1
+    assert _off(game, (7, 7)) <= 0.15
+
+
+def test_an_agent_that_passes_by_the_middle_does_not_click() -> None:
+    game = _game()
+    passing = iter([Reading((7.5, 64.0, z), 0.0, 65.0, Target((7, 63, 8), FLOOR)) for z in (7.3, 7.5, 7.7)])
+    hands = Hands(FakeDisplay(game), FakeKeyboard(game), FakePointer(game), game.clock, SOUTH.input)
+    body = Body(SOUTH, hands, FakeScreen(game, lambda: next(passing, None)), game.clock)
+    seen = body.place((7, 7), "minecraft:stone")
+    assert seen == (7, 8)
+    assert next(passing, None) is None, "it was waited for the agent to stand"
 
 
 @pytest.mark.parametrize(

@@ -47,6 +47,29 @@ def test_an_end_that_is_told_is_right_though_the_walker_was_coasting_before(
         assert going.end[0] == pytest.approx(path[-1][0], abs=0.03)
 
 
+@pytest.mark.parametrize("late", [4, 8, 12])
+def test_a_release_that_a_stalled_game_takes_for_late_is_followed_too(late: int) -> None:
+    stride = Stride(AT_REST, Hold(1, 1, 5, PUSH))
+    seen = [(stride.see((3.0, 5.0 + round(place, 3))), is_up) for place, is_up in _path(5 + late)]
+    assert all(going is None for going, is_up in seen if not is_up)
+    ends = [going.end[1] for going, _ in seen if going]
+    assert ends == pytest.approx([5.0 + displacement(5 + late)] * len(ends), abs=0.005)
+    assert len(ends) > 8
+
+
+@pytest.mark.parametrize("inertia", [0.4, 0.546, 0.89])
+def test_on_other_ground_a_step_leaves_another_part_of_itself(inertia: float) -> None:
+    place, carry, ends = 0.0, 0.0, []
+    stride = Stride(AT_REST, Hold(1, 1, 5, 0.05), inertia)
+    for tick in range(80):
+        carry = (carry if abs(carry) >= 0.003 else 0.0) + (0.05 if tick < 5 else 0.0)
+        place, carry = place + carry, carry * inertia
+        if going := stride.see((3.0, 5.0 + place)):
+            ends.append(going.end[1])
+    assert ends == pytest.approx([5.0 + place] * len(ends), abs=0.02)
+    assert len(ends) > 60
+
+
 def test_a_place_on_no_path_says_nothing() -> None:
     stride = Stride(AT_REST, Hold(1, 1, 5, PUSH))
     assert stride.see((3.0, 5.5)) is None
