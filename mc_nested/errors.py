@@ -8,6 +8,7 @@ McNestedError
 │   ├── FontError        a font picture or jar that can't be used
 │   ├── RunError         an output folder, a run or a checkpoint that can't be used
 │   └── DesktopError     no display, Wayland, no window of that title
+│       └── ClipboardError    a clipboard that can't be read, or whose content could not be put back
 └── LiveError            the game did not do what was asked; keys are released before it is raised
     ├── NotInFrontError  another window is in front: nothing was pressed
     ├── WrongScreenError the screen was not just seen to be the one that a press is meant for: nothing was pressed
@@ -47,6 +48,10 @@ class RunError(UserError):
 
 class DesktopError(UserError):
     """No display, a session whose windows can't be driven, or no window of that title."""
+
+
+class ClipboardError(DesktopError):
+    """A clipboard that can't be reached, or that holds what could not be put back."""
 
 
 class LiveError(McNestedError):
