@@ -52,7 +52,7 @@ def cross_check(bench: Bench, profile: Profile) -> Found:
     In a version before 1.13, which has no F3+C, nothing is compared, and that is said.
 
     Raises:
-        DesktopError: the clipboard can't be reached, or holds what could not be put back.
+        ClipboardError: the clipboard can't be reached, or holds what could not be put back.
         UnreadableError: the two differ, or the debug screen can't be read.
         NotConfirmedError: nothing was copied.
         LiveError: the player was moved meanwhile; what the hands raise.

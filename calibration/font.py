@@ -15,7 +15,7 @@ from calibration.read_back import ReadLine, phase_of, read_back, side_by_side
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found, Picture
 from calibration.written import write_found, write_picture
-from mc_nested.errors import DesktopError, FontError, NotConfirmedError, UnreadableError
+from mc_nested.errors import ClipboardError, FontError, NotConfirmedError, UnreadableError
 from mc_nested.live.at_rest import wait_for_front
 from mc_nested.live.debug_screen import read_debug_screen
 from mc_nested.live.devices import Frame
@@ -31,7 +31,7 @@ STEP = "font"
 PATIENCE_S = 15.0
 """How long a debug screen that is found may stay unreadable: what was said in the chat is gone in ten seconds."""
 
-LOOK_S = 0.1
+LOOK_S = 0.25
 
 
 def sources_here(version: str | None) -> FontSources:
@@ -115,29 +115,33 @@ def find_font(bench: Bench, profile: Profile, sources: FontSources) -> Found:
 
 def _on_screen(bench: Bench, profile: Profile, candidates: Sequence[Candidate], sources: FontSources) -> Candidate:
     """The first candidate that reads what is on the screen, once that is a world with its debug screen."""
-    display, clock, hands = bench.desktop.display, bench.desktop.clock, bench.hands
-    began, unknown_since, was_pressed = clock.now(), clock.now(), False
+    display, clock, hands, debug = bench.desktop.display, bench.desktop.clock, bench.hands, profile.keys.debug
+    # The debug screen may be off, or something without labels be open. What was pressed in vain is pressed back.
+    presses = iter(((debug,), (debug, "esc"), ("esc",)))
+    began, unknown_since, unknown = clock.now(), clock.now(), [display.grab()]
     while True:
         hands.check_front()
         frame = display.grab()
         for each in candidates:
             if read_debug_screen(frame, each.font).problem is None:
                 return each
-        seen = next((each for each in candidates if find_overlay(frame, each.font)), None)
-        if seen is not None:
+        if way := _way_from_menu(bench, profile, candidates):
+            way.find()
+            unknown_since = clock.now()
+        elif seen := next((each for each in candidates if find_overlay(frame, each.font)), None):
             unknown_since = clock.now()
             if clock.now() - began > PATIENCE_S:
                 raise UnreadableError(str(read_debug_screen(frame, seen.font).problem))
-        elif way := _way_from_menu(bench, profile, candidates):
-            way.find()
-            unknown_since = clock.now()
         elif clock.now() - unknown_since > UNKNOWN_S:
-            # It may only be off. What was pressed in vain is pressed back.
-            hands.saw("menu")
-            hands.tap(profile.keys.debug, on="menu")
-            if was_pressed:
-                raise nothing_fits(frame, candidates, sources.options)
-            unknown_since, was_pressed = clock.now(), True
+            unknown.append(frame)
+            keys = next(presses, None)
+            if keys is None:
+                raise nothing_fits(unknown, candidates, sources.options)
+            for key in keys:
+                hands.saw("menu")
+                hands.tap(key, on="menu")
+                hands.wait(LOOK_S)
+            unknown_since = clock.now()
         hands.wait(LOOK_S)
 
 
@@ -186,5 +190,5 @@ def _checked(bench: Bench, profile: Profile) -> tuple[str, ...]:
     """What F3+C says to the reading, where it can be asked."""
     try:
         return cross_check(bench, profile).lines
-    except (DesktopError, NotConfirmedError) as error:
+    except (ClipboardError, NotConfirmedError) as error:
         return (f"not compared with F3+C: {error}",)

@@ -27,8 +27,10 @@ class Candidate:
     font: Font
 
 
-def nothing_fits(frame: Frame, candidates: Sequence[Candidate], options: Mapping[str, str]) -> FontError | LiveError:
-    """Why none of the candidates reads a frame (height, width, 3) of a world, as far as it can be known.
+def nothing_fits(
+    frames: Sequence[Frame], candidates: Sequence[Candidate], options: Mapping[str, str]
+) -> FontError | LiveError:
+    """Why none of the candidates reads any of these frames (height, width, 3), as far as it can be known.
 
     ``options`` are those of the game's options.txt.
     """
@@ -37,12 +39,12 @@ def nothing_fits(frame: Frame, candidates: Sequence[Candidate], options: Mapping
             "the game's Force Unicode Font is on, which can't be read: switch it off in its Language options"
         )
     for scale in _LARGER_SCALES:
-        for each in candidates:
-            if see(frame, each.font, Overlay(scale, VANILLA_PITCH, TEXT_COLOUR)):
-                return UnreadableError(f"the GUI scale is {scale}: choose 1, 2, 3 or 4 in the game's Video Settings")
+        overlay = Overlay(scale, VANILLA_PITCH, TEXT_COLOUR)
+        if any(see(frame, each.font, overlay) for frame in frames for each in candidates):
+            return UnreadableError(f"the GUI scale is {scale}: choose 1, 2, 3 or 4 in the game's Video Settings")
     names = ", ".join(str(each.path) for each in candidates[:SHOWN])
     more = f" and {len(candidates) - SHOWN} more" if len(candidates) > SHOWN else ""
-    if not _has_text(frame):
+    if not any(_has_text(frame) for frame in frames):
         return UnreadableError(
             "no debug screen is to be seen, even after its key was pressed: close what is open in the game, turn it on "
             f"with F3, and run this again (fonts tried: {names}{more})"

@@ -44,10 +44,12 @@ def read_back(frame: Frame, font: Font) -> list[ReadLine]:
     sight = see(frame, font)
     if sight is None or sight.prefix != POSITION:
         return []
-    lines = _left_column(sight, font)
+    read = [ReadLine(line.text, _picture_of(sight, line)) for line in _left_column(sight, font)]
     if sight.overlay.pitch == VANILLA_PITCH:
-        lines += [line for line in Screen(sight, font).right_column() if _is_worth_it(line)]
-    return [ReadLine(line.text, _picture_of(sight, line)) for line in lines]
+        lines = (line for line in Screen(sight, font).right_column() if _is_worth_it(line))
+        # Before a line of the right column lies the world, whose bright dots are no part of it.
+        read += [ReadLine(line.text.lstrip(f"{UNKNOWN} "), _picture_of(sight, line)) for line in lines]
+    return read
 
 
 def phase_of(frame: Frame, font: Font) -> tuple[int, int] | None:

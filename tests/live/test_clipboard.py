@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from mc_nested.errors import DesktopError
+from mc_nested.errors import ClipboardError
 
 if not sys.platform.startswith("linux"):
     pytest.skip("the clipboard of an X server", allow_module_level=True)
@@ -64,7 +64,7 @@ def test_an_empty_text_empties_it(clipboard: X11Clipboard) -> None:
 @pytest.mark.standin
 def test_a_text_too_long_to_be_put_back_is_refused(clipboard: X11Clipboard) -> None:
     clipboard.write("before")
-    with pytest.raises(DesktopError, match="too long"):
+    with pytest.raises(ClipboardError, match="too long"):
         clipboard.write("x" * (MOST_BYTES + 1))
     assert clipboard.read() == "before"
 
@@ -84,7 +84,7 @@ def owner(clipboard: X11Clipboard) -> Iterator[Display]:
 @pytest.mark.standin
 def test_a_program_that_does_not_answer_is_not_waited_for_for_ever(clipboard: X11Clipboard, owner: Display) -> None:
     began = time.monotonic()
-    with pytest.raises(DesktopError, match="doesn't answer"):
+    with pytest.raises(ClipboardError, match="doesn't answer"):
         clipboard.read()
     assert time.monotonic() - began < 5
     assert owner.pending_events()
@@ -121,6 +121,6 @@ def test_a_display_that_has_gone_is_told(monkeypatch: pytest.MonkeyPatch) -> Non
     with warnings.catch_warnings():
         # python-xlib leaves the socket of a connection that failed to the garbage collector.
         warnings.simplefilter("ignore", ResourceWarning)
-        with pytest.raises(DesktopError, match="display"):
+        with pytest.raises(ClipboardError, match="display"):
             X11Clipboard().read()
         gc.collect()

@@ -2,14 +2,14 @@
 
 import sys
 
-from mc_nested.errors import DesktopError
+from mc_nested.errors import ClipboardError
 from mc_nested.live.devices import Clipboard
 
 
 def open_clipboard() -> Clipboard:
     """This desktop's clipboard; nothing is asked of it yet.
 
-    Raises (both methods): DesktopError where the clipboard holds something else than text, which could not be put
+    Raises (both methods): ClipboardError where the clipboard holds something else than text, which could not be put
     back; or where it can't be reached.
     """
     if sys.platform == "win32":
@@ -25,6 +25,6 @@ def open_clipboard() -> Clipboard:
     return X11Clipboard()
 
 
-def no_text() -> DesktopError:
+def no_text() -> ClipboardError:
     """The error for a clipboard with a picture or files on it."""
-    return DesktopError("the clipboard holds something else than text, so it is left alone: copy any text, start again")
+    return ClipboardError("the clipboard holds something else than text, and is left alone: copy any text, start again")

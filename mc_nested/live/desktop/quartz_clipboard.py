@@ -2,7 +2,7 @@
 
 import sys
 
-from mc_nested.errors import DesktopError
+from mc_nested.errors import ClipboardError
 from mc_nested.live.desktop.clipboard import no_text
 
 if sys.platform == "darwin":
@@ -25,4 +25,4 @@ class QuartzClipboard:
         board = AppKit.NSPasteboard.generalPasteboard()
         board.clearContents()
         if text and not board.setString_forType_(text, AppKit.NSPasteboardTypeString):
-            raise DesktopError("the clipboard can't be written: close the program that holds it, and start again")
+            raise ClipboardError("the clipboard can't be written: close the program that holds it, and start again")

@@ -3,7 +3,7 @@
 import ctypes
 import sys
 
-from mc_nested.errors import DesktopError
+from mc_nested.errors import ClipboardError
 from mc_nested.live.desktop.clipboard import no_text
 
 if sys.platform == "win32":
@@ -33,5 +33,5 @@ class Win32Clipboard:
             raise _unreachable(error) from error
 
 
-def _unreachable(error: Exception) -> DesktopError:
-    return DesktopError(f"the clipboard can't be reached ({error}): close the program that holds it, and start again")
+def _unreachable(error: Exception) -> ClipboardError:
+    return ClipboardError(f"the clipboard can't be reached ({error}): close the program that holds it, and start again")

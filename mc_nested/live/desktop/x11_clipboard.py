@@ -18,7 +18,7 @@ from Xlib.display import Display
 from Xlib.error import ConnectionClosedError, DisplayError, XauthError, XError
 from Xlib.protocol.request import SetSelectionOwner
 
-from mc_nested.errors import DesktopError
+from mc_nested.errors import ClipboardError
 from mc_nested.live.desktop.clipboard import no_text
 
 if TYPE_CHECKING:
@@ -62,7 +62,7 @@ class X11Clipboard:
             command, input=data, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False
         )
         if kept.returncode:
-            raise DesktopError("the clipboard can't be written: is the display gone, or does another program keep it?")
+            raise ClipboardError("the clipboard can't be written: close the program that keeps it, and start again")
 
 
 def _converted(display: Display, window: "Window", clipboard: int) -> str | None:
@@ -92,7 +92,7 @@ def _answer(display: Display) -> "Event":
         while display.pending_events():
             if (event := display.next_event()).type == X.SelectionNotify:
                 return event
-    raise DesktopError("the program that holds the clipboard doesn't answer: copy any text, and start again")
+    raise ClipboardError("the program that holds the clipboard doesn't answer: copy any text, and start again")
 
 
 @contextmanager
@@ -104,8 +104,8 @@ def _connected() -> Iterator[Display]:
         finally:
             display.close()
     except (DisplayError, XauthError, ConnectionClosedError, XError, OSError) as error:
-        raise DesktopError("the display has closed: start the desktop and the game again") from error
+        raise ClipboardError("the display has closed: start the desktop and the game again") from error
 
 
-def _too_long() -> DesktopError:
-    return DesktopError("the clipboard holds too long a text to be put back: copy a shorter one, and start again")
+def _too_long() -> ClipboardError:
+    return ClipboardError("the clipboard holds too long a text to be put back: copy a shorter one, and start again")
