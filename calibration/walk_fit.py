@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize
+from scipy.optimize import fmin
 
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.walk import STANDSTILL, TICK_S, Gait
@@ -27,8 +27,12 @@ FEWEST = 8
 """Holds of a gait that a fit needs, three times as many as it has unknowns."""
 
 _INERTIAS = np.arange(0.30, 0.96, 0.02)
-_SPEEDS = np.arange(0.90, 1.101, 0.01)
-"""Where a fit begins to look: what a tick leaves, and the steady step as a part of what the holds cover a tick."""
+_SPEEDS = np.arange(0.92, 1.181, 0.01)
+"""Where a fit begins to look: what a tick leaves, and the steady step as a part of what the holds cover a tick. That is
+less than a steady step, since the last of the coasting doesn't happen."""
+
+_FIRST, _GUESSES = 20, 6
+"""Holds that are enough for first guesses, and how many of those are followed up."""
 
 _OUTLIER = 0.02
 """Blocks beyond which a place that fits no path counts no more than this."""
@@ -109,11 +113,13 @@ def fit(tracks: Sequence[Track], inertia: float | None = None) -> Pace:
     """
     if len(tracks) < FEWEST:
         raise NotConfirmedError(_too_few(len(tracks)))
-    pace = _refined(tracks, _first_guess(tracks, inertia), inertia)
+    few = _Held(tracks[:: max(1, len(tracks) // _FIRST)])
+    guesses = _first_guesses(few, _steady_in(tracks), inertia)
+    pace = min((_refined(few, guess, inertia) for guess in guesses), key=_Held(tracks).cost)
     good = [track for track in tracks if not matched(track, pace).is_spoiled]
     if len(good) < FEWEST:
         raise NotConfirmedError(_too_few(len(good)))
-    return _refined(good, pace, inertia)
+    return _refined(_Held(good), pace, inertia)
 
 
 def rms(values: Sequence[float]) -> float:
@@ -130,27 +136,33 @@ def _beside(track: Track, pace: Pace, ticks: int) -> Matched:
     return Matched(track, ticks, tuple(int(index) for index in nearest), off, end_off)
 
 
-def _first_guess(tracks: Sequence[Track], inertia: float | None) -> Pace:
-    """The best of a grid around what the longer holds cover a tick."""
+def _steady_in(tracks: Sequence[Track]) -> float:
+    """Blocks that the longer holds cover a tick."""
     longer = sorted(tracks, key=lambda track: track.held_s)[len(tracks) // 3 :]
-    steady = float(np.median([track.covered[-1] / track.held_s * TICK_S for track in longer]))
+    return float(np.median([track.covered[-1] / track.held_s * TICK_S for track in longer]))
+
+
+def _first_guesses(held: "_Held", steady: float, inertia: float | None) -> list[Pace]:
+    """The best few of a grid around a steady step, each with an inertia of its own."""
     inertias = _INERTIAS if inertia is None else (inertia,)
-    paces = [Pace(float(steady * speed * (1 - left)), float(left)) for left in inertias for speed in _SPEEDS]
-    held = _Held(tracks)
-    return min(paces, key=held.cost)
+    paces = [
+        min((Pace(float(steady * speed * (1 - left)), float(left)) for speed in _SPEEDS), key=held.cost)
+        for left in inertias
+    ]
+    return sorted(paces, key=held.cost)[:_GUESSES]
 
 
-def _refined(tracks: Sequence[Track], pace: Pace, inertia: float | None) -> Pace:
-    held = _Held(tracks)
-
+def _refined(held: "_Held", pace: Pace, inertia: float | None) -> Pace:
     def pace_of(unknown: Numbers) -> Pace:
         left = min(0.99, max(0.01, float(unknown[1]))) if inertia is None else inertia
         return Pace(float(unknown[0]) * (1 - left), left)
 
-    start = np.array([pace.steady, pace.inertia][: 2 if inertia is None else 1])
-    precise = {"xatol": 1e-6, "fatol": 1e-10}
-    found = minimize(lambda unknown: held.cost(pace_of(unknown)), start, method="Nelder-Mead", options=precise)
-    return pace_of(found.x)
+    def cost(unknown: Numbers) -> float:
+        return held.cost(pace_of(unknown))
+
+    start = [pace.steady, pace.inertia] if inertia is None else [pace.steady]
+    found = fmin(cost, start, xtol=1e-6, ftol=1e-10, disp=False)
+    return pace_of(np.asarray(found, np.float64))
 
 
 class _Held:

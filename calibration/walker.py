@@ -105,10 +105,21 @@ class Walker:
         if phase is not None:
             from_now = (phase - self._clock.now()) % TICK_S
             self._hands.wait_until(self._clock.now() + from_now)
-        since = pressed = self._clock.now()
+        pressed = self._clock.now()
         released = pressed + seconds
-        self._hands.press(released, *keys)
         seen: list[Sighting] = []
+        try:
+            self._hands.press(released, *keys)
+            released = self._follow(begin, seen, pressed, released, keys, farthest)
+        except BaseException:
+            self._hands.release_all()
+            raise
+        return Walked(pressed, released, begin, tuple(seen))
+
+    def _follow(
+        self, begin: Pose, seen: list[Sighting], since: float, released: float, keys: tuple[str, ...], farthest: float
+    ) -> float:
+        """Follow the walker while the keys are down, and until standstill; when they went up."""
         while self._clock.now() < released:
             # A look takes a while: the last of them must not make the release late.
             soon = self._clock.now() + LOOK_S
@@ -119,9 +130,10 @@ class Walker:
             if seen and math.dist(seen[-1].xyz, begin.xyz) >= farthest:
                 released = self._clock.now()
                 self._hands.keep_until(released, *keys)
-                self._hands.wait_until(released)
+        self._hands.wait_until(released)
+        released = self._clock.now()
         self._settled(begin, seen, since)
-        return Walked(pressed, released, begin, tuple(seen))
+        return released
 
     def _settled(self, begin: Pose, seen: list[Sighting], since: float) -> Pose:
         """Follow the walker, whose keys are up, until standstill."""
@@ -159,6 +171,8 @@ class Walker:
 
     def _note(self, begin: Pose, seen: list[Sighting], since: float) -> float:
         """Look, and note a place that is new; when that was."""
+        # Waits this short don't look whether the window is still in front.
+        self._hands.check_front()
         at, pose = self._look()
         if abs(pose.xyz[1] - begin.xyz[1]) > RISE:
             raise NotConfirmedError(
