@@ -23,7 +23,7 @@ def bench_on(
 ) -> BenchOf:
     @contextmanager
     def opened(profile: Profile) -> Iterator[Bench]:
-        desktop = Desktop(client.display, client.keyboard, client.pointer, client.clock)
+        desktop = Desktop(client.display, client.keyboard, client.pointer, client.clock, client.clipboard)
         with Hands(client.display, client.keyboard, client.pointer, client.clock, profile.input) as hands:
             yield Bench(desktop, hands, say, ask)
 
