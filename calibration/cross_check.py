@@ -106,6 +106,7 @@ def _copied(bench: Bench, profile: Profile, screen: WindowScreen) -> tuple[float
             hands.wait(LOOK_S)
             if found := _COPIED.fullmatch(clipboard.read()):
                 return tuple(float(part) for part in found.groups())
+    way.find()  # a game that doesn't know these keys has taken F3 for itself
     raise NotConfirmedError(
         "F3+C copied nothing: leave mouse and keys alone, switch the gamerule reducedDebugInfo off, and from 1.21.11 "
         f"on leave the debug modifier on {debug} and copying on {COPY}"
