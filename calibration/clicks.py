@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 
+from calibration.arena import version_in
 from calibration.bench import BenchOf
 from calibration.clicks_by_hand import largest_scale, record
 from calibration.clicks_shown import Point, dry_run, picture_of, picture_of_screen
@@ -92,8 +93,10 @@ def calibrate_clicks(
             found = _found(profile, [], points, None)
         else:
             found = find_clicks(bench, profile, by_hand if is_by_hand else None)
-    if not found.points:
-        return None
+        if not found.points:
+            for line in found.lines:
+                bench.say(line)
+            return None
     write_found(found, path)
     picture = picture_file(path)
     write_picture(found.pictures[0].frame, picture)
@@ -103,7 +106,8 @@ def calibrate_clicks(
 def find_clicks(bench: Bench, profile: Profile, by_hand: ByHand | None = None) -> Found:
     """The profile with the menus' points, found by their labels; the world is on the screen again afterwards.
 
-    The title and the list of worlds are visited only where the world is surely a single player's, and the person says
+    Another program's menus, by the window's title, are left alone: it may take the same keys for something else. The
+    title and the list of worlds are visited only where the world is surely a single player's, and the person says
     yes. What is not found is asked for by hand, where ``by_hand`` can; the death screen is never gone to.
 
     Raises:
@@ -111,19 +115,27 @@ def find_clicks(bench: Bench, profile: Profile, by_hand: ByHand | None = None) -
         LiveError: the way through the menus, or back into the same world, was not found; the window changed its size;
             what the hands raise.
     """
-    walk = MenuWalk(bench, profile, load_font(profile.screen.font_path()))
-    walk.through_pause()
-    if walk.is_single_player and bench.ask(QUESTION):
-        walk.through_title()
-    elif not walk.is_single_player:
-        walk.note("the title and the list of worlds: not visited, since this may not be a world of your own")
-    else:
-        walk.note("the title and the list of worlds: not visited")
-    missing = {name: where for name, where in MENU_POINTS.items() if name not in walk.points and name != RESPAWN}
-    points = list(walk.points.values())
+    font = load_font(profile.screen.font_path())
+    points, notes, scale = [], ["the menus: not gone through, since the window's title names no Minecraft"], None
+    if version_in(bench.desktop.display.title()) is not None:
+        walk = _walked(MenuWalk(bench, profile, font), bench)
+        points, notes, scale = list(walk.points.values()), walk.notes, walk.scale
+    names = {point.name for point in points} | {RESPAWN}
+    missing = {name: where for name, where in MENU_POINTS.items() if name not in names}
     if missing and by_hand is not None:
         points += by_hand(missing)
-    return _found(profile, walk.notes, points, walk.scale)
+    return _found(profile, notes, points, scale)
+
+
+def _walked(walk: MenuWalk, bench: Bench) -> MenuWalk:
+    walk.through_pause()
+    if not walk.is_single_player:
+        walk.note("the title and the list of worlds: not visited, since this may not be a world of your own")
+    elif bench.ask(QUESTION):
+        walk.through_title()
+    else:
+        walk.note("the title and the list of worlds: not visited")
+    return walk
 
 
 def shown_clicks(profile_name: str | Path, bench_of: BenchOf) -> Path:

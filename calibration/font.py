@@ -8,7 +8,7 @@ from pathlib import Path
 
 from calibration.bench import BenchOf
 from calibration.cross_check import cross_check
-from calibration.font_problems import Candidate, nothing_fits
+from calibration.font_problems import Candidate, fits_in_part, nothing_fits
 from calibration.font_sources import FontSources, font_sources
 from calibration.game_folders import System
 from calibration.read_back import ReadLine, phase_of, read_back, side_by_side
@@ -131,7 +131,7 @@ def _on_screen(bench: Bench, profile: Profile, candidates: Sequence[Candidate], 
         elif seen := next((each for each in candidates if find_overlay(frame, each.font)), None):
             unknown_since = clock.now()
             if clock.now() - began > PATIENCE_S:
-                raise UnreadableError(str(read_debug_screen(frame, seen.font).problem))
+                raise fits_in_part(str(read_debug_screen(frame, seen.font).problem), candidates)
         elif clock.now() - unknown_since > UNKNOWN_S:
             unknown.append(frame)
             keys = next(presses, None)

@@ -42,20 +42,29 @@ def nothing_fits(
         overlay = Overlay(scale, VANILLA_PITCH, TEXT_COLOUR)
         if any(see(frame, each.font, overlay) for frame in frames for each in candidates):
             return UnreadableError(f"the GUI scale is {scale}: choose 1, 2, 3 or 4 in the game's Video Settings")
-    names = ", ".join(str(each.path) for each in candidates[:SHOWN])
-    more = f" and {len(candidates) - SHOWN} more" if len(candidates) > SHOWN else ""
+    names = _names(candidates)
     if not any(_has_text(frame) for frame in frames):
         return UnreadableError(
             "no debug screen is to be seen, even after its key was pressed: close what is open in the game, turn it on "
-            f"with F3, and run this again (fonts tried: {names}{more})"
+            f"with F3, and run this again (fonts tried: {names})"
         )
     language = options.get("lang", "en_us")
     is_english = language.lower().startswith("en_")
     hint = "" if is_english else f", set the language to English (it is {language})"
     return FontError(
-        f"the letters on the screen fit none of these fonts: {names}{more}: name the jar of the version that runs, or "
+        f"the letters on the screen fit none of these fonts: {names}: name the jar of the version that runs, or "
         f"the resource pack in use, with --font; switch Force Unicode Font off{hint}"
     )
+
+
+def fits_in_part(problem: str, candidates: Sequence[Candidate]) -> LiveError:
+    """What to say where a debug screen is seen, but not read for the reason ``problem``: the font may be the reason."""
+    return UnreadableError(f"{problem}; or is it the font of another version? Tried: {_names(candidates)}")
+
+
+def _names(candidates: Sequence[Candidate]) -> str:
+    more = f" and {len(candidates) - SHOWN} more" if len(candidates) > SHOWN else ""
+    return ", ".join(str(each.path) for each in candidates[:SHOWN]) + more
 
 
 def _has_text(frame: Frame) -> bool:

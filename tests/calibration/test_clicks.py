@@ -9,6 +9,7 @@ import pytest
 from calibration.clicks import MENU_POINTS, QUESTION, calibrate_clicks, find_clicks, shown_clicks, try_clicks
 from calibration.clicks_shown import MARK_COLOUR, SEEN_COLOUR, Point, picture_of_screen
 from mc_nested.errors import LiveError, ProfileError
+from mc_nested.live import way_back
 from mc_nested.live.click_points import looks_the_same
 from mc_nested.live.font import decoded
 from mc_nested.live.point_pictures import load_click_points, picture_file
@@ -102,6 +103,15 @@ def test_a_world_that_others_may_share_is_not_left_and_nobody_is_asked(
     assert "may not be a world of your own" in found.lines[-1]
 
 
+def test_another_programs_menus_are_left_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    client = started(VirtualClient())
+    monkeypatch.setattr(client.display, "title", lambda: "Prismarine Web Client - Chromium")
+    monkeypatch.setattr(client.keyboard, "press", None)
+    found = find_clicks(bench_over(client), profile_in(tmp_path))
+    assert found.points == ()
+    assert "names no Minecraft" in found.lines[-1]
+
+
 def test_nor_is_one_without_the_button_that_opens_it_to_others(tmp_path: Path) -> None:
     # 1.12 never says in its title who else may be there (FACTS: Input and windows).
     client = started(VirtualClient(version="1.12.2", words={"Open to LAN": "Player Reporting"}))
@@ -132,7 +142,8 @@ def test_in_another_language_nothing_is_guessed_and_the_rest_is_asked_for_by_han
     assert (client.game.screen, client.window.down) == ("world", set())
 
 
-def test_a_button_that_a_pack_renames_is_reported(tmp_path: Path) -> None:
+def test_a_button_that_a_pack_renames_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(way_back, "PATIENCE_S", 8.0)
     client = started(VirtualClient(words={"Play Selected World": "Upgrade and Play"}))
     profile = profile_in(tmp_path)
     with pytest.raises(LiveError, match="way back into the world was not found"):
@@ -183,6 +194,13 @@ def test_the_profile_its_pictures_and_an_overview_are_written(tmp_path: Path) ->
     frame = client.display.grab()
     alike = {name for name, point in load_click_points(profile, file).items() if looks_the_same(point, frame)}
     assert alike == set(PAUSE)
+
+
+def test_where_nothing_was_found_nothing_is_written(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    save_profile(profile_in(tmp_path), file)
+    assert calibrate_clicks(file, bench_of(started(VirtualClient(words=SPANISH))), is_by_hand=False) is None
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["ascii.png", "mine.toml"]
 
 
 def test_a_profile_without_a_font_is_told_what_comes_first(tmp_path: Path) -> None:

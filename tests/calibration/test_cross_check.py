@@ -84,6 +84,24 @@ def test_keys_that_get_lost_leave_nothing_down_and_the_debug_screen_on(profile: 
     assert not client.game.keys.physical & {"f3", "c"}, "held for ten seconds, they would end the game"
 
 
+def test_releases_that_get_lost_are_made_again(profile: Profile) -> None:
+    client = started(VirtualClient())
+    lost: list[str] = []
+    release = client.keyboard.release
+
+    def lose_the_first_two(key: str) -> None:
+        if len(lost) < 2:
+            lost.append(key)
+            client.window.to_drop += 1
+        release(key)
+
+    client.keyboard.release = lose_the_first_two  # type: ignore[method-assign]
+    cross_check(bench_over(client), profile)
+    client.clock.sleep(0.5)
+    assert set(lost) == {"f3", "c"}
+    assert not client.game.keys.physical & {"f3", "c"}
+
+
 class Liar:
     """A clipboard on which F3+C comes out a block farther."""
 

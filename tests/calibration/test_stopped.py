@@ -10,6 +10,7 @@ from calibration.clicks import calibrate_clicks
 from calibration.font import calibrate_font
 from calibration.font_sources import FontSources
 from mc_nested.errors import DesktopError, LiveError, McNestedError, NotInFrontError
+from mc_nested.live import way_back
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.profile import load_profile, save_profile
 from sim.client.client import VirtualClient
@@ -41,7 +42,7 @@ def moments(step: str, count: int) -> list[float]:
     return [(index + 0.5) * LENGTHS[step] / count for index in range(count)]
 
 
-CASES = [(step, after_s) for step in STEPS for after_s in moments(step, 12)]
+CASES = [(step, after_s) for step in STEPS for after_s in moments(step, 7)]
 
 
 def check_nothing_left(client: VirtualClient, file: Path, before: bytes, clipboard: str = "mine") -> None:
@@ -70,7 +71,7 @@ def test_ctrl_c_at_every_stage(step: str, after_s: float, file: Path) -> None:
     check_nothing_left(client, file, before)
 
 
-@pytest.mark.parametrize(("step", "after_s"), CASES[::3])
+@pytest.mark.parametrize(("step", "after_s"), CASES[::2])
 def test_another_program_that_comes_to_the_front_and_stays_there(step: str, after_s: float, file: Path) -> None:
     client, before = client_for(step, pauses_unfocused=False), file.read_bytes()
     client.clock.call_at(client.clock.now() + after_s, lambda: client.set_front(is_in_front=False))
@@ -80,7 +81,7 @@ def test_another_program_that_comes_to_the_front_and_stays_there(step: str, afte
     check_nothing_left(client, file, before)
 
 
-@pytest.mark.parametrize(("step", "after_s"), CASES[::3])
+@pytest.mark.parametrize(("step", "after_s"), CASES[::2])
 def test_a_window_that_closes(step: str, after_s: float, file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     client, before = client_for(step), file.read_bytes()
     closes_at, grab = client.clock.now() + after_s, client.display.grab
@@ -106,14 +107,15 @@ def test_a_window_that_gets_another_size(after_s: float, file: Path) -> None:
 
 
 @pytest.mark.parametrize("after_s", moments("clicks", 3))
-def test_a_window_that_is_covered(after_s: float, file: Path) -> None:
+def test_a_window_that_is_covered(after_s: float, file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(way_back, "PATIENCE_S", 8.0)
     client, before = client_for("clicks"), file.read_bytes()
     client.clock.call_at(client.clock.now() + after_s, lambda: client.blacken(1000.0))
     began = client.clock.now()
     with pytest.raises(LiveError) as raised:
         calibrate_clicks(file, bench_of(client))
     assert "\n" not in str(raised.value)
-    assert client.clock.now() - began < 200
+    assert client.clock.now() - began < 100
     check_nothing_left(client, file, before)
 
 
