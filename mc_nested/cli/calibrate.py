@@ -7,9 +7,12 @@ import typer
 
 from calibration.arena import NEAR_MIDDLE, calibrate_arena
 from calibration.clicks import calibrate_clicks
+from mc_nested.cli.calibrate_walk import walk
 from mc_nested.cli.options import DEFAULT_PROFILE
 
 app = typer.Typer(help="Tell the agent where your arena and your buttons are.")
+
+app.command()(walk)
 
 ProfileToWrite = Annotated[str, typer.Option(metavar="NAME|FILE", help="the profile to write; new if there is none")]
 
