@@ -1,36 +1,20 @@
 """``mc-nested calibrate``: tell the agent where your arena and your buttons are."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from calibration.arena import NEAR_MIDDLE, calibrate_arena
 from calibration.clicks import calibrate_clicks
+from mc_nested.cli.calibrate_arena import arena
 from mc_nested.cli.calibrate_walk import walk
 from mc_nested.cli.options import DEFAULT_PROFILE
 
 app = typer.Typer(help="Tell the agent where your arena and your buttons are.")
 
+app.command()(arena)
 app.command()(walk)
 
 ProfileToWrite = Annotated[str, typer.Option(metavar="NAME|FILE", help="the profile to write; new if there is none")]
-
-
-@app.command()
-def arena(
-    profile: ProfileToWrite = DEFAULT_PROFILE,
-    font: Annotated[
-        Path | None, typer.Option(metavar="PNG|JAR", help="the game's client jar, needed the first time")
-    ] = None,
-    standing: Annotated[
-        tuple[int, int], typer.Option(metavar="X Y", help="the cell you stand on; 7 0 is the middle of the near edge")
-    ] = NEAR_MIDDLE,
-    yes: Annotated[bool, typer.Option("--yes", help="mark the region without asking")] = False,
-) -> None:
-    """Mark the arena where you stand and look; only what is marked is ever cleared."""
-    path = calibrate_arena(profile, ask=typer.confirm, say=typer.echo, standing=standing, font=font, yes=yes)
-    typer.echo(f"arena written to {path}" if path else "nothing was written")
 
 
 @app.command()
