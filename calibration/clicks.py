@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 
-from calibration.arena import version_in
 from calibration.bench import BenchOf
 from calibration.clicks_by_hand import largest_scale, record
 from calibration.clicks_shown import Point, dry_run, picture_of, picture_of_screen
@@ -19,6 +18,7 @@ from mc_nested.errors import ProfileError, UserError
 from mc_nested.live.at_rest import wait_for_front
 from mc_nested.live.click_points import ClickPoints
 from mc_nested.live.desktop.hotkeys import open_hotkeys
+from mc_nested.live.fingerprint import version_in
 from mc_nested.live.font import load_font
 from mc_nested.live.point_pictures import load_click_points
 from mc_nested.live.profile import Profile

@@ -4,6 +4,8 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
+from calibration.arena import NEAR_MIDDLE
+from calibration.arena_build import build_arena
 from calibration.clicks import find_clicks
 from calibration.cross_check import cross_check
 from calibration.font import find_font, sources_for, sources_here
@@ -12,6 +14,7 @@ from calibration.proof import prove
 from calibration.run_steps import Step
 from calibration.step import Bench, Found
 from calibration.walk import walk
+from mc_nested.arena.rules import Cell
 from mc_nested.live.profile import Profile
 
 
@@ -19,11 +22,12 @@ def guided_steps(
     font: Path | None = None,
     sources: Callable[[str | None], FontSources] = sources_here,
     *,
+    standing: Cell = NEAR_MIDDLE,
     is_server_allowed: bool = False,
 ) -> list[Step]:
     """All of them; buttons that aren't found, and a clipboard that can't be reached, don't end the run.
 
-    ``font`` and ``sources`` are as ``font.sources_for`` takes them.
+    ``font`` and ``sources`` are as ``font.sources_for`` takes them; ``standing`` is the cell that the player stands on.
     """
 
     def with_font(bench: Bench, profile: Profile) -> Found:
@@ -31,22 +35,9 @@ def guided_steps(
 
     return [
         Step("font", with_font),
-        Step("arena", _arena),
+        Step("arena", partial(build_arena, standing=standing)),
         Step("walk", walk),
         Step("clicks", find_clicks, is_needed=False),
         Step("cross-check", cross_check, is_needed=False),
         Step("proof", partial(prove, is_server_allowed=is_server_allowed)),
     ]
-
-
-def _arena(bench: Bench, profile: Profile) -> Found:
-    from calibration.arena import NEAR_MIDDLE, arena_seen
-    from mc_nested.live.at_rest import read_at_rest
-    from mc_nested.live.font import load_font
-    from mc_nested.live.game_screen import WindowScreen
-    from mc_nested.live.session import overlay_of
-
-    desktop = bench.desktop
-    screen = WindowScreen(desktop.display, load_font(profile.screen.font_path()), overlay_of(profile))
-    reading = read_at_rest(desktop.display, desktop.clock, screen.read)
-    return Found("arena", profile.model_copy(update={"arena": arena_seen(reading, NEAR_MIDDLE)}), ("trial",), 1)

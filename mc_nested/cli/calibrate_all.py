@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from calibration.all import calibrate_all
+from calibration.arena import NEAR_MIDDLE
 from calibration.bench import bench_for
 from calibration.doctor.check import Check
 from calibration.doctor.examination import examine
@@ -26,11 +27,14 @@ def calibrate(
     font: Annotated[
         Path | None, typer.Option(metavar="JAR|PNG", help="take this client jar, resource pack or ascii.png")
     ] = None,
+    standing: Annotated[
+        tuple[int, int], typer.Option(metavar="X Y", help="the cell you stand on; 7 0 is the middle of the near edge")
+    ] = NEAR_MIDDLE,
     server_allowed: ServerOption = False,
 ) -> None:
     """Do all of it in one go, in about two minutes; stand on the middle of the arena's near edge and look across it."""
     bench_of = bench_for(typer.echo, (lambda _: True) if yes else typer.confirm)
-    steps = guided_steps(font, is_server_allowed=server_allowed)
+    steps = guided_steps(font, standing=standing, is_server_allowed=server_allowed)
     shown = Lines()
     whole = calibrate_all(profile, bench_of, _examined, steps, shown)
     left_out = [TITLES.get(name, name) for name in whole.guided.passed_over]
