@@ -20,6 +20,7 @@ from calibration.arena_questions import Questions
 from calibration.arena_sight import turned
 from calibration.arena_words import how_to_undo, lines, question
 from calibration.bench import BenchOf
+from calibration.chat_region import without_chat
 from calibration.console import Console
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found, Picture
@@ -112,7 +113,7 @@ def build_arena(
     profile = profile.model_copy(update={"game": game_in(bench.desktop.display.title(), profile.game)})
     console = Console(bench, profile, screen)
     ground = looked_over(console, Questions(console, profile, screen, arena.yaw), profile, arena, standing)
-    before = Picture("The place of the arena, before", bench.desktop.display.grab())
+    before = Picture("The place of the arena, before", without_chat(bench.desktop.display.grab(), screen.scale()))
     old = profile.arena
     if old is not None and old.copied_to is not None and box_of(old) == box_of(arena):
         # The first copy is of what stood there before any arena did.
@@ -126,7 +127,7 @@ def build_arena(
     built = _seen_built(console, profile, arena, blocks, floor=ground.floor if ground.keeps_floor else FLOOR)
     console.send(teleport_command(arena, standing, profile.body.pitch))
     console.watch(lambda seen: seen.pitch is not None and abs(seen.pitch - profile.body.pitch) < 1, 1.0)
-    after = Picture("The arena", bench.desktop.display.grab())
+    after = Picture("The arena", without_chat(bench.desktop.display.grab(), screen.scale()))
     return Found(
         "arena", profile.model_copy(update={"arena": arena}), tuple(lines(arena, ground)), built, (before, after)
     )

@@ -3,9 +3,11 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from calibration.all import GATES, Whole, calibrate_all
+from calibration.chat_region import without_chat
 from calibration.doctor.check import NAMES, Check
 from calibration.kept import kept_folder, load_kept
 from calibration.run_steps import Step
@@ -189,6 +191,11 @@ def test_from_nothing_to_a_proven_profile_without_a_hand(tmp_path: Path) -> None
         *("font", "arena", "walk", "clicks", "cross-check", "proof")
     ]
     assert not [check for check in whole.checks if check.status == "fail"]
+    pictures = [picture.frame for found in whole.guided.found for picture in found.pictures]
+    whole_window = [frame for frame in pictures if frame.shape[:2] == (700, 1000)]
+    assert len(whole_window) == 3
+    for frame in whole_window:
+        assert np.array_equal(frame, without_chat(frame, client.scale)), "nothing that was said is on a picture"
     assert not client.window.down
     assert not client.window.strays
 
