@@ -234,6 +234,9 @@ class FakeScreen:
     def read(self) -> Reading:
         return self._readings() or self._game.read()
 
+    def read_place(self) -> tuple[float, float, float] | None:
+        return self.read().xyz
+
     def is_chat_open(self) -> bool:
         return self._game.typed() is not None
 
