@@ -1,19 +1,30 @@
-"""Places to click, recorded by hand: hover, press the hotkey. Kept as fractions of the window, shown on a picture."""
+"""Places to click in the game's menus: found by their labels on a walk through the menus, and by hand where that fails.
+
+world -> Esc -> Game Menu -> the world again -> and, where it is safe and wanted, title -> list of worlds -> the world
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import dataclass
 from pathlib import Path
 
-import cv2
-import numpy as np
-
+from calibration.bench import BenchOf
+from calibration.clicks_by_hand import largest_scale, record
+from calibration.clicks_shown import Point, dry_run, picture_of, picture_of_screen
+from calibration.menu_walk import MenuWalk
 from calibration.start import profile_to_calibrate
+from calibration.step import Bench, Found, Picture
+from calibration.written import write_found, write_picture
 from mc_nested.errors import ProfileError, UserError
-from mc_nested.live.desktop import Desktop, open_desktop
+from mc_nested.live.at_rest import wait_for_front
+from mc_nested.live.click_points import ClickPoints
 from mc_nested.live.desktop.hotkeys import open_hotkeys
-from mc_nested.live.devices import Display, Frame, Pointer
-from mc_nested.live.profile import save_profile
+from mc_nested.live.fingerprint import game_in
+from mc_nested.live.font import load_font
+from mc_nested.live.point_pictures import load_click_points
+from mc_nested.live.profile import Profile
+from mc_nested.live.way_back import RESPAWN
+
+STEP = "clicks"
 
 MENU_POINTS: Mapping[str, str] = {
     "back_to_game": "Back to Game, in the pause menu (Esc)",
@@ -25,113 +36,155 @@ MENU_POINTS: Mapping[str, str] = {
 }
 """The points that the menus have, and where they are found; in the order of a way through them from the world."""
 
-TILE_WIDTH = 640
-"""Pixels that each recorded screen takes on the picture: enough to read a button's label."""
+QUESTION = (
+    "To find the buttons of the title and of the list of worlds, the world is saved and left, and entered again. Do it?"
+)
 
-MARK_COLOUR = (0, 0, 255)
-"""Red, as blue green red."""
+SWITCHED_S = 1.0
+"""From the game's coming to the front until it shows what it will: it may open a menu only now."""
 
+Listen = Callable[[Sequence[str]], AbstractContextManager[Callable[[], str]]]
+"""Hears keys, whatever window is in front."""
 
-@dataclass(frozen=True)
-class Point:
-    """A recorded place: fractions of the window's width and height, and the screen that it was recorded on."""
-
-    name: str
-    at: tuple[float, float]
-    frame: Frame
+ByHand = Callable[[Mapping[str, str]], Sequence[Point]]
+"""Records points by hand: from their names and where they are found, those that were not skipped."""
 
 
 def calibrate_clicks(
     profile_name: str | Path,
+    bench_of: BenchOf,
     *,
-    say: Callable[[str], None],
     names: Sequence[str] = (),
+    is_by_hand: bool = True,
     hotkey: str = "f8",
     skip: str = "f9",
-    open_devices: Callable[[str], AbstractContextManager[Desktop]] = open_desktop,
-    listen: Callable[[Sequence[str]], AbstractContextManager[Callable[[], str]]] = open_hotkeys,
-) -> tuple[Path, Path] | None:
-    """Record points by hand into a profile; its file and the picture that shows them, or None if all were skipped.
+    listen: Listen = open_hotkeys,
+) -> tuple[Found, Path] | None:
+    """Record a profile's points, and write them with a picture that shows them; both, or None if all were skipped.
 
     Args:
         profile_name: a name or a file; a new profile is made where there is none.
-        say: tells the player what to do.
-        names: what to record; left out, the menus' points.
+        bench_of: opens the window.
+        names: what to record by hand; left out, the menus are gone through.
+        is_by_hand: whether what is not found there is asked for by hand.
         hotkey: records the place that the mouse is over.
         skip: leaves a point as the profile has it.
-        open_devices: opens the window of a title.
-        listen: hears keys, whatever window is in front.
+        listen: hears the two keys.
 
     Raises:
         UserError: a profile, key or desktop that can't be used, or a picture that can't be written.
+        LiveError: as ``find_clicks``.
     """
     if hotkey == skip:
         raise UserError(f"{hotkey} can't both record and skip: choose another key for one of them")
     path, profile = profile_to_calibrate(profile_name)
-    wanted = {name: MENU_POINTS.get(name, name) for name in names or MENU_POINTS}
-    with open_devices(profile.window.title) as desktop, listen((hotkey, skip)) as next_key:
-        say(f"In the game, hover over each place and press {hotkey}; {skip} skips one; Ctrl+C here ends it all.")
-        points = record(wanted, desktop.display, desktop.pointer, next_key, skip=skip, say=say)
-    if not points:
-        return None
-    picture = path.with_name(f"{path.stem}-clicks.png")
-    save_profile(profile.model_copy(update={"points": profile.points | {each.name: each.at for each in points}}), path)
-    _write(picture, picture_of(points))
-    return path, picture
+    if not names and profile.screen.font is None:
+        raise ProfileError("labels are found with the game's font: run mc-nested calibrate font first")
+    with bench_of(profile) as bench:
+
+        def by_hand(wanted: Mapping[str, str]) -> Sequence[Point]:
+            with listen((hotkey, skip)) as next_key:
+                bench.say(f"In the game, hover over each place and press {hotkey}; {skip} skips one; Ctrl+C ends it.")
+                display, pointer = bench.desktop.display, bench.desktop.pointer
+                return record(wanted, display, pointer, next_key, skip=skip, say=bench.say)
+
+        if names:
+            points = by_hand({name: MENU_POINTS.get(name, name) for name in names})
+            found = _found(profile, [], points, None)
+        else:
+            found = find_clicks(bench, profile, by_hand if is_by_hand else None)
+        if not found.points:
+            for line in found.lines:
+                bench.say(line)
+            return None
+    write_found(found, path)
+    picture = picture_file(path)
+    write_picture(found.pictures[0].frame, picture)
+    return found, picture
 
 
-def record(
-    wanted: Mapping[str, str],
-    display: Display,
-    pointer: Pointer,
-    next_key: Callable[[], str],
-    *,
-    skip: str,
-    say: Callable[[str], None],
-) -> list[Point]:
-    """The wanted points, each recorded at the next key; those skipped are left out.
+def find_clicks(bench: Bench, profile: Profile, by_hand: ByHand | None = None) -> Found:
+    """The profile with the menus' points, found by their labels; the world is on the screen again afterwards.
 
-    ``wanted`` has each point's name and where it is found; ``next_key`` waits for the hotkey or ``skip``.
+    Another program's menus, by the window's title, are left alone: it may take the same keys for something else. The
+    title and the list of worlds are visited only where the world is surely a single player's, and the person says
+    yes. What is not found is asked for by hand, where ``by_hand`` can; the death screen is never gone to.
+
+    Raises:
+        ProfileError: the profile has no font.
+        LiveError: the way through the menus, or back into the same world, was not found; the window changed its size;
+            what the hands raise.
     """
-    points = []
-    for name, where in wanted.items():
-        say(f"{name}: {where}")
-        point = None
-        while point is None and next_key() != skip:
-            point = _under_pointer(name, display, pointer, say)
-        if point is not None:
-            points.append(point)
-    return points
+    font = load_font(profile.screen.font_path())
+    points, notes, scale = [], ["the menus: not gone through, since the window's title names no Minecraft"], None
+    if game_in(bench.desktop.display.title()) is not None:
+        walk = _walked(MenuWalk(bench, profile, font), bench)
+        points, notes, scale = list(walk.points.values()), walk.notes, walk.scale
+    names = {point.name for point in points} | {RESPAWN}
+    missing = {name: where for name, where in MENU_POINTS.items() if name not in names}
+    if missing and by_hand is not None:
+        points += by_hand(missing)
+    return _found(profile, notes, points, scale)
 
 
-def picture_of(points: Sequence[Point]) -> Frame:
-    """The recorded screens below each other, each with its point marked and named: (height, TILE_WIDTH, 3)."""
-    return np.concatenate([_tile(point) for point in points])
+def _walked(walk: MenuWalk, bench: Bench) -> MenuWalk:
+    walk.through_pause()
+    if not walk.is_single_player:
+        walk.note("the title and the list of worlds: not visited, since this may not be a world of your own")
+    elif bench.ask(QUESTION):
+        walk.through_title()
+    else:
+        walk.note("the title and the list of worlds: not visited")
+    return walk
 
 
-def _under_pointer(name: str, display: Display, pointer: Pointer, say: Callable[[str], None]) -> Point | None:
-    if not display.is_in_front():
-        say("another window is in front: click on the game, hover, and press the key again")
-        return None
-    (x, y), (width, height) = pointer.position(), display.size()
-    if not (0 <= x < width and 0 <= y < height):
-        say("the mouse is outside the game's window: hover over the place, and press the key again")
-        return None
-    return Point(name, (round(x / width, 4), round(y / height, 4)), display.grab())
+def shown_clicks(profile_name: str | Path, bench_of: BenchOf) -> Path:
+    """Write a picture of the game's screen with a profile's points marked on it; its file. Nothing is pressed."""
+    path, profile, points = _points_of(profile_name)
+    with bench_of(profile) as bench:
+        _wait_for_menu(bench)
+        drawn = picture_of_screen(points, bench.desktop.display.grab())
+    picture = path.with_name(f"{path.stem}-clicks-now.png")
+    write_picture(drawn, picture)
+    return picture
 
 
-def _tile(point: Point) -> Frame:
-    height = max(1, round(point.frame.shape[0] * TILE_WIDTH / point.frame.shape[1]))
-    tile = np.ascontiguousarray(cv2.resize(point.frame, (TILE_WIDTH, height), interpolation=cv2.INTER_AREA), np.uint8)
-    x, y = int(point.at[0] * TILE_WIDTH), int(point.at[1] * height)
-    cv2.drawMarker(tile, (x, y), MARK_COLOUR, cv2.MARKER_CROSS, 24, 1)
-    cv2.circle(tile, (x, y), 8, MARK_COLOUR, 2)
-    cv2.putText(tile, point.name, (8, 20), cv2.FONT_HERSHEY_SIMPLEX, 0.6, MARK_COLOUR, 2)
-    return tile
+def try_clicks(profile_name: str | Path, bench_of: BenchOf) -> list[str]:
+    """Move the mouse to a profile's points that the game's screen shows, and press nothing; one line a point."""
+    _, profile, points = _points_of(profile_name)
+    with bench_of(profile) as bench:
+        _wait_for_menu(bench)
+        return dry_run(bench, points)
 
 
-def _write(path: Path, picture: Frame) -> None:
-    try:
-        path.write_bytes(cv2.imencode(".png", picture)[1].tobytes())
-    except OSError as error:
-        raise ProfileError(f"{path}: the picture can't be written ({error}); the points are in the profile") from error
+def picture_file(profile: Path) -> Path:
+    """The file of the picture that shows a profile's points."""
+    return profile.with_name(f"{profile.stem}-clicks.png")
+
+
+def _points_of(profile_name: str | Path) -> tuple[Path, Profile, ClickPoints]:
+    path, profile = profile_to_calibrate(profile_name)
+    points = load_click_points(profile, path)
+    if not points:
+        raise ProfileError(f"{path}: has no points with pictures: run mc-nested calibrate clicks")
+    return path, profile, points
+
+
+def _wait_for_menu(bench: Bench) -> None:
+    bench.say("Switch to the game, to the menu that is to be looked at.")
+    wait_for_front(bench.desktop.display, bench.desktop.clock)
+    bench.hands.wait(SWITCHED_S)
+
+
+def _found(profile: Profile, notes: Sequence[str], points: Sequence[Point], scale: int | None) -> Found:
+    """The profile with these points, at the GUI scale that was seen."""
+    lines = [f"{point.name}: at {point.at[0]:.4f}, {point.at[1]:.4f} of the window" for point in points]
+    if RESPAWN not in profile.points and all(point.name != RESPAWN for point in points):
+        lines.append(f"{RESPAWN}: not seen, since nobody died: it is found by its label when that happens")
+    recorded = []
+    for point in points:
+        height, width = point.frame.shape[:2]
+        recorded.append(point.click_point(scale or largest_scale(width, height)))
+    added = profile.model_copy(update={"points": profile.points | {point.name: point.at for point in points}})
+    pictures = (Picture("Where menus are clicked", picture_of(points)),) if points else ()
+    return Found(STEP, added, (*lines, *notes), len(points), pictures, tuple(recorded))

@@ -7,6 +7,7 @@ beside what a person wants to see of it. It writes no file; whoever runs it does
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from mc_nested.live.click_points import ClickPoint
 from mc_nested.live.desktop import Desktop
 from mc_nested.live.devices import Frame
 from mc_nested.live.hands import Hands
@@ -34,10 +35,14 @@ class Picture:
 
 @dataclass(frozen=True)
 class Found:
-    """What a step found: the profile with it, one line for each thing, the measurements it rests on, and pictures."""
+    """What a step found: the profile with it, one line for each thing, the measurements it rests on, and pictures.
+
+    ``points`` are places to click that were recorded: their own pictures are written beside the profile.
+    """
 
     step: str
     profile: Profile
     lines: tuple[str, ...]
     samples: int
     pictures: tuple[Picture, ...] = ()
+    points: tuple[ClickPoint, ...] = ()

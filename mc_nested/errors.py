@@ -8,7 +8,8 @@ McNestedError
 │   ├── FontError        a font picture or jar that can't be used
 │   ├── RunError         an output folder, a run or a checkpoint that can't be used
 │   └── DesktopError     no display, Wayland, a window that can't be used
-│       └── NoWindowError    no window of that title is there
+│       ├── NoWindowError    no window of that title is there
+│       └── ClipboardError   a clipboard that can't be read, or whose content could not be put back
 └── LiveError            the game did not do what was asked; keys are released before it is raised
     ├── NotInFrontError  another window is in front: nothing was pressed
     ├── WrongScreenError the screen was not just seen to be the one that a press is meant for: nothing was pressed
@@ -52,6 +53,10 @@ class DesktopError(UserError):
 
 class NoWindowError(DesktopError):
     """A desktop without a window of that title: the game isn't running, or not under that name."""
+
+
+class ClipboardError(DesktopError):
+    """A clipboard that can't be reached, or that holds what could not be put back."""
 
 
 class LiveError(McNestedError):

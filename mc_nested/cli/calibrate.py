@@ -6,13 +6,14 @@ from typing import Annotated
 import typer
 
 from calibration.arena import NEAR_MIDDLE, calibrate_arena
-from calibration.clicks import calibrate_clicks
-from mc_nested.cli.options import DEFAULT_PROFILE
+from mc_nested.cli.calibrate_clicks import clicks
+from mc_nested.cli.calibrate_font import font
+from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 from mc_nested.live.profile import profile_path, undo_profile
 
 app = typer.Typer(help="Tell the agent where your arena and your buttons are.")
-
-ProfileToWrite = Annotated[str, typer.Option(metavar="NAME|FILE", help="the profile to write; new if there is none")]
+app.command()(font)
+app.command()(clicks)
 
 
 @app.command()
@@ -37,20 +38,3 @@ def undo(profile: ProfileToWrite = DEFAULT_PROFILE) -> None:
     path = profile_path(profile)
     undo_profile(path)
     typer.echo(f"{path} is as it was before")
-
-
-@app.command()
-def clicks(
-    points: Annotated[
-        list[str] | None, typer.Argument(metavar="[POINT]...", help="which (default: the menus')")
-    ] = None,
-    profile: ProfileToWrite = DEFAULT_PROFILE,
-    hotkey: Annotated[str, typer.Option(help="records the place under the mouse")] = "f8",
-    skip: Annotated[str, typer.Option(help="leaves a point as it is")] = "f9",
-) -> None:
-    """Record the places to click by hand: hover and press the hotkey."""
-    written = calibrate_clicks(profile, say=typer.echo, names=points or (), hotkey=hotkey, skip=skip)
-    if written is None:
-        typer.echo("nothing was written")
-        return
-    typer.echo(f"points written to {written[0]}; look at them in {written[1]}")

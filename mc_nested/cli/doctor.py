@@ -16,6 +16,7 @@ from calibration.doctor.examination import Examination, examine
 from calibration.doctor.repair import repaired
 from calibration.game_folders import System
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption
+from mc_nested.live.desktop.clipboard import open_clipboard
 
 STYLES: dict[Status, str] = {"pass": "green", "warn": "yellow", "fail": "bold red", "skip": "bright_black"}
 
@@ -67,4 +68,5 @@ def summary_of(checks: Sequence[Check]) -> str:
 
 
 def _examined(profile: str | None) -> Examination:
-    return examine(profile or DEFAULT_PROFILE, say=partial(typer.echo, err=True), system=System.here())
+    say = partial(typer.echo, err=True)
+    return examine(profile or DEFAULT_PROFILE, say=say, system=System.here(), clipboard=open_clipboard())

@@ -38,6 +38,7 @@ ProfileOption = Annotated[
 ServerOption = Annotated[
     bool, typer.Option("--server-allowed", help="play even where the window's title says Multiplayer")
 ]
+ProfileToWrite = Annotated[str, typer.Option(metavar="NAME|FILE", help="the profile to write; new if there is none")]
 
 DEFAULT_PROFILE = "default"
 

@@ -13,6 +13,15 @@ LOOK_S = 0.25
 """Between two looks: a few frames of the game, so that the same place seen twice is a place stood on."""
 
 
+def wait_for_front(display: Display, clock: Clock) -> None:
+    """Return as soon as the game is in front; NotInFrontError where that took too long."""
+    end = clock.now() + PATIENCE_S
+    while not display.is_in_front():
+        if clock.now() >= end:
+            raise NotInFrontError("the game's window didn't come to the front: click on it, and run this again")
+        clock.sleep_until(clock.now() + LOOK_S)
+
+
 def read_at_rest(display: Display, clock: Clock, read: Callable[[], Reading]) -> Reading:
     """The first reading that is seen twice in a row while the game is in front.
 

@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 
 from mc_nested.errors import ProfileError
-from mc_nested.live.profile_tables import Calibrated
+from mc_nested.live.profile_tables import Calibrated, GameVersion
 
 _TITLE = re.compile(r"Minecraft\*? (\d+\.\d+(?:\.\d+)?)(?:[ -].*)?")
 """The title of the game's window, a star standing for a modified one (FACTS: Input and windows)."""
@@ -26,6 +26,12 @@ def version_in(title: str) -> str | None:
     """The version that the title of the game's window says; None where it says none, as that of a modpack."""
     found = _TITLE.fullmatch(title)
     return found[1] if found else None
+
+
+def game_in(title: str) -> GameVersion | None:
+    """The same, as the profile's table of it."""
+    version = version_in(title)
+    return GameVersion(version=version) if version else None
 
 
 def misfit(calibrated: Calibrated, seen: Seen, profile: str) -> str | None:

@@ -35,6 +35,10 @@ OVERDUE_S = 0.25
 """Seconds past its release at which a held key is the watchdog's."""
 
 
+NEAR_PX = 3
+"""How far the mouse may be from where it was put: a point of the desktop may be two pixels."""
+
+
 @dataclass(frozen=True)
 class _Held:
     release: Callable[[], None]
@@ -109,11 +113,21 @@ class Hands:
         """Press a button in the world. It goes up, as soon as the profile says, while something is waited for."""
         self._press_button(button, "world")
 
-    def click_at(self, x: int, y: int) -> None:
-        """Click on a menu at a place in framebuffer pixels."""
+    def hover(self, x: int, y: int) -> None:
+        """Move the mouse over a menu to a place in framebuffer pixels, and press nothing."""
         self._check("menu")
         self._pointer.move(x, y)
         self.wait(TICK_S)
+
+    def click_at(self, x: int, y: int) -> None:
+        """Click on a menu at a place in framebuffer pixels.
+
+        WrongScreenError where the mouse isn't there any more: the window, or somebody else, has moved it.
+        """
+        self.hover(x, y)
+        across, down = self._pointer.position()
+        if max(abs(across - x), abs(down - y)) > NEAR_PX:
+            raise WrongScreenError("the mouse was moved, or the window was, so nothing is clicked: leave both alone")
         self._press_button("left", "menu")
         self.wait(self._timing.click_s)
 

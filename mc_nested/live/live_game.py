@@ -11,6 +11,7 @@ from mc_nested.errors import DesktopError, LiveError, ProfileError, StoppedError
 from mc_nested.live.action_log import ActionLog
 from mc_nested.live.body import Body
 from mc_nested.live.chat import Chat
+from mc_nested.live.click_points import ClickPoints
 from mc_nested.live.commands import reset_commands, teleport_command
 from mc_nested.live.devices import Clock, Display, Keyboard, Pointer
 from mc_nested.live.game_screen import GameScreen
@@ -40,6 +41,7 @@ class LiveGame:
         pointer: its buttons.
         clock: the time that holds and waits run on.
         screen: what is read on the window.
+        points: the places that menus are clicked at where labels aren't found.
         evidence: the folder that gets the last frames where a reset is given up.
         is_server_allowed: whether a game that others may share is played.
 
@@ -57,6 +59,7 @@ class LiveGame:
         pointer: Pointer,
         clock: Clock,
         screen: GameScreen,
+        points: ClickPoints | None = None,
         evidence: Path | None = None,
         is_server_allowed: bool = False,
     ) -> None:
@@ -74,7 +77,7 @@ class LiveGame:
         self.hands = Hands(display, keyboard, pointer, clock, profile.input)
         self._body = Body(profile, self.hands, screen, clock)
         self._chat = Chat(profile, self.hands, screen, clock)
-        self._way_back = WayBack(profile, self.hands, screen, display, clock)
+        self._way_back = WayBack(profile, self.hands, screen, display, clock, points)
         self._last_frames = LastFrames(display, evidence, screen.scale)
         self.log = ActionLog(self._body.effort)
         self._commands = reset_commands(profile, scenario.start, [material.block for material in scenario.materials])

@@ -28,12 +28,14 @@ _ABOVE, _BELOW, _BESIDE = 7, 7, 7
 class Button:
     """A button's ``middle`` (x, y) in pixels of the frame, or None with the ``problem``: never a guess.
 
-    A grey one can't be pressed now: it has its place, and ``is_enabled`` is False.
+    A grey one can't be pressed now: it has its place, and ``is_enabled`` is False. ``scale`` is the GUI scale that it
+    is drawn at.
     """
 
     middle: tuple[int, int] | None = None
     is_enabled: bool = False
     problem: str | None = None
+    scale: int = 1
 
 
 @dataclass(frozen=True)
@@ -41,6 +43,7 @@ class _Label:
     """A text's colours and the dots around it: (rows, columns, 3) from ``_ABOVE`` and ``_BESIDE`` before it on."""
 
     middle: tuple[int, int]
+    scale: int
     colour: Colour
     around: NDArray[np.int16]
 
@@ -66,7 +69,7 @@ class Menu:
         labels = self._labels(label)
         buttons = [seen for seen in labels if _is_on_a_button(seen.around)]
         if len(buttons) == 1:
-            return Button(buttons[0].middle, buttons[0].colour != _GREY)
+            return Button(buttons[0].middle, buttons[0].colour != _GREY, scale=buttons[0].scale)
         if buttons:
             return Button(problem=f"{len(buttons)} buttons read {label!r}: close what lies over the menu")
         if labels:
@@ -82,7 +85,7 @@ class Menu:
                 middle = (int((column + len(columns) / 2) * dots.scale), (row + GLYPH_ROWS // 2) * dots.scale)
                 around = _around(dots, row, column, len(columns))
                 if around is not None and (colour := _colour_of(around, bits)):
-                    seen[middle] = _Label(middle, colour, around)
+                    seen[middle] = _Label(middle, dots.scale, colour, around)
         return list(seen.values())
 
 

@@ -13,7 +13,8 @@ from mc_nested.live.fingerprint import Seen, check_fit
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile import Profile, load_profile
+from mc_nested.live.point_pictures import load_click_points
+from mc_nested.live.profile import Profile, load_profile, profile_path
 from mc_nested.live.watchdog import watched
 
 PITCH, TEXT_COLOUR = 9, (224, 224, 224)
@@ -59,6 +60,7 @@ def open_live_game(
             pointer=desktop.pointer,
             clock=desktop.clock,
             screen=screen,
+            points=load_click_points(profile, profile_path(profile_name)),
             evidence=evidence,
             is_server_allowed=is_server_allowed,
         )

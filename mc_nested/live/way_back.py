@@ -1,9 +1,14 @@
-"""The way back into the world from whatever screen is there: known by its labels, one press a look, in bounded time."""
+"""The way back into the world from whatever screen is there, one press a look, in bounded time.
+
+A screen is known by its labels; where none is found, as in another language, by the points that a calibration recorded,
+if they look like their pictures.
+"""
 
 from dataclasses import dataclass
 from typing import Literal
 
 from mc_nested.errors import LiveError, NotInFrontError
+from mc_nested.live.click_points import ClickPoints, click_on, looks_the_same
 from mc_nested.live.devices import Clock, Display
 from mc_nested.live.game_screen import WORLDS_TITLE, GameScreen, Labels
 from mc_nested.live.hands import Hands
@@ -21,6 +26,17 @@ LABELS: dict[ScreenName, tuple[str, ...]] = {
 
 QUIT = "Save and Quit to Title"
 PLAY = "Play Selected World"
+
+BACK = "back_to_game"
+LEAVE = "save_and_quit_to_title"
+ENTER = "singleplayer"
+WORLD = "world"
+PLAY_IT = "play_selected_world"
+RESPAWN = "respawn"
+"""The names of the points that stand for buttons whose labels aren't found."""
+
+POINTS: dict[ScreenName, str] = {"pause": BACK, "death": RESPAWN, "title": ENTER, "worlds": PLAY_IT}
+"""The points that screens are known by."""
 
 PATIENCE_S = 60.0
 """How long the way back may take, a world that loads included."""
@@ -52,12 +68,21 @@ class WayBack:
     not found in time; what the hands raise.
     """
 
-    def __init__(self, profile: Profile, hands: Hands, screen: GameScreen, display: Display, clock: Clock) -> None:
+    def __init__(
+        self,
+        profile: Profile,
+        hands: Hands,
+        screen: GameScreen,
+        display: Display,
+        clock: Clock,
+        points: ClickPoints | None = None,
+    ) -> None:
         self._profile = profile
         self._hands = hands
         self._screen = screen
         self._display = display
         self._clock = clock
+        self._points = points or {}
         self._is_chosen = False
 
     def find(self, problem: str = "") -> Way:
@@ -100,7 +125,7 @@ class WayBack:
                 raise LiveError(f"the title screen was not reached, the screen is {name}: leave the world, start again")
             self._wait_for_front()
             if name == "pause":
-                self._click_label(self._screen.menu(), (QUIT,))
+                self._click((QUIT,), LEAVE)
             elif name in ("world", "chat"):
                 self._press("esc")
             elif name != "unknown":
@@ -121,7 +146,16 @@ class WayBack:
                 return name, reading.problem
         if menu.shows(WORLDS_TITLE):
             return "worlds", reading.problem
-        return ("chat" if self._screen.is_chat_open() else "unknown"), reading.problem
+        if self._screen.is_chat_open():
+            return "chat", reading.problem
+        return self._name_by_points(), reading.problem
+
+    def _name_by_points(self) -> ScreenName:
+        known = {name: self._points[point] for name, point in POINTS.items() if point in self._points}
+        if not known:
+            return "unknown"
+        frame = self._display.grab()
+        return next((name for name, point in known.items() if looks_the_same(point, frame)), "unknown")
 
     def _leave(self, name: ScreenName) -> None:
         if name == "chat":
@@ -129,7 +163,13 @@ class WayBack:
         elif name == "worlds":
             self._enter_world()
         else:
-            self._click_label(self._screen.menu(), LABELS[name])
+            self._click(LABELS[name], POINTS.get(name))
+
+    def _click(self, labels: tuple[str, ...], point: str | None) -> bool:
+        """Click on the button with one of these labels, else on the point; whether anything was clicked."""
+        if self._click_label(self._screen.menu(), labels):
+            return True
+        return point is not None and point in self._points and click_on(self._points[point], self._hands, self._display)
 
     def _click_label(self, menu: Labels, labels: tuple[str, ...]) -> bool:
         for label in labels:
@@ -143,7 +183,7 @@ class WayBack:
     def _enter_world(self) -> None:
         """Choose the world by its name, or the first of the list, which is the one that was left last, and play it."""
         world = self._profile.world
-        if self._is_chosen and self._click_label(self._screen.menu(), (PLAY,)):
+        if self._is_chosen and self._click((PLAY,), PLAY_IT):
             self._is_chosen = False
             return
         self._is_chosen = True
@@ -151,6 +191,9 @@ class WayBack:
             if place := self._screen.place_of(world.name):
                 self._hands.saw("menu")
                 self._hands.click_at(*place)
+            return
+        if WORLD in self._points and not self._screen.menu().shows(WORLDS_TITLE):
+            click_on(self._points[WORLD], self._hands, self._display)
             return
         scale, (width, _) = self._screen.scale(), self._display.size()
         top = 32 if self._profile.game.dialect == "1.12" else 48

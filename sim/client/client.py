@@ -221,7 +221,7 @@ class VirtualClient:
 
     def _new_painter(self) -> Painter:
         settings, size = self.settings, self.window.size
-        return Painter(size, self.scale, self._font, self.edition, settings.world, settings.seed)
+        return Painter(size, self.scale, self._font, self.edition, settings.world, settings.seed, settings.words)
 
     def _tick(self) -> None:
         self._next_tick += TICK_S

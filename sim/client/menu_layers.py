@@ -1,5 +1,6 @@
 """The menus, drawn: dimmed worlds, shadowed titles, grey buttons (FACTS: Screens and their buttons)."""
 
+from collections.abc import Mapping
 from functools import lru_cache
 
 from sim.client.edition import Edition
@@ -16,10 +17,10 @@ _DARK: Colour = (64, 64, 64)
 
 
 class MenuLayers:
-    """The layers of menus in a window of that size in GUI pixels."""
+    """The layers of menus in a window of that size in GUI pixels, in the language of ``words``."""
 
-    def __init__(self, letters: Letters, gui: tuple[int, int], edition: Edition) -> None:
-        self._letters, self._gui, self._edition = letters, gui, edition
+    def __init__(self, letters: Letters, gui: tuple[int, int], edition: Edition, words: Mapping[str, str]) -> None:
+        self._letters, self._gui, self._edition, self._words = letters, gui, edition, words
         self._menu = lru_cache(32)(self._drawn_menu)
         self._inventory = lru_cache(2)(self._drawn_inventory)
 
@@ -64,16 +65,18 @@ class MenuLayers:
         if is_hovered and button.is_active:
             face = (126, 136, 191)
         colour = label_colour(button, self._edition, is_hovered=is_hovered)
-        wide = self._letters.width(button.label)
+        label = self._words.get(button.label, button.label)
+        wide = self._letters.width(label)
         return [
             self._fill((left, top, right, bottom), _BLACK),
             self._fill((left + 1, top + 1, right - 1, bottom - 1), face),
-            self._letters.text(button.label, left + (button.width - wide) // 2, top + 6, colour, shadow=True),
+            self._letters.text(label, left + (button.width - wide) // 2, top + 6, colour, shadow=True),
         ]
 
     def _text(self, text: Text) -> Layer:
-        wide = self._letters.width(text.text) * text.size if text.is_centred else 0
-        return self._letters.text(text.text, text.left - wide // 2, text.top, text.colour, shadow=True, size=text.size)
+        words = self._words.get(text.text, text.text)
+        wide = self._letters.width(words) * text.size if text.is_centred else 0
+        return self._letters.text(words, text.left - wide // 2, text.top, text.colour, shadow=True, size=text.size)
 
     def _fill(self, gui: Rect, colour: Colour, alpha: int = 255) -> Blend:
         scale = self._letters.scale

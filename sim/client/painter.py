@@ -1,5 +1,6 @@
 """A moment of the game as layers, from the world in the back to the menu in front."""
 
+from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
@@ -35,9 +36,19 @@ class Painter:
         edition: the game's version.
         kind: what the world behind looks like, of ``scenery.WORLDS``, bright or dark.
         seed: makes it that world.
+        words: what menus say in another language, by their English.
     """
 
-    def __init__(self, size: tuple[int, int], scale: int, font: Font, edition: Edition, kind: str, seed: int) -> None:
+    def __init__(
+        self,
+        size: tuple[int, int],
+        scale: int,
+        font: Font,
+        edition: Edition,
+        kind: str,
+        seed: int,
+        words: Mapping[str, str] | None = None,
+    ) -> None:
         width, height = size
         rng = np.random.default_rng(seed)
         self._size = size
@@ -48,7 +59,7 @@ class Painter:
         gui = (-(-width // scale), -(-height // scale))
         self._f3 = F3Layers(letters, width)
         self._hud = HudLayers(letters, gui, edition)
-        self._menu = MenuLayers(letters, gui, edition)
+        self._menu = MenuLayers(letters, gui, edition, words or {})
         self._scene = lru_cache(2 * _SHIFTS)(self._moved)
         self._shown: View | None = None
         self._picture = Picture(self._ground)

@@ -1,6 +1,7 @@
 """How a virtual client is set up."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from mc_nested.live.font import Font
@@ -19,7 +20,8 @@ class ClientSettings:
     text, of ``scenery.WORLDS``, bright or dark; ``font`` the project's own where it is None. Latencies are from and to,
     in seconds: until an event reaches the game, and how old a picture is. ``feet``, ``yaw`` and ``pitch`` are where the
     player begins and begins again after a death. ``shows_target`` is whether the debug screen names the block looked
-    at. With a ``world_folder`` the world is written into it whenever it is left, and read from it when it is entered.
+    at. ``words`` are what menus say in another language, by their English. With a ``world_folder`` the world is written
+    into it whenever it is left, and read from it when it is entered.
     """
 
     seed: int = 0
@@ -41,6 +43,7 @@ class ClientSettings:
     shows_target: bool = True
     pauses_unfocused: bool = True
     world_folder: Path | None = None
+    words: Mapping[str, str] = field(default_factory=dict)
 
 
 def gui_scale(size: Size, wanted: int) -> int:

@@ -23,6 +23,7 @@ from mc_nested.live.font import Font, load_font
 from mc_nested.live.profile import load_profile
 from mc_nested.live.profile_tables import Arena
 from mc_nested.live.reading import Block, Reading
+from sim.client.devices import VirtualClipboard
 
 Open = Callable[[str], AbstractContextManager[Desktop]]
 
@@ -173,7 +174,7 @@ def window_titled(name: str, font_file: Path) -> Open:
     def open_devices(title: str) -> Iterator[Desktop]:
         assert title
         frame = debug_screen(load_font(font_file), SCREEN)
-        yield Desktop(DrawnDisplay(frame, title=name), NoInput(), NoInput(), SkippingClock())
+        yield Desktop(DrawnDisplay(frame, title=name), NoInput(), NoInput(), SkippingClock(), VirtualClipboard())
 
     return open_devices
 

@@ -10,7 +10,6 @@ import re
 import subprocess
 import sys
 import warnings
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +27,6 @@ from mc_nested.live.desktop.screen import WindowDisplay
 from mc_nested.live.desktop.window import Place, checked, pick
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.panic import CORNER_REASON, KEY_REASON
-from tests.standin_fixture import Standin
 
 MINECRAFT = r"^Minecraft\*? \d"
 
@@ -198,21 +196,6 @@ def test_importing_the_desktop_needs_no_display_and_loads_no_device() -> None:
     environment = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (0, "\n"), done.stderr
-
-
-@pytest.fixture
-def x_server(standin: Standin) -> Iterator[dict[str, str]]:  # noqa: ARG001 - where the stand-in is up, there is an Xvfb
-    """The environment of an empty X screen of 1024 x 768."""
-    read, write = os.pipe()
-    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x768x24", "-nolisten", "tcp"]
-    server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
-    os.close(write)
-    try:
-        with os.fdopen(read) as numbers:
-            yield {**os.environ, "DISPLAY": f":{numbers.readline().strip()}"}
-    finally:
-        server.terminate()
-        server.wait(10)
 
 
 def probed(environment: dict[str, str], left: int, top: int) -> dict[str, Any]:

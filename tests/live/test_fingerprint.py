@@ -120,7 +120,7 @@ def test_a_live_game_that_does_not_fit_is_not_opened_and_nothing_is_pressed(
 
     @contextmanager
     def opened(_title: str) -> Iterator[Desktop]:
-        yield Desktop(client.display, client.keyboard, client.pointer, client.clock)
+        yield Desktop(client.display, client.keyboard, client.pointer, client.clock, client.clipboard)
 
     file = saved(tmp_path, CALIBRATED)
     with (

@@ -30,6 +30,7 @@ def _press(hands: Hands, how: str) -> None:
         "tap": lambda: hands.tap("1"),
         "click": lambda: hands.click("right"),
         "click_at": lambda: hands.click_at(3, 4),
+        "hover": lambda: hands.hover(3, 4),
         "type_line": lambda: hands.type_line("/fill"),
     }[how]()
 
@@ -74,7 +75,7 @@ def test_a_held_key_may_go_up_at_another_time_than_was_said() -> None:
     assert game.down == set()
 
 
-@pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "type_line"])
+@pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "hover", "type_line"])
 def test_nothing_is_pressed_while_another_window_is_in_front(press: str) -> None:
     game = FakeGame(PROFILE, front_until=0.0)
     with pytest.raises(NotInFrontError, match="not in front"):
@@ -82,10 +83,10 @@ def test_nothing_is_pressed_while_another_window_is_in_front(press: str) -> None
     assert game.presses == []
 
 
-@pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "type_line"])
+@pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "hover", "type_line"])
 @pytest.mark.parametrize("seen", ["world", "chat", "menu"])
 def test_nothing_is_pressed_that_the_screen_just_seen_is_not_there_for(press: str, seen: Screen) -> None:
-    wanted = {"click_at": "menu", "type_line": "chat"}.get(press, "world")
+    wanted = {"click_at": "menu", "hover": "menu", "type_line": "chat"}.get(press, "world")
     game = FakeGame(PROFILE)
     hands = _hands(game)
     hands.saw(seen)

@@ -1,4 +1,4 @@
-"""The real devices: a window of this desktop, its screen, keyboard and mouse, and the clock.
+"""The real devices: a window of this desktop, its screen, keyboard and mouse, the clock and the clipboard.
 
 Importing this works without a display; opening says in one line what is missing.
 """
@@ -8,10 +8,11 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 
+from mc_nested.live.desktop.clipboard import open_clipboard
 from mc_nested.live.desktop.clock import MonotonicClock
 from mc_nested.live.desktop.screen import WindowDisplay
 from mc_nested.live.desktop.window import GameWindow
-from mc_nested.live.devices import Clock, Display, Keyboard, Pointer
+from mc_nested.live.devices import Clipboard, Clock, Display, Keyboard, Pointer
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,7 @@ class Desktop:
     keyboard: Keyboard
     pointer: Pointer
     clock: Clock
+    clipboard: Clipboard
     points: Callable[[], tuple[int, int]] | None = None
 
 
@@ -47,7 +49,7 @@ def open_desktop(title: str) -> Iterator[Desktop]:
         with open_camera() as camera:
             display = WindowDisplay(window, camera)
             pointer = DesktopPointer(window, display.ratio)
-            yield Desktop(display, DesktopKeyboard(), pointer, MonotonicClock(), points=display.points)
+            yield Desktop(display, DesktopKeyboard(), pointer, MonotonicClock(), open_clipboard(), display.points)
 
 
 def session_kind() -> str:

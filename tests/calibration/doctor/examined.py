@@ -95,7 +95,7 @@ def opened(client: VirtualClient) -> Callable[[str], AbstractContextManager[Desk
     @contextmanager
     def open_devices(_title: str) -> Iterator[Desktop]:
         size = client.display.size
-        yield Desktop(client.display, client.keyboard, client.pointer, client.clock, points=size)
+        yield Desktop(client.display, client.keyboard, client.pointer, client.clock, client.clipboard, size)
 
     return open_devices
 

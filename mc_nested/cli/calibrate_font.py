@@ -1,0 +1,23 @@
+"""``mc-nested calibrate font``: the game's own font, found by itself, and shown beside what it reads."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from calibration.bench import bench_for
+from calibration.font import calibrate_font
+from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
+
+
+def font(
+    profile: ProfileToWrite = DEFAULT_PROFILE,
+    font: Annotated[
+        Path | None, typer.Option(metavar="JAR|PNG", help="take this client jar, resource pack or ascii.png")
+    ] = None,
+) -> None:
+    """Find the font that your game is written in, and see what is read with it."""
+    found, picture = calibrate_font(profile, bench_for(typer.echo, typer.confirm), font)
+    for line in found.lines:
+        typer.echo(line)
+    typer.echo(f"compare what is seen with what is read: {picture}")

@@ -1,0 +1,111 @@
+"""The clipboard of an X server: there, what was copied lives in the program that copied it (ICCCM, section 2).
+
+Reading asks that program. What is written is kept by a small process of its own (x11_keeper.py), which outlives this
+one and ends when something else is copied, so that a text put back stays back.
+"""
+
+import select
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from Xlib import X
+from Xlib.display import Display
+from Xlib.error import ConnectionClosedError, DisplayError, XauthError, XError
+from Xlib.protocol.request import SetSelectionOwner
+
+from mc_nested.errors import ClipboardError
+from mc_nested.live.desktop.clipboard import no_text
+
+if TYPE_CHECKING:
+    from Xlib.protocol.rq import Event
+    from Xlib.xobject.drawable import Window
+
+MOST_BYTES = 200_000
+"""A longer text comes in pieces, and isn't read; an X request holds 262,140 bytes."""
+
+_PATIENCE_S = 2.0
+_KEEPER = Path(__file__).with_name("x11_keeper.py")
+
+
+class X11Clipboard:
+    """What Ctrl+V would paste, in the session of this process's display."""
+
+    def read(self) -> str:
+        with _connected() as display:
+            clipboard = display.intern_atom("CLIPBOARD")
+            if display.get_selection_owner(clipboard) == X.NONE:
+                return ""
+            window = display.screen().root.create_window(0, 0, 1, 1, 0, X.CopyFromParent)
+            text = _converted(display, window, clipboard)
+        if text is None:
+            raise no_text()
+        return text
+
+    def write(self, text: str) -> None:
+        if not text:
+            with _connected() as display:
+                clipboard = display.intern_atom("CLIPBOARD")
+                SetSelectionOwner(display=display.display, window=X.NONE, selection=clipboard, time=X.CurrentTime)
+                display.sync()
+            return
+        data = text.encode()
+        if len(data) > MOST_BYTES:
+            raise _too_long()
+        # Its streams are nobody's: a pipe that it kept open would be waited for.
+        command = [sys.executable, str(_KEEPER)]
+        kept = subprocess.run(  # noqa: S603 - our own, with our own Python
+            command, input=data, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False
+        )
+        if kept.returncode:
+            raise ClipboardError("the clipboard can't be written: close the program that keeps it, and start again")
+
+
+def _converted(display: Display, window: "Window", clipboard: int) -> str | None:
+    """The clipboard as text; None where its owner has none to give."""
+    place = display.intern_atom("MC_NESTED_CLIPBOARD")
+    for name in ("UTF8_STRING", "STRING"):
+        window.convert_selection(clipboard, display.intern_atom(name), place, X.CurrentTime)
+        if _answer(display).property == X.NONE:
+            continue
+        found = window.get_full_property(place, X.AnyPropertyType)
+        window.delete_property(place)
+        if found is None or found.format != 8:
+            raise _too_long()  # INCR: it would come in pieces
+        value = found.value if isinstance(found.value, bytes) else str(found.value).encode()
+        if len(value) > MOST_BYTES:
+            raise _too_long()
+        return value.decode("utf-8" if name == "UTF8_STRING" else "latin-1", "replace")
+    return None
+
+
+def _answer(display: Display) -> "Event":
+    until = time.monotonic() + _PATIENCE_S
+    while (left := until - time.monotonic()) > 0:
+        display.flush()
+        if not display.pending_events() and not select.select([display], [], [], left)[0]:
+            break
+        while display.pending_events():
+            if (event := display.next_event()).type == X.SelectionNotify:
+                return event
+    raise ClipboardError("the program that holds the clipboard doesn't answer: copy any text, and start again")
+
+
+@contextmanager
+def _connected() -> Iterator[Display]:
+    try:
+        display = Display()
+        try:
+            yield display
+        finally:
+            display.close()
+    except (DisplayError, XauthError, ConnectionClosedError, XError, OSError) as error:
+        raise ClipboardError("the display has closed: start the desktop and the game again") from error
+
+
+def _too_long() -> ClipboardError:
+    return ClipboardError("the clipboard holds too long a text to be put back: copy a shorter one, and start again")

@@ -1,0 +1,24 @@
+"""What the tests of the real devices share: an X server of their own."""
+
+import os
+import subprocess
+from collections.abc import Iterator
+
+import pytest
+
+from tests.standin_fixture import Standin
+
+
+@pytest.fixture
+def x_server(standin: Standin) -> Iterator[dict[str, str]]:  # noqa: ARG001 - where the stand-in is up, there is an Xvfb
+    """The environment of an empty X screen of 1024 x 768."""
+    read, write = os.pipe()
+    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x768x24", "-nolisten", "tcp"]
+    server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
+    os.close(write)
+    try:
+        with os.fdopen(read) as numbers:
+            yield {**os.environ, "DISPLAY": f":{numbers.readline().strip()}"}
+    finally:
+        server.terminate()
+        server.wait(10)

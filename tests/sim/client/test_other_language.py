@@ -1,0 +1,119 @@
+"""The way back in a game whose menus aren't English: by the points that were recorded, and by nothing else."""
+
+from pathlib import Path
+
+import pytest
+
+from calibration.clicks import calibrate_clicks
+from mc_nested.errors import LiveError
+from mc_nested.live import way_back
+from mc_nested.live.click_points import ClickPoints, recorded
+from mc_nested.live.game_screen import WindowScreen
+from mc_nested.live.hands import Hands
+from mc_nested.live.point_pictures import load_click_points
+from mc_nested.live.profile import Profile, load_profile, save_profile
+from mc_nested.live.way_back import WayBack
+from sim.client.client import VirtualClient
+from sim.client.screens import MenuState, ScreenName, menu
+from tests.calibration.benches import SPANISH, bench_of, profile_in, started
+from tests.sim.client.playing import FONT
+
+RECORDED: dict[str, tuple[ScreenName, str]] = {
+    "back_to_game": ("pause", "Back to Game"),
+    "save_and_quit_to_title": ("pause", "Save and Quit to Title"),
+    "singleplayer": ("title", "Singleplayer"),
+    "play_selected_world": ("worlds", "Play Selected World"),
+    "respawn": ("death", "Respawn"),
+}
+
+
+def points_of(client: VirtualClient) -> ClickPoints:
+    """The points as a person records them by hand: hovering over each, and over the world's name."""
+    width, height = client.window.size
+    gui = -(-width // client.scale), -(-height // client.scale)
+    points = {}
+    places = {
+        name: (
+            screen,
+            next(b.middle for b in menu(MenuState(screen), client.edition, *gui).buttons if b.label == label),
+        )
+        for name, (screen, label) in RECORDED.items()
+    }
+    row = next(each for each in menu(MenuState("worlds"), client.edition, *gui).texts if each.text == "New World")
+    for name, (screen, middle) in {**places, "world": ("worlds", (row.left + 25, row.top + 4))}.items():
+        client.game.open(screen)
+        client.game.is_world_chosen = name == "play_selected_world"
+        x, y = round(middle[0] * client.scale), round(middle[1] * client.scale)
+        client.pointer.move(x, y)
+        client.clock.sleep(1.5)
+        points[name] = recorded(name, client.display.grab(), (x, y), client.scale)
+    client.game.open("world")
+    client.clock.sleep(0.3)
+    return points
+
+
+def way_of(client: VirtualClient, points: ClickPoints) -> WayBack:
+    hands = Hands(client.display, client.keyboard, client.pointer, client.clock, Profile().input)
+    return WayBack(Profile(), hands, WindowScreen(client.display, FONT), client.display, client.clock, points)
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.9"])
+@pytest.mark.parametrize("name", ["pause", "death", "title", "worlds"])
+def test_every_screen_that_was_recorded_leads_back(version: str, name: ScreenName) -> None:
+    client = VirtualClient(version=version, words=SPANISH)
+    way = way_of(client, points_of(client))
+    if name == "death":
+        client.game.die()
+    else:
+        client.game.open(name)
+    client.clock.sleep(1.5)
+    assert way.name() == name
+    assert way.find().screens[0] == name
+    assert client.game.screen == "world"
+    assert (client.window.down, client.window.strays) == (set(), [])
+
+
+def test_the_world_is_left_by_points_too() -> None:
+    client = VirtualClient(words=SPANISH)
+    way = way_of(client, points_of(client))
+    way.leave_world()
+    assert way.name() == "title"
+    assert way.find().screens[0] == "title"
+    assert way.name() == "world"
+
+
+def test_without_points_the_title_is_unknown_and_nothing_on_it_is_clicked(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(way_back, "PATIENCE_S", 8.0)
+    client = VirtualClient(words=SPANISH)
+    client.game.open("title")
+    client.clock.sleep(0.3)
+    with pytest.raises(LiveError, match="way back into the world was not found"):
+        way_of(client, {}).find()
+    assert client.game.screen == "title"
+
+
+def test_points_of_another_window_size_are_not_clicked(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(way_back, "PATIENCE_S", 8.0)
+    client = VirtualClient(words=SPANISH)
+    points = points_of(client)
+    client.resize((1024, 768))
+    client.game.open("title")
+    client.clock.sleep(0.3)
+    with pytest.raises(LiveError, match="the screen is unknown"):
+        way_of(client, points).find()
+    assert client.game.screen == "title"
+
+
+def test_what_was_recorded_in_english_does_not_fit_another_language(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(way_back, "PATIENCE_S", 8.0)
+    file = tmp_path / "mine.toml"
+    save_profile(profile_in(tmp_path), file)
+    calibrate_clicks(file, bench_of(started(VirtualClient())))
+    client = VirtualClient(words=SPANISH)
+    client.game.open("title")
+    client.clock.sleep(0.3)
+    with pytest.raises(LiveError, match="the screen is unknown"):
+        way_of(client, load_click_points(load_profile(file), file)).find()
+    assert client.game.screen == "title"
