@@ -17,10 +17,10 @@ from mc_nested.live.at_rest import read_at_rest
 from mc_nested.live.coordinates import block_of, facing_of, turn_between, yaw_of
 from mc_nested.live.debug_screen import read_debug_screen
 from mc_nested.live.desktop import Desktop, open_desktop
-from mc_nested.live.fingerprint import game_in
+from mc_nested.live.fingerprint import version_in
 from mc_nested.live.font import load_font
 from mc_nested.live.profile import save_profile
-from mc_nested.live.profile_tables import Arena
+from mc_nested.live.profile_tables import Arena, GameVersion
 from mc_nested.live.reading import Reading
 from mc_nested.live.session import overlay_of
 
@@ -79,8 +79,8 @@ def calibrate_arena(
         reading = read_at_rest(
             desktop.display, desktop.clock, lambda: read_debug_screen(desktop.display.grab(), glyphs, overlay)
         )
-        titled = game_in(desktop.display.title())
-    game = titled or profile.game
+        titled = version_in(desktop.display.title())
+    game = GameVersion(version=titled) if titled else profile.game
     arena = arena_seen(reading, standing)
     if not yes and not ask(question_for(arena)):
         return None

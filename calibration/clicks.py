@@ -18,7 +18,7 @@ from mc_nested.errors import ProfileError, UserError
 from mc_nested.live.at_rest import wait_for_front
 from mc_nested.live.click_points import ClickPoints
 from mc_nested.live.desktop.hotkeys import open_hotkeys
-from mc_nested.live.fingerprint import game_in
+from mc_nested.live.fingerprint import version_in
 from mc_nested.live.font import load_font
 from mc_nested.live.point_pictures import load_click_points
 from mc_nested.live.profile import Profile
@@ -117,7 +117,7 @@ def find_clicks(bench: Bench, profile: Profile, by_hand: ByHand | None = None) -
     """
     font = load_font(profile.screen.font_path())
     points, notes, scale = [], ["the menus: not gone through, since the window's title names no Minecraft"], None
-    if game_in(bench.desktop.display.title()) is not None:
+    if version_in(bench.desktop.display.title()) is not None:
         walk = _walked(MenuWalk(bench, profile, font), bench)
         points, notes, scale = list(walk.points.values()), walk.notes, walk.scale
     names = {point.name for point in points} | {RESPAWN}

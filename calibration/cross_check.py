@@ -57,7 +57,7 @@ def cross_check(bench: Bench, profile: Profile) -> Found:
         NotConfirmedError: nothing was copied.
         LiveError: the player was moved meanwhile; what the hands raise.
     """
-    game = game_in(bench.desktop.display.title()) or profile.game
+    game = game_in(bench.desktop.display.title(), profile.game)
     if game.dialect == "1.12":
         return Found(STEP, profile, (f"F3+C is not in Minecraft {game.version}, it came with 1.13: not compared",), 0)
     desktop = bench.desktop

@@ -19,7 +19,7 @@ from mc_nested.errors import ClipboardError, FontError, NotConfirmedError, Unrea
 from mc_nested.live.at_rest import wait_for_front
 from mc_nested.live.debug_screen import read_debug_screen
 from mc_nested.live.devices import Frame
-from mc_nested.live.fingerprint import game_in
+from mc_nested.live.fingerprint import version_in
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.overlay import find_overlay
@@ -59,12 +59,28 @@ def calibrate_font(
     if font is not None:
         load_font(font.expanduser())  # before a window is looked for
     with bench_of(profile) as bench:
-        given = FontSources((font.expanduser().resolve(),)) if font is not None else None
-        found = find_font(bench, profile, given or _sources_for(bench, profile, sources))
+        found = find_font(bench, profile, sources_for(bench, profile, font, sources))
     write_found(found, path)
     picture = path.with_name(f"{path.stem}-font.png")
     write_picture(found.pictures[0].frame, picture)
     return found, picture
+
+
+def sources_for(
+    bench: Bench,
+    profile: Profile,
+    font: Path | None = None,
+    sources: Callable[[str | None], FontSources] = sources_here,
+) -> FontSources:
+    """What there is to try: ``font`` alone where it is given, else what ``sources`` has for the version in the title.
+
+    The profile's own font comes last, which may be of another version.
+    """
+    if font is not None:
+        return FontSources((font.expanduser().resolve(),))
+    found = sources(version_in(bench.desktop.display.title()))
+    own = (profile.screen.font_path(),) if profile.screen.font else ()
+    return FontSources((*found.paths, *own), found.options)
 
 
 def find_font(bench: Bench, profile: Profile, sources: FontSources) -> Found:
@@ -152,14 +168,6 @@ def _loaded(paths: Sequence[Path]) -> tuple[list[Candidate], list[str]]:
         if all(font != each.font for each in candidates):
             candidates.append(Candidate(path, font))
     return candidates, unusable
-
-
-def _sources_for(bench: Bench, profile: Profile, sources: Callable[[str | None], FontSources]) -> FontSources:
-    """What there is for the version in the window's title; the profile's own font last, which may be of another."""
-    game = game_in(bench.desktop.display.title())
-    found = sources(game.version if game else None)
-    own = (profile.screen.font_path(),) if profile.screen.font else ()
-    return FontSources((*found.paths, *own), found.options)
 
 
 def _told(

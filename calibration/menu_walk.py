@@ -56,7 +56,7 @@ class MenuWalk:
         self._display, self._hands, self._clock = bench.desktop.display, bench.hands, bench.desktop.clock
         self._screen = WindowScreen(self._display, font, overlay_of(profile))
         self._way = WayBack(profile, self._hands, self._screen, self._display, self._clock)
-        self._game = game_in(self._display.title()) or profile.game
+        self._game = game_in(self._display.title(), profile.game)
         self.points: dict[str, Point] = {}
         self.notes: list[str] = []
         self.is_single_player = False

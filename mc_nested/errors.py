@@ -8,8 +8,8 @@ McNestedError
 │   ├── FontError        a font picture or jar that can't be used
 │   ├── RunError         an output folder, a run or a checkpoint that can't be used
 │   └── DesktopError     no display, Wayland, a window that can't be used
-│       ├── NoWindowError    no window of that title is there
-│       └── ClipboardError   a clipboard that can't be read, or whose content could not be put back
+│       ├── NoWindowError     no window of that title is there
+│       └── ClipboardError    a clipboard that can't be read, or whose content could not be put back
 └── LiveError            the game did not do what was asked; keys are released before it is raised
     ├── NotInFrontError  another window is in front: nothing was pressed
     ├── WrongScreenError the screen was not just seen to be the one that a press is meant for: nothing was pressed

@@ -15,7 +15,7 @@ import dataclasses
 import json
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +38,7 @@ from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile import Profile
 from mc_nested.live.profile_tables import Arena, GameVersion
+from mc_nested.live.reading import Block
 from scripts import bench_reader
 from sim.client.client import VirtualClient
 from sim.client.font import drawn_atlas
@@ -84,19 +85,35 @@ class Play:
 
 def play(count: int, rate: float, seed: int, scenario: Scenario) -> Play:
     """Play ``count`` actions, with a mishap before a share ``rate`` of them."""
-    done = Play()
     client = VirtualClient(seed=seed)
     arena = Arena.around((-20, client.realm.world.floor, 31), "south")
-    game = live_game(client, scenario, arena)
+    steps = track(range(count), "soak" if rate else "clean", console=Console(stderr=True))
+    return play_in(client, live_game(client, scenario, arena), arena, scenario, steps, rate, seed)
+
+
+def play_in(
+    client: VirtualClient,
+    game: LiveGame,
+    arena: Arena,
+    scenario: Scenario,
+    steps: Iterable[int],
+    rate: float,
+    seed: int,
+) -> Play:
+    """Play as many actions as there are steps in that client's game, each against what the client's world holds.
+
+    What stands there before, such as an arena's floor and border, is meant to stay as it is.
+    """
+    done = Play()
+    laid = client.built
     rng = np.random.default_rng(seed)
     began, cpu = client.clock.now(), time.process_time()
-    steps = track(range(count), "soak" if rate else "clean", console=Console(stderr=True))
     with game:
         placed: set[Cell] | None = None
         cell, in_episode = scenario.start, 0
         for _ in steps:
             while placed is None:
-                placed, cell, in_episode = _reset(game, client, arena, scenario, done, rng)
+                placed, cell, in_episode = _reset(game, client, arena, laid, scenario, done, rng)
             action = drawn_action(rng, cell, placed)
             if rate:
                 client.mishaps.maybe(rate, MISHAP_WITHIN_S)
@@ -115,7 +132,7 @@ def play(count: int, rate: float, seed: int, scenario: Scenario) -> Play:
             placed |= {outcome.placed} if outcome.placed else set()
             cell = outcome.cell
             done.wrong_cells += client.cell(arena) != outcome.cell
-            done.wrong_blocks += client.placed(arena) != placed or _elsewhere(client, arena)
+            done.wrong_blocks += not _is_built(client, arena, laid, placed)
             done.unnoticed += (outcome.cell, outcome.placed) != (wanted, landing)
             in_episode += 1
             if len(placed) == scenario.blocks or in_episode == scenario.step_limit:
@@ -143,7 +160,13 @@ def live_game(client: VirtualClient, scenario: Scenario, arena: Arena) -> LiveGa
 
 
 def _reset(
-    game: LiveGame, client: VirtualClient, arena: Arena, scenario: Scenario, done: Play, rng: np.random.Generator
+    game: LiveGame,
+    client: VirtualClient,
+    arena: Arena,
+    laid: dict[Block, str],
+    scenario: Scenario,
+    done: Play,
+    rng: np.random.Generator,
 ) -> tuple[set[Cell] | None, Cell, int]:
     """Begin an episode: the blocks (none) and the cell, and 0 steps; None instead where that was given up."""
     try:
@@ -153,7 +176,7 @@ def _reset(
         return None, scenario.start, 0
     done.resets += 1
     done.wrong_cells += client.cell(arena) != cell
-    done.wrong_blocks += bool(client.placed(arena))
+    done.wrong_blocks += not _is_built(client, arena, laid, set())
     return set(), cell, 0
 
 
@@ -169,13 +192,11 @@ def _possible(cell: Cell, placed: set[Cell]) -> Iterator[Action]:
             yield action
 
 
-def _elsewhere(client: VirtualClient, arena: Arena) -> bool:
-    """Whether a block stands where the arena has no cell."""
-    low, high = arena.region
-    return any(
-        not all(low[axis] <= block[axis] <= high[axis] for axis in range(3)) or block[1] != low[1]
-        for block in client.built
-    )
+def _is_built(client: VirtualClient, arena: Arena, laid: dict[Block, str], placed: set[Cell]) -> bool:
+    """Whether these cells hold a block, and nothing else differs from what was laid before."""
+    cells = {arena.block_of(cell) for cell in placed}
+    built = client.built
+    return cells <= built.keys() and {block: built[block] for block in built if block not in cells} == laid
 
 
 def _font() -> Font:

@@ -28,10 +28,10 @@ def version_in(title: str) -> str | None:
     return found[1] if found else None
 
 
-def game_in(title: str) -> GameVersion | None:
-    """The same, as the profile's table of it."""
+def game_in(title: str, otherwise: GameVersion) -> GameVersion:
+    """The version that the title of the game's window says, or that one where it says none."""
     version = version_in(title)
-    return GameVersion(version=version) if version else None
+    return GameVersion(version=version) if version else otherwise
 
 
 def misfit(calibrated: Calibrated, seen: Seen, profile: str) -> str | None:

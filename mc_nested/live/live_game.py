@@ -44,6 +44,7 @@ class LiveGame:
         points: the places that menus are clicked at where labels aren't found.
         evidence: the folder that gets the last frames where a reset is given up.
         is_server_allowed: whether a game that others may share is played.
+        hands: who presses, where somebody else opened and ends them; left out, its own.
 
     Raises:
         ProfileError: the profile has no arena, or fewer hotbar slots than the scenario has materials.
@@ -62,6 +63,7 @@ class LiveGame:
         points: ClickPoints | None = None,
         evidence: Path | None = None,
         is_server_allowed: bool = False,
+        hands: Hands | None = None,
     ) -> None:
         if len(scenario.materials) > len(profile.keys.hotbar):
             raise ProfileError(
@@ -74,7 +76,7 @@ class LiveGame:
         self._clock = clock
         self._display = display
         self._is_server_allowed = is_server_allowed
-        self.hands = Hands(display, keyboard, pointer, clock, profile.input)
+        self.hands = hands or Hands(display, keyboard, pointer, clock, profile.input)
         self._body = Body(profile, self.hands, screen, clock)
         self._chat = Chat(profile, self.hands, screen, clock)
         self._way_back = WayBack(profile, self.hands, screen, display, clock, points)

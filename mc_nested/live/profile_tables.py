@@ -146,6 +146,10 @@ class Arena(ProfileTable):
     marked: tuple[Block, Block] = Field(
         description="two opposite corners of the blocks that a reset may clear; nothing outside is ever touched"
     )
+    copied_to: Block | None = Field(
+        default=None,
+        description="the lowest corner of the copy of what stood there before: what calibrate arena --undo puts back",
+    )
 
     @model_validator(mode="after")
     def _is_marked(self) -> "Arena":

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from mc_nested.live.reading import Block
 from sim.client.realm import SLOTS, Realm, Stack
+from sim.client.region_commands import Refused, clone, execute, testforblocks
 from sim.client.world import AIR, block_of
 
 FILL_LIMIT = 32768
@@ -13,7 +14,7 @@ _TIMES = {"day": 1000, "noon": 6000, "night": 13000, "midnight": 18000}
 _SELF = ("@s", "@p", "@a")
 _BEFORE_1_13 = {"planks", "grass", "wool", "log"}
 _SINCE_1_13 = {"oak_planks", "birch_planks", "grass_block", "white_wool", "oak_log", "smooth_stone"}
-_ALWAYS = {AIR, "stone", "dirt", "cobblestone", "glass", "sand", "bedrock", "tnt"}
+_ALWAYS = {AIR, "stone", "dirt", "cobblestone", "glass", "sand", "bedrock", "tnt", "obsidian", "glowstone"}
 _RULES = {
     "doDaylightCycle": "advance_time",
     "doWeatherCycle": "advance_weather",
@@ -36,10 +37,6 @@ class Answer:
     is_error: bool = False
 
 
-class _Refused(Exception):  # noqa: N818 - no error of ours: the game's own answer
-    """The game's answer to a command that can't be."""
-
-
 def run(line: str, realm: Realm) -> list[Answer]:
     """Do what a line typed into the chat says, and give the game's answers."""
     if not line.startswith("/"):
@@ -52,18 +49,21 @@ def run(line: str, realm: Realm) -> list[Answer]:
         if not realm.has_cheats:
             if realm.edition.since(1, 13):
                 return _unknown(line, realm)
-            raise _Refused("You do not have permission to use this command")
+            raise Refused("You do not have permission to use this command")
         answer = command(realm, words)
-    except _Refused as refusal:
+    except Refused as refusal:
         return [Answer(str(refusal), is_error=True)]
     except (ValueError, IndexError):
         return _wrong(line, realm)
-    return [Answer(answer)] if realm.rule("sendCommandFeedback", "send_command_feedback", True) else []
+    is_said = answer and realm.rule("sendCommandFeedback", "send_command_feedback", True)
+    return [Answer(answer)] if is_said else []
 
 
 def _is_known(name: str, realm: Realm) -> bool:
     if name in ("item", "replaceitem"):
         return (name == "item") == realm.edition.since(1, 17)
+    if name == "testforblocks":
+        return not realm.edition.since(1, 13)
     return True
 
 
@@ -112,11 +112,11 @@ def _fill(realm: Realm, words: list[str]) -> str:
     for one, other in zip(low, high, strict=True):
         count *= abs(one - other) + 1
     if count > FILL_LIMIT:
-        raise _Refused(f"Too many blocks in the specified area (maximum {FILL_LIMIT}, specified {count})")
+        raise Refused(f"Too many blocks in the specified area (maximum {FILL_LIMIT}, specified {count})")
     changed = realm.world.fill(low, high, name)
     new = realm.edition.since(1, 13)
     if not changed:
-        raise _Refused("No blocks were filled" if new else "No blocks filled")
+        raise Refused("No blocks were filled" if new else "No blocks filled")
     return f"Successfully filled {changed} {_blocks(realm)}" if new else f"{changed} blocks filled"
 
 
@@ -128,7 +128,7 @@ def _setblock(realm: Realm, words: list[str]) -> str:
     x, y, z = block = _block(realm, words[:3])
     new = realm.edition.since(1, 13)
     if not realm.world.put(block, _block_name(realm, words[3])):
-        raise _Refused("Could not set the block" if new else "The block couldn't be placed")
+        raise Refused("Could not set the block" if new else "The block couldn't be placed")
     return f"Changed the block at {x}, {y}, {z}" if new else "Block placed"
 
 
@@ -184,7 +184,7 @@ def _clear(realm: Realm, words: list[str]) -> str:
         _of_self(realm, words)
     count = sum(stack.count for stack in realm.player.hotbar if stack)
     if not count:
-        raise _Refused(f"No items were found on player {realm.player_name}")
+        raise Refused(f"No items were found on player {realm.player_name}")
     realm.player.hotbar[:] = [None] * SLOTS
     return f"Removed {count} items from player {realm.player_name}"
 
@@ -226,14 +226,21 @@ def _effect(realm: Realm, words: list[str]) -> str:
 
 def _kill(realm: Realm, words: list[str]) -> str:
     if words and words[0].startswith("@e"):
-        raise _Refused("No entity was found")
+        raise Refused("No entity was found")
     raise ValueError(realm.player_name)
+
+
+def _execute(realm: Realm, words: list[str]) -> str:
+    def run_words(realm: Realm, words: list[str]) -> str:
+        return _COMMANDS[words[0]](realm, words[1:])
+
+    return execute(realm, words, run_words, _block_name)
 
 
 def _of_self(realm: Realm, words: list[str]) -> list[str]:
     """The words behind the player that they begin with, who must be the only one there is."""
     if words[0] not in (*_SELF, realm.player_name):
-        raise _Refused("No player was found")
+        raise Refused("No player was found")
     return words[1:]
 
 
@@ -255,7 +262,7 @@ def _block(realm: Realm, words: list[str]) -> Block:
 def _block_name(realm: Realm, word: str) -> str:
     name = word.removeprefix("minecraft:")
     if name not in _ALWAYS | (_SINCE_1_13 if realm.edition.since(1, 13) else _BEFORE_1_13):
-        raise _Refused(f"Unknown block type '{word}'")
+        raise Refused(f"Unknown block type '{word}'")
     return name
 
 
@@ -279,4 +286,7 @@ _COMMANDS: dict[str, Callable[[Realm, list[str]], str]] = {
     "replaceitem": _replaceitem,
     "effect": _effect,
     "kill": _kill,
+    "clone": clone,
+    "testforblocks": testforblocks,
+    "execute": _execute,
 }

@@ -24,8 +24,10 @@ from sim.client.devices import VirtualClipboard, VirtualDisplay, VirtualKeyboard
 from sim.client.edition import Edition
 from sim.client.font import drawn_atlas
 from sim.client.game import Game
+from sim.client.keys import BINDINGS, SIDES_SWAPPED, GameKeys
 from sim.client.mishaps import Mishaps
 from sim.client.painter import Painter
+from sim.client.physics import Ground
 from sim.client.realm import Player, Realm
 from sim.client.save import read_world, write_world
 from sim.client.settings import ClientSettings, Size, gui_scale
@@ -64,7 +66,12 @@ class VirtualClient:
         self.clipboard = VirtualClipboard()
         self.window = Window(self.clock, inputs, settings.size, settings.input_latency_s)
         self.game = Game(
-            self._new_realm(), shows_target=settings.shows_target, on_leave=self._save, on_enter=self._load
+            self._new_realm(),
+            keys=GameKeys(SIDES_SWAPPED if settings.swaps_sides else BINDINGS),
+            ground=Ground(settings.slipperiness, settings.speed),
+            shows_target=settings.shows_target,
+            on_leave=self._save,
+            on_enter=self._load,
         )
         self.game.has_f3 = settings.has_f3
         self.controls = Controls(self.game, self.clipboard.read, self.clipboard.write)

@@ -31,6 +31,8 @@ class Game:
 
     Args:
         realm: the world, changed as it is played.
+        keys: the keys as this game has them.
+        ground: how its player walks.
         shows_target: whether the debug screen names the block looked at, which 1.21.9 and later do only if told to.
         on_leave: what happens with the realm when the world is saved.
         on_enter: gives the realm when the world is entered again.
@@ -40,12 +42,15 @@ class Game:
         self,
         realm: Realm,
         *,
+        keys: GameKeys | None = None,
+        ground: physics.Ground = physics.STONE,
         shows_target: bool = True,
         on_leave: Callable[[Realm], None] = lambda _: None,
         on_enter: Callable[[Realm], Realm] = lambda realm: realm,
     ) -> None:
         self.realm = realm
-        self.keys = GameKeys()
+        self.keys = keys or GameKeys()
+        self._ground = ground
         self.chat = Chat()
         self.screen: ScreenName = "world"
         self.ticks = 0
@@ -262,7 +267,14 @@ class Game:
         push = physics.wish(forward, left, "sneak" if player.is_sneaking else "walk", player.yaw)
         before = player.feet
         player.feet, player.velocity, player.on_ground = physics.step(
-            before, player.velocity, push, self.realm.size()[0], world.is_solid, on_ground=player.on_ground
+            before,
+            player.velocity,
+            push,
+            self.realm.size()[0],
+            world.is_solid,
+            on_ground=player.on_ground,
+            ground=self._ground,
+            sneaks=player.is_sneaking,
         )
         # Standing on the ground as this world is, nothing changes until a key or the world does.
         self._rested_at = (world.revision, before) if player.on_ground and player.feet == before else None

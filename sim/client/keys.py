@@ -4,6 +4,7 @@ Movement counts where a key is down at a tick; everything else counts its presse
 """
 
 from collections import Counter
+from collections.abc import Mapping
 
 BINDINGS = {
     "w": "forward",
@@ -23,24 +24,28 @@ BINDINGS = {
 }
 """The game's own keys."""
 
+SIDES_SWAPPED = BINDINGS | {"a": "right", "d": "left"}
+"""A and D the other way round, as in the stand-in (FACTS: The stand-in)."""
+
 
 class GameKeys:
     """The keys as the game knows them: ``physical`` are those that its window saw go down and not up."""
 
-    def __init__(self) -> None:
+    def __init__(self, bindings: Mapping[str, str] = BINDINGS) -> None:
+        self._bindings = bindings
         self.physical: set[str] = set()
         self._held: set[str] = set()
         self._presses: Counter[str] = Counter()
 
     def press(self, key: str) -> None:
         """A key goes down in the world."""
-        if action := BINDINGS.get(key.lower()):
+        if action := self._bindings.get(key.lower()):
             self._held.add(action)
             self._presses[action] += 1
 
     def release(self, key: str) -> None:
         """A key goes up, whatever screen is open."""
-        self._held.discard(BINDINGS.get(key.lower(), ""))
+        self._held.discard(self._bindings.get(key.lower(), ""))
 
     def forget(self) -> None:
         """Every key counts as up, and no press is waiting: a screen opens, or the focus goes."""
@@ -50,7 +55,9 @@ class GameKeys:
     def read_again(self) -> None:
         """A screen closes: keys that are down, but no buttons, count again."""
         self._held |= {
-            action for key in self.physical if (action := BINDINGS.get(key.lower())) and not key.endswith("button")
+            action
+            for key in self.physical
+            if (action := self._bindings.get(key.lower())) and not key.endswith("button")
         }
 
     def is_held(self, action: str) -> bool:

@@ -6,6 +6,7 @@ speed is multiplied by the inertia.
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Literal
 
 Gait = Literal["walk", "sneak"]
@@ -15,10 +16,29 @@ IsSolid = Callable[[int, int, int], bool]
 
 INPUT = 0.98
 SNEAKING = 0.3
-GROUND_INERTIA = 0.6 * 0.91
 AIR_INERTIA = 0.91
-GROUND_ACCELERATION = 0.1 * 0.1627714 / GROUND_INERTIA**3
 AIR_ACCELERATION = 0.02
+
+
+@dataclass(frozen=True)
+class Ground:
+    """What is walked on, and how fast: a block's slipperiness, and what an effect makes of a push, such as 1.2."""
+
+    slipperiness: float = 0.6
+    speed: float = 1.0
+
+    @property
+    def inertia(self) -> float:
+        """What a tick leaves of a step."""
+        return self.slipperiness * 0.91
+
+    @property
+    def acceleration(self) -> float:
+        """Blocks that a tick of an input of 1 adds to a step."""
+        return self.speed * 0.1 * 0.1627714 / self.inertia**3
+
+
+STONE = Ground()
 STANDSTILL = 0.003
 GRAVITY, DRAG, JUMP = 0.08, 0.98, 0.42
 AT_REST: Vector = (0.0, -GRAVITY * DRAG, 0.0)
@@ -30,16 +50,19 @@ HALF_WIDTH = 0.3
 _TOUCH = 1e-7
 """Blocks that two boxes may overlap and still only touch."""
 
+_STEP_DOWN, _BACK_OFF = 0.6, 0.05
+"""How far down a sneaking player steps, and by how much less is tried where it is farther (FACTS: Sneaking)."""
 
-def displacement(ticks: int, gait: Gait) -> float:
-    """Blocks covered by holding forward for so many ticks from rest on stone, then coasting to a stop."""
-    push = INPUT * (SNEAKING if gait == "sneak" else 1.0) * GROUND_ACCELERATION
+
+def displacement(ticks: int, gait: Gait, ground: Ground = STONE) -> float:
+    """Blocks covered by holding forward for so many ticks from rest, then coasting to a stop."""
+    push = INPUT * (SNEAKING if gait == "sneak" else 1.0) * ground.acceleration
     covered = velocity = 0.0
     tick = 0
     while tick < ticks or velocity >= STANDSTILL:
         velocity = (velocity if velocity >= STANDSTILL else 0.0) + (push if tick < ticks else 0.0)
         covered += velocity
-        velocity *= GROUND_INERTIA
+        velocity *= ground.inertia
         tick += 1
     return covered
 
@@ -56,15 +79,25 @@ def wish(forward: int, left: int, gait: Gait, yaw: float) -> tuple[float, float]
 
 
 def step(
-    feet: Vector, velocity: Vector, push: tuple[float, float], height: float, is_solid: IsSolid, *, on_ground: bool
+    feet: Vector,
+    velocity: Vector,
+    push: tuple[float, float],
+    height: float,
+    is_solid: IsSolid,
+    *,
+    on_ground: bool,
+    ground: Ground = STONE,
+    sneaks: bool = False,
 ) -> tuple[Vector, Vector, bool]:
     """One tick: the feet and the velocity (blocks, blocks a tick) after it, and whether the player stands on something.
 
-    ``push`` is what ``wish`` gives; ``height`` is the player's.
+    ``push`` is what ``wish`` gives; ``height`` is the player's. Who sneaks on the ground doesn't walk over an edge.
     """
-    acceleration = GROUND_ACCELERATION if on_ground else AIR_ACCELERATION
+    acceleration = ground.acceleration if on_ground else AIR_ACCELERATION
     vx, vy, vz = (speed if abs(speed) >= STANDSTILL else 0.0 for speed in velocity)
     vx, vz = vx + push[0] * acceleration, vz + push[1] * acceleration
+    if sneaks and on_ground:
+        vx, vz = _before_an_edge(feet, (vx, vz), height, is_solid)
     wanted = (vx, vy, vz)
     # Up and down first, then the longer way, as the game does.
     order = (1, 2, 0) if abs(vx) < abs(vz) else (1, 0, 2)
@@ -75,10 +108,31 @@ def step(
     got = [moved[axis] - feet[axis] for axis in range(3)]
     stopped = [abs(got[axis] - wanted[axis]) > _TOUCH for axis in range(3)]
     stands = stopped[1] and vy < 0
-    inertia = GROUND_INERTIA if on_ground else AIR_INERTIA
+    inertia = ground.inertia if on_ground else AIR_INERTIA
     speeds = [0.0 if stopped[axis] else wanted[axis] for axis in range(3)]
     falling = (speeds[1] - GRAVITY) * DRAG
     return (moved[0], moved[1], moved[2]), (speeds[0] * inertia, falling, speeds[2] * inertia), stands
+
+
+def _before_an_edge(feet: Vector, way: tuple[float, float], height: float, is_solid: IsSolid) -> tuple[float, float]:
+    """As much of a way east and south as has ground below it: less of each, then less of both."""
+    x, y, z = feet
+    east, south = way
+
+    def has_no_ground(dx: float, dz: float) -> bool:
+        return is_free((x + dx, y - _STEP_DOWN, z + dz), height, is_solid)
+
+    while east and has_no_ground(east, 0.0):
+        east = _less(east)
+    while south and has_no_ground(0.0, south):
+        south = _less(south)
+    while east and south and has_no_ground(east, south):
+        east, south = _less(east), _less(south)
+    return east, south
+
+
+def _less(way: float) -> float:
+    return 0.0 if abs(way) <= _BACK_OFF else way - math.copysign(_BACK_OFF, way)
 
 
 def overlaps(feet: Vector, height: float, block: tuple[int, int, int]) -> bool:

@@ -74,6 +74,8 @@ class Realm:
     spawn: Vector = (0.5, 64.0, 0.5)
     rules: dict[str, str] = field(default_factory=dict)
     day_time: int = 6000
+    view_distance: int = 10
+    """Chunks around the player's own that are loaded."""
 
     def rule(self, older: str, newer: str, default: bool) -> bool:
         """Whether a rule is on, by its name before 1.21.11 and its name since (FACTS: Commands)."""

@@ -20,8 +20,9 @@ class ClientSettings:
     text, of ``scenery.WORLDS``, bright or dark; ``font`` the project's own where it is None. Latencies are from and to,
     in seconds: until an event reaches the game, and how old a picture is. ``feet``, ``yaw`` and ``pitch`` are where the
     player begins and begins again after a death. ``shows_target`` is whether the debug screen names the block looked
-    at. ``words`` are what menus say in another language, by their English. With a ``world_folder`` the world is written
-    into it whenever it is left, and read from it when it is entered.
+    at. ``slipperiness`` is the floor's, ``speed`` what an effect makes of every step; ``swaps_sides`` has A go right
+    and D left. ``words`` are what menus say in another language, by their English. With a ``world_folder`` the world is
+    written into it whenever it is left, and read from it when it is entered.
     """
 
     seed: int = 0
@@ -42,6 +43,9 @@ class ClientSettings:
     has_f3: bool = True
     shows_target: bool = True
     pauses_unfocused: bool = True
+    slipperiness: float = 0.6
+    speed: float = 1.0
+    swaps_sides: bool = False
     world_folder: Path | None = None
     words: Mapping[str, str] = field(default_factory=dict)
 

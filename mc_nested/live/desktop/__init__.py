@@ -49,7 +49,8 @@ def open_desktop(title: str) -> Iterator[Desktop]:
         with open_camera() as camera:
             display = WindowDisplay(window, camera)
             pointer = DesktopPointer(window, display.ratio)
-            yield Desktop(display, DesktopKeyboard(), pointer, MonotonicClock(), open_clipboard(), display.points)
+            points = display.points
+            yield Desktop(display, DesktopKeyboard(), pointer, MonotonicClock(), open_clipboard(), points)
 
 
 def session_kind() -> str:

@@ -358,7 +358,8 @@ def interrupted(
 ) -> Callable[[str], AbstractContextManager[Desktop]]:
     @contextmanager
     def open_devices(_title: str) -> Iterator[Desktop]:
-        yield Desktop(Interrupted(client, at, error), client.keyboard, client.pointer, client.clock, client.clipboard)
+        interrupted = Interrupted(client, at, error)
+        yield Desktop(interrupted, client.keyboard, client.pointer, client.clock, client.clipboard)
 
     return open_devices
 

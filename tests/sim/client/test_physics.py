@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sim.client.physics import AT_REST, Gait, displacement, is_free, overlaps, step, wish
+from sim.client.physics import AT_REST, INPUT, Gait, Ground, displacement, is_free, overlaps, step, wish
 
 INERTIA = 0.546
 PUSH = 0.98 * 0.1 * 0.1627714 / INERTIA**3
@@ -94,3 +94,48 @@ def test_two_keys_at_once_are_no_faster_than_an_input_of_one() -> None:
     assert math.hypot(east, south) == pytest.approx(1.0)
     assert wish(1, 0, "walk", 0.0) == pytest.approx((0.0, 0.98))
     assert wish(0, 1, "sneak", 0.0) == pytest.approx((0.294, 0.0))
+
+
+def test_on_ice_a_step_is_shorter_and_its_coasting_longer() -> None:
+    ice = Ground(slipperiness=0.98)
+    assert ice.inertia == pytest.approx(0.8918)
+    assert INPUT * ice.acceleration == pytest.approx(0.02249, abs=1e-5)
+    assert displacement(5, "walk", ice) == pytest.approx(1.0126, abs=1e-3)
+
+
+@given(ticks, st.sampled_from([0.6, 0.8, 0.98]), st.floats(0.5, 2.0))
+def test_every_floor_and_effect_is_walked_on_as_its_displacement_says(
+    held: int, slipperiness: float, speed: float
+) -> None:
+    ground = Ground(slipperiness, speed)
+    feet, velocity, stands = (0.5, 64.0, 0.5), AT_REST, True
+    for tick in range(held + 100):
+        push = wish(tick < held, 0, "walk", 0.0)
+        feet, velocity, stands = step(feet, velocity, push, 1.8, is_floor, on_ground=stands, ground=ground)
+    assert feet[2] - 0.5 == pytest.approx(displacement(held, "walk", ground), abs=1e-9)
+
+
+@given(st.integers(-1, 1), st.integers(-1, 1), st.floats(-180, 180))
+def test_who_sneaks_never_walks_over_an_edge(forward: int, left: int, yaw: float) -> None:
+    def is_solid(x: int, y: int, z: int) -> bool:
+        return y < 64 and abs(x) <= 1 and abs(z) <= 1
+
+    feet, velocity, stands = (0.5, 64.0, 0.5), AT_REST, True
+    for _ in range(200):
+        push = wish(forward, left, "sneak", yaw)
+        feet, velocity, stands = step(feet, velocity, push, 1.5, is_solid, on_ground=stands, sneaks=True)
+    assert feet[1] == 64.0
+    # The floor goes from -1 to 2: the box of a player, 0.3 to each side, may stand out over its edge, not beyond it.
+    assert min(feet[0], feet[2]) > -1.3
+    assert max(feet[0], feet[2]) < 2.3
+
+
+def test_who_walks_does() -> None:
+    def is_solid(_x: int, y: int, z: int) -> bool:
+        return y < 64 and z <= 1
+
+    feet, velocity, stands = (0.5, 64.0, 0.5), AT_REST, True
+    for _ in range(40):
+        push = wish(1, 0, "walk", 0.0)
+        feet, velocity, stands = step(feet, velocity, push, 1.8, is_solid, on_ground=stands)
+    assert feet[1] < 60

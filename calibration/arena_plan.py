@@ -1,0 +1,127 @@
+"""What an arena is built of, and by which commands: pure. Boxes are two corners, the lowest and the highest, inside.
+
+border       a ring of blocks on the ground around the 15 x 15 cells
+. . . . . . . . .     the marked region: two blocks of air above the floor
+# # # # # # # # #     the floor, under the cells and the border
+"""
+
+import re
+from collections.abc import Sequence
+
+from mc_nested.arena.rules import SIZE
+from mc_nested.live.commands import clear_command, item_command
+from mc_nested.live.profile import Profile
+from mc_nested.live.profile_tables import Arena
+from mc_nested.live.reading import Block
+
+Box = tuple[Block, Block]
+
+FLOOR = "obsidian"
+"""Plain to walk on, of one name in every version, and no material of a shipped scenario."""
+
+BORDERS = ("glowstone", "glass", "obsidian")
+"""Of one name in every version, and not to be taken for a block that was placed; the first that is no material."""
+
+UNFIT = ("ice", "slime", "soul_sand", "soul_soil", "honey", "sand", "gravel", "farmland", "path", "carpet", "leaves")
+"""Parts of names of blocks that are no floor: slippery, slow, lower than whole, or such as fall or wither."""
+
+HEIGHTS = (64, 32, 16)
+"""Blocks above the floor at which a copy may lie, out of the way and in the same chunks."""
+
+
+def box_of(arena: Arena) -> Box:
+    """All that is built on: the region, the border around it, and the floor under both."""
+    (x, y, z), (other_x, other_y, other_z) = arena.region
+    return (x - 1, y - 1, z - 1), (other_x + 1, other_y, other_z + 1)
+
+
+def floor_of(arena: Arena) -> Box:
+    """The floor under the cells and the border."""
+    low, high = box_of(arena)
+    return low, (high[0], low[1], high[2])
+
+
+def copy_places(arena: Arena, version: str) -> list[Block]:
+    """Lowest corners at which a copy of the box would lie in the sky above it, below the world's top."""
+    low, high = box_of(arena)
+    top = 319 if numbers_of(version) >= (1, 18) else 255
+    tall = high[1] - low[1] + 1
+    return [(low[0], low[1] + up, low[2]) for up in HEIGHTS if low[1] + up + 2 * tall <= top]
+
+
+def moved(box: Box, to: Block) -> Box:
+    """A box with its lowest corner at another place."""
+    low, high = box
+    return to, (to[0] + high[0] - low[0], to[1] + high[1] - low[1], to[2] + high[2] - low[2])
+
+
+def is_fit(floor_id: str) -> bool:
+    """Whether a floor of this block, as the debug screen names it, is as good as any."""
+    return not any(part in floor_id for part in UNFIT)
+
+
+def border_block(materials: Sequence[str]) -> str:
+    """What the border is made of where these are placed."""
+    return next(block for block in BORDERS if block not in materials)
+
+
+def fill_command(box: Box, block: str) -> str:
+    """Fill a box."""
+    return f"/fill {words(box)} minecraft:{block}"
+
+
+def copy_command(box: Box, to: Block) -> str:
+    """Copy a box to where its lowest corner shall lie."""
+    return f"/clone {words(box)} {' '.join(map(str, to))}"
+
+
+def build_commands(profile: Profile, arena: Arena, materials: Sequence[str], *, builds_floor: bool) -> list[str]:
+    """Floor, air, border, time, weather, mobs, game mode, materials, in the syntax of the profile's version."""
+    dialect = profile.game.dialect
+    return [
+        *([fill_command(floor_of(arena), FLOOR)] if builds_floor else []),
+        clear_command(arena),
+        *(fill_command(side, border_block(materials)) for side in border_of(arena)),
+        "/gamemode creative",
+        "/difficulty peaceful",
+        "/time set 6000",
+        "/weather clear",
+        *(f"/gamerule {rule} false" for rule in rules_of(profile.game.version)),
+        *(item_command(dialect, slot, profile.block_name(block)) for slot, block in enumerate(materials)),
+    ]
+
+
+def border_of(arena: Arena) -> list[Box]:
+    """The four sides of the ring."""
+    corners = [arena.block_of(cell) for cell in ((-1, -1), (SIZE, -1), (SIZE, SIZE), (-1, SIZE))]
+    return [_ordered(one, other) for one, other in zip(corners, [*corners[1:], corners[0]], strict=True)]
+
+
+def rules_of(version: str) -> tuple[str, ...]:
+    """The rules by which time, weather and mobs go on, by their names in a version."""
+    if numbers_of(version) >= (1, 21, 11):
+        return "advance_time", "advance_weather", "spawn_mobs"
+    return "doDaylightCycle", "doWeatherCycle", "doMobSpawning"
+
+
+def numbers_of(version: str) -> tuple[int, ...]:
+    """A version as numbers; years (26.1) are newer than 1.21."""
+    return tuple(int(part) for part in re.findall(r"\d+", version)[:3])
+
+
+def words(box: Box) -> str:
+    """A box as commands name it."""
+    return " ".join(str(part) for corner in box for part in corner)
+
+
+def volume(box: Box) -> int:
+    """Blocks in a box."""
+    low, high = box
+    return (high[0] - low[0] + 1) * (high[1] - low[1] + 1) * (high[2] - low[2] + 1)
+
+
+def _ordered(one: Block, other: Block) -> Box:
+    return (
+        (min(one[0], other[0]), min(one[1], other[1]), min(one[2], other[2])),
+        (max(one[0], other[0]), max(one[1], other[1]), max(one[2], other[2])),
+    )

@@ -1,0 +1,159 @@
+"""What calibrations leave beside a profile, so that a report can be made of it: checks, findings and their pictures.
+
+default.toml
+default-calibration/found.json     the last findings of each step, and the doctor's last table
+default-calibration/font-1.png     their pictures, by step and number
+"""
+
+import dataclasses
+import datetime
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from calibration.doctor.check import Check, Status
+from calibration.step import Found, Picture
+from mc_nested.errors import ProfileError
+from mc_nested.learn.whole_file import written_whole
+
+LIST = "found.json"
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="ignore", frozen=True, strict=True)
+
+
+class _Row(_Table):
+    name: str
+    status: Status
+    detail: str
+    fix: str = ""
+
+
+class _PictureFile(_Table):
+    title: str
+    note: str
+    file: str = Field(pattern=r"^[\w.-]+$")
+
+
+class _StepEntry(_Table):
+    step: str
+    date: str
+    lines: list[str]
+    samples: int
+    pictures: list[_PictureFile]
+
+
+class _List(_Table):
+    checked: str | None = None
+    checks: list[_Row] = []
+    steps: list[_StepEntry] = []
+
+
+@dataclass(frozen=True)
+class KeptStep:
+    """What a step found, as ``Found`` says it, and on which day (year-month-day)."""
+
+    step: str
+    date: str
+    lines: tuple[str, ...]
+    samples: int
+    pictures: tuple[Picture, ...] = ()
+
+
+@dataclass(frozen=True)
+class Kept:
+    """All that lies beside a profile: the steps in the order in which they were first done, and the doctor's table."""
+
+    steps: tuple[KeptStep, ...] = ()
+    checks: tuple[Check, ...] = ()
+    checked: str | None = None
+    """The day of the checks."""
+
+
+def kept_folder(profile: Path) -> Path:
+    """The folder beside a profile's file."""
+    return profile.with_name(f"{profile.stem}-calibration")
+
+
+def keep(profile: Path, found: Sequence[Found], checks: Sequence[Check] = (), today: str | None = None) -> None:
+    """Leave these beside a profile, in the place of what the same steps, or the doctor, left before.
+
+    ProfileError where the disk refuses.
+    """
+    folder, day = kept_folder(profile), today or datetime.date.today().isoformat()
+    before = _read(folder)
+    entries = {entry.step: entry for entry in before.steps}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for each in found:
+            pictures = [
+                _PictureFile(title=picture.title, note=picture.note, file=_write(folder, each.step, number, picture))
+                for number, picture in enumerate(each.pictures, 1)
+            ]
+            entries[each.step] = _StepEntry(
+                step=each.step, date=day, lines=list(each.lines), samples=each.samples, pictures=pictures
+            )
+        after = _List(
+            checked=day if checks else before.checked,
+            checks=[_Row(**dataclasses.asdict(check)) for check in checks] or before.checks,
+            steps=list(entries.values()),
+        )
+        with written_whole(folder / LIST) as unfinished:
+            unfinished.write_text(after.model_dump_json(indent=1), "utf-8")
+        named = {picture.file for entry in after.steps for picture in entry.pictures}
+        for left in folder.glob("*.png"):
+            if left.name not in named:
+                left.unlink()
+    except OSError as error:
+        raise ProfileError(f"{folder}: can't be written ({error}): make room, or mend its permissions") from error
+
+
+def load_kept(profile: Path) -> Kept:
+    """What lies beside a profile, without the pictures that are gone; nothing where no calibration left anything.
+
+    ProfileError where it can't be read.
+    """
+    folder = kept_folder(profile)
+    found = _read(folder)
+    steps = tuple(
+        KeptStep(
+            entry.step,
+            entry.date,
+            tuple(entry.lines),
+            entry.samples,
+            tuple(_pictures(folder, entry)),
+        )
+        for entry in found.steps
+    )
+    checks = tuple(Check(row.name, row.status, row.detail, row.fix) for row in found.checks)
+    return Kept(steps, checks, found.checked)
+
+
+def _read(folder: Path) -> _List:
+    path = folder / LIST
+    try:
+        return _List.model_validate(json.loads(path.read_text("utf-8")))
+    except FileNotFoundError:
+        return _List()
+    except (OSError, ValueError, ValidationError) as error:
+        raise ProfileError(f"{path}: can't be read: remove that folder, and calibrate again") from error
+
+
+def _write(folder: Path, step: str, number: int, picture: Picture) -> str:
+    name = f"{step}-{number}.png"
+    with written_whole(folder / name) as unfinished:
+        unfinished.write_bytes(cv2.imencode(".png", picture.frame)[1].tobytes())
+    return name
+
+
+def _pictures(folder: Path, entry: _StepEntry) -> Iterator[Picture]:
+    for each in entry.pictures:
+        frame = cv2.imread(str(folder / each.file))
+        if frame is not None:
+            yield Picture(each.title, frame.astype(np.uint8), each.note)

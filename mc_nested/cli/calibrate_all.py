@@ -1,0 +1,83 @@
+"""``mc-nested calibrate all``: the guided run through every calibration, its profile, and the report beside it."""
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from calibration.all import calibrate_all
+from calibration.arena import NEAR_MIDDLE
+from calibration.bench import bench_for
+from calibration.doctor.check import Check
+from calibration.doctor.examination import examine
+from calibration.game_folders import System
+from calibration.report import TITLES
+from calibration.step import Found
+from calibration.steps import guided_steps
+from mc_nested.cli.calibrate_report import report_path, write_report
+from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite, ServerOption
+from mc_nested.live.desktop.clipboard import open_clipboard
+
+
+def calibrate(
+    profile: ProfileToWrite = DEFAULT_PROFILE,
+    yes: Annotated[bool, typer.Option("--yes", help="ask nothing: clear the arena's region, visit the title")] = False,
+    font: Annotated[
+        Path | None, typer.Option(metavar="JAR|PNG", help="take this client jar, resource pack or ascii.png")
+    ] = None,
+    standing: Annotated[
+        tuple[int, int], typer.Option(metavar="X Y", help="the cell you stand on; 7 0 is the middle of the near edge")
+    ] = NEAR_MIDDLE,
+    server_allowed: ServerOption = False,
+) -> None:
+    """Do all of it in one go, in about two minutes; stand on the middle of the arena's near edge and look across it."""
+    bench_of = bench_for(typer.echo, (lambda _: True) if yes else typer.confirm)
+    steps = guided_steps(font, standing=standing, is_server_allowed=server_allowed)
+    shown = Lines()
+    whole = calibrate_all(profile, bench_of, _examined, steps, shown)
+    left_out = [TITLES.get(name, name) for name in whole.guided.passed_over]
+    without = f", without: {', '.join(left_out)}" if left_out else ""
+    typer.echo(f"calibrated in {shown.seconds:.0f} s{without}")
+    typer.echo(f"profile: {whole.path}")
+    write_report(profile, report_path(whole.path))
+
+
+class Lines:
+    """The run as lines: each step's name when it begins, what it found, and how long that took."""
+
+    def __init__(self) -> None:
+        self.seconds = 0.0
+
+    def checked(self, checks: Sequence[Check]) -> None:
+        """How the doctor's rows stand, and those that want something."""
+        counts = [(status, sum(check.status == status for check in checks)) for status in ("pass", "warn", "fail")]
+        typer.echo(f"doctor: {', '.join(f'{count} {status}' for status, count in counts if count)}")
+        for check in checks:
+            if check.status in ("warn", "fail"):
+                typer.echo(f"    {check.status}: {check.name}: {check.detail}{f'; {check.fix}' if check.fix else ''}")
+
+    def begin(self, name: str, number: int, of: int) -> None:
+        """Its name and number."""
+        typer.echo(f"{number}/{of} {TITLES.get(name, name)}")
+
+    def end(self, found: Found, seconds: float) -> None:
+        """Its findings."""
+        self._took(seconds)
+        for line in found.lines:
+            typer.echo(f"    {line}")
+        typer.echo(f"    [{seconds:.0f} s, {self.seconds:.0f} s in all]")
+
+    def passed_over(self, reason: str, seconds: float) -> None:
+        """Why it isn't there."""
+        self._took(seconds)
+        typer.echo(f"    warning: {reason}; the run goes on without it")
+
+    def _took(self, seconds: float) -> None:
+        self.seconds += seconds
+
+
+def _examined(profile_name: str) -> Sequence[Check]:
+    say = partial(typer.echo, err=True)
+    return examine(profile_name, say=say, system=System.here(), clipboard=open_clipboard()).checks

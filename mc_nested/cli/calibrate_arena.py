@@ -1,0 +1,41 @@
+"""``mc-nested calibrate arena``: build the arena where you stand, or put back what stood there."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from calibration.arena import NEAR_MIDDLE, calibrate_arena
+from calibration.arena_build import calibrate_built_arena
+from calibration.arena_undo import undo_built_arena
+from calibration.bench import bench_for
+from mc_nested.cli.options import DEFAULT_PROFILE
+
+
+def arena(
+    profile: Annotated[
+        str, typer.Option(metavar="NAME|FILE", help="the profile to write; new if there is none")
+    ] = DEFAULT_PROFILE,
+    font: Annotated[
+        Path | None, typer.Option(metavar="PNG|JAR", help="the game's client jar, needed the first time")
+    ] = None,
+    standing: Annotated[
+        tuple[int, int], typer.Option(metavar="X Y", help="the cell you stand on; 7 0 is the middle of the near edge")
+    ] = NEAR_MIDDLE,
+    yes: Annotated[bool, typer.Option("--yes", help="build, or mark, without asking")] = False,
+    mark_only: Annotated[bool, typer.Option("--mark-only", help="type no commands, write only where it is")] = False,
+    undo: Annotated[bool, typer.Option("--undo", help="put back what stood there before it was built")] = False,
+) -> None:
+    """Build the arena where you stand and look, with commands; what stood there is shown, asked about and copied."""
+    if mark_only:
+        path = calibrate_arena(profile, ask=typer.confirm, say=typer.echo, standing=standing, font=font, yes=yes)
+        typer.echo(f"arena written to {path}" if path else "nothing was written")
+        return
+    bench_of = bench_for(typer.echo, typer.confirm)
+    if undo:
+        found, file = undo_built_arena(profile, bench_of)
+    else:
+        found, file = calibrate_built_arena(profile, bench_of, standing=standing, font=font, yes=yes)
+    for line in found.lines:
+        typer.echo(line)
+    typer.echo(f"written to {file}")

@@ -1,0 +1,54 @@
+"""``mc-nested calibrate report``: what a calibration found, as one HTML file to look at or attach to a bug report."""
+
+import importlib.metadata
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from calibration.kept import load_kept
+from calibration.privacy import names_here
+from calibration.report import Report, contents, report_html
+from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption
+from mc_nested.errors import ProfileError
+from mc_nested.learn.whole_file import written_whole
+from mc_nested.live.profile import load_profile, profile_path
+from mc_nested.toml_file import read_toml_text
+
+
+def report(
+    profile: ProfileOption = None,
+    out: Annotated[Path | None, typer.Option(metavar="FILE", help="the HTML file [beside the profile]")] = None,
+    no_images: Annotated[bool, typer.Option("--no-images", help="leave the pictures out")] = False,
+) -> None:
+    """Make one HTML file of a profile and of what its calibration saw; it says itself what is in it."""
+    name = profile or DEFAULT_PROFILE
+    path = profile_path(name)
+    write_report(name, out or report_path(path), with_pictures=not no_images)
+
+
+def report_path(profile: Path) -> Path:
+    """Where a profile's report lies unless told otherwise."""
+    return profile.with_name(f"{profile.stem}-calibration.html")
+
+
+def write_report(name: str, out: Path, *, with_pictures: bool = True) -> None:
+    """Write the report of a profile whole or not at all, and say what is in it.
+
+    ProfileError where the profile, or what lies beside it, can't be read, or the file can't be written.
+    """
+    profile, path = load_profile(name), profile_path(name)
+    text = read_toml_text(path, ProfileError)
+    version = importlib.metadata.version("mc-nested")
+    made = Report(path.stem, profile, text, load_kept(path), version, with_pictures)
+    names = names_here()
+    out = out.expanduser()
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        with written_whole(out) as unfinished:
+            unfinished.write_text(report_html(made, names), "utf-8")
+    except OSError as error:
+        raise ProfileError(f"{out}: can't be written ({error.strerror or error}): name another --out") from error
+    typer.echo(f"report: {out}")
+    for line in contents(made):
+        typer.echo(f"  - {names.removed_from(line)}")

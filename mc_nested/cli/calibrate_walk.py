@@ -1,0 +1,21 @@
+"""``mc-nested calibrate walk``: measure how far a held key walks, and how late it is felt and seen."""
+
+from typing import Annotated
+
+import typer
+
+from calibration.bench import bench_for
+from calibration.walk import calibrate_walk
+from mc_nested.cli.options import DEFAULT_PROFILE
+
+
+def walk(
+    profile: Annotated[
+        str, typer.Option(metavar="NAME|FILE", help="the profile to write; it must name the font")
+    ] = DEFAULT_PROFILE,
+) -> None:
+    """Measure how you walk, for a minute, in the marked arena or around where you stand."""
+    found, picture = calibrate_walk(profile, bench_for(typer.echo, typer.confirm))
+    for line in found.lines:
+        typer.echo(line)
+    typer.echo(f"written to {profile}; look at the curve in {picture}")

@@ -1,0 +1,85 @@
+"""Random virtual clients to calibrate: versions, windows, latencies, worlds and players as people have them."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from sim.client.edition import Edition
+from sim.client.scenery import WORLDS
+from sim.client.settings import ClientSettings, gui_scale
+
+VERSIONS = (
+    *("1.12.2", "1.13.2", "1.14.4", "1.15.2", "1.16.1", "1.16.5", "1.17.1", "1.18.2", "1.19.2", "1.19.3", "1.19.4"),
+    *(
+        "1.20.1",
+        "1.20.4",
+        "1.20.6",
+        "1.21.1",
+        "1.21.5",
+        "1.21.8",
+        "1.21.9",
+        "1.21.11",
+        "26.1",
+        "26.1.2",
+        "26.2",
+        "26.3",
+    ),
+)
+"""Of each row of each table of FACTS, from the first version whose commands are known to the last that can be read."""
+
+NARROWEST = 360
+"""GUI pixels of width: in a narrower window the debug screen's two columns run into each other."""
+
+FLOORS = ("bedrock", "stone", "dirt", "grass_block", "sand")
+SKEWED_DEG = 15.0
+"""How far off an axis of the world a player may look who means it."""
+
+
+def clients(count: int, seed: int) -> Iterator[ClientSettings]:
+    """So many clients, the same ones for the same seed; each version comes as often as any other."""
+    rng = np.random.default_rng(seed)
+    rounds = -(-count // len(VERSIONS))
+    versions = [version for _ in range(rounds) for version in rng.permutation(VERSIONS)]
+    for version in versions[:count]:
+        yield _client(rng, str(version))
+
+
+def _client(rng: np.random.Generator, version: str) -> ClientSettings:
+    size, scale = _window(rng)
+    x, z = (float(rng.integers(-30_000, 30_000)) + float(rng.uniform(0.2, 0.8)) for _ in range(2))
+    edition = Edition(version)
+    lowest = -60 if edition.since(1, 18) else 4
+    floors = FLOORS if edition.since(1, 13) else tuple(floor for floor in FLOORS if floor != "grass_block")
+    return ClientSettings(
+        seed=int(rng.integers(2**31)),
+        version=version,
+        size=size,
+        scale=scale,
+        world=str(rng.choice([*WORLDS, "bright", "dark"])),
+        fps=float(rng.uniform(30, 144)),
+        input_latency_s=_latency(rng, 0.002, 0.015, 0.02),
+        capture_latency_s=_latency(rng, 0.005, 0.020, 0.02),
+        feet=(x, float(rng.integers(lowest, 120)), z),
+        yaw=float(rng.choice([0, 90, 180, -90]) + rng.uniform(-SKEWED_DEG, SKEWED_DEG)),
+        pitch=float(rng.uniform(-10, 60)),
+        floor_block=str(rng.choice(floors)),
+        mode="creative" if rng.random() < 0.7 else "survival",
+        pauses_unfocused=bool(rng.random() < 0.5),
+        slipperiness=0.6 if rng.random() < 0.8 else float(rng.choice([0.5, 0.7, 0.8])),
+        speed=1.0 if rng.random() < 0.8 else float(rng.choice([0.85, 1.2])),
+        swaps_sides=bool(rng.random() < 0.2),
+    )
+
+
+def _window(rng: np.random.Generator) -> tuple[tuple[int, int], int]:
+    """A size, odd ones too, and a GUI scale that fits it; 0 is auto."""
+    while True:
+        size, scale = (int(rng.integers(640, 1921)), int(rng.integers(480, 1081))), int(rng.integers(0, 5))
+        if size[0] >= NARROWEST * gui_scale(size, scale):
+            return size, scale
+
+
+def _latency(rng: np.random.Generator, least: float, most: float, spread: float) -> tuple[float, float]:
+    """From and to, in seconds."""
+    begin = float(rng.uniform(least, most))
+    return begin, begin + float(rng.uniform(0.0, spread))

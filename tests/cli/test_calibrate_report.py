@@ -1,0 +1,67 @@
+"""``mc-nested calibrate report``: the file, the list of what is in it, and one line where it can't be made."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from calibration.kept import keep
+from calibration.step import Found, Picture
+from mc_nested.cli.app import main
+from mc_nested.live.profile import Profile, save_profile
+from mc_nested.live.profile_tables import Screen
+
+
+def code_of(*words: str | Path) -> int | str | None:
+    """The exit code of the command."""
+    with pytest.raises(SystemExit) as ended:
+        main(["calibrate", "report", *map(str, words)])
+    return ended.value.code
+
+
+@pytest.fixture
+def profile(tmp_path: Path) -> Path:
+    path = tmp_path / "mine.toml"
+    font = str(Path.home() / ".minecraft" / "1.20.1.jar")
+    save_profile(Profile(screen=Screen(font=font)), path)
+    picture = Picture("The debug screen", np.zeros((2, 2, 3), np.uint8))
+    keep(path, [Found("font", Profile(), (f"font of {font}",), 1, (picture,))], today="2026-11-21")
+    return path
+
+
+def test_the_report_lies_beside_the_profile_and_its_list_is_printed(
+    profile: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert code_of("--profile", profile) in (0, None)
+    html = profile.with_name("mine-calibration.html").read_text("utf-8")
+    said = capsys.readouterr().out.splitlines()
+    assert said[0] == f"report: {profile.with_name('mine-calibration.html')}"
+    assert "  - 1 picture of the game's window, its chat blanked, or drawn: The debug screen" in said
+    assert "data:image/png" in html
+    assert str(Path.home()) not in html
+    assert "~/.minecraft/1.20.1.jar" in html.replace("\\", "/")
+
+
+def test_without_images_and_somewhere_else(profile: Path, tmp_path: Path) -> None:
+    out = tmp_path / "new" / "folder" / "report.html"
+    assert code_of("--profile", profile, "--out", out, "--no-images") in (0, None)
+    assert "data:image" not in out.read_text("utf-8").replace("img-src data:", "")
+    assert not profile.with_name("mine-calibration.html").exists()
+
+
+def test_the_same_profile_gives_the_same_report_to_the_byte(profile: Path, tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        code_of("--profile", profile, "--out", tmp_path / name)
+    assert (tmp_path / "one").read_bytes() == (tmp_path / "two").read_bytes()
+
+
+def test_no_such_profile_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert code_of("--profile", tmp_path / "none.toml") == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_an_out_that_is_a_folder_is_one_line(profile: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "folder").mkdir()
+    assert code_of("--profile", profile, "--out", tmp_path / "folder") == 2
+    assert "name another --out" in capsys.readouterr().err
+    assert list(tmp_path.glob("*.unfinished")) == []
