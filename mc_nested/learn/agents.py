@@ -221,6 +221,11 @@ class Agent:
         for role, learner in self._learners().items():
             learner.replay.extend(part_of(transitions, role))
 
+    def forget_since(self, marks: Mapping[str, NDArray[Any]]) -> None:
+        """Forget what was remembered since those marks."""
+        for role, learner in self._learners().items():
+            learner.replay.forget_since(marks[role])
+
     def networks_of(self, run: int) -> Arrays:
         """One run's networks, for ``load_networks`` of an agent in that run alone."""
         rows = self.rows_of(run)

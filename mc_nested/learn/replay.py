@@ -93,6 +93,17 @@ class Replay:
                 kept[run, span] = part
         self.added[:] = begins + counts
 
+    def forget_since(self, marks: NDArray[np.int64]) -> None:
+        """Forget what was added to each run since it had added so many (runs,).
+
+        What had given way for it is gone: a full run holds its last ones before twice instead.
+        """
+        for run in np.flatnonzero((self.added > marks) & (self.added > self.capacity)):
+            forgotten = np.arange(marks[run], self.added[run])
+            for kept in self._kept:
+                kept[run, forgotten % self.capacity] = kept[run, (forgotten - len(forgotten)) % self.capacity]
+        self.added[:] = marks
+
     def _spans(self, begins: NDArray[np.int64], counts: NDArray[np.int64]) -> list[tuple[int, slice]]:
         """Where each run's transitions from ``begins`` on lie, oldest first: in two spans where they wrap round."""
         spans = []

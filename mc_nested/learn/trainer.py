@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ResumableEnv
 from mc_nested.learn.agents import Agent, chosen_materials
+from mc_nested.learn.before_episode import BeforeEpisode
 from mc_nested.learn.checkpoint import Arrays, named_for, part_of
 from mc_nested.learn.learner import CHOICE_NUMBERS, Bools, Floats, Ints
 from mc_nested.learn.preset import Exploration, Preset
@@ -73,6 +74,7 @@ class Trainer:
         self.episode_rows: list[EpisodeRow] = []
         self.evaluation_rows: list[EvaluationRow] = []
         self._env = env
+        self._before: BeforeEpisode | None = None
         self._stop_at_optimum = stop_at_optimum
         self._optimum = np.array([scenario.optimum for scenario in scenarios])
         self._start = np.array([scenario.start_state for scenario in scenarios])
@@ -132,8 +134,8 @@ class Trainer:
     def tick(self) -> None:
         """One step of every run that isn't finished.
 
-        An error of the env passes through; what was learnt until then stays valid, and the next tick goes on with new
-        episodes where ``abandon_episodes`` was called.
+        An error of the env passes through; the next tick goes on with new episodes where ``abandon_episodes`` was
+        called.
         """
         numbers = self._streams.at(self.ticks)
         main_choice, main_draws, low_choice, low_draws, scouting = (numbers[:, part] for part in self._numbers)
@@ -177,16 +179,20 @@ class Trainer:
         self.ticks += 1
 
     def abandon_episodes(self) -> None:
-        """Begin anew every episode that is under way: its env is gone or in an unknown state."""
+        """Begin anew every episode that is under way: its env is gone or in an unknown state.
+
+        What a single arena's episode had taught is taken back, so that one which a mishap spoils is never learnt from.
+        """
+        if self._before and not self._runs.between_episodes.all():
+            self._before.bring_back(self.agent, self._scouts)
         self._runs.between_episodes[:] = True
 
     def state(self) -> Arrays:
         """What the rest of the training depends on, the journal left out, as it stands between two ticks."""
-        arenas = self._env.snapshot() if isinstance(self._env, ResumableEnv) else {}
         return {
             "counts": np.array([self.ticks, self.env_steps, self.evaluation_steps]),
             **named_for("runs", vars(self._runs)),
-            **named_for("env", arenas),
+            **named_for("env", self._arenas()),
             **named_for("agent", self.agent.state()),
             **named_for("kept", {**self._kept, "scores": self._kept_scores}),
             **named_for("scouts", self._scouts.state() if self._scouts else {}),
@@ -226,6 +232,10 @@ class Trainer:
         else:
             self.abandon_episodes()
 
+    def _arenas(self) -> Arrays:
+        """The arenas as they stand; nothing of a live game, which can't be saved half-way."""
+        return self._env.snapshot() if isinstance(self._env, ResumableEnv) else {}
+
     def _begin_episodes(self, choice: Floats, scouting: Floats) -> None:
         runs = self._runs
         begins = runs.between_episodes & ~runs.finished
@@ -238,6 +248,8 @@ class Trainer:
             rows = np.flatnonzero(begins)
             runs.materials[rows] = self.agent.main.act(self._start[rows], epsilon[rows], choice[rows], rows)
         runs.observations, _ = self._env.reset(options={"reset_mask": begins, "material": runs.materials})
+        if len(begins) == 1 and not self._arenas():
+            self._before = BeforeEpisode.of(self.agent, self._scouts)
         if self._scouts:
             self._scouts.begin(np.flatnonzero(begins), scouting)
         runs.steps_in_episode[begins] = 0

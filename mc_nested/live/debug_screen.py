@@ -49,6 +49,14 @@ def read_screen(screen: Screen) -> Reading:
         return Reading(problem=str(reason))
 
 
+def read_position(screen: Screen) -> tuple[float, float, float] | None:
+    """What its position line says; None where that can't be read."""
+    try:
+        return _position(screen)
+    except Unreadable:
+        return None
+
+
 def _position(screen: Screen) -> tuple[float, float, float]:
     parts = matched(_XYZ, screen.line(POSITION))
     x, y, z = (float(f"{whole}.{decimals}") for whole, decimals in zip(parts[::2], parts[1::2], strict=True))

@@ -102,8 +102,8 @@ class Eyes:
 
     def place_now(self) -> Pair | None:
         """Where the agent is, in one look, while a key is down; None where that can't be read."""
-        reading = self._screen.read()
-        return self._arena.place_of(reading.xyz) if reading.xyz else None
+        xyz = self._screen.read_place()
+        return self._arena.place_of(xyz) if xyz else None
 
     def permit_press(self) -> None:
         """See that the next press goes into the world, the debug screen having just been read."""

@@ -46,6 +46,13 @@ class Font:
 
     glyphs: Mapping[str, bytes]
 
+    def __hash__(self) -> int:
+        return self._hash
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash(frozenset(self.glyphs.items()))
+
     @cached_property
     def lookup(self) -> Mapping[bytes, Glyph]:
         """From a glyph's columns, its blank left ones taken away, to the glyph.

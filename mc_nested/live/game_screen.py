@@ -52,6 +52,9 @@ class GameScreen(Protocol):
     def read(self) -> Reading:
         """What the debug screen says."""
 
+    def read_place(self) -> tuple[float, float, float] | None:
+        """Where the player is, and nothing else: quicker, and None where only the whole could tell."""
+
     def is_chat_open(self) -> bool:
         """Whether the chat's input line is seen."""
 
@@ -85,12 +88,19 @@ class WindowScreen:
     def read(self) -> Reading:
         return self._reader.read()
 
+    def read_place(self) -> tuple[float, float, float] | None:
+        return self._reader.read_place()
+
     def is_chat_open(self) -> bool:
         dots = self._line(_FIRST + 1).astype(np.int16)
         near = np.abs(dots[:, :, np.newaxis] - _COLOURS).max(3) <= INK_SPREAD
-        ink, shadow = near[:-1, :-1], np.abs(dots[1:, 1:, np.newaxis] - (_COLOURS >> 2)).max(3) <= INK_SPREAD
-        lit, casts = ink.any(2), (ink & shadow).any(2)
-        if int(lit.sum()) < _LEAST_INK or not (casts | near[1:, 1:].any(2))[lit].all():
+        ink = near[:-1, :-1]
+        lit = ink.any(2)
+        if int(lit.sum()) < _LEAST_INK:
+            return False
+        shadow = np.abs(dots[1:, 1:, np.newaxis] - (_COLOURS >> 2)).max(3) <= INK_SPREAD
+        casts = (ink & shadow).any(2)
+        if not (casts | near[1:, 1:].any(2))[lit].all():
             return False
         columns = np.packbits(lit[:GLYPH_ROWS], axis=0, bitorder="little").tobytes()
         return any(columns.startswith(glyph + b"\0") for glyph in self._font.glyphs.values())

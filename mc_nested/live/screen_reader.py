@@ -7,7 +7,7 @@ pictured and searched in the same call, so a reading is the same either way.
 
 from dataclasses import dataclass
 
-from mc_nested.live.debug_screen import nothing_seen, read_screen
+from mc_nested.live.debug_screen import nothing_seen, read_position, read_screen
 from mc_nested.live.devices import Display, Region
 from mc_nested.live.dots import GLYPH_ROWS, Dots
 from mc_nested.live.font import Font
@@ -49,6 +49,20 @@ class ScreenReader:
     def read(self) -> Reading:
         """Take a picture and read it: a Reading as ``read_debug_screen`` gives it."""
         return (self._lines and self._reread(self._lines)) or self._read_anew()
+
+    def read_place(self) -> tuple[float, float, float] | None:
+        """Where the player is, by a picture of that line alone, where it stood; None where it can't be read there."""
+        lines = self._lines
+        if lines is None:
+            return None
+        (row, column), scale = lines.places[POSITION][0], lines.overlay.scale
+        whole = lines.region
+        region = Region(whole.left, whole.top + row * scale, whole.width, (GLYPH_ROWS + 1) * scale)
+        frame = self._display.grab(region)
+        if frame.shape[:2] != (region.height, region.width):
+            return None
+        dots = Dots(frame, scale, min(lines.overlay.colour), 0, lines.pitch)
+        return read_position(Screen(Sight(dots, lines.overlay, POSITION), self._font, {POSITION: [(0, column)]}))
 
     def _reread(self, lines: _Lines) -> Reading | None:
         frame = self._display.grab(lines.region)

@@ -11,6 +11,7 @@ import math
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 from mc_nested.live.walk import INERTIA, STANDSTILL
 
@@ -58,22 +59,21 @@ class Hold:
     push: float
 
 
-@dataclass(frozen=True)
-class _Moment:
+class _Moment(NamedTuple):
     """One moment of a path: how far from its beginning, where it ends, the carry, whether the key is up for good."""
 
     place: float
     end: float
     carry: float
     is_up: bool
-    held: int = 0
+    held: int
 
 
 class _Path:
     """All moments along one axis, to be found by their place."""
 
     def __init__(self, moments: list[_Moment]) -> None:
-        self._moments = sorted(moments, key=lambda moment: moment.place)
+        self._moments = sorted(moments)
         self._places = [moment.place for moment in self._moments]
 
     def at(self, place: float) -> list[_Moment]:
@@ -159,10 +159,10 @@ def _coasted(carry: float, inertia: float) -> _Path:
 def _held(carry: float, ticks: int, push: float, inertia: float) -> _Path:
     """Every moment of a hold of about ``ticks`` ticks, with what came before and what comes after."""
     moments: list[_Moment] = []
-    for before in _coasting(0.0, carry, inertia)[: MORE_TICKS + 1]:
+    for waits, before in enumerate(_coasting(0.0, carry, inertia)[: MORE_TICKS + 1]):
         place, left = before.place, before.carry
-        moments.append(_Moment(place, place, left, False))
-        for held in range(1, ticks + LAG_TICKS + 1):
+        moments.append(_Moment(place, place, left, False, 0))
+        for held in range(1, ticks + (MORE_TICKS if waits else LAG_TICKS) + 1):
             step = (left if abs(left) >= STANDSTILL else 0.0) + push
             place, left = place + step, step * inertia
             moments.append(_Moment(place, place, left, False, held))

@@ -6,6 +6,7 @@ black nor near white. Where a column is neither, the line ends, or something lie
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import cv2
 import numpy as np
@@ -135,6 +136,7 @@ def line_up_to(dots: Dots, font: Font, overlay: Overlay, row: int, end: int) -> 
     return Line(text, row, strip.first + start, end, _is_whole(strip, last, overlay), has_value)
 
 
+@lru_cache(1024)  # most lines say what they said in the frame before
 def decode(columns: bytes, font: Font) -> tuple[str, int]:
     """The text that begins in the first column, up to a wide gap, and its last column of ink (-1 without any).
 

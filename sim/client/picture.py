@@ -69,14 +69,16 @@ class Picture:
 
     def _spoil(self, rect: Rect) -> None:
         inside = common(rect, self._whole)
-        if inside is None or self._whole in self._stale or inside in self._stale:
+        if inside is None or any(_holds(stale, inside) for stale in self._stale):
             return
-        if inside == self._whole:
-            self._stale = [self._whole]
-        else:
-            self._stale.append(inside)
+        self._stale = [stale for stale in self._stale if not _holds(inside, stale)]
+        self._stale.append(inside)
 
     def _redraw(self, part: Rect) -> None:
         left, top, right, bottom = part
         self._frame[top:bottom, left:right] = self._background[top:bottom, left:right]
         draw_all(self._frame, self._layers, part)
+
+
+def _holds(one: Rect, other: Rect) -> bool:
+    return one[0] <= other[0] and one[1] <= other[1] and one[2] >= other[2] and one[3] >= other[3]

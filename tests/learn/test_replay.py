@@ -64,6 +64,24 @@ def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
     assert numbers(drawn_from(replay, np.array([0]), np.array([[uniform]])))[0][0] in range(size)
 
 
+@given(st.integers(0, 30), st.integers(0, 9))
+def test_what_is_forgotten_is_never_drawn_again(before: int, since: int) -> None:
+    replay = Replay(runs=2, states=200, capacity=20)
+    for step in range(before):
+        replay.add(np.array([0]), transition(step))
+    marks = replay.added.copy()
+    for step in range(since):
+        replay.add(np.array([0]), transition(100 + step))
+    replay.forget_since(marks)
+    held = int(replay.sizes()[0])
+    assert held == min(before, 20)
+    seen = {int(number) for number in numbers(replay.at(np.array([0]), np.arange(held)[None, :]))[0]}
+    if before + since <= 20:
+        assert seen == set(range(before))
+    else:
+        assert seen <= set(range(max(0, before - 20), before))
+
+
 def test_draws_are_uniform() -> None:
     replay = Replay(runs=1, states=200, capacity=100)
     for step in range(8):

@@ -1,12 +1,16 @@
 """Algorithm 1, tick by tick: what is stored, when there are updates, what is evaluated, and that it can be repeated."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.game import Outcome
+from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv, Ints
@@ -16,7 +20,7 @@ from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import ExcursionRule, Imitation, Preset, Prioritized, load_preset
 from mc_nested.learn.trainer import Trainer
-from sim.grid import GridVectorEnv, arena_env
+from sim.grid import GridGame, GridVectorEnv, arena_env
 
 LINE, DIAMOND = load_scenario("line"), load_scenario("diamond")
 PAPER = load_preset("paper")
@@ -327,6 +331,45 @@ def test_after_an_error_of_the_env_training_goes_on_with_a_new_episode() -> None
     with pytest.raises(ConnectionError):
         finish(trainer)
     trainer.abandon_episodes()
+    assert [row.episode for row in finish(trainer).episode_rows] == list(range(1, 21))
+
+
+class Spoils(GridGame):
+    """A game that can't be saved half-way, and breaks down once."""
+
+    acts_left = 50
+
+    def act(self, action: Action) -> Outcome:
+        self.acts_left -= 1
+        if self.acts_left == 0:
+            raise ConnectionError("the game is gone")
+        return super().act(action)
+
+
+LIVE = load_preset("live").model_copy(update={"episodes": 20})
+
+
+@pytest.mark.parametrize(
+    ("form", "preset"),
+    [(NESTED, SHORT), (HIERARCHICAL, SHORT), (SINGLE, SHORT), (NESTED, LIVE), (HIERARCHICAL, LIVE)],
+)
+def test_an_episode_that_is_spoiled_is_never_learnt_from(form: Form, preset: Preset) -> None:
+    agent = Agent(form, [LINE], preset, 0)
+    trainer = Trainer(view_of(form, ArenaVectorEnv([ArenaEnv(Spoils(LINE), LINE)]), [LINE]), [LINE], agent, preset, 0)
+    known: list[tuple[Arrays, Arrays]] = []
+    ended = 0
+    with suppress(ConnectionError):
+        while trainer.ticks < 100:
+            trainer.tick()
+            if len(trainer.episode_rows) + len(trainer.evaluation_rows) > ended:
+                ended = len(trainer.episode_rows) + len(trainer.evaluation_rows)
+                known.append(({name: kept.copy() for name, kept in agent.state().items()}, agent.marks()))
+    assert trainer.ticks < 100, "the fiftieth action broke down"
+    trainer.abandon_episodes()
+    before, marks = known[-1]
+    assert {name: kept.tolist() for name, kept in agent.marks().items()} == {k: v.tolist() for k, v in marks.items()}
+    for name, kept in before.items():
+        assert np.array_equal(agent.state()[name], kept), name
     assert [row.episode for row in finish(trainer).episode_rows] == list(range(1, 21))
 
 

@@ -38,7 +38,10 @@ class FakeClock:
 
 @dataclass
 class FakeGame:
-    """The world, the player and the window. Events reach the game ``latency`` seconds after they were sent."""
+    """The world, the player and the window. Events reach the game ``latency`` seconds after they were sent.
+
+    Those sent from ``late_from`` on wait until ``late_until``, in their order, while its ticks go on.
+    """
 
     profile: Profile
     clock: FakeClock = field(default_factory=FakeClock)
@@ -60,6 +63,8 @@ class FakeGame:
     refuse_clicks: int = 0
     front_until: float = math.inf
     refuse_commands: str = " "
+    late_from: float = math.inf
+    late_until: float = -math.inf
 
     def __post_init__(self) -> None:
         self._velocity = (0.0, 0.0)
@@ -112,8 +117,10 @@ class FakeGame:
         self._later(lambda: self._receive_text(text))
 
     def _later(self, event: Callable[[], None]) -> None:
+        now = self.clock.now()
         if self.is_in_front:
-            heapq.heappush(self._events, (self.clock.now() + self.latency, next(self._count), event))
+            late = self.late_until if now >= self.late_from else now
+            heapq.heappush(self._events, (max(now + self.latency, late), next(self._count), event))
 
     def _catch_up(self) -> None:
         now = self.clock.now()
@@ -233,6 +240,9 @@ class FakeScreen:
 
     def read(self) -> Reading:
         return self._readings() or self._game.read()
+
+    def read_place(self) -> tuple[float, float, float] | None:
+        return self.read().xyz
 
     def is_chat_open(self) -> bool:
         return self._game.typed() is not None

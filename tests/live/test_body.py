@@ -108,6 +108,42 @@ def test_a_block_lands_in_front_from_anywhere_within_the_tolerance(east: float, 
     assert game.presses == ["right button"]
 
 
+@given(st.sampled_from([(7, 8), (7, 6), (6, 7), (8, 7)]), offsets, offsets, st.floats(0.05, 0.4), st.floats(0, 0.6))
+def test_what_is_built_on_the_way_is_right_or_an_error_however_late_the_game_takes_events(
+    cell: Cell, right: float, forward: float, since: float, late: float
+) -> None:
+    game = _game(off=(-right, forward))
+    front = SOUTH.marked_arena().block_of((cell[0], cell[1] + 1))
+    game.late_from, game.late_until = game.clock.now() + since, game.clock.now() + since + late
+    try:
+        _body(game).build(cell, (), "minecraft:stone")
+    except NotConfirmedError:
+        return
+    game.clock.sleep_until(game.clock.now() + 1.0)
+    game.read()
+    assert game.built == {front}
+    assert _off(game, cell) < 0.5
+
+
+@pytest.mark.parametrize("cell", [(6, 7), (8, 7)])
+def test_a_block_beside_is_clicked_before_it_is_certain_where_the_agent_stops(cell: Cell) -> None:
+    on_the_way, one_by_one = _game(), _game()
+    _body(on_the_way).build(cell, (), "minecraft:stone")
+    body = _body(one_by_one)
+    body.place(cell, "minecraft:stone", body.move_to(cell))
+    assert on_the_way.clock.now() < one_by_one.clock.now() - 0.04
+    assert on_the_way.built == one_by_one.built
+    assert on_the_way.presses == one_by_one.presses
+
+
+def test_at_the_arenas_edge_no_click_goes_out_before_the_end_is_certain() -> None:
+    on_the_way, one_by_one = _game((1, 7)), _game((1, 7))
+    _body(on_the_way).build((0, 7), (), "minecraft:stone")
+    body = _body(one_by_one)
+    body.place((0, 7), "minecraft:stone", body.move_to((0, 7)))
+    assert on_the_way.clock.now() == one_by_one.clock.now()
+
+
 def test_a_click_that_the_game_missed_is_repeated() -> None:
     game = _game()
     game.refuse_clicks = 2

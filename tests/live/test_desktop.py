@@ -26,6 +26,7 @@ from mc_nested.live.desktop.keys import WORDS, check_key
 from mc_nested.live.desktop.screen import WindowDisplay
 from mc_nested.live.desktop.window import Place, checked, pick
 from mc_nested.live.devices import Frame, Region
+from mc_nested.live.panic import CORNER_REASON, KEY_REASON
 
 MINECRAFT = r"^Minecraft\*? \d"
 
@@ -222,6 +223,8 @@ def check_report(report: dict[str, Any]) -> None:
     assert report["pointer"] == [200, 50]
     assert report["clicks"] == [["down", 3, False, 200, 50], ["up", 3, False, 200, 50]]
     assert report["hotkeys"] == ["f9", "k", "f9"]
+    assert [reason for reason, _ in report["stopped by"]] == [KEY_REASON, CORNER_REASON, CORNER_REASON]
+    assert max(seconds for _, seconds in report["stopped by"]) <= 0.1
     assert "means stop" in report["in the corner"]
     assert "no window's title" in report["no such window"]
     assert "2 windows" in report["several"]

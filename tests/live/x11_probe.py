@@ -19,6 +19,7 @@ from Xlib.ext import xtest
 from mc_nested.errors import DesktopError, LiveError
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.desktop.hotkeys import open_hotkeys
+from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.devices import Region
 
 if TYPE_CHECKING:
@@ -123,6 +124,31 @@ def heard_hotkeys(display: Display) -> list[str]:
         return heard
 
 
+def stopped_by(display: Display) -> list[tuple[str, float]]:
+    """What stops the agent, and seconds until it is heard: the panic key, then the mouse in each of two corners."""
+    heard: list[tuple[str, float]] = []
+    happened = threading.Event()
+    corner = display.screen().width_in_pixels - 1, display.screen().height_in_pixels - 1
+
+    def stop(reason: str) -> None:
+        heard.append((reason, time.monotonic() - began))
+        happened.set()
+
+    code = display.keysym_to_keycode(XK.string_to_keysym("F12"))
+    with open_panic_switch("f12", stop):
+        for kind, detail, x, y in (
+            *((X.KeyPress, code, 0, 0), (X.KeyRelease, code, 0, 0), (X.MotionNotify, 0, 300, 0)),
+            *((X.MotionNotify, 0, 0, 0), (X.MotionNotify, 0, 300, 300), (X.MotionNotify, 0, *corner)),
+        ):
+            happened.clear()
+            began = time.monotonic()
+            xtest.fake_input(display, kind, detail, x=x, y=y)
+            display.sync()
+            if (kind, x, y) not in ((X.KeyRelease, 0, 0), (X.MotionNotify, 300, 0), (X.MotionNotify, 300, 300)):
+                happened.wait(PATIENCE_S)
+    return heard
+
+
 def main(left: int, top: int) -> dict[str, Any]:
     display = Display()
     probe = Probe(display, left, top, TITLE)
@@ -176,6 +202,7 @@ def main(left: int, top: int) -> dict[str, Any]:
         probe.focus()
 
         report["hotkeys"] = heard_hotkeys(display)
+        report["stopped by"] = stopped_by(display)
 
         probe.window.configure(x=left + 37, y=top + 23)
         display.sync()
