@@ -69,7 +69,7 @@ def contents(report: Report) -> list[str]:
         else "no doctor's table: none was kept",
         f"what was found: {_count(lines, 'line')} ({steps})" if steps else "no findings: none were kept",
         _about_pictures(report),
-        *([f"to be seen on them: {SEEN}"] if report.with_pictures and _titles(kept) else []),
+        *([f"what may be seen on them: {SEEN}"] if report.with_pictures and _titles(kept) else []),
         "the profile's text, with the place of your arena in your world, the folders it names and your own comments",
         "not in it: anything outside the game's window; your home folder is written ~, names of accounts <user>",
     ]
