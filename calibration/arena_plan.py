@@ -19,8 +19,9 @@ Box = tuple[Block, Block]
 FLOOR = "obsidian"
 """Plain to walk on, of one name in every version, and no material of a shipped scenario."""
 
-BORDERS = ("glowstone", "glass", "obsidian")
-"""Of one name in every version, and not to be taken for a block that was placed; the first that is no material."""
+BORDERS = ("lapis_block", "mossy_cobblestone")
+"""Of one name in every version, without white, which text would be lost on, and not to be taken for a block that was
+placed; the first that is no material."""
 
 UNFIT = ("ice", "slime", "soul_sand", "soul_soil", "honey", "sand", "gravel", "farmland", "path", "carpet", "leaves")
 """Parts of names of blocks that are no floor: slippery, slow, lower than whole, or such as fall or wither."""

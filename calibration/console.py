@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from calibration.step import Bench
-from mc_nested.errors import NotConfirmedError, UnreadableError
+from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
 from mc_nested.live.chat import Chat
 from mc_nested.live.game_screen import GameScreen
 from mc_nested.live.profile import Profile
@@ -12,6 +12,9 @@ from mc_nested.live.walk import TICK_S
 
 CLEARED_EVERY = 5
 """Commands after which the chat is cleared: ten answers would cover lines of the debug screen (FACTS: Answers)."""
+
+TRIES = 4
+"""How often a line is begun: on a busy machine its letters may come so late that the rest isn't typed."""
 
 LOOK_S = 0.02
 
@@ -37,7 +40,14 @@ class Console:
         self._see_world()
         if self._profile.input.reads_chat and self._sent and self._sent % CLEARED_EVERY == 0:
             self.clear()
-        self._chat.send(command)
+        for tries_left in reversed(range(TRIES)):
+            try:
+                self._chat.send(command)
+                break
+            except WrongScreenError:
+                if not tries_left or not self._profile.input.reads_chat:
+                    raise
+                self._leave_chat()
         self._sent += 1
 
     def read(self) -> Reading:
@@ -58,6 +68,14 @@ class Console:
                 return None
             self._hands.wait(LOOK_S)
         return reading
+
+    def _leave_chat(self) -> None:
+        """Close the chat, in which half a line stands, and see the world again."""
+        if self._screen.is_chat_open():
+            self._hands.saw("chat")
+            self._hands.tap("esc", on="chat")
+            self._hands.wait(self._profile.input.chat_close_s)
+        self._see_world()
 
     def _see_world(self) -> None:
         self.read()

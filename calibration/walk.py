@@ -9,6 +9,7 @@ from pathlib import Path
 import cv2
 
 from calibration.bench import BenchOf
+from calibration.console import Console
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found
 from calibration.walk_figure import picture_of_walk
@@ -16,14 +17,13 @@ from calibration.walk_fit import rms
 from calibration.walk_gauge import PLAIN_SPEED, Gauge, gauged
 from calibration.walk_keys import keys_in_words
 from calibration.walk_survey import AHEAD, SIDES, Survey
-from calibration.walker import Pose, Walker, seen_from
+from calibration.walker import Pose, Walker
 from mc_nested.arena.rules import SIZE, Cell
 from mc_nested.errors import NotConfirmedError, ProfileError
 from mc_nested.live.at_rest import read_at_rest
-from mc_nested.live.chat import Chat
 from mc_nested.live.commands import clear_command, teleport_command
 from mc_nested.live.font import load_font
-from mc_nested.live.game_screen import GameScreen, WindowScreen
+from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.profile import Profile, save_profile
 from mc_nested.live.profile_tables import Arena
 from mc_nested.live.session import overlay_of
@@ -34,9 +34,6 @@ MIDDLE: Cell = (SIZE // 2, SIZE // 2)
 
 TIMED = (5, 5, 4, 4, 6, 6, 2, 2)
 """Ticks of the holds that are predicted before they are pressed, there and back: most of them as for one cell."""
-
-ARRIVED = 0.01
-"""Blocks that somebody may be off where a command has put them."""
 
 NEAR = 0.15
 """Blocks from where it began at which the walker needn't walk back any more."""
@@ -82,10 +79,10 @@ def walk(bench: Bench, profile: Profile) -> Found:
     screen = WindowScreen(bench.desktop.display, load_font(profile.screen.font_path()), overlay_of(profile))
     bench.say("Measuring how you walk, for about a minute: leave mouse and keys alone.")
     read_at_rest(bench.desktop.display, bench.desktop.clock, screen.read)
-    walker = Walker(bench, profile, screen)
+    walker, console = Walker(bench, profile, screen), Console(bench, profile, screen)
     began = walker.look()
     if profile.arena is not None and profile.world is None:
-        _teleport_into(profile.arena, bench, profile, screen, walker)
+        _teleport_into(profile.arena, console, profile, walker)
     survey = Survey(walker, profile.keys, bench.desktop.clock)
     keys = survey.find_keys()
     survey.find_floor()
@@ -94,7 +91,7 @@ def walk(bench: Bench, profile: Profile) -> Found:
     predicted = _predict(gauge, survey)
     gauge = gauged(survey.holds)
     if profile.arena is not None and profile.world is None:
-        _send(_back_to(began), bench, profile, screen)
+        console.send(_back_to(began))
         _arrive(walker, began)
     else:
         _walk_back(gauge, survey)
@@ -135,9 +132,9 @@ def _walk_back(gauge: Gauge, survey: Survey) -> None:
             survey.hold_homewards(axis, max(1, nearest_ticks(offset, covered)), gauge.beat - gauge.trip + TICK_S / 2)
 
 
-def _teleport_into(arena: Arena, bench: Bench, profile: Profile, screen: GameScreen, walker: Walker) -> None:
-    _send(clear_command(arena), bench, profile, screen)
-    _send(teleport_command(arena, MIDDLE, profile.body.pitch), bench, profile, screen)
+def _teleport_into(arena: Arena, console: Console, profile: Profile, walker: Walker) -> None:
+    console.send(clear_command(arena))
+    console.send(teleport_command(arena, MIDDLE, profile.body.pitch))
     _arrive(walker, Pose(arena.centre_of(MIDDLE), arena.yaw, profile.body.pitch))
 
 
@@ -146,17 +143,8 @@ def _back_to(pose: Pose) -> str:
     return f"/tp @s {x:.3f} {y:.3f} {z:.3f} {pose.yaw:.1f} {pose.pitch:.1f}"
 
 
-def _send(command: str, bench: Bench, profile: Profile, screen: GameScreen) -> None:
-    if screen.is_chat_open():
-        raise NotConfirmedError("the chat is open: leave mouse and keys alone while this walks")
-    bench.hands.saw("world")
-    Chat(profile, bench.hands, screen, bench.desktop.clock).send(command)
-
-
 def _arrive(walker: Walker, pose: Pose) -> None:
-    seen = walker.stand()
-    off = max(map(abs, seen_from(pose, seen.xyz)))
-    if off > ARRIVED:
+    if not walker.arrives(pose):
         x, y, z = pose.xyz
         raise NotConfirmedError(
             f"the teleport to {x:g} {y:g} {z:g} was not seen: are cheats on, and is this the world of the arena?"

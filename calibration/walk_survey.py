@@ -20,6 +20,9 @@ from mc_nested.live.walk import TICK_S, Gait
 REACH = 2.0
 """Blocks from where it began that are walked in: nine ticks of walking."""
 
+NEEDED = 1.6
+"""Blocks that have to be free on each side: seven ticks, and a little that a lost key may lead on."""
+
 PROBE_S, OUT_S = 5 * TICK_S, 31 * TICK_S
 """Seconds of a sneaking step that shows where a key leads, and of the longest way out: 0.3 and 2.0 blocks."""
 
@@ -31,9 +34,6 @@ LONG_ENOUGH_S = 35.0
 
 TRIES = 3
 """How often a key is tried that seemed to do nothing: on a busy machine a press may be lost."""
-
-STOPPED_S = 0.2
-"""Seconds before a release since when the walker hadn't moved: something is in the way."""
 
 CARRIED_OFF = 4.0
 """Blocks from where it began at which nobody could have walked by these holds."""
@@ -109,13 +109,13 @@ class Survey:
         """Sneak out and back along each way: how far it is free; UserError where that is too little."""
         for way in WAYS:
             covered = self._sneak_out(way)
-            if covered < REACH and self._is_stopped():
+            if covered < NEEDED:
                 raise UserError(
                     f"{covered:.1f} blocks {way} of where you stand something is in the way, or the floor ends: stand "
                     f"where it is flat and free for {REACH + 1:g} blocks on every side"
                 )
             self.reach = min(self.reach, covered)
-            self._hold(OPPOSITE[way], "sneak", self.holds[-1].asked)
+            self._hold(OPPOSITE[way], "sneak", OUT_S / TICK_S, farthest=covered)
 
     def walk(self) -> None:
         """Walking holds of 1, 2, 3 ticks and more, there and back, as far as the floor is known to be free."""
@@ -153,16 +153,15 @@ class Survey:
         return None
 
     def _sneak_out(self, way: Way) -> float:
+        """How far that leads. A short way is tried again: a picture that stalls looks like a wall."""
+        axis, sign = _axis_of(way)
+        covered = 0.0
         for _ in range(TRIES):
-            self._hold(way, "sneak", OUT_S / TICK_S, farthest=REACH)
-            track = self.holds[-1].track
-            if track is not None:
-                return track.covered[-1]
-        return 0.0
-
-    def _is_stopped(self) -> bool:
-        walked = self.holds[-1].walked
-        return not walked.sightings or walked.sightings[-1].at < walked.released - STOPPED_S
+            self._hold(way, "sneak", OUT_S / TICK_S, farthest=REACH - covered)
+            covered = seen_from(self.home, self.holds[-1].walked.end)[axis] * sign
+            if covered >= NEEDED:
+                break
+        return covered
 
     def _hold(
         self, way: Way, gait: Gait, ticks: float, phase: float | None = None, farthest: float = float("inf")

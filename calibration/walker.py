@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 from calibration.step import Bench
 from mc_nested.errors import NotConfirmedError, UnreadableError
@@ -13,8 +14,12 @@ from mc_nested.live.walk import TICK_S
 LOOK_S = 0.008
 """Seconds between two looks: two a frame, so that each step is seen within a frame of being drawn."""
 
-SETTLE_S = 0.25
-"""Seconds of the same place, five ticks, after which the walker stands."""
+SETTLE_S, STALL_S = 0.25, 1.0
+"""Seconds of the same place, five ticks, after which the walker stands; and after which so does one who wasn't seen to
+move, or whose picture stalled on the way: a busy machine shows nothing for a while, too."""
+
+GAPS = 3
+"""So many times the longest time from one new place to the next is waited for another one."""
 
 RUNAWAY_S = 0.3
 """Seconds after which a walker whose keys are up, and who still goes on, has them released once more."""
@@ -24,6 +29,9 @@ RISE = 0.05
 
 TURN = 0.5
 """Degrees that the view may turn: the debug screen shows tenths."""
+
+ARRIVED = 0.01
+"""Blocks that somebody may be off where a command has put them."""
 
 XYZ = tuple[float, float, float]
 
@@ -89,6 +97,15 @@ class Walker:
         pose = self.look()
         return pose if pose.xyz == self._rest else self._settled(pose, [], self._clock.now())
 
+    def arrives(self, pose: Pose) -> bool:
+        """Wait until the player is seen there, as after a teleport; False where that isn't seen within the patience."""
+        until = self._clock.now() + self._patience_s
+        while not _is_at(pose, self.look()):
+            if self._clock.now() >= until:
+                return False
+            self._hands.wait(LOOK_S)
+        return True
+
     def hold(self, seconds: float, *keys: str, phase: float | None = None, farthest: float = math.inf) -> Walked:
         """Hold keys of the world from rest, and follow the walker until standstill.
 
@@ -132,17 +149,17 @@ class Walker:
                 self._hands.keep_until(released, *keys)
         self._hands.wait_until(released)
         released = self._clock.now()
-        self._settled(begin, seen, since)
+        self._settled(begin, seen, since, is_held=True)
         return released
 
-    def _settled(self, begin: Pose, seen: list[Sighting], since: float) -> Pose:
-        """Follow the walker, whose keys are up, until standstill."""
+    def _settled(self, begin: Pose, seen: list[Sighting], since: float, *, is_held: bool = False) -> Pose:
+        """Follow the walker, whose keys are up, ``is_held`` until just now, to a standstill."""
         began = self._clock.now()
         until, again = began + self._patience_s, began + RUNAWAY_S
         while True:
             now = self._clock.now()
             last = max(began, seen[-1].at) if seen else began
-            if now - last >= SETTLE_S:
+            if now - last >= (_settle_s(seen) if is_held else SETTLE_S):
                 self._rest = seen[-1].xyz if seen else begin.xyz
                 return Pose(self._rest, begin.yaw, begin.pitch)
             if now >= until:
@@ -184,6 +201,18 @@ class Walker:
         if pose.xyz != (seen[-1].xyz if seen else begin.xyz):
             seen.append(Sighting(since, at, pose.xyz))
         return at
+
+
+def _settle_s(seen: list[Sighting]) -> float:
+    if len(seen) < 2:
+        return STALL_S
+    longest = max(after.at - before.at for before, after in pairwise(seen))
+    return min(STALL_S, max(SETTLE_S, GAPS * longest))
+
+
+def _is_at(pose: Pose, seen: Pose) -> bool:
+    off = max(map(abs, seen_from(pose, seen.xyz)))
+    return off <= ARRIVED and turn_between(pose.yaw, seen.yaw) <= TURN and abs(pose.pitch - seen.pitch) <= TURN
 
 
 def seen_from(pose: Pose, xyz: XYZ) -> tuple[float, float]:

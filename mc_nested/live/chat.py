@@ -40,12 +40,14 @@ class Chat:
             self._see(lambda: self._screen.is_typed("") and self._screen.is_chat_open(), "the chat did not open, empty")
         else:
             self._hands.wait(self._timing.chat_open_s)
-        for first in range(0, len(line), AT_ONCE):
+        # Where nothing can be looked at, a letter that comes late must not end the line.
+        at_once = AT_ONCE if self._timing.reads_chat else 1
+        for first in range(0, len(line), at_once):
             # Looked at again and again: on a busy machine a line takes a while, and the chat may close.
             if self._timing.reads_chat:
                 self._see(self._screen.is_chat_open, "the chat did not stay open")
             self._hands.saw("chat")
-            self._hands.type_line(line[first : first + AT_ONCE])
+            self._hands.type_line(line[first : first + at_once])
         if self._timing.reads_chat:
             self._see(lambda: self._screen.is_typed(line), f"{line!r} was not seen in the chat")
         self._hands.saw("chat")

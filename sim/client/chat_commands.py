@@ -14,7 +14,7 @@ _TIMES = {"day": 1000, "noon": 6000, "night": 13000, "midnight": 18000}
 _SELF = ("@s", "@p", "@a")
 _BEFORE_1_13 = {"planks", "grass", "wool", "log"}
 _SINCE_1_13 = {"oak_planks", "birch_planks", "grass_block", "white_wool", "oak_log", "smooth_stone"}
-_ALWAYS = {AIR, "stone", "dirt", "cobblestone", "glass", "sand", "bedrock", "tnt", "obsidian", "glowstone"}
+_ALWAYS = {AIR, "stone", "dirt", "cobblestone", "glass", "sand", "bedrock", "tnt", "obsidian", "lapis_block"}
 _RULES = {
     "doDaylightCycle": "advance_time",
     "doWeatherCycle": "advance_weather",

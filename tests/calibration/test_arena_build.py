@@ -60,7 +60,7 @@ def test_on_a_free_floor_only_the_border_is_built_and_all_of_it_is_undone(versio
     assert found.profile.game.version == version
     assert "There is only air" in questions[0]
     assert "The floor, bedrock, is flat: it stays" in questions[0]
-    ring = {block for block, name in client.built.items() if name == "glowstone" and block[1] == 64}
+    ring = {block for block, name in client.built.items() if name == "lapis_block" and block[1] == 64}
     assert len(ring) == 4 * 16
     low, high = box_of(HERE)
     assert all(low[0] <= x <= high[0] and low[2] <= z <= high[2] for x, _, z in client.built)

@@ -61,10 +61,10 @@ def test_everything_is_written_out_for_one_arena() -> None:
     assert build_commands(profile, ARENA, ("oak_planks", "stone"), builds_floor=True) == [
         "/fill -5 63 19 11 63 35 minecraft:obsidian",
         "/fill -4 64 20 10 65 34 minecraft:air",
-        "/fill -5 64 19 11 64 19 minecraft:glowstone",
-        "/fill -5 64 19 -5 64 35 minecraft:glowstone",
-        "/fill -5 64 35 11 64 35 minecraft:glowstone",
-        "/fill 11 64 19 11 64 35 minecraft:glowstone",
+        "/fill -5 64 19 11 64 19 minecraft:lapis_block",
+        "/fill -5 64 19 -5 64 35 minecraft:lapis_block",
+        "/fill -5 64 35 11 64 35 minecraft:lapis_block",
+        "/fill 11 64 19 11 64 35 minecraft:lapis_block",
         "/gamemode creative",
         "/difficulty peaceful",
         "/time set 6000",
@@ -104,9 +104,9 @@ def test_1_12_gets_its_own_blocks_and_syntax() -> None:
 
 
 def test_the_border_is_no_material() -> None:
-    assert border_block(("stone", "oak_planks")) == "glowstone"
-    assert border_block(("glowstone", "glass")) == "obsidian"
-    assert FLOOR not in BORDERS[:2]
+    assert border_block(("stone", "oak_planks")) == "lapis_block"
+    assert border_block(("lapis_block", "stone")) == "mossy_cobblestone"
+    assert FLOOR not in BORDERS
 
 
 @pytest.mark.parametrize(
