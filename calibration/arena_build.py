@@ -22,6 +22,7 @@ from calibration.arena_words import how_to_undo, lines, question
 from calibration.bench import BenchOf
 from calibration.chat_region import without_chat
 from calibration.console import Console
+from calibration.kept import keep
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found, Picture
 from mc_nested.arena.rules import SIZE, Cell, is_inside
@@ -72,6 +73,7 @@ def calibrate_built_arena(
     with bench_of(profile) as bench:
         found = build_arena(bench, profile, standing=standing, yes=yes)
     save_profile(found.profile, path)
+    keep(path, [found])
     return found, path
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from calibration.bench import BenchOf
 from calibration.clicks_by_hand import largest_scale, record
 from calibration.clicks_shown import Point, dry_run, picture_of, picture_of_screen
+from calibration.kept import keep
 from calibration.menu_walk import MenuWalk
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found, Picture
@@ -98,6 +99,7 @@ def calibrate_clicks(
                 bench.say(line)
             return None
     write_found(found, path)
+    keep(path, [found])
     picture = picture_file(path)
     write_picture(found.pictures[0].frame, picture)
     return found, picture

@@ -11,6 +11,7 @@ from calibration.cross_check import cross_check
 from calibration.font_problems import Candidate, fits_in_part, nothing_fits
 from calibration.font_sources import FontSources, font_sources
 from calibration.game_folders import System
+from calibration.kept import keep
 from calibration.read_back import ReadLine, phase_of, read_back, side_by_side
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found, Picture
@@ -61,6 +62,7 @@ def calibrate_font(
     with bench_of(profile) as bench:
         found = find_font(bench, profile, sources_for(bench, profile, font, sources))
     write_found(found, path)
+    keep(path, [found])
     picture = path.with_name(f"{path.stem}-font.png")
     write_picture(found.pictures[0].frame, picture)
     return found, picture

@@ -70,7 +70,7 @@ def prove(bench: Bench, profile: Profile, *, is_server_allowed: bool = False) ->
         profile,
         (
             f"{len(ACTIONS)} actions, {len(placed)} blocks: each where it should be",
-            f"{seconds:.2f} s an action (median), {again} of their moves and clicks done twice",
+            f"{seconds:.2f} s an action (median), {again} moves and clicks repeated",
         ),
         len(ACTIONS),
         (Picture("What the proof built", seen, "cleared again afterwards"),),

@@ -34,6 +34,9 @@ TITLES: Mapping[str, str] = {
 }
 """What the steps are called for a person, in the order of the guided run; any other step is called by its name."""
 
+SEEN = "the place where you stood, the game's and the computer's lines on the debug screen, the names of your worlds"
+"""What of a person's own the pictures of a whole calibration show."""
+
 STATUSES: tuple[Status, ...] = ("fail", "warn", "pass", "skip")
 """Of checks, the worst first."""
 
@@ -66,6 +69,7 @@ def contents(report: Report) -> list[str]:
         else "no doctor's table: none was kept",
         f"what was found: {_count(lines, 'line')} ({steps})" if steps else "no findings: none were kept",
         _about_pictures(report),
+        *([f"to be seen on them: {SEEN}"] if report.with_pictures and _titles(kept) else []),
         "the profile's text, with the place of your arena in your world, the folders it names and your own comments",
         "not in it: anything outside the game's window; your home folder is written ~, names of accounts <user>",
     ]
@@ -158,13 +162,17 @@ def _in_order(steps: Sequence[KeptStep]) -> list[KeptStep]:
 
 
 def _about_pictures(report: Report) -> str:
-    titles = [picture.title for step in _in_order(report.kept.steps) for picture in step.pictures]
+    titles = _titles(report.kept)
     if not titles:
         return "no pictures: none were kept"
     if not report.with_pictures:
         return f"no pictures: {len(titles)} left out"
     shown = "; ".join(titles)
     return f"{_count(len(titles), 'picture')} of the game's window, its chat blanked, or drawn: {shown}"
+
+
+def _titles(kept: Kept) -> list[str]:
+    return [picture.title for step in _in_order(kept.steps) for picture in step.pictures]
 
 
 def _count(number: int, what: str) -> str:

@@ -10,6 +10,7 @@ import cv2
 
 from calibration.bench import BenchOf
 from calibration.console import Console
+from calibration.kept import keep
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found
 from calibration.walk_figure import picture_of_walk
@@ -56,6 +57,7 @@ def calibrate_walk(profile_name: str | Path, bench_of: BenchOf) -> tuple[Found, 
     with bench_of(profile) as bench:
         found = walk(bench, profile)
     save_profile(found.profile, path)
+    keep(path, [found])
     picture = path.with_name(f"{path.stem}-walk.png")
     try:
         picture.write_bytes(cv2.imencode(".png", found.pictures[0].frame)[1].tobytes())

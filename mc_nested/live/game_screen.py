@@ -1,5 +1,6 @@
 """What is looked at on the game's window: the debug screen, the chat's input line, the menus. Never a guess."""
 
+from collections.abc import Iterator
 from typing import Protocol
 
 import numpy as np
@@ -32,6 +33,9 @@ _FIRST = 7
 """Columns of dots that hold the first character of a line, most being five wide."""
 
 _LEAST_INK = 3
+
+_LEFT_FREE = 14
+"""Columns that a line which is too long may leave free: those of the two widest letters."""
 
 
 WORLDS_TITLE = "Select World"
@@ -109,12 +113,24 @@ class WindowScreen:
         ink = self._line()[:GLYPH_ROWS].max(2) > _GROUND
         seen = np.packbits(ink, axis=0, bitorder="little").tobytes()
         for line in (f"{text}_", text):
-            # Of a line that is too long the game shows the end.
-            ends = (self._font.columns(line[first:]) for first in range(len(line)))
-            shown = next((columns for columns in ends if len(columns) <= len(seen)), b"")
-            if seen.startswith(shown) and not any(seen[len(shown) :]):
-                return True
+            for shown in self._ends(line, len(seen)):
+                if seen.startswith(shown) and not any(seen[len(shown) :]):
+                    return True
         return False
+
+    def _ends(self, line: str, room: int) -> Iterator[bytes]:
+        """The columns of a line; of one that is too long for so many of them, those of each end that about fills them.
+
+        The game shows the end of such a line, and leaves room for a letter or two.
+        """
+        for first in range(max(1, len(line))):
+            columns = self._font.columns(line[first:]).rstrip(b"\0")
+            if len(columns) <= room:
+                if first and len(columns) < room - _LEFT_FREE:
+                    return
+                yield columns
+                if not first:
+                    return
 
     def menu(self) -> Labels:
         return Menu(self._display.grab(), self._font)

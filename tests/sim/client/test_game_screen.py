@@ -49,6 +49,32 @@ def test_the_chats_line_is_seen_with_what_is_typed(version: str, scale: int) -> 
     assert not screen.is_typed("/tp @s 1.5 64 3.5 -90 6")
 
 
+@pytest.mark.parametrize("width", [640, 661, 689, 717, 731, 759, 815, 857, 899, 913])
+def test_a_line_that_is_about_as_long_as_the_window_is_wide_is_seen_at_any_width(width: int) -> None:
+    client = VirtualClient(size=(width, 480))
+    screen = _screen(client)
+    client.game.open("chat")
+    line = "/execute if blocks 11727 98 -7577 11743 100 -7561 11727 101 -7577 all run tp @s ~ ~ ~ 90 22"
+    client.keyboard.type(line[1:])
+    client.clock.sleep(0.2)
+    assert not screen.is_typed(line[1:-1])
+    assert screen.is_typed(line[1:])
+    is_whole = len(FONT.columns(f"{line}_")) <= (width // 2) - 8
+    assert not (is_whole and screen.is_typed(line)), "a first letter that was lost is noticed wherever it would be seen"
+
+
+def test_the_open_chat_is_seen_to_be_empty_whether_its_cursor_is_there_or_not() -> None:
+    client = VirtualClient(world="dark")
+    screen = _screen(client)
+    assert screen.is_typed("")
+    client.game.open("chat")
+    client.clock.sleep(0.2)
+    assert screen.is_typed("")
+    client.keyboard.type("t")
+    client.clock.sleep(0.2)
+    assert not screen.is_typed("")
+
+
 def test_of_a_line_that_is_too_long_its_end_is_seen() -> None:
     client = VirtualClient()
     screen = _screen(client)

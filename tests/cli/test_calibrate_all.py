@@ -1,0 +1,105 @@
+"""``mc-nested calibrate all``: what it says step by step, its exit codes, and the report beside the profile."""
+
+from pathlib import Path
+
+import pytest
+
+from calibration.doctor.check import NAMES, Check
+from calibration.run_steps import Step
+from calibration.step import Bench, Found
+from mc_nested.cli import calibrate_all
+from mc_nested.cli.app import main
+from mc_nested.errors import LiveError
+from mc_nested.live.profile import Profile
+from mc_nested.live.profile_tables import Screen
+from scripts.bench_calibration import bench_of, font_in
+from sim.client.client import VirtualClient
+
+
+@pytest.fixture
+def client() -> VirtualClient:
+    client = VirtualClient(pitch=40.0)
+    client.clock.sleep(0.3)
+    return client
+
+
+def code_of(profile: Path) -> int | str | None:
+    with pytest.raises(SystemExit) as ended:
+        main(["calibrate", "all", "--yes", "--profile", str(profile)])
+    return ended.value.code
+
+
+def set_up(monkeypatch: pytest.MonkeyPatch, client: VirtualClient, *steps: Step, failing: str | None = None) -> None:
+    """From here on the desktop has that client's window alone, and these are the steps."""
+    rows = [
+        Check(name, "fail", "it is wrong", "mend it") if name == failing else Check(name, "pass", "") for name in NAMES
+    ]
+    monkeypatch.setattr(calibrate_all, "bench_for", lambda _say, _ask: bench_of(client))
+    monkeypatch.setattr(calibrate_all, "guided_steps", lambda *_, **__: list(steps))
+    monkeypatch.setattr(calibrate_all, "_examined", lambda _name: rows)
+
+
+def with_font(folder: Path) -> Step:
+    font = str(font_in(folder))
+
+    def run(bench: Bench, profile: Profile) -> Found:
+        bench.desktop.clock.sleep_until(bench.desktop.clock.now() + 4)
+        return Found("font", profile.model_copy(update={"screen": Screen(font=font)}), ("GUI scale 2",), 3)
+
+    return Step("font", run)
+
+
+def failing(error: BaseException, *, is_needed: bool = True) -> Step:
+    def run(_bench: Bench, _profile: Profile) -> Found:
+        raise error
+
+    return Step("clicks", run, is_needed)
+
+
+def test_each_step_is_said_with_what_it_found_and_the_report_is_made(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    profile = tmp_path / "mine.toml"
+    nothing = failing(LiveError("no button 'Back to Game' is to be seen"), is_needed=False)
+    set_up(monkeypatch, client, with_font(tmp_path), nothing, failing="autoJump")
+    assert code_of(profile) in (0, None)
+    said = capsys.readouterr().out.splitlines()
+    assert said[:6] == [
+        f"doctor: {len(NAMES) - 1} pass, 1 fail",
+        "    fail: autoJump: it is wrong; mend it",
+        "1/2 Font and screen",
+        "    GUI scale 2",
+        "    [4 s, 4 s in all]",
+        "2/2 Click points",
+    ]
+    assert "    warning: no button 'Back to Game' is to be seen; the run goes on without it" in said
+    assert "calibrated in 4 s, without: Click points" in said
+    assert f"profile: {profile}" in said
+    assert "GUI scale 2" in (tmp_path / "mine-calibration.html").read_text("utf-8")
+
+
+def test_what_fails_is_one_line_and_leaves_nothing(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    set_up(monkeypatch, client, with_font(tmp_path), failing(LiveError("no button is to be seen")))
+    assert code_of(tmp_path / "mine.toml") == 2
+    error = capsys.readouterr().err
+    assert error == "mc-nested: clicks: no button is to be seen (the profile is as it was)\n"
+    assert list(tmp_path.glob("mine*")) == []
+
+
+def test_ctrl_c_is_one_line_and_leaves_nothing(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    set_up(monkeypatch, client, with_font(tmp_path), failing(KeyboardInterrupt()))
+    assert code_of(tmp_path / "mine.toml") == 130
+    assert capsys.readouterr().err == "mc-nested: stopped\n"
+    assert list(tmp_path.glob("mine*")) == []
+
+
+def test_a_row_of_the_doctors_that_all_needs_ends_it_with_its_remedy(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    set_up(monkeypatch, client, with_font(tmp_path), failing="in front")
+    assert code_of(tmp_path / "mine.toml") == 2
+    assert capsys.readouterr().err == "mc-nested: in front: it is wrong: mend it\n"
