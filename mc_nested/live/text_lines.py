@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.live.devices import Frame
-from mc_nested.live.dots import Dots
+from mc_nested.live.dots import GLYPH_ROWS, Dots
 from mc_nested.live.font import SPACE, Font, Glyph
 
 Colour = tuple[int, int, int]
@@ -95,22 +95,31 @@ def line_from(dots: Dots, font: Font, overlay: Overlay, row: int, start: int, ed
 
     Where text is aligned at a last column ``edge``, and the line is seen to end there, what lies behind is not read.
     """
-    strip = _strip(dots, row, start, start + _MOSTLY, overlay.colour)
-    if 0 not in strip.boxed:
-        strip = _strip(dots, row, start, start + _LONGEST, overlay.colour)
+    line, is_bounded = _line_in(_pixels(dots, row, start, start + _MOSTLY), font, overlay, row, start, edge)
+    if not is_bounded:
+        line, _ = _line_in(_pixels(dots, row, start, start + _LONGEST), font, overlay, row, start, edge)
+    return line
+
+
+@lru_cache(64)  # most lines look as they did in the picture before
+def _line_in(pixels: bytes, font: Font, overlay: Overlay, row: int, start: int, edge: int | None) -> tuple[Line, bool]:
+    """The line that begins a picture (8, columns, 3), and whether its box is seen to end in it."""
+    strip = _strip_of(_picture(pixels), start, overlay.colour)
     columns = _in_the_box(strip)
     text, last = decode(columns, font)
     if edge is not None and start + last > edge:
         aligned, end = decode(columns[: edge - start + 1], font)
         text, last = (aligned, end) if start + end == edge and UNKNOWN not in aligned else (text, last)
-    return Line(text, row, start, start + last, _is_whole(strip, last, overlay))
+    return Line(text, row, start, start + last, _is_whole(strip, last, overlay)), 0 in strip.boxed
 
 
 def is_text(dots: Dots, font: Font, overlay: Overlay, row: int, start: int) -> bool:
     """Whether a line begins there, as far as its first three characters say."""
     if not 0 <= row < dots.rows:
         return False
-    text, _ = decode(_in_the_box(_strip(dots, row, start, start + _THREE_LETTERS, overlay.colour)), font)
+    text, _ = decode(
+        _in_the_box(_strip_of(dots.strip(row, start, start + _THREE_LETTERS), start, overlay.colour)), font
+    )
     return len(text) > 2 and UNKNOWN not in text[:3]
 
 
@@ -119,11 +128,17 @@ def line_up_to(dots: Dots, font: Font, overlay: Overlay, row: int, end: int) -> 
     if not 0 <= row < dots.rows:
         return None
     first = max(0, end + 1 - _LONGEST)
+    return _line_ending_in(_pixels(dots, row, first, end + 4), font, overlay, row, first, end)
+
+
+@lru_cache(64)
+def _line_ending_in(pixels: bytes, font: Font, overlay: Overlay, row: int, first: int, end: int) -> Line | None:
     last = end - first
-    strip = _strip(dots, row, first, end + 4, overlay.colour)
+    picture = _picture(pixels)
+    strip = _strip_of(picture, first, overlay.colour)
     has_value = not strip.ink[last]
     if has_value:
-        strip = _strip(dots, row, first, end + 4, overlay.colour, *_VALUE_COLOURS)
+        strip = _strip_of(picture, first, overlay.colour, *_VALUE_COLOURS)
     if not strip.ink[last] or any(strip.ink[last + 1 : last + 2]):
         return None
     left = strip.boxed.rfind(0, 0, last + 1) + 1
@@ -168,9 +183,16 @@ def _gapped(columns: bytes, at: int, font: Font) -> Glyph | None:
     return None
 
 
-def _strip(dots: Dots, row: int, first: int, last: int, *colours: Colour) -> _Strip:
-    """The line's columns from ``first`` to before ``last``, with these colours as ink."""
-    picture = dots.strip(row, first, last)
+def _pixels(dots: Dots, row: int, first: int, last: int) -> bytes:
+    return dots.strip(row, first, last).tobytes()
+
+
+def _picture(pixels: bytes) -> Frame:
+    return np.frombuffer(pixels, np.uint8).reshape(GLYPH_ROWS, -1, 3)
+
+
+def _strip_of(picture: Frame, first: int, *colours: Colour) -> _Strip:
+    """A picture (8, columns, 3) that begins at column ``first``, with these colours as ink."""
     ink = ink_of(picture, *colours)
     ground = np.asarray(cv2.inRange(picture, (_DARKEST,) * 3, (_BRIGHTEST,) * 3), np.uint8)
     return _Strip(first, picture, columns_of(ink), np.bitwise_and.reduce(ink | ground, axis=0).tobytes())
