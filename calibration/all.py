@@ -14,7 +14,7 @@ from typing import Protocol
 from calibration import run_steps
 from calibration.bench import BenchOf
 from calibration.doctor.check import Check
-from calibration.kept import keep
+from calibration.report.kept import keep
 from calibration.run_steps import Guided, Step
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found

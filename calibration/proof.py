@@ -9,7 +9,7 @@ from above, S the start, blocks by the action that places them; the agent ends w
 
 from statistics import median
 
-from calibration.chat_region import without_chat
+from calibration.report.chat_region import without_chat
 from calibration.step import Bench, Found, Picture
 from mc_nested.arena import rules
 from mc_nested.arena.game import Outcome

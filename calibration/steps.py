@@ -4,16 +4,16 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from calibration.arena import NEAR_MIDDLE
-from calibration.arena_build import build_arena
-from calibration.clicks import find_clicks
+from calibration.arena.build import build_arena
+from calibration.arena.stand import NEAR_MIDDLE
+from calibration.clicks.find import find_clicks
 from calibration.cross_check import cross_check
-from calibration.font import find_font, sources_for, sources_here
-from calibration.font_sources import FontSources
+from calibration.font.find import find_font, sources_for, sources_here
+from calibration.font.sources import FontSources
 from calibration.proof import prove
 from calibration.run_steps import Step
 from calibration.step import Bench, Found
-from calibration.walk import walk
+from calibration.walk.measure import walk
 from mc_nested.arena.rules import Cell
 from mc_nested.live.profile import Profile
 

@@ -33,7 +33,7 @@ from calibration.all import calibrate_all
 from calibration.bench import BenchOf
 from calibration.doctor.check import Check
 from calibration.doctor.examination import examine
-from calibration.game_folders import System
+from calibration.game.folders import System
 from calibration.step import Bench, Found
 from calibration.steps import guided_steps
 from mc_nested.arena.scenario import Scenario

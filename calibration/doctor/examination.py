@@ -13,9 +13,9 @@ from calibration.doctor.options_rows import option_rows, options_row
 from calibration.doctor.profile_rows import fit_row, font_row, profile_row
 from calibration.doctor.screen_rows import reduced_by_options, screen_rows
 from calibration.doctor.window_rows import window_rows
-from calibration.game_folders import GameFolder, System, game_folders
-from calibration.options_txt import OptionsTxt
-from calibration.running_games import Process, is_same, played_now, running
+from calibration.game.folders import GameFolder, System, game_folders
+from calibration.game.options_txt import OptionsTxt
+from calibration.game.running import Process, is_same, played_now, running
 from mc_nested.errors import DesktopError, NoWindowError
 from mc_nested.live.desktop import Desktop, open_desktop, session_kind
 from mc_nested.live.devices import Clipboard

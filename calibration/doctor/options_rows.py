@@ -1,8 +1,8 @@
 """The rows of options.txt: where it is, and each option that keeps an agent from playing."""
 
 from calibration.doctor.check import Check, told
-from calibration.game_folders import GameFolder
-from calibration.options_txt import ACTIONS, MOUSE, OptionsTxt, load_options, same_key
+from calibration.game.folders import GameFolder
+from calibration.game.options_txt import ACTIONS, MOUSE, OptionsTxt, load_options, same_key
 from mc_nested.errors import ProfileError
 from mc_nested.live.overlay import SCALES
 from mc_nested.live.profile_tables import Keys

@@ -1,7 +1,7 @@
 """The profile's rows: whether it can be read, whether it fits what is seen; and the font to read the game with."""
 
 from calibration.doctor.check import Check, told
-from calibration.game_folders import System, client_jars, jar_version
+from calibration.game.folders import System, client_jars, jar_version
 from mc_nested.errors import FontError, ProfileError
 from mc_nested.live.fingerprint import Seen, misfit
 from mc_nested.live.font import Font, load_font

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from calibration.doctor.examination import Examination
 from calibration.doctor.options_rows import gui_scale_row
-from calibration.options_txt import SAFE, OptionsTxt
-from calibration.running_games import may_hold
+from calibration.game.options_txt import SAFE, OptionsTxt
+from calibration.game.running import may_hold
 from mc_nested.errors import ProfileError
 
 GUI_SCALE = 2

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from calibration.doctor.check import Check, told
 from calibration.doctor.look import Look, Shown
 from calibration.doctor.options_rows import FIX
-from calibration.options_txt import OptionsTxt
+from calibration.game.options_txt import OptionsTxt
 from mc_nested.live.fingerprint import version_in
 from mc_nested.live.overlay import POSITION, REDUCED
 

@@ -8,12 +8,12 @@ from typing import Annotated
 import typer
 
 from calibration.all import calibrate_all
-from calibration.arena import NEAR_MIDDLE
+from calibration.arena.stand import NEAR_MIDDLE
 from calibration.bench import bench_for
 from calibration.doctor.check import Check
 from calibration.doctor.examination import examine
-from calibration.game_folders import System
-from calibration.report import TITLES
+from calibration.game.folders import System
+from calibration.report.page import TITLES
 from calibration.step import Found
 from calibration.steps import guided_steps
 from mc_nested.cli.calibrate_report import report_path, write_report

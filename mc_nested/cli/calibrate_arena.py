@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 
-from calibration.arena import NEAR_MIDDLE, calibrate_arena
-from calibration.arena_build import calibrate_built_arena
-from calibration.arena_undo import undo_built_arena
+from calibration.arena.build import calibrate_built_arena
+from calibration.arena.stand import NEAR_MIDDLE, calibrate_arena
+from calibration.arena.undo import undo_built_arena
 from calibration.bench import bench_for
 from mc_nested.cli.options import DEFAULT_PROFILE
 

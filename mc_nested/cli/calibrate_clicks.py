@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from calibration.bench import bench_for
-from calibration.clicks import calibrate_clicks, shown_clicks, try_clicks
+from calibration.clicks.find import calibrate_clicks, shown_clicks, try_clicks
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 from mc_nested.errors import UserError
 

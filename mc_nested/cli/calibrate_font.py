@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from calibration.bench import bench_for
-from calibration.font import calibrate_font
+from calibration.font.find import calibrate_font
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 
 

@@ -6,9 +6,9 @@ from typing import Annotated
 
 import typer
 
-from calibration.kept import load_kept
-from calibration.privacy import names_here
-from calibration.report import Report, contents, report_html
+from calibration.report.kept import load_kept
+from calibration.report.page import Report, contents, report_html
+from calibration.report.privacy import names_here
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption
 from mc_nested.errors import ProfileError
 from mc_nested.learn.whole_file import written_whole

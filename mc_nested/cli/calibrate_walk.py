@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from calibration.bench import bench_for
-from calibration.walk import calibrate_walk
+from calibration.walk.measure import calibrate_walk
 from mc_nested.cli.options import DEFAULT_PROFILE
 
 

@@ -14,7 +14,7 @@ from rich.text import Text
 from calibration.doctor.check import Check, Status
 from calibration.doctor.examination import Examination, examine
 from calibration.doctor.repair import repaired
-from calibration.game_folders import System
+from calibration.game.folders import System
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption
 from mc_nested.live.desktop.clipboard import open_clipboard
 

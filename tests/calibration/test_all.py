@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from calibration.all import GATES, Whole, calibrate_all
-from calibration.chat_region import without_chat
 from calibration.doctor.check import NAMES, Check
-from calibration.kept import kept_folder, load_kept
+from calibration.report.chat_region import without_chat
+from calibration.report.kept import kept_folder, load_kept
 from calibration.run_steps import Step
 from calibration.step import Bench, Found, Picture
 from calibration.steps import guided_steps

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from calibration.bench import BenchOf
-from calibration.clicks import calibrate_clicks
-from calibration.font import calibrate_font
-from calibration.font_sources import FontSources
+from calibration.clicks.find import calibrate_clicks
+from calibration.font.find import calibrate_font
+from calibration.font.sources import FontSources
 from mc_nested.errors import DesktopError, LiveError, McNestedError, NotInFrontError
 from mc_nested.live import way_back
 from mc_nested.live.devices import Frame, Region

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibration.kept import keep
+from calibration.report.kept import keep
 from calibration.step import Found, Picture
 from mc_nested.cli.app import main
 from mc_nested.live.profile import Profile, save_profile

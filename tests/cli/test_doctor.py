@@ -9,7 +9,7 @@ import pytest
 
 from calibration.doctor.check import NAMES, Check, Status
 from calibration.doctor.examination import Examination, examine
-from calibration.game_folders import System
+from calibration.game.folders import System
 from mc_nested.cli import doctor
 from mc_nested.cli.app import main
 from mc_nested.errors import DesktopError

@@ -9,7 +9,7 @@ import cv2
 
 from calibration.doctor.check import Check
 from calibration.doctor.examination import Examination, examine
-from calibration.game_folders import System
+from calibration.game.folders import System
 from mc_nested.live.desktop import Desktop
 from mc_nested.live.devices import Clipboard
 from mc_nested.live.profile import Profile, save_profile
@@ -18,7 +18,7 @@ from sim.client.client import VirtualClient
 from sim.client.font import drawn_atlas
 
 if TYPE_CHECKING:
-    from calibration.running_games import Process
+    from calibration.game.running import Process
 
 GOOD = """version:3465
 autoJump:false

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from calibration.doctor.check import NAMES
-from calibration.running_games import Process
+from calibration.game.running import Process
 from mc_nested.errors import DesktopError, NoWindowError
 from mc_nested.live.desktop import Desktop
 from mc_nested.live.devices import Frame, Region

@@ -6,7 +6,7 @@ import pytest
 
 from calibration.doctor.check import NAMES
 from calibration.doctor.options_rows import ROWS, gui_scale_row, keys_row, option_rows
-from calibration.options_txt import parse_options
+from calibration.game.options_txt import parse_options
 from mc_nested.live.profile_tables import Keys
 from tests.calibration.doctor.examined import GOOD
 

@@ -6,7 +6,7 @@ import pytest
 
 from calibration.doctor.examination import Examination
 from calibration.doctor.repair import repaired
-from calibration.running_games import Process
+from calibration.game.running import Process
 from mc_nested.errors import ProfileError
 from mc_nested.live.profile import Profile
 from mc_nested.live.profile_tables import Screen

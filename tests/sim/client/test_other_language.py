@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from calibration.clicks import calibrate_clicks
+from calibration.clicks.find import calibrate_clicks
 from mc_nested.errors import LiveError
 from mc_nested.live import way_back
 from mc_nested.live.click_points import ClickPoints, recorded

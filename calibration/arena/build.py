@@ -1,0 +1,173 @@
+"""Building the arena where the player stands: looked at first, asked about, copied, built, and looked at again.
+
+stand and look -> is it loaded, free, flat? -> the question -> a copy -> floor, border, rules, materials -> seen
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from calibration.arena.ground import Ground, looked_over
+from calibration.arena.plan import (
+    FLOOR,
+    border_block,
+    box_of,
+    build_commands,
+    copy_command,
+    moved,
+)
+from calibration.arena.questions import Questions
+from calibration.arena.sight import turned
+from calibration.arena.stand import NEAR_MIDDLE, arena_seen
+from calibration.arena.words import how_to_undo, lines, question
+from calibration.bench import BenchOf
+from calibration.console import Console
+from calibration.report.chat_region import without_chat
+from calibration.report.kept import keep
+from calibration.start import profile_to_calibrate
+from calibration.step import Bench, Found, Picture
+from mc_nested.arena.rules import SIZE, Cell, is_inside
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import NotConfirmedError, ProfileError, UserError
+from mc_nested.live.at_rest import read_at_rest
+from mc_nested.live.commands import teleport_command
+from mc_nested.live.fingerprint import game_in
+from mc_nested.live.font import load_font
+from mc_nested.live.game_screen import WindowScreen
+from mc_nested.live.profile import Profile, save_profile
+from mc_nested.live.profile_tables import Arena
+from mc_nested.live.reading import Block
+from mc_nested.live.session import overlay_of
+
+MIDDLE: Cell = (SIZE // 2, SIZE // 2)
+
+EDGES: tuple[tuple[Cell, float], ...] = (
+    ((SIZE // 2, SIZE - 1), 0.0),
+    ((SIZE - 1, SIZE // 2), 90.0),
+    ((SIZE // 2, 0), 180.0),
+    ((0, SIZE // 2), -90.0),
+)
+"""Cells in front of the middle of each border, and the turn, in degrees to the right, that looks at it from there."""
+
+
+def calibrate_built_arena(
+    profile_name: str | Path,
+    bench_of: BenchOf,
+    *,
+    standing: Cell = NEAR_MIDDLE,
+    font: Path | None = None,
+    yes: bool = False,
+) -> tuple[Found, Path]:
+    """Build the arena as ``build_arena`` does, and write it into a profile; what was found, and the profile's file.
+
+    ``font`` is the client jar or font picture to read with, noted in the profile; left out, the profile's own.
+    """
+    if not is_inside(standing):
+        raise UserError(f"cell {standing} lies outside the arena: choose 0 to {SIZE - 1} for x and y")
+    path, profile = profile_to_calibrate(profile_name)
+    if font is not None:
+        screen = profile.screen.model_copy(update={"font": str(font.expanduser().resolve())})
+        profile = profile.model_copy(update={"screen": screen})
+    if profile.screen.font is None:
+        raise ProfileError("the game's font is needed the first time: name its client jar with --font")
+    load_font(profile.screen.font_path())  # before a window is looked for
+    with bench_of(profile) as bench:
+        found = build_arena(bench, profile, standing=standing, yes=yes)
+    save_profile(found.profile, path)
+    keep(path, [found])
+    return found, path
+
+
+def shipped_materials() -> tuple[str, ...]:
+    """The blocks that the shipped scenarios are built of, in the order of the hotbar."""
+    return tuple(material.block for material in load_scenario("line").materials)
+
+
+def build_arena(
+    bench: Bench,
+    profile: Profile,
+    *,
+    standing: Cell = NEAR_MIDDLE,
+    yes: bool = False,
+) -> Found:
+    """Mark and build the arena around the player; the profile with it, and with the version that the title says.
+
+    Nothing is touched before the person has said yes, or with ``yes`` without asking. What stood there is copied into
+    the sky first, wherever the game can copy, and ``arena.copied_to`` says where.
+
+    Args:
+        bench: the devices and the person.
+        profile: with the font.
+        standing: the cell that the player stands on.
+        yes: build without asking.
+
+    Raises:
+        UserError: a stand that can't be the arena's, a world without commands, a place that isn't loaded, or a no.
+        NotConfirmedError: what was built is not what is seen.
+        NotInFrontError, UnreadableError: the game isn't in front, or its debug screen can't be read.
+    """
+    if profile.world is not None:
+        raise UserError("the profile's [world] has no commands: mark the arena only, with --mark-only")
+    blocks = shipped_materials()
+    screen = WindowScreen(bench.desktop.display, load_font(profile.screen.font_path()), overlay_of(profile))
+    bench.say("Stand on the middle of the arena's near edge and look across it; then leave mouse and keys alone.")
+    reading = read_at_rest(bench.desktop.display, bench.desktop.clock, screen.read)
+    arena = arena_seen(reading, standing)
+    profile = profile.model_copy(update={"game": game_in(bench.desktop.display.title(), profile.game)})
+    console = Console(bench, profile, screen)
+    ground = looked_over(console, Questions(console, profile, screen, arena.yaw), profile, arena, standing)
+    before = Picture("The place of the arena, before", without_chat(bench.desktop.display.grab(), screen.scale()))
+    old = profile.arena
+    if old is not None and old.copied_to is not None and box_of(old) == box_of(arena):
+        # The first copy is of what stood there before any arena did.
+        ground, arena = Ground(**{**vars(ground), "copy_to": None}), _with_copy(arena, old.copied_to)
+    if not yes and not bench.ask(question(arena, ground, old, blocks)):
+        raise UserError("the arena was not built: nothing was changed, in the world or in the profile")
+    if ground.copy_to is not None:
+        arena = _copied(bench, console, Questions(console, profile, screen, arena.yaw), arena, ground.copy_to)
+    for command in build_commands(profile, arena, blocks, builds_floor=not ground.keeps_floor):
+        console.send(command)
+    built = _seen_built(console, profile, arena, blocks, floor=ground.floor if ground.keeps_floor else FLOOR)
+    console.send(teleport_command(arena, standing, profile.body.pitch))
+    console.watch(lambda seen: seen.pitch is not None and abs(seen.pitch - profile.body.pitch) < 1, 1.0)
+    after = Picture("The arena", without_chat(bench.desktop.display.grab(), screen.scale()))
+    return Found(
+        "arena", profile.model_copy(update={"arena": arena}), tuple(lines(arena, ground)), built, (before, after)
+    )
+
+
+def _copied(bench: Bench, console: Console, questions: Questions, arena: Arena, to: Block) -> Arena:
+    box = box_of(arena)
+    console.send(copy_command(box, to))
+    if not questions.are_alike(box, to):
+        raise NotConfirmedError(f"the copy to {to} was not seen to be made: nothing else was changed, try again")
+    bench.say(
+        f"A copy of what stands there is at {to}. By hand it is put back with {copy_command(moved(box, to), box[0])}"
+    )
+    return _with_copy(arena, to)
+
+
+def _with_copy(arena: Arena, to: Block) -> Arena:
+    return arena.model_copy(update={"copied_to": to})
+
+
+def _seen_built(console: Console, profile: Profile, arena: Arena, materials: Sequence[str], *, floor: str) -> int:
+    """See the floor in the arena's middle and each border; how many looks that took."""
+    pitch, prefix = profile.body.pitch, profile.blocks.shown_prefix
+    x, y, z = arena.block_of((MIDDLE[0], MIDDLE[1] + 1))
+    expected = [(MIDDLE, 0.0, (x, y - 1, z), floor)]
+    outside = {0.0: (0, 1), 90.0: (1, 0), 180.0: (0, -1), -90.0: (-1, 0)}
+    for cell, turn in EDGES:
+        right, forward = outside[turn]
+        block = arena.block_of((cell[0] + right, cell[1] + forward))
+        expected.append((cell, turn, block, border_block(materials)))
+    for cell, turn, block, name in expected:
+        east, up, south = arena.centre_of(cell)
+        yaw = (arena.yaw + turn + 180) % 360 - 180
+        target = turned(console, f"{east:.1f} {up:.0f} {south:.1f} {yaw:g} {pitch:g}", yaw, pitch)
+        if target is None or target.pos != block or target.id != prefix + name:
+            seen = f"{target.id} at {target.pos}" if target else "nothing"
+            raise NotConfirmedError(
+                f"{name} should be seen at {block}, the screen says {seen}: are cheats on, and is the version right "
+                f"({profile.game.version})? {how_to_undo(arena)}"
+            )
+    return len(expected)

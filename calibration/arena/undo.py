@@ -1,0 +1,62 @@
+"""Putting back what stood where an arena was built, from the copy in the sky."""
+
+from pathlib import Path
+
+from calibration.arena.plan import box_of, copy_command, fill_command, moved
+from calibration.arena.questions import Questions
+from calibration.arena.stand import NEAR_MIDDLE
+from calibration.bench import BenchOf
+from calibration.console import Console
+from calibration.step import Bench, Found
+from mc_nested.errors import NotConfirmedError, UserError
+from mc_nested.live.at_rest import read_at_rest
+from mc_nested.live.commands import teleport_command
+from mc_nested.live.font import load_font
+from mc_nested.live.game_screen import WindowScreen
+from mc_nested.live.profile import Profile, load_profile, profile_path, save_profile
+from mc_nested.live.reading import Block
+from mc_nested.live.session import overlay_of
+
+
+def undo_built_arena(profile_name: str | Path, bench_of: BenchOf) -> tuple[Found, Path]:
+    """Put back what stood where a profile's arena is, and write that; what was done, and the profile's file."""
+    profile = load_profile(profile_name)
+    _copy_of(profile)
+    with bench_of(profile) as bench:
+        found = undo_arena(bench, profile)
+    save_profile(found.profile, profile_path(profile_name))
+    return found, profile_path(profile_name)
+
+
+def undo_arena(bench: Bench, profile: Profile) -> Found:
+    """Put back what stood where the profile's arena is, and forget the arena.
+
+    Raises:
+        UserError: no copy is known.
+        NotConfirmedError: the copy isn't where it was left, or was not seen put back; it is kept then.
+    """
+    arena, copied_to = profile.marked_arena(), _copy_of(profile)
+    screen = WindowScreen(bench.desktop.display, load_font(profile.screen.font_path()), overlay_of(profile))
+    bench.say("Switch to the game: what stood where the arena is will be put back.")
+    read_at_rest(bench.desktop.display, bench.desktop.clock, screen.read)
+    console = Console(bench, profile, screen)
+    questions = Questions(console, profile, screen, arena.yaw)
+    box = box_of(arena)
+    copy = moved(box, copied_to)
+    console.send(teleport_command(arena, NEAR_MIDDLE, profile.body.pitch))
+    floor = arena.block_of(NEAR_MIDDLE)
+    if questions.is_air((floor[0], copy[0][1], floor[2])):
+        raise NotConfirmedError(f"no copy is at {copy[0]} any more, nothing was touched: is this the arena's world?")
+    console.send(copy_command(copy, box[0]))
+    if not questions.are_alike(copy, box[0]):
+        raise NotConfirmedError(f"what is copied to {copy[0]} was not seen put back: nothing was removed, try again")
+    console.send(fill_command(copy, "air"))
+    line = f"What stood there is put back from {copy[0]}, and the copy is gone; time, weather, mobs and game mode stay."
+    return Found("arena", profile.model_copy(update={"arena": None}), (line,), 1)
+
+
+def _copy_of(profile: Profile) -> Block:
+    copied_to = profile.marked_arena().copied_to
+    if copied_to is None:
+        raise UserError("no copy is known of what stood where the arena is: the profile has no arena.copied_to")
+    return copied_to

@@ -1,0 +1,1 @@
+"""Places to click in the menus: found by their labels, recorded by hand, shown."""

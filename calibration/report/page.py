@@ -1,0 +1,179 @@
+"""The calibration report: one HTML file that needs nothing else, to look at and to attach to a bug report.
+
+profile, checks, findings -> a page of texts and pictures -> page.html.jinja -> HTML
+
+Every text goes out through ``Names.removed_from`` and is escaped; no line of the template can leave that out.
+"""
+
+import base64
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from importlib import resources
+from typing import Any
+
+import cv2
+from jinja2 import Environment, StrictUndefined
+from markupsafe import Markup
+
+from calibration.doctor.check import Status
+from calibration.report.kept import Kept, KeptStep
+from calibration.report.privacy import Names
+from calibration.step import Picture
+from mc_nested.live.devices import Frame
+from mc_nested.live.profile import Profile
+
+TITLES: Mapping[str, str] = {
+    "font": "Font and screen",
+    "arena": "Arena",
+    "walk": "Walk",
+    "clicks": "Click points",
+    "cross-check": "F3+C against the reader",
+    "proof": "Proof",
+}
+"""What the steps are called for a person, in the order of the guided run; any other step is called by its name."""
+
+SEEN = "the place where you stood, the game's and the computer's lines on the debug screen, the names of your worlds"
+"""What of a person's own the pictures of a whole calibration show."""
+
+STATUSES: tuple[Status, ...] = ("fail", "warn", "pass", "skip")
+"""Of checks, the worst first."""
+
+SMALL_BYTES = 400_000
+"""A picture that is larger as PNG goes in as JPEG: twenty of them must still fit into a bug report."""
+
+JPEG_QUALITY = 88
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a report is made of. ``text`` is the profile's file, comments included; ``version`` this program's."""
+
+    name: str
+    profile: Profile
+    text: str
+    kept: Kept
+    version: str
+    with_pictures: bool = True
+
+
+def contents(report: Report) -> list[str]:
+    """What is in the file and what isn't, one line each: shown on top of it, and to whoever makes it."""
+    kept = report.kept
+    steps = ", ".join(TITLES.get(step.step, step.step) for step in _in_order(kept.steps))
+    lines = sum(len(step.lines) for step in kept.steps)
+    return [
+        f"the doctor's table: {_count(len(kept.checks), 'check')}"
+        if kept.checks
+        else "no doctor's table: none was kept",
+        f"what was found: {_count(lines, 'line')} ({steps})" if steps else "no findings: none were kept",
+        _about_pictures(report),
+        *([f"what may be seen on them: {SEEN}"] if report.with_pictures and _titles(kept) else []),
+        "the profile's text, with the place of your arena in your world, the folders it names and your own comments",
+        "not in it: anything outside the game's window; your home folder is written ~, names of accounts <user>",
+    ]
+
+
+def report_html(report: Report, names: Names) -> str:
+    """The report as one HTML document: no script, and nothing that is fetched from anywhere."""
+    environment = Environment(
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        finalize=partial(_without, names),
+    )
+    template = (resources.files("calibration.report") / "page.html.jinja").read_text("utf-8")
+    return environment.from_string(template).render(_page(report))
+
+
+def _without(names: Names, value: Any) -> Any:
+    # Markup is what this module made itself: pictures, whose letters may read like a name by chance.
+    return names.removed_from(value) if isinstance(value, str) and not isinstance(value, Markup) else value
+
+
+def _page(report: Report) -> dict[str, Any]:
+    kept, calibrated = report.kept, report.profile.calibrated
+    statuses = Counter(check.status for check in kept.checks)
+    return {
+        "name": report.name,
+        "program": f"mc-nested {report.version}",
+        "contents": contents(report),
+        "tiles": _tiles(report),
+        "date": calibrated.date if calibrated else None,
+        "checked": kept.checked,
+        "checks": sorted(kept.checks, key=lambda check: STATUSES.index(check.status)),
+        "statuses": [(status, statuses[status]) for status in STATUSES if statuses[status]],
+        "steps": [_section(step, with_pictures=report.with_pictures) for step in _in_order(kept.steps)],
+        "text": report.text,
+    }
+
+
+def _tiles(report: Report) -> list[tuple[str, str]]:
+    """The fingerprint: what is known of the game and the window that this profile is for."""
+    calibrated, version = report.profile.calibrated, report.profile.game.version
+    if calibrated is None:
+        return [("Minecraft", version), ("Calibrated", "not as a whole")]
+    window = f"{calibrated.window[0]} × {calibrated.window[1]}" if calibrated.window else "unknown"  # noqa: RUF001
+    return [
+        ("Minecraft", calibrated.version or version),
+        ("Window", window),
+        ("GUI scale", str(calibrated.gui_scale or "unknown")),
+        ("Calibrated", calibrated.date),
+        ("Measurements", str(sum(calibrated.samples.values()))),
+    ]
+
+
+def _section(step: KeptStep, *, with_pictures: bool) -> dict[str, Any]:
+    return {
+        "id": step.step,
+        "title": TITLES.get(step.step, step.step),
+        "date": step.date,
+        "samples": _count(step.samples, "measurement") if step.samples else "",
+        "lines": step.lines,
+        "pictures": [_figure(picture) for picture in step.pictures] if with_pictures else [],
+    }
+
+
+def _figure(picture: Picture) -> dict[str, Any]:
+    height, width = picture.frame.shape[:2]
+    return {
+        "title": picture.title,
+        "note": picture.note,
+        "uri": Markup(data_uri(picture.frame)),  # noqa: S704 - made of base64 alone
+        "width": width,
+        "height": height,
+    }
+
+
+def data_uri(frame: Frame) -> str:
+    """A picture as a URI that holds it whole: PNG, or JPEG where that would be large."""
+    png = cv2.imencode(".png", frame)[1].tobytes()
+    kind, data = "png", png
+    if len(png) > SMALL_BYTES:
+        kind, data = "jpeg", cv2.imencode(".jpg", frame, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])[1].tobytes()
+    return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
+
+
+def _in_order(steps: Sequence[KeptStep]) -> list[KeptStep]:
+    order = list(TITLES)
+    return sorted(steps, key=lambda step: order.index(step.step) if step.step in order else len(order))
+
+
+def _about_pictures(report: Report) -> str:
+    titles = _titles(report.kept)
+    if not titles:
+        return "no pictures: none were kept"
+    if not report.with_pictures:
+        return f"no pictures: {len(titles)} left out"
+    shown = "; ".join(titles)
+    return f"{_count(len(titles), 'picture')} of the game's window, its chat blanked, or drawn: {shown}"
+
+
+def _titles(kept: Kept) -> list[str]:
+    return [picture.title for step in _in_order(kept.steps) for picture in step.pictures]
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"

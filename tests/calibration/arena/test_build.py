@@ -1,0 +1,247 @@
+"""Building the arena on the virtual client: what is asked, what is touched, what is built, and put back."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from calibration.arena.build import build_arena, calibrate_built_arena
+from calibration.arena.plan import box_of
+from calibration.arena.undo import undo_arena, undo_built_arena
+from calibration.step import Found
+from mc_nested.arena.rules import Action
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, UserError
+from mc_nested.live.game_screen import WindowScreen
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile import Profile, load_profile, save_profile
+from mc_nested.live.profile_tables import Arena
+from sim.client import chat_commands
+from sim.client.client import VirtualClient
+from sim.client.mishaps import Kind
+from tests.calibration.virtual_bench import bench_on, profile_of
+from tests.calibration.walk.test_measure import Cut
+from tests.sim.client.playing import FONT
+
+HERE = Arena.around((7, 64, 0), "south")
+"""The arena of a player who stands where virtual clients begin, and looks south."""
+
+LONGEST_S = 60.0
+
+
+def built(client: VirtualClient, folder: Path, questions: list[str] | None = None) -> Found:
+    def ask(question: str) -> bool:
+        assert client.built == before
+        (questions if questions is not None else []).append(question)
+        return True
+
+    before, began = client.built, client.clock.now()
+    with bench_on(client, ask=ask)(profile_of(client, folder)) as bench:
+        found = build_arena(bench, profile_of(client, folder))
+    assert client.clock.now() - began < LONGEST_S
+    assert client.window.down == set()
+    return found
+
+
+def spoil(client: VirtualClient) -> None:
+    """A trunk in the arena, a hole in its floor, and a block beside it."""
+    client.realm.world.put((3, 64, 6), "stone")
+    client.realm.world.put((3, 63, 9), "air")
+    client.realm.world.put((12, 64, 6), "dirt")
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.13.2", "1.20.1", "1.21.11", "26.3"])
+def test_on_a_free_floor_only_the_border_is_built_and_all_of_it_is_undone(version: str, tmp_path: Path) -> None:
+    client = VirtualClient(version=version, pitch=12.0)
+    questions: list[str] = []
+    found = built(client, tmp_path, questions)
+    arena = found.profile.marked_arena()
+    assert arena.model_copy(update={"copied_to": None}) == HERE
+    assert found.profile.game.version == version
+    assert "There is only air" in questions[0]
+    assert "The floor, bedrock, is flat: it stays" in questions[0]
+    ring = {block for block, name in client.built.items() if name == "lapis_block" and block[1] == 64}
+    assert len(ring) == 4 * 16
+    low, high = box_of(HERE)
+    assert all(low[0] <= x <= high[0] and low[2] <= z <= high[2] for x, _, z in client.built)
+    assert {y for _, y, _ in client.built} == {64, 127}
+    rules = {"false"} & set(client.realm.rules.values())
+    assert rules == {"false"}
+    assert len(client.realm.rules) == 3
+    assert [stack.block for stack in client.realm.player.hotbar[:2] if stack] == (
+        ["planks" if version == "1.12.2" else "oak_planks", "stone"]
+    )
+    assert (client.cell(arena), client.realm.player.yaw, client.realm.player.pitch) == ((7, 0), 0.0, 65.0)
+    with bench_on(client)(found.profile) as bench:
+        undone = undo_arena(bench, found.profile)
+    assert client.built == {}
+    assert undone.profile.arena is None
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
+def test_what_stands_there_is_shown_copied_and_put_back(version: str, tmp_path: Path) -> None:
+    client = VirtualClient(version=version)
+    spoil(client)
+    before = client.built
+    questions: list[str] = []
+    found = built(client, tmp_path, questions)
+    assert ("Something stands there" if version != "1.12.2" else "What stands there is not known") in questions[0]
+    if version != "1.12.2":
+        assert "minecraft:stone at (3, 64, 6)" in questions[0]
+    assert "it is replaced by obsidian" in questions[0]
+    world = client.realm.world
+    assert {world.block_at((x, 63, z)) for x in range(-8, 9) for z in range(-1, 16)} == {"obsidian"}
+    assert {world.block_at((x, y, z)) for x in range(-7, 8) for y in (64, 65) for z in range(15)} == {"air"}
+    assert world.block_at((12, 64, 6)) == "dirt"
+    with bench_on(client)(found.profile) as bench:
+        undo_arena(bench, found.profile)
+    assert client.built == before
+
+
+def test_what_is_built_can_be_played_in(tmp_path: Path) -> None:
+    client = VirtualClient()
+    spoil(client)
+    profile = built(client, tmp_path).profile
+    arena = profile.marked_arena()
+    line = load_scenario("line")
+    game = LiveGame(
+        line,
+        profile,
+        display=client.display,
+        keyboard=client.keyboard,
+        pointer=client.pointer,
+        clock=client.clock,
+        screen=WindowScreen(client.display, FONT),
+    )
+    with game:
+        assert game.reset(line.best_material) == line.start
+        for action in (Action.BD, Action.LD, Action.F, Action.RD):
+            assert game.act(action).cell == client.cell(arena)
+    assert {client.realm.world.block_at(arena.block_of(cell)) for cell in ((7, 14), (6, 14))} == {"stone"}
+
+
+def test_a_game_that_can_neither_compare_nor_copy_says_so_and_asks(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for verb in ("execute", "clone", "difficulty"):
+        monkeypatch.delitem(chat_commands._COMMANDS, verb)
+    client = VirtualClient(version="1.18.2")
+    spoil(client)
+    questions: list[str] = []
+    found = built(client, tmp_path, questions)
+    assert "What stands there is not known (minecraft:stone at (3, 64, 6)" in questions[0]
+    assert "may have holes, that can't be told here: it is replaced by obsidian" in questions[0]
+    assert "this can't be undone" in questions[0]
+    assert found.profile.marked_arena() == HERE
+    with bench_on(client)(found.profile) as bench, pytest.raises(UserError, match="no copy is known"):
+        undo_arena(bench, found.profile)
+
+
+def test_building_again_at_the_same_place_keeps_the_first_copy(tmp_path: Path) -> None:
+    client = VirtualClient()
+    spoil(client)
+    before = client.built
+    first = built(client, tmp_path).profile
+    with bench_on(client)(first) as bench:
+        again = build_arena(bench, first, yes=True).profile
+        assert again.arena == first.arena
+        undo_arena(bench, again)
+    assert client.built == before
+
+
+def test_a_sky_that_is_not_free_is_not_built_into(tmp_path: Path) -> None:
+    client = VirtualClient()
+    client.realm.world.put((0, 128, 5), "glass")
+    found = built(client, tmp_path)
+    assert found.profile.marked_arena().copied_to == (-8, 95, -1)
+    assert client.realm.world.block_at((0, 128, 5)) == "glass"
+
+
+def declined(client: VirtualClient, profile: Profile) -> None:
+    with bench_on(client, ask=lambda _: False)(profile) as bench:
+        build_arena(bench, profile)
+
+
+def test_a_no_changes_nothing(tmp_path: Path) -> None:
+    client = VirtualClient()
+    spoil(client)
+    before = client.built
+    with pytest.raises(UserError, match="nothing was changed"):
+        declined(client, profile_of(client, tmp_path))
+    assert client.built == before
+    assert client.realm.rules == {}
+
+
+def far_away(client: VirtualClient) -> None:
+    client.realm.view_distance = 0
+
+
+def no_cheats(client: VirtualClient) -> None:
+    client.realm.has_cheats = False
+
+
+@pytest.mark.parametrize(
+    ("prepare", "message"), [(far_away, "part of the place isn't loaded"), (no_cheats, "allow cheats")]
+)
+def test_a_place_that_is_not_loaded_or_a_world_without_cheats_is_said_before_anything_is_asked(
+    prepare: Callable[[VirtualClient], None], message: str, tmp_path: Path
+) -> None:
+    client = VirtualClient()
+    prepare(client)
+    with pytest.raises(UserError, match=message):
+        built(client, tmp_path)
+    assert client.built == {}
+
+
+def test_a_copy_that_is_gone_is_not_put_back(tmp_path: Path) -> None:
+    client = VirtualClient()
+    found = built(client, tmp_path)
+    low, high = box_of(HERE)
+    client.realm.world.fill((low[0], 127, low[2]), (high[0], 130, high[2]), "air")
+    with bench_on(client)(found.profile) as bench, pytest.raises(NotConfirmedError, match="no copy is at"):
+        undo_arena(bench, found.profile)
+    assert client.realm.world.block_at((0, 63, 5)) == "bedrock"
+
+
+def test_the_verbs_write_what_was_built_and_undone(tmp_path: Path) -> None:
+    client = VirtualClient()
+    file = tmp_path / "mine.toml"
+    save_profile(profile_of(client, tmp_path), file)
+    calibrate_built_arena(file, bench_on(client))
+    assert load_profile(file).marked_arena().copied_to == (-8, 127, -1)
+    undo_built_arena(file, bench_on(client))
+    assert load_profile(file).arena is None
+
+
+@pytest.mark.parametrize("after_s", [0.3, 2.0, 5.0, 8.0])
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), DesktopError("the game's window has closed: open it again")])
+def test_ctrl_c_or_a_closed_window_at_any_time_leaves_keys_up_and_the_profile_as_it_was(
+    error: BaseException, after_s: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient()
+    file = tmp_path / "mine.toml"
+    save_profile(profile_of(client, tmp_path), file)
+    before = file.read_bytes()
+    monkeypatch.setattr(client.display, "is_in_front", Cut(client, after_s, error).is_in_front)
+    with pytest.raises(type(error)):
+        calibrate_built_arena(file, bench_on(client))
+    assert file.read_bytes() == before
+    assert client.window.down == set()
+
+
+@pytest.mark.parametrize("after_s", [1.5, 4.0, 7.0])
+@pytest.mark.parametrize("kind", ["lost_focus", "pause", "chat", "death"])
+def test_a_hand_in_between_is_one_line_and_the_profile_as_it_was(kind: Kind, after_s: float, tmp_path: Path) -> None:
+    client = VirtualClient()
+    file = tmp_path / "mine.toml"
+    save_profile(profile_of(client, tmp_path), file)
+    before = file.read_bytes()
+    for try_s in range(10):
+        # Nothing of the world happens while the chat is open.
+        client.mishaps.plan(kind, after_s + 0.07 * try_s)
+    with pytest.raises(McNestedError) as caught:
+        calibrate_built_arena(file, bench_on(client))
+    assert "\n" not in str(caught.value)
+    assert file.read_bytes() == before
+    assert client.window.down == set()
+    assert client.window.strays == []

@@ -1,0 +1,116 @@
+"""What an arena is built of: boxes and commands by hand, and that nothing lies where it must not."""
+
+import itertools
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from calibration.arena.plan import (
+    BORDERS,
+    FLOOR,
+    border_block,
+    border_of,
+    box_of,
+    build_commands,
+    copy_places,
+    floor_of,
+    is_fit,
+    moved,
+    rules_of,
+    volume,
+)
+from mc_nested.live.coordinates import Facing
+from mc_nested.live.profile import Profile
+from mc_nested.live.profile_tables import FILL_LIMIT, Arena, GameVersion
+
+FACINGS: list[Facing] = ["north", "south", "west", "east"]
+ORIGINS = st.tuples(st.integers(-999, 999), st.integers(-60, 200), st.integers(-999, 999))
+ARENA = Arena.around((10, 64, 20), "south")
+
+
+@given(ORIGINS, st.sampled_from(FACINGS))
+def test_the_border_is_the_ring_around_the_cells_and_nothing_else(origin: tuple[int, int, int], facing: Facing) -> None:
+    arena = Arena.around(origin, facing)
+    ring = {
+        (x, origin[1], z)
+        for (low, high) in border_of(arena)
+        for x, z in itertools.product(range(low[0], high[0] + 1), range(low[2], high[2] + 1))
+    }
+    around = {arena.block_of((x, y)) for x in range(-1, 16) for y in range(-1, 16)}
+    cells = {arena.block_of((x, y)) for x in range(15) for y in range(15)}
+    assert ring == around - cells
+    assert all(low[1] == high[1] == origin[1] for low, high in border_of(arena))
+
+
+@given(ORIGINS, st.sampled_from(FACINGS), st.sampled_from(["1.12.2", "1.17.1", "1.18", "26.1"]))
+def test_a_copy_lies_in_the_same_columns_out_of_the_way_and_in_the_world(
+    origin: tuple[int, int, int], facing: Facing, version: str
+) -> None:
+    box = box_of(Arena.around(origin, facing))
+    assert volume(box) == 17 * 17 * 3
+    for place in copy_places(Arena.around(origin, facing), version):
+        low, high = moved(box, place)
+        assert (low[0], low[2], high[0], high[2]) == (box[0][0], box[0][2], box[1][0], box[1][2])
+        assert low[1] > box[1][1] + 4
+        assert high[1] <= (319 if version in ("1.18", "26.1") else 255)
+
+
+def test_everything_is_written_out_for_one_arena() -> None:
+    profile = Profile(game=GameVersion(version="1.20.1"))
+    assert build_commands(profile, ARENA, ("oak_planks", "stone"), builds_floor=True) == [
+        "/fill -5 63 19 11 63 35 minecraft:obsidian",
+        "/fill -4 64 20 10 65 34 minecraft:air",
+        "/fill -5 64 19 11 64 19 minecraft:lapis_block",
+        "/fill -5 64 19 -5 64 35 minecraft:lapis_block",
+        "/fill -5 64 35 11 64 35 minecraft:lapis_block",
+        "/fill 11 64 19 11 64 35 minecraft:lapis_block",
+        "/gamemode creative",
+        "/difficulty peaceful",
+        "/time set 6000",
+        "/weather clear",
+        "/gamerule doDaylightCycle false",
+        "/gamerule doWeatherCycle false",
+        "/gamerule doMobSpawning false",
+        "/item replace entity @s hotbar.0 with minecraft:oak_planks 64",
+        "/item replace entity @s hotbar.1 with minecraft:stone 64",
+    ]
+
+
+def test_a_floor_that_will_do_stays() -> None:
+    commands = build_commands(Profile(), ARENA, ("stone",), builds_floor=False)
+    assert not any("obsidian" in command for command in commands)
+    assert volume(floor_of(ARENA)) == 17 * 17
+    assert volume(floor_of(ARENA)) < FILL_LIMIT
+
+
+@pytest.mark.parametrize(
+    ("version", "rules"),
+    [
+        ("1.12.2", ("doDaylightCycle", "doWeatherCycle", "doMobSpawning")),
+        ("1.21.10", ("doDaylightCycle", "doWeatherCycle", "doMobSpawning")),
+        ("1.21.11", ("advance_time", "advance_weather", "spawn_mobs")),
+        ("26.3", ("advance_time", "advance_weather", "spawn_mobs")),
+    ],
+)
+def test_rules_go_by_their_names_in_each_version(version: str, rules: tuple[str, ...]) -> None:
+    assert rules_of(version) == rules
+
+
+def test_1_12_gets_its_own_blocks_and_syntax() -> None:
+    profile = Profile(game=GameVersion(version="1.12.2"))
+    commands = build_commands(profile, ARENA, ("oak_planks",), builds_floor=True)
+    assert commands[-1] == "/replaceitem entity @s slot.hotbar.0 minecraft:planks 64 0"
+
+
+def test_the_border_is_no_material() -> None:
+    assert border_block(("stone", "oak_planks")) == "lapis_block"
+    assert border_block(("lapis_block", "stone")) == "mossy_cobblestone"
+    assert FLOOR not in BORDERS
+
+
+@pytest.mark.parametrize(
+    ("block", "fit"), [("stone", True), ("grass_block", True), ("packed_ice", False), ("soul_sand", False)]
+)
+def test_a_floor_that_is_slippery_slow_or_falls_is_replaced(block: str, fit: bool) -> None:
+    assert is_fit(block) is fit

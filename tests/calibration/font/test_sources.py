@@ -1,0 +1,61 @@
+"""Where fonts are looked for: packs that are switched on, the topmost first, then jars, the version's own first."""
+
+from pathlib import Path
+
+import pytest
+
+from calibration.font.sources import font_sources
+from calibration.game.folders import System
+
+
+@pytest.fixture
+def game(tmp_path: Path) -> Path:
+    """The game folder of a Linux user with two versions and two packs."""
+    folder = tmp_path / ".minecraft"
+    for version in ("1.12.2", "1.20.1"):
+        (folder / "versions" / version).mkdir(parents=True)
+        (folder / "versions" / version / f"{version}.jar").write_bytes(b"jar")
+    (folder / "resourcepacks" / "faithful").mkdir(parents=True)
+    (folder / "resourcepacks" / "plain.zip").write_bytes(b"zip")
+    (folder / "options.txt").write_text("version:3465\nlang:en_us\n", "utf-8")
+    return folder
+
+
+def options(game: Path, packs: str) -> None:
+    (game / "options.txt").write_text(f"lang:de_de\nresourcePacks:{packs}\nforceUnicodeFont:true\n", "utf-8")
+
+
+def tried(game: Path, version: str | None = "1.20.1") -> list[str]:
+    return [path.name for path in font_sources(System("linux", game.parent, {}), version).paths]
+
+
+def test_without_packs_it_is_the_jar_of_the_version_then_others(game: Path) -> None:
+    assert tried(game) == ["1.20.1.jar", "1.12.2.jar"]
+    assert tried(game, "1.12.2") == ["1.12.2.jar", "1.20.1.jar"]
+
+
+def test_packs_come_first_and_the_topmost_before_the_others(game: Path) -> None:
+    options(game, '["vanilla","file/plain.zip","file/faithful"]')
+    assert tried(game)[:2] == ["faithful", "plain.zip"]
+
+
+def test_1_12_names_packs_without_a_word_before(game: Path) -> None:
+    options(game, '["plain.zip"]')
+    assert tried(game)[0] == "plain.zip"
+
+
+@pytest.mark.parametrize("packs", ["", "nonsense", '{"a": 1}', "[1, null]", '["file/gone.zip"]', '["file/../../x"]'])
+def test_packs_that_are_not_there_or_can_not_be_read_are_left_out(game: Path, packs: str) -> None:
+    options(game, packs)
+    assert tried(game) == ["1.20.1.jar", "1.12.2.jar"]
+
+
+def test_what_the_options_say_is_known(game: Path) -> None:
+    options(game, "[]")
+    known = font_sources(System("linux", game.parent, {}), None).options
+    assert (known["lang"], known["forceUnicodeFont"]) == ("de_de", "true")
+
+
+def test_a_computer_without_the_game_has_none(tmp_path: Path) -> None:
+    assert font_sources(System("linux", tmp_path, {}), "1.20.1") == font_sources(System("linux", tmp_path, {}), None)
+    assert font_sources(System("linux", tmp_path, {}), None).paths == ()

@@ -1,0 +1,265 @@
+"""Measuring the walk on the virtual client: its own physics are found, and whatever happens nothing is lost."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from calibration.step import Found
+from calibration.walk.fit import rms
+from calibration.walk.measure import calibrate_walk, walk
+from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, NotInFrontError, UserError
+from mc_nested.live.profile import Profile, load_profile, save_profile
+from mc_nested.live.profile_tables import Arena, Keys
+from mc_nested.live.walk import TICK_S
+from sim.client.client import VirtualClient
+from sim.client.mishaps import Kind
+from tests.calibration.virtual_bench import bench_on, profile_of
+
+LONGEST_S = 90.0
+
+LATER = [pytest.param(after_s, marks=pytest.mark.slow) for after_s in (15.0, 40.0)]
+"""Seconds after which somebody interferes: while it sneaks out, and while it walks."""
+
+
+def measured(client: VirtualClient, folder: Path, profile: Profile | None = None) -> Found:
+    """What is found, in less than 90 seconds of game time, with no key left down and none to another window."""
+    profile = profile or profile_of(client, folder)
+    began = client.clock.now()
+    with bench_on(client)(profile) as bench:
+        found = walk(bench, profile)
+    assert client.clock.now() - began < LONGEST_S
+    assert client.window.down == set()
+    assert client.window.strays == []
+    return found
+
+
+def off_held_out(client: VirtualClient, found: Found, patch: pytest.MonkeyPatch) -> float:
+    """How far off new holds end that the profile predicts by the ticks that truly felt them: RMS, in blocks."""
+    felt: list[bool] = []
+    tick = client.game.tick
+
+    def counted() -> None:
+        felt.append(client.game.keys.is_held("forward") or client.game.keys.is_held("back"))
+        tick()
+
+    patch.setattr(client.game, "tick", counted)
+    rng = np.random.default_rng(1)
+    offs = []
+    for index in range(16):
+        felt.clear()
+        x, _, z = client.realm.player.feet
+        key = (found.profile.keys.forward, found.profile.keys.back)[index % 2]
+        client.keyboard.press(key)
+        client.clock.sleep((1 + index % 8 + rng.uniform(0, 0.9)) * TICK_S)
+        client.keyboard.release(key)
+        client.clock.sleep(1.5)
+        east, _, south = client.realm.player.feet
+        covered = ((east - x) ** 2 + (south - z) ** 2) ** 0.5
+        offs.append(covered - found.profile.walk.covered[sum(felt) - 1])
+    return rms(offs)
+
+
+def test_walking_is_measured_where_the_player_stands_and_ends_there(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient(pitch=65.0)
+    found = measured(client, tmp_path)
+    assert found.profile.keys == Keys()
+    assert found.profile.walk.inertia == pytest.approx(0.546, abs=0.002)
+    assert found.profile.walk.sneaking == pytest.approx(0.3, abs=0.002)
+    assert found.samples > 40
+    assert max(abs(now - then) for now, then in zip(client.realm.player.feet, (0.5, 64, 0.5), strict=True)) < 0.2
+    assert found.pictures[0].frame.shape == (420, 1000, 3)
+    assert not [line for line in found.lines if "Warning" in line]
+    assert "Timed between two ticks, 8 of 8" in " ".join(found.lines)
+    assert off_held_out(client, found, monkeypatch) < 0.02
+
+
+def test_in_a_marked_arena_it_walks_in_the_middle_and_comes_back(tmp_path: Path) -> None:
+    client = VirtualClient(seed=2, pitch=20.0, swaps_sides=True)
+    arena = Arena.around((-20, 64, 31), "east")
+    visited = set()
+    tick = client.game.tick
+
+    def noted() -> None:
+        tick()
+        visited.add(client.cell(arena))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(client.game, "tick", noted)
+        found = measured(client, tmp_path, profile_of(client, tmp_path).model_copy(update={"arena": arena}))
+    inside = {cell for cell in visited if max(abs(cell[0] - 7), abs(cell[1] - 7)) < 10}
+    assert {(7, 7), (9, 7), (5, 7), (7, 9), (7, 5)} <= inside
+    assert all(abs(x - 7) <= 3 and abs(y - 7) <= 3 for x, y in inside)
+    assert client.realm.player.feet == (0.5, 64.0, 0.5)
+    assert (client.realm.player.yaw, client.realm.player.pitch) == (0.0, 20.0)
+    assert (found.profile.keys.left, found.profile.keys.right) == ("d", "a")
+    assert "d goes left, a goes right; the profile had left and right the other way round" in found.lines[0]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("fps", "into_s", "out_s"),
+    [
+        (144.0, (0.001, 0.004), (0.002, 0.010)),
+        (30.0, (0.020, 0.040), (0.010, 0.030)),
+        (24.0, (0.03, 0.06), (0.02, 0.06)),
+    ],
+)
+def test_other_frame_rates_and_latencies_give_the_same_walk_and_their_own_round_trip(
+    fps: float, into_s: tuple[float, float], out_s: tuple[float, float], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient(seed=3, pitch=65.0, fps=fps, input_latency_s=into_s, capture_latency_s=out_s)
+    found = measured(client, tmp_path)
+    trip = found.profile.walk.felt_after_s + found.profile.walk.seen_after_s
+    # Frames fall at the same time after each tick, or nearly: half a frame is what that can be off the mean.
+    assert trip == pytest.approx(sum(into_s) / 2 + sum(out_s) / 2 + 0.5 / fps, abs=0.5 / fps + 0.006)
+    assert off_held_out(client, found, monkeypatch) < 0.02
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("slipperiness", "speed", "steady"), [(0.6, 1.4, 6.044), (0.8, 0.8, 2.429), (0.6, 1.2, 5.181)])
+def test_other_physics_are_measured_as_they_are_and_said(
+    slipperiness: float, speed: float, steady: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient(seed=4, pitch=65.0, slipperiness=slipperiness, speed=speed)
+    found = measured(client, tmp_path)
+    assert any(f"Walking {steady:.2f}" in line for line in found.lines)
+    assert any("An effect or another floor?" in line for line in found.lines)
+    assert off_held_out(client, found, monkeypatch) < 0.02
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(4))
+def test_lag_spoils_holds_but_not_what_is_found(seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    client = VirtualClient(seed=seed, pitch=65.0)
+    client.mishaps.every(0.12, ("lag", "frozen_frame", "late_key"))
+    found = measured(client, tmp_path)
+    assert client.mishaps.happened
+    quiet = VirtualClient(seed=seed + 50, pitch=65.0)
+    assert off_held_out(quiet, found, monkeypatch) < 0.02
+
+
+@pytest.mark.slow
+def test_constant_lag_is_said(tmp_path: Path) -> None:
+    client = VirtualClient(seed=1, pitch=65.0)
+    client.mishaps.every(0.35, ("lag",))
+    found = measured(client, tmp_path)
+    assert any(line.startswith("Warning: the game lags") for line in found.lines)
+
+
+def wall(client: VirtualClient) -> None:
+    client.realm.world.put((1, 64, 0), "stone")
+
+
+def pit(client: VirtualClient) -> None:
+    for z in (-1, 0, 1):
+        client.realm.world.fill((-2, 60, z), (-1, 63, z), "air")
+
+
+@pytest.mark.parametrize(("spoil", "where"), [(wall, r"0\.[123] blocks left"), (pit, r"0\.[789] blocks right")])
+def test_a_block_or_an_edge_in_the_way_is_found_sneaking(
+    spoil: Callable[[VirtualClient], None], where: str, tmp_path: Path
+) -> None:
+    client = VirtualClient(pitch=65.0)
+    spoil(client)
+    with pytest.raises(UserError, match=where):
+        measured(client, tmp_path)
+    assert client.realm.player.feet[1] == 64.0
+    assert client.window.down == set()
+
+
+def test_wrong_keys_are_told_from_a_floor_that_is_not_free(tmp_path: Path) -> None:
+    client = VirtualClient(pitch=65.0)
+    profile = profile_of(client, tmp_path).model_copy(update={"keys": Keys(left="j")})
+    with pytest.raises(UserError, match="the key j moves nobody left"):
+        measured(client, tmp_path, profile)
+
+
+@pytest.mark.slow
+def test_a_sneaking_key_that_does_nothing_is_noticed(tmp_path: Path) -> None:
+    client = VirtualClient(pitch=65.0)
+    profile = profile_of(client, tmp_path).model_copy(update={"keys": Keys(sneak="k")})
+    with pytest.raises(NotConfirmedError, match="sneaking is no slower than walking"):
+        measured(client, tmp_path, profile)
+
+
+@pytest.fixture
+def kept(tmp_path: Path) -> Path:
+    """A profile's file, which names no walk of its own."""
+    file = tmp_path / "mine.toml"
+    save_profile(profile_of(VirtualClient(), tmp_path), file)
+    return file
+
+
+@pytest.mark.slow
+def test_what_was_found_is_written_with_its_picture(kept: Path) -> None:
+    found, picture = calibrate_walk(kept, bench_on(VirtualClient(pitch=65.0)))
+    assert load_profile(kept) == found.profile
+    assert picture == kept.with_name("mine-walk.png")
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("after_s", [0.3, 3.0, *LATER])
+@pytest.mark.parametrize(
+    ("kind", "error"),
+    [
+        ("lost_focus", NotInFrontError),
+        ("chat", McNestedError),
+        ("death", McNestedError),
+        ("knocked_away", NotConfirmedError),
+        ("f3_off", McNestedError),
+    ],
+)
+def test_a_hand_in_between_is_one_line_and_the_profile_as_it_was(
+    kind: Kind, error: type[McNestedError], after_s: float, kept: Path
+) -> None:
+    before = kept.read_bytes()
+    client = VirtualClient(pitch=65.0, pauses_unfocused=False)
+    client.mishaps.plan(kind, after_s)
+    with pytest.raises(error) as caught:
+        calibrate_walk(kept, bench_on(client))
+    assert "\n" not in str(caught.value)
+    assert kept.read_bytes() == before
+    assert client.window.down == set()
+    assert client.window.strays == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["moved_window", "resized_window", "black_frame"])
+def test_a_window_that_is_moved_resized_or_hidden_for_a_moment_makes_no_difference(kind: Kind, tmp_path: Path) -> None:
+    client = VirtualClient(seed=6, pitch=65.0)
+    for after_s in (3.0, 12.0, 25.0):
+        client.mishaps.plan(kind, after_s)
+    assert measured(client, tmp_path).samples > 35
+
+
+class Cut:
+    """Ends the calibration at a time of the client's clock, as Ctrl+C or a closed window does."""
+
+    def __init__(self, client: VirtualClient, after_s: float, error: BaseException) -> None:
+        self._is_in_front, self._clock, self._error = client.display.is_in_front, client.clock, error
+        self._at = client.clock.now() + after_s
+
+    def is_in_front(self) -> bool:
+        if self._clock.now() >= self._at:
+            self._at = float("inf")
+            raise self._error
+        return self._is_in_front()
+
+
+@pytest.mark.parametrize("after_s", [0.1, 3.0, *LATER])
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), DesktopError("the game's window has closed: open it again")])
+def test_ctrl_c_or_a_closed_window_at_any_time_leaves_keys_up_and_the_profile_as_it_was(
+    error: BaseException, after_s: float, kept: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = kept.read_bytes()
+    client = VirtualClient(pitch=65.0)
+    monkeypatch.setattr(client.display, "is_in_front", Cut(client, after_s, error).is_in_front)
+    with pytest.raises(type(error)):
+        calibrate_walk(kept, bench_on(client))
+    assert kept.read_bytes() == before
+    assert client.window.down == set()
+    assert list(kept.parent.glob("*.part")) == []
