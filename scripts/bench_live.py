@@ -203,24 +203,26 @@ def _font() -> Font:
     return font_of(drawn_atlas())
 
 
+def figures(played: Play) -> dict[str, Any]:
+    """How exact and how fast it was played, without mishaps."""
+    every = sorted([*played.moves_s, *played.placings_s])
+    counts = ("actions", "wrong_cells", "wrong_blocks", "failed_actions", "corrections", "second_clicks")
+    return {
+        **{name: getattr(played, name) for name in counts},
+        "median_action_s": percentile(every, 50),
+        "p95_action_s": percentile(every, 95),
+        "moves": {"median_s": percentile(played.moves_s, 50), "p95_s": percentile(played.moves_s, 95)},
+        "placings": {"median_s": percentile(played.placings_s, 50), "p95_s": percentile(played.placings_s, 95)},
+    }
+
+
 def report(clean: Play, soak: Play, reader: bench_reader.Result) -> dict[str, Any]:
     """What --json prints."""
-    every = sorted([*clean.moves_s, *clean.placings_s])
-    played, cpu = clean.played_s, clean.cpu_s
     return {
         "soak": {name: getattr(soak, name) for name in SOAK_FIGURES},
-        "clean": {
-            **{name: getattr(clean, name) for name in ("actions", "wrong_cells", "wrong_blocks", "unnoticed")},
-            "failed_actions": clean.failed_actions,
-            "corrections": clean.corrections,
-            "second_clicks": clean.second_clicks,
-            "median_action_s": percentile(every, 50),
-            "p95_action_s": percentile(every, 95),
-            "moves": {"median_s": percentile(clean.moves_s, 50), "p95_s": percentile(clean.moves_s, 95)},
-            "placings": {"median_s": percentile(clean.placings_s, 50), "p95_s": percentile(clean.placings_s, 95)},
-        },
+        "clean": {**figures(clean), "unnoticed": clean.unnoticed},
         "reader": dataclasses.asdict(reader),
-        "speed_over_real_time": round(played / cpu, 1),
+        "speed_over_real_time": round(clean.played_s / clean.cpu_s, 1),
     }
 
 

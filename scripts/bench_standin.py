@@ -16,7 +16,6 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -30,46 +29,16 @@ from mc_nested.arena import rules
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError
-from mc_nested.live.action_log import percentile
 from mc_nested.live.coordinates import cell_at
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile import load_profile
 from mc_nested.live.profile_tables import Arena
 from mc_nested.live.session import open_live_game
 from scripts import standin_oracle
-from scripts.bench_live import drawn_action
+from scripts.bench_live import Play, drawn_action, figures
 
 AT_REST_S = 0.3
 """Seconds of the same place, by the server's account, that are standing: coasting is over within them."""
-
-
-@dataclass
-class Played:
-    """What came of the actions: seconds of those that were done, and how many were wrong."""
-
-    moves_s: list[float] = field(default_factory=list)
-    placings_s: list[float] = field(default_factory=list)
-    wrong_cells: int = 0
-    wrong_blocks: int = 0
-    failed_actions: int = 0
-    corrections: int = 0
-    second_clicks: int = 0
-
-    def summary(self) -> dict[str, Any]:
-        """What --json prints."""
-        every = sorted([*self.moves_s, *self.placings_s])
-        return {
-            "actions": len(every) + self.failed_actions,
-            "wrong_cells": self.wrong_cells,
-            "wrong_blocks": self.wrong_blocks,
-            "failed_actions": self.failed_actions,
-            "corrections": self.corrections,
-            "second_clicks": self.second_clicks,
-            "median_action_s": percentile(every, 50),
-            "p95_action_s": percentile(every, 95),
-            "moves": {"median_s": percentile(self.moves_s, 50), "p95_s": percentile(self.moves_s, 95)},
-            "placings": {"median_s": percentile(self.placings_s, 50), "p95_s": percentile(self.placings_s, 95)},
-        }
 
 
 @contextmanager
@@ -87,9 +56,9 @@ def standin_up() -> Iterator[dict[str, Any]]:
             subprocess.run([*script, "down"], check=True)  # noqa: S603 - fixed
 
 
-def play(game: LiveGame, scenario: Scenario, arena: Arena, oracle: str, count: int, seed: int) -> Played:
+def play(game: LiveGame, scenario: Scenario, arena: Arena, oracle: str, count: int, seed: int) -> Play:
     """Take ``count`` actions, and ask the server after each."""
-    done = Played()
+    done = Play()
     rng = np.random.default_rng(seed)
     placed: set[rules.Cell] | None = None
     cell, steps = scenario.start, 0
@@ -97,6 +66,7 @@ def play(game: LiveGame, scenario: Scenario, arena: Arena, oracle: str, count: i
         if placed is None:
             cell, placed, steps = game.reset(int(rng.integers(len(scenario.materials)))), set(), 0
         action = drawn_action(rng, cell, placed)
+        done.actions += 1
         began = time.perf_counter()
         try:
             outcome = game.act(action)
@@ -138,7 +108,7 @@ def main() -> int:
         arena = load_profile(state["profile"]).marked_arena()
         with open_live_game(scenario, state["profile"], lambda line: print(line, file=sys.stderr)) as (game, _):
             played = play(game, scenario, arena, state["oracle"], options.actions, options.seed)
-    summary = played.summary()
+    summary = figures(played)
     if options.json:
         print(json.dumps(summary))
     else:

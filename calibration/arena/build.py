@@ -17,17 +17,16 @@ from calibration.arena.plan import (
 )
 from calibration.arena.questions import Questions
 from calibration.arena.sight import turned
-from calibration.arena.stand import NEAR_MIDDLE, arena_seen
+from calibration.arena.stand import NEAR_MIDDLE, arena_seen, begun
 from calibration.arena.words import how_to_undo, lines, question
 from calibration.bench import BenchOf
 from calibration.console import Console
 from calibration.report.chat_region import without_chat
 from calibration.report.kept import keep
-from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found, Picture
-from mc_nested.arena.rules import SIZE, Cell, is_inside
+from mc_nested.arena.rules import SIZE, Cell
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.errors import NotConfirmedError, ProfileError, UserError
+from mc_nested.errors import NotConfirmedError, UserError
 from mc_nested.live.at_rest import read_at_rest
 from mc_nested.live.commands import teleport_command
 from mc_nested.live.fingerprint import game_in
@@ -61,15 +60,7 @@ def calibrate_built_arena(
 
     ``font`` is the client jar or font picture to read with, noted in the profile; left out, the profile's own.
     """
-    if not is_inside(standing):
-        raise UserError(f"cell {standing} lies outside the arena: choose 0 to {SIZE - 1} for x and y")
-    path, profile = profile_to_calibrate(profile_name)
-    if font is not None:
-        screen = profile.screen.model_copy(update={"font": str(font.expanduser().resolve())})
-        profile = profile.model_copy(update={"screen": screen})
-    if profile.screen.font is None:
-        raise ProfileError("the game's font is needed the first time: name its client jar with --font")
-    load_font(profile.screen.font_path())  # before a window is looked for
+    path, profile, _ = begun(profile_name, standing, font)
     with bench_of(profile) as bench:
         found = build_arena(bench, profile, standing=standing, yes=yes)
     save_profile(found.profile, path)

@@ -18,8 +18,8 @@ from mc_nested.live.coordinates import block_of, facing_of, turn_between, yaw_of
 from mc_nested.live.debug_screen import read_debug_screen
 from mc_nested.live.desktop import Desktop, open_desktop
 from mc_nested.live.fingerprint import version_in
-from mc_nested.live.font import load_font
-from mc_nested.live.profile import save_profile
+from mc_nested.live.font import Font, load_font
+from mc_nested.live.profile import Profile, save_profile
 from mc_nested.live.profile_tables import Arena, GameVersion
 from mc_nested.live.reading import Reading
 from mc_nested.live.session import overlay_of
@@ -61,15 +61,7 @@ def calibrate_arena(
         UserError: a profile, font or desktop that can't be used, or a stand that can't be the arena's.
         LiveError: the game did not come to the front, or its debug screen could not be read.
     """
-    if not is_inside(standing):
-        raise UserError(f"cell {standing} lies outside the arena: choose 0 to {SIZE - 1} for x and y")
-    path, profile = profile_to_calibrate(profile_name)
-    if font is not None:
-        screen = profile.screen.model_copy(update={"font": str(font.expanduser().resolve())})
-        profile = profile.model_copy(update={"screen": screen})
-    if profile.screen.font is None:
-        raise ProfileError("the game's font is needed the first time: name its client jar with --font")
-    glyphs = load_font(profile.screen.font_path())
+    path, profile, glyphs = begun(profile_name, standing, font)
     with open_devices(profile.window.title) as desktop:
         say(
             f"Switch to the game, stand on {_in_words(standing)}, look across it "
@@ -88,6 +80,22 @@ def calibrate_arena(
     whence = "from its title" if titled else f"not in its title: if that is wrong, mend game.version in {path}"
     say(f"Commands will be written for Minecraft {game.version}, {whence}.")
     return path
+
+
+def begun(profile_name: str | Path, standing: Cell, font: Path | None) -> tuple[Path, Profile, Font]:
+    """The profile's file, what it says with that font noted in it, and the font; before a window is looked for.
+
+    UserError for a cell outside the arena, or a profile or font that can't be used.
+    """
+    if not is_inside(standing):
+        raise UserError(f"cell {standing} lies outside the arena: choose 0 to {SIZE - 1} for x and y")
+    path, profile = profile_to_calibrate(profile_name)
+    if font is not None:
+        screen = profile.screen.model_copy(update={"font": str(font.expanduser().resolve())})
+        profile = profile.model_copy(update={"screen": screen})
+    if profile.screen.font is None:
+        raise ProfileError("the game's font is needed the first time: name its client jar with --font")
+    return path, profile, load_font(profile.screen.font_path())
 
 
 def arena_seen(reading: Reading, standing: Cell) -> Arena:
