@@ -2,6 +2,7 @@
 
 import signal
 
+import pytest
 from hypothesis import settings
 
 from tests.standin_fixture import standin
@@ -14,3 +15,8 @@ settings.load_profile("any machine")
 
 # A shell that starts the tests in the background has SIGINT ignored, in every process that they start, too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The stand-in, once up, takes more than a core to itself: the tests that need it come last."""
+    items.sort(key=lambda item: item.get_closest_marker("standin") is not None)
