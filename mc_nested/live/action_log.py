@@ -4,7 +4,7 @@ import statistics
 from dataclasses import dataclass, field
 from typing import Any
 
-from mc_nested.live.body import Effort
+from mc_nested.live.effort import Effort
 
 
 @dataclass

@@ -6,12 +6,12 @@ place: see the floor ahead -> click, perhaps on the way -> wait until the debug 
 """
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
 
 from mc_nested.arena.rules import Cell, front_of, is_inside
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.coordinates import cell_at
 from mc_nested.live.devices import Clock
+from mc_nested.live.effort import Effort
 from mc_nested.live.eyes import Eyes, Stance, checked
 from mc_nested.live.game_screen import GameScreen
 from mc_nested.live.hands import Hands
@@ -33,16 +33,6 @@ BESIDE, BEHIND = 0.4, 0.2
 
 STRAY = 2
 """Cells that an agent who is carried on may click beyond: an early click is only right where they are arena."""
-
-
-@dataclass
-class Effort:
-    """What it took so far: moves and the corrections after them, clicks and those that had to be repeated."""
-
-    moves: int = 0
-    corrections: int = 0
-    clicks: int = 0
-    second_clicks: int = 0
 
 
 class Body:
@@ -88,13 +78,13 @@ class Body:
             )
         self._legs.stand(stance)
 
-    def move_to(self, cell: Cell) -> Stance:
+    def move_to(self, cell: Cell, tries_made: int = 0) -> Stance:
         """Walk to where the agent comes to a stop within the tolerance of a cell's middle; what was seen then.
 
-        Nothing is pressed where it does so already.
+        Nothing is pressed where it does so already. ``tries_made`` are presses that this move took before.
         """
         going, stance = self._legs.settle(self._eyes.look_straight())
-        for attempt in range(self._limits.tries):
+        for attempt in range(tries_made, self._limits.tries):
             if self._ends_in(going, cell):
                 break
             going, stance = self._step(going, stance, cell, attempt)
@@ -126,10 +116,11 @@ class Body:
                 clicked.append(stance)
 
         going, stance = self._legs.settle(self._eyes.look_straight())
-        if not self._ends_in(going, cell):
+        is_there = self._ends_in(going, cell)
+        if not is_there:
             going, stance = self._step(going, stance, cell, 0, on_the_way)
         if not clicked:
-            stance = self.move_to(cell)
+            stance = self.move_to(cell, tries_made=0 if is_there else 1)
             self.check_front(stance, built, shown_id)
             return self.place(cell, shown_id, stance)
         if not _hits_the_floor(going.end, cell):
@@ -218,9 +209,10 @@ class Body:
     def _is_right_from(self, place: Pair, cell: Cell) -> bool:
         """Whether a click is right from there, and from everywhere up to where a tick more would carry the agent."""
         farthest = self._legs.farthest
-        beyond = [
-            cell[axis] + STRAY * ((farthest[axis] > cell[axis]) - (farthest[axis] < cell[axis])) for axis in (0, 1)
-        ]
+        way = farthest[0] - place[0], farthest[1] - place[1]
+        axis = 1 if abs(way[1]) >= abs(way[0]) else 0
+        beyond = list(cell)
+        beyond[axis] += STRAY if way[axis] > 0 else -STRAY
         return is_inside((beyond[0], beyond[1])) and _hits_the_floor(place, cell) and _hits_the_floor(farthest, cell)
 
     def _aim(self, cell: Cell, block: Block, *, may_walk: bool) -> Stance:

@@ -1,7 +1,7 @@
 """What playing took, as plain numbers."""
 
 from mc_nested.live.action_log import ActionLog, percentile
-from mc_nested.live.body import Effort
+from mc_nested.live.effort import Effort
 
 
 def test_percentiles_are_values_that_shares_lie_below() -> None:

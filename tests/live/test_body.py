@@ -114,9 +114,11 @@ def test_what_is_built_on_the_way_is_right_or_an_error_however_late_the_game_tak
 ) -> None:
     game = _game(off=(-right, forward))
     front = SOUTH.marked_arena().block_of((cell[0], cell[1] + 1))
+    body = _body(game)
+    body.arrive((7, 7))
     game.late_from, game.late_until = game.clock.now() + since, game.clock.now() + since + late
     try:
-        _body(game).build(cell, (), "minecraft:stone")
+        body.build(cell, (), "minecraft:stone")
     except NotConfirmedError:
         return
     game.clock.sleep_until(game.clock.now() + 1.0)
@@ -134,6 +136,16 @@ def test_a_block_beside_is_clicked_before_it_is_certain_where_the_agent_stops(ce
     assert on_the_way.clock.now() < one_by_one.clock.now() - 0.04
     assert on_the_way.built == one_by_one.built
     assert on_the_way.presses == one_by_one.presses
+
+
+def test_a_correction_on_the_way_to_a_block_is_counted_as_one() -> None:
+    game = _game()
+    body = _body(game)
+    body.arrive((7, 7))
+    game.late_from, game.late_until = game.clock.now() + 0.1, game.clock.now() + 0.45
+    body.build((7, 8), (), "minecraft:stone")
+    assert (body.effort.moves, body.effort.clicks) == (1, 1)
+    assert body.effort.corrections == len([press for press in game.presses if press in "wasd"]) - 1 > 0
 
 
 def test_at_the_arenas_edge_no_click_goes_out_before_the_end_is_certain() -> None:

@@ -1,0 +1,13 @@
+"""What moves and placings took, counted."""
+
+from dataclasses import dataclass
+
+
+@dataclass
+class Effort:
+    """What it took so far: moves and the corrections after them, clicks and those that had to be repeated."""
+
+    moves: int = 0
+    corrections: int = 0
+    clicks: int = 0
+    second_clicks: int = 0
