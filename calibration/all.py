@@ -45,7 +45,7 @@ class Progress(run_steps.Progress, Protocol):
     """Somebody who watches it all."""
 
     def checked(self, checks: Sequence[Check]) -> None:
-        """The doctor has looked at everything."""
+        """The doctor has looked at everything, and nothing that all the rest needs fails."""
 
 
 @dataclass(frozen=True)
@@ -75,10 +75,10 @@ def calibrate_all(
     """
     path, profile = profile_to_calibrate(profile_name)
     checks = examined(profile_name)
-    progress.checked(checks)
     for check in checks:
         if check.status == "fail" and check.name in GATES:
             raise DesktopError(f"{check.name}: {check.detail}: {check.fix or 'run mc-nested doctor'}")
+    progress.checked(checks)
     with bench_of(profile) as bench:
         display = bench.desktop.display
         profile = profile.model_copy(update={"game": game_in(display.title(), profile.game)})

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from calibration.arena.build import build_arena
 from calibration.arena.stand import NEAR_MIDDLE
-from calibration.clicks.find import find_clicks
+from calibration.clicks.find import find_some_clicks
 from calibration.cross_check import cross_check
 from calibration.font.find import find_font, sources_for, sources_here
 from calibration.font.sources import FontSources
@@ -37,7 +37,7 @@ def guided_steps(
         Step("font", with_font),
         Step("arena", partial(build_arena, standing=standing)),
         Step("walk", walk),
-        Step("clicks", find_clicks, is_needed=False),
+        Step("clicks", find_some_clicks, is_needed=False),
         Step("cross-check", cross_check, is_needed=False),
         Step("proof", partial(prove, is_server_allowed=is_server_allowed)),
     ]

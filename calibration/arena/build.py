@@ -97,7 +97,9 @@ def build_arena(
         NotInFrontError, UnreadableError: the game isn't in front, or its debug screen can't be read.
     """
     if profile.world is not None:
-        raise UserError("the profile's [world] has no commands: mark the arena only, with --mark-only")
+        raise UserError(
+            "the profile's [world] has no commands: mark the arena only, with mc-nested calibrate arena --mark-only"
+        )
     blocks = shipped_materials()
     screen = WindowScreen(bench.desktop.display, load_font(profile.screen.font_path()), overlay_of(profile))
     bench.say("Stand on the middle of the arena's near edge and look across it; then leave mouse and keys alone.")

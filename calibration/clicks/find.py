@@ -15,7 +15,7 @@ from calibration.report.kept import keep
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found, Picture
 from calibration.written import write_found, write_picture
-from mc_nested.errors import ProfileError, UserError
+from mc_nested.errors import NotConfirmedError, ProfileError, UserError
 from mc_nested.live.at_rest import wait_for_front
 from mc_nested.live.click_points import ClickPoints
 from mc_nested.live.desktop.hotkeys import open_hotkeys
@@ -129,6 +129,14 @@ def find_clicks(bench: Bench, profile: Profile, by_hand: ByHand | None = None) -
     return _found(profile, notes, points, scale)
 
 
+def find_some_clicks(bench: Bench, profile: Profile) -> Found:
+    """As ``find_clicks``, with nobody there to record by hand; NotConfirmedError where nothing was found."""
+    found = find_clicks(bench, profile)
+    if not found.points:
+        raise NotConfirmedError(f"{found.lines[0]}: record them by hand with mc-nested calibrate clicks")
+    return found
+
+
 def _walked(walk: MenuWalk, bench: Bench) -> MenuWalk:
     walk.through_pause()
     if not walk.is_single_player:
@@ -179,7 +187,9 @@ def _wait_for_menu(bench: Bench) -> None:
 
 
 def _found(profile: Profile, notes: Sequence[str], points: Sequence[Point], scale: int | None) -> Found:
-    """The profile with these points, at the GUI scale that was seen."""
+    """The profile with these points, at the GUI scale that was seen; one line, why there are none, where there are."""
+    if not points:
+        return Found(STEP, profile, ("; ".join(("no button was found", *notes[:1])),), 0)
     lines = [f"{point.name}: at {point.at[0]:.4f}, {point.at[1]:.4f} of the window" for point in points]
     if RESPAWN not in profile.points and all(point.name != RESPAWN for point in points):
         lines.append(f"{RESPAWN}: not seen, since nobody died: it is found by its label when that happens")
@@ -188,5 +198,5 @@ def _found(profile: Profile, notes: Sequence[str], points: Sequence[Point], scal
         height, width = point.frame.shape[:2]
         recorded.append(point.click_point(scale or largest_scale(width, height)))
     added = profile.model_copy(update={"points": profile.points | {point.name: point.at for point in points}})
-    pictures = (Picture("Where menus are clicked", picture_of(points)),) if points else ()
+    pictures = (Picture("Where menus are clicked", picture_of(points)),)
     return Found(STEP, added, (*lines, *notes), len(points), pictures, tuple(recorded))

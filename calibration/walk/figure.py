@@ -1,17 +1,20 @@
 """The walk's curve as a picture: hold time against displacement, and how far off the fit each hold ended."""
 
 import io
+from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from calibration.step import Picture
 from calibration.walk.fit import Pace
 from calibration.walk.gauge import Gauge
 from mc_nested.live.walk import TICK_S, Gait
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 SIZE_IN, DPI = (10.0, 4.2), 100
 
@@ -20,6 +23,9 @@ COLOURS: dict[Gait, str] = {"walk": "#1f5fa8", "sneak": "#b8561b"}
 
 def picture_of_walk(gauge: Gauge) -> Picture:
     """The curve, left, and the residuals, right: (420, 1000, 3)."""
+    # Loaded here alone, for its time, and for the warnings that it prints where no folder takes its settings.
+    from matplotlib.figure import Figure
+
     figure = Figure(figsize=SIZE_IN, dpi=DPI, layout="constrained")
     curve, residuals = figure.subplots(1, 2)
     paces: dict[Gait, Pace] = {"walk": gauge.walking, "sneak": gauge.sneaking}
@@ -44,13 +50,13 @@ def picture_of_walk(gauge: Gauge) -> Picture:
     return Picture("How far a held key walks", _drawn(figure), note)
 
 
-def _drawn(figure: Figure) -> NDArray[np.uint8]:
+def _drawn(figure: "Figure") -> NDArray[np.uint8]:
     file = io.BytesIO()
     figure.savefig(file, format="png")
     return np.asarray(cv2.imdecode(np.frombuffer(file.getvalue(), np.uint8), cv2.IMREAD_COLOR), np.uint8)
 
 
-def _draw_curve(axes: Axes, gauge: Gauge, gait: Gait, pace: Pace) -> None:
+def _draw_curve(axes: "Axes", gauge: Gauge, gait: Gait, pace: Pace) -> None:
     holds = [each for each in gauge.good if each.track.gait == gait]
     most = max(each.ticks for each in holds)
     ticks = np.arange(most + 1)

@@ -53,6 +53,8 @@ def calibrate_walk(profile_name: str | Path, bench_of: BenchOf) -> tuple[Found, 
     Raises as ``walk``, and ProfileError where the profile or the picture can't be written.
     """
     path, profile = profile_to_calibrate(profile_name)
+    if profile.screen.font is None:
+        raise ProfileError("places are read with the game's font: run mc-nested calibrate font first")
     profile.screen.font_path()  # before a window is looked for
     with bench_of(profile) as bench:
         found = walk(bench, profile)

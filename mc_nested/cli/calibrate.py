@@ -24,5 +24,7 @@ app.command()(report)
 def undo(profile: ProfileToWrite = DEFAULT_PROFILE) -> None:
     """Put the profile back as it was before the last calibration; a second time undoes that."""
     path = profile_path(profile)
-    undo_profile(path)
+    broken = undo_profile(path)
     typer.echo(f"{path} is as it was before")
+    if broken:
+        typer.echo(f"what stood there is no profile that can be read: it is kept in {broken}")

@@ -10,6 +10,7 @@ from calibration.arena.stand import NEAR_MIDDLE, calibrate_arena
 from calibration.arena.undo import undo_built_arena
 from calibration.bench import bench_for
 from mc_nested.cli.options import DEFAULT_PROFILE
+from mc_nested.errors import UserError
 
 
 def arena(
@@ -27,6 +28,8 @@ def arena(
     undo: Annotated[bool, typer.Option("--undo", help="put back what stood there before it was built")] = False,
 ) -> None:
     """Build the arena where you stand and look, with commands; what stood there is shown, asked about and copied."""
+    if mark_only and undo:
+        raise UserError("--mark-only and --undo do different things: choose one of them")
     if mark_only:
         path = calibrate_arena(profile, ask=typer.confirm, say=typer.echo, standing=standing, font=font, yes=yes)
         typer.echo(f"arena written to {path}" if path else "nothing was written")

@@ -22,7 +22,7 @@ def report(
     no_images: Annotated[bool, typer.Option("--no-images", help="leave the pictures out")] = False,
 ) -> None:
     """Make one HTML file of a profile and of what its calibration saw; it says itself what is in it."""
-    name = profile or DEFAULT_PROFILE
+    name = DEFAULT_PROFILE if profile is None else profile
     path = profile_path(name)
     write_report(name, out or report_path(path), with_pictures=not no_images)
 

@@ -69,4 +69,6 @@ def summary_of(checks: Sequence[Check]) -> str:
 
 def _examined(profile: str | None) -> Examination:
     say = partial(typer.echo, err=True)
-    return examine(profile or DEFAULT_PROFILE, say=say, system=System.here(), clipboard=open_clipboard())
+    return examine(
+        DEFAULT_PROFILE if profile is None else profile, say=say, system=System.here(), clipboard=open_clipboard()
+    )

@@ -63,7 +63,11 @@ def open_game(
         return
     say = partial(typer.echo, err=True)
     with open_live_game(
-        scenario, profile or DEFAULT_PROFILE, say, evidence=evidence, is_server_allowed=server_allowed
+        scenario,
+        DEFAULT_PROFILE if profile is None else profile,
+        say,
+        evidence=evidence,
+        is_server_allowed=server_allowed,
     ) as live:
         yield live
 

@@ -79,7 +79,7 @@ def train(
     config = RunConfig(
         agent=agent or DEFAULTS["agent"],
         backend=where.value,
-        profile=(profile or DEFAULT_PROFILE) if where is Backend.LIVE else None,
+        profile=(DEFAULT_PROFILE if profile is None else profile) if where is Backend.LIVE else None,
         trials=trials or DEFAULTS["trials"],
         seed=seed or DEFAULTS["seed"],
         stop_at_optimum=stop_at_optimum,

@@ -1,4 +1,4 @@
-"""Hands: the one owner of held keys and buttons. Presses need the game's window and the right screen; releases nothing.
+"""Hands: the one owner of held keys and buttons. A press needs its window and the right screen, a release neither.
 
 Every press comes with the time of its release, an absolute one, so that a late wake-up never adds up and a key is never
 down without an end:

@@ -4,8 +4,10 @@ A key that is left out takes its default, or is found on the screen. Profiles ar
 errors, and written without losing a user's comments.
 """
 
+import itertools
 import json
 import os
+import shutil
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -76,8 +78,13 @@ def profile_folder() -> Path:
 
 
 def profile_path(name_or_file: str | Path) -> Path:
-    """The file of a profile: a name lies in the profile folder; whatever ends in .toml is a path."""
+    """The file of a profile: a name lies in the profile folder; whatever ends in .toml is a path.
+
+    ProfileError where it is no name at all.
+    """
     path = Path(name_or_file)
+    if not path.name.strip():
+        raise ProfileError(f"{str(name_or_file)!r} names no profile: give a name, or a file that ends in .toml")
     return path.expanduser() if path.suffix == ".toml" else profile_folder() / f"{path}.toml"
 
 
@@ -88,7 +95,7 @@ def load_profile(name_or_file: str | Path) -> Profile:
         known = ", ".join(sorted(file.stem for file in profile_folder().glob("*.toml"))) or "none yet"
         raise ProfileError(
             f"no profile {str(name_or_file)!r}: looked for {path}; known are: {known}; "
-            "mc-nested calibrate arena makes one"
+            "mc-nested calibrate all makes one"
         )
     return parse_profile(read_toml_text(path, ProfileError), str(path))
 
@@ -124,8 +131,11 @@ def earlier_path(path: Path) -> Path:
     return path.with_name(f"{path.name}.before")
 
 
-def undo_profile(path: Path) -> None:
-    """Put the earlier profile back, and what stood in its place where that was: undone twice, nothing has changed.
+def undo_profile(path: Path) -> Path | None:
+    """Put the earlier profile back, and the one in its place where that was: undone twice, both are as before.
+
+    What stood in its place and is no profile that can be read is kept in a new file beside it, whose path is returned;
+    the earlier profile then stays where it is too.
 
     ProfileError where there is no earlier one that can be used, or a file can't be written; nothing is lost then.
     """
@@ -134,13 +144,18 @@ def undo_profile(path: Path) -> None:
         raise ProfileError(f"{path}: there is no earlier profile ({earlier.name}): calibrate again instead")
     text = read_toml_text(earlier, ProfileError)
     parse_profile(text, str(earlier))
-    undone = read_toml_text(path, ProfileError) if path.exists() else ""
+    broken = None
     try:
-        _replace(path, text)
-        if _is_profile(undone):
-            _replace(earlier, undone)
+        if path.exists() and _holds_profile(path):
+            _replace(beside := path.with_name(f"{path.name}.undone"), path.read_text("utf-8-sig"))
+            _replace(path, text)
+            beside.replace(earlier)
+        else:
+            broken = _kept_beside(path) if path.exists() else None
+            _replace(path, text)
     except OSError as error:
         raise ProfileError(f"{path}: can't be written ({error}): make room, and try again") from error
+    return broken
 
 
 def _check_format(tables: dict[str, Any], source: str) -> None:
@@ -161,6 +176,21 @@ def _is_profile(text: str) -> bool:
     except ProfileError:
         return False
     return True
+
+
+def _holds_profile(path: Path) -> bool:
+    try:
+        return _is_profile(read_toml_text(path, ProfileError))
+    except ProfileError:
+        return False
+
+
+def _kept_beside(path: Path) -> Path:
+    """A new file beside it that holds the same, byte for byte; no other is overwritten."""
+    names = (f"{path.name}.broken{number or ''}" for number in itertools.count())
+    broken = next(each for each in map(path.with_name, names) if not each.exists())
+    shutil.copyfile(path, broken)
+    return broken
 
 
 def _replace(path: Path, text: str) -> None:

@@ -50,6 +50,9 @@ AFTER_S = 0.3
 UNKNOWN_S = 1.5
 """How long a screen may be unknown before something is pressed: pictures freeze, worlds load."""
 
+NOT_ON_A_SERVER: frozenset[ScreenName] = frozenset({"title", "worlds", "disconnected"})
+"""The screens from which the way leads into a world of one's own, and never back to a server."""
+
 _ROW_LEFT, _ROW_MIDDLE = 119, 18
 """GUI pixels from the window's middle to the icon of a world's row, and from the list's top to the row's middle."""
 
@@ -64,8 +67,11 @@ class Way:
 class WayBack:
     """Finds the way back into the world that was left.
 
+    Where the window's title said Multiplayer when this was made, there is none from the title screen on: nobody's own
+    world is entered instead (FACTS: Input and windows; to 1.14 no title says so).
+
     Raises (everything): NotInFrontError where the game's window stays behind another; LiveError where the world was
-    not found in time; what the hands raise.
+    not found in time, or where it is a server's and was left; what the hands raise.
     """
 
     def __init__(
@@ -84,6 +90,7 @@ class WayBack:
         self._clock = clock
         self._points = points or {}
         self._is_chosen = False
+        self._is_multiplayer = self._says_multiplayer()
 
     def find(self, problem: str = "") -> Way:
         """Get to the world with its debug screen on, nothing over it, and the game's window in front.
@@ -97,6 +104,7 @@ class WayBack:
         while True:
             self._wait_for_front()
             name, reason = self._name()
+            self._check_server(name)
             if name == "world":
                 return Way(tuple(seen))
             if self._clock.now() >= until:
@@ -119,6 +127,8 @@ class WayBack:
 
     def leave_world(self) -> None:
         """Save the world, and get to the title screen."""
+        if self._is_multiplayer:
+            raise LiveError("a server's world is not left, since nothing leads back: take a profile without [world]")
         until = self._clock.now() + PATIENCE_S
         while (name := self._name()[0]) != "title":
             if self._clock.now() >= until:
@@ -135,6 +145,17 @@ class WayBack:
     def name(self) -> ScreenName:
         """Which screen is there."""
         return self._name()[0]
+
+    def _says_multiplayer(self) -> bool:
+        return "Multiplayer" in self._display.title()
+
+    def _check_server(self, name: ScreenName) -> None:
+        """LiveError where this screen leads, or has led, from a server to another world, or the other way round."""
+        if self._is_multiplayer and name in NOT_ON_A_SERVER:
+            raise LiveError(f"the server was left, the screen is {name}: join the server again, then start again")
+        if name == "world" and self._says_multiplayer() != self._is_multiplayer:
+            was, now = ("a server's", "your own") if self._is_multiplayer else ("your own", "a server's")
+            raise LiveError(f"the world was {was}, and is {now} now: go back to the one before, then start again")
 
     def _name(self) -> tuple[ScreenName, str]:
         reading = self._screen.read()

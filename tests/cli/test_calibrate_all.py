@@ -102,4 +102,5 @@ def test_a_row_of_the_doctors_that_all_needs_ends_it_with_its_remedy(
 ) -> None:
     set_up(monkeypatch, client, with_font(tmp_path), failing="in front")
     assert code_of(tmp_path / "mine.toml") == 2
-    assert capsys.readouterr().err == "mc-nested: in front: it is wrong: mend it\n"
+    said = capsys.readouterr()
+    assert (said.out, said.err) == ("", "mc-nested: in front: it is wrong: mend it\n")

@@ -6,7 +6,7 @@ import pytest
 
 from mc_nested.cli import calibrate_clicks, calibrate_font
 from mc_nested.cli.app import main
-from mc_nested.live.profile import load_profile
+from mc_nested.live.profile import Profile, load_profile, save_profile
 from sim.client.client import VirtualClient
 from tests.calibration.benches import bench_of, font_file_in, started
 
@@ -47,6 +47,8 @@ def test_from_a_bare_profile_to_points_that_are_shown(
     ("words", "message"),
     [
         (("clicks",), "run mc-nested calibrate font first"),
+        (("walk",), "run mc-nested calibrate font first"),
+        (("arena", "--mark-only", "--undo"), "choose one of them"),
         (("clicks", "--show", "--dry-run"), "choose one of them"),
         (("clicks", "--show"), "has no points with pictures"),
         (("clicks", "--hotkey", "f9"), "can't both record and skip"),
@@ -66,3 +68,19 @@ def test_a_mistake_is_one_line_and_nothing_is_written(
     assert error.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
     assert client.window.strays == []
+
+
+@pytest.mark.parametrize("words", [("all",), ("undo",), ("report",), ("walk",), ("font",), ("clicks",)])
+def test_an_empty_name_is_never_another_profile(words: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert code_of("calibrate", *words, "--profile", "") == 2
+    assert capsys.readouterr().err == "mc-nested: '' names no profile: give a name, or a file that ends in .toml\n"
+
+
+def test_undoing_says_where_what_can_not_be_read_is_kept(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "mine.toml"
+    save_profile(Profile(), file)
+    save_profile(Profile(points={"other": (0.5, 0.5)}), file)
+    file.write_text("[walking]\n", "utf-8")
+    assert code_of("calibrate", "undo", "--profile", file) in (0, None)
+    said = f"{file} is as it was before\nwhat stood there is no profile that can be read: it is kept in {file}.broken\n"
+    assert capsys.readouterr().out == said

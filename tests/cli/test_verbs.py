@@ -389,6 +389,11 @@ def test_nothing_but_the_verb_asks_for_help(capsys: pytest.CaptureFixture[str]) 
         assert verb in printed
 
 
+def test_what_draws_no_figure_loads_no_matplotlib() -> None:
+    code = "import sys, mc_nested.cli.calibrate, mc_nested.cli.doctor; sys.exit('matplotlib' in sys.modules)"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
 def test_importing_everything_needs_no_display() -> None:
     modules = "mc_nested, mc_nested.cli, mc_nested.live.desktop, mc_nested.live.session, sim.grid, calibration"
     environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}

@@ -228,10 +228,29 @@ def test_no_letter_of_a_command_goes_to_a_window_that_comes_to_the_front() -> No
     assert game.presses_behind == []
 
 
+class CountingKeyboard(FakeKeyboard):
+    """A keyboard that notes what is released."""
+
+    def __init__(self, game: FakeGame) -> None:
+        super().__init__(game)
+        self.released: list[str] = []
+
+    def release(self, key: str) -> None:
+        self.released.append(key)
+        super().release(key)
+
+
 def test_releasing_everything_twice_is_fine() -> None:
-    hands = _hands(FakeGame(PROFILE))
+    game = FakeGame(PROFILE)
+    keyboard = CountingKeyboard(game)
+    hands = Hands(FakeDisplay(game), keyboard, FakePointer(game), game.clock, game.profile.input)
+    hands.saw("world")
+    hands.press(game.clock.now() + 1.0, "w", "a")
+    assert keyboard.released == []
     hands.release_all()
     hands.release_all()
+    assert sorted(keyboard.released) == ["a", "w"]
+    assert game.down == set()
 
 
 class _EndingClock(FakeClock):

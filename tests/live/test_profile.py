@@ -157,6 +157,35 @@ def test_undoing_brings_the_last_good_profile_back_whatever_became_of_the_file(t
         assert load_profile(path) == Profile()
 
 
+@pytest.mark.parametrize("broken", [b"[walking]\nspeed = 4.3\n", b"[calibrated]\nformat = 99\n", b"# caf\xe9\n"])
+def test_what_is_undone_and_can_not_be_read_is_kept_and_overwrites_nothing(tmp_path: Path, broken: bytes) -> None:
+    path = tmp_path / "mine.toml"
+    save_profile(Profile(), path)
+    save_profile(Profile(arena=ARENA), path)
+    for name in ("mine.toml.broken", "mine.toml.broken1"):
+        path.write_bytes(broken + name.encode())
+        assert undo_profile(path) == tmp_path / name
+        assert load_profile(path) == Profile()
+    for name in ("mine.toml.broken", "mine.toml.broken1"):
+        assert (tmp_path / name).read_bytes() == broken + name.encode()
+    assert earlier_path(path).read_bytes() == path.read_bytes()
+
+
+def test_an_undoing_that_finds_no_room_loses_neither_profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "mine.toml"
+    save_profile(Profile(), path)
+    save_profile(Profile(arena=ARENA), path)
+    one, other = path.read_bytes(), earlier_path(path).read_bytes()
+
+    def full(_handle: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("os.fsync", full)
+    with pytest.raises(ProfileError, match="make room"):
+        undo_profile(path)
+    assert (path.read_bytes(), earlier_path(path).read_bytes()) == (one, other)
+
+
 def test_without_a_good_earlier_profile_nothing_is_undone(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     save_profile(Profile(arena=ARENA), path)
@@ -186,11 +215,22 @@ def test_a_profile_of_another_format_is_never_overwritten(tmp_path: Path) -> Non
     assert path.read_bytes() == before
 
 
+@pytest.mark.parametrize("name", ["", " ", "."])
+def test_no_name_is_no_profile(name: str) -> None:
+    with pytest.raises(ProfileError, match="names no profile: give a name"):
+        load_profile(name)
+
+
+def test_a_profile_that_is_not_there_is_told_what_makes_it(tmp_path: Path) -> None:
+    with pytest.raises(ProfileError, match="mc-nested calibrate all makes one"):
+        load_profile(tmp_path / "none.toml")
+
+
 def test_a_name_means_a_file_in_the_profile_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path)
     save_profile(Profile(game=GameVersion(version="1.16.5")), profile_folder() / "laptop.toml")
     assert load_profile("laptop").game.version == "1.16.5"
-    with pytest.raises(ProfileError, match=r"no profile 'lapdog'.*known are: laptop;.*calibrate arena"):
+    with pytest.raises(ProfileError, match=r"no profile 'lapdog'.*known are: laptop;.*calibrate all"):
         load_profile("lapdog")
 
 

@@ -15,7 +15,7 @@ from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, Use
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile import Profile, load_profile, save_profile
-from mc_nested.live.profile_tables import Arena
+from mc_nested.live.profile_tables import Arena, World
 from sim.client import chat_commands
 from sim.client.client import VirtualClient
 from sim.client.mishaps import Kind
@@ -245,3 +245,14 @@ def test_a_hand_in_between_is_one_line_and_the_profile_as_it_was(kind: Kind, aft
     assert file.read_bytes() == before
     assert client.window.down == set()
     assert client.window.strays == []
+
+
+def test_a_world_without_commands_is_told_the_whole_command_that_marks_it(tmp_path: Path) -> None:
+    client = VirtualClient()
+    world = World(folder=str(tmp_path / "arena"), template=str(tmp_path / "template"), name="arena")
+    profile = profile_of(client, tmp_path).model_copy(update={"world": world})
+    with (
+        bench_on(client)(profile) as bench,
+        pytest.raises(UserError, match=r"mark the arena only, with mc-nested calibrate arena --mark-only$"),
+    ):
+        build_arena(bench, profile)

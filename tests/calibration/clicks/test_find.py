@@ -6,9 +6,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibration.clicks.find import MENU_POINTS, QUESTION, calibrate_clicks, find_clicks, shown_clicks, try_clicks
+from calibration.clicks.find import (
+    MENU_POINTS,
+    QUESTION,
+    calibrate_clicks,
+    find_clicks,
+    find_some_clicks,
+    shown_clicks,
+    try_clicks,
+)
 from calibration.clicks.shown import MARK_COLOUR, SEEN_COLOUR, Point, picture_of_screen
-from mc_nested.errors import LiveError, ProfileError
+from mc_nested.errors import LiveError, NotConfirmedError, ProfileError
 from mc_nested.live import way_back
 from mc_nested.live.click_points import looks_the_same
 from mc_nested.live.font import decoded
@@ -138,8 +146,17 @@ def test_in_another_language_nothing_is_guessed_and_the_rest_is_asked_for_by_han
     found = find_clicks(bench_over(client), profile_in(tmp_path), by_hand)
     assert found.profile.points == {}
     assert set(wanted) == set(MENU_POINTS) - {"respawn"}
-    assert any("no English label" in line for line in found.lines)
+    assert found.lines == (
+        "no button was found; the Game Menu: no English label is seen after Esc, so nothing of it was recorded",
+    )
     assert (client.game.screen, client.window.down) == ("world", set())
+
+
+def test_without_a_hand_no_button_at_all_is_a_step_that_failed(tmp_path: Path) -> None:
+    with pytest.raises(
+        NotConfirmedError, match=r"^no button was found; .*no English label.*: record them by hand with"
+    ):
+        find_some_clicks(bench_over(started(VirtualClient(words=SPANISH))), profile_in(tmp_path))
 
 
 def test_a_button_that_a_pack_renames_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,111 @@
+"""The way back from a server: it never leads through Singleplayer into a world that the agent doesn't belong in."""
+
+import pytest
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import LiveError
+from mc_nested.live.game_screen import WindowScreen
+from mc_nested.live.hands import Hands
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile import Profile
+from mc_nested.live.profile_tables import GameVersion
+from mc_nested.live.way_back import WayBack
+from sim.client.client import VirtualClient
+from sim.client.screens import ScreenName
+from tests.sim.client.playing import FONT, arena_of
+
+SERVER, OWN = "Minecraft 1.20.1 - Multiplayer (3rd-party Server)", "Minecraft 1.20.1 - Singleplayer"
+
+
+def way_of(client: VirtualClient) -> WayBack:
+    hands = Hands(client.display, client.keyboard, client.pointer, client.clock, Profile().input)
+    return WayBack(Profile(), hands, WindowScreen(client.display, FONT), client.display, client.clock)
+
+
+def titled(client: VirtualClient, monkeypatch: pytest.MonkeyPatch, title: str) -> None:
+    """From here on the window says that in a world, and on other screens what it says there."""
+    says = type(client.display).title
+
+    def title_now() -> str:
+        outside = client.game.screen in ("title", "worlds", "disconnected")
+        return says(client.display) if outside else title
+
+    monkeypatch.setattr(client.display, "title", title_now)
+    client.clock.sleep(0.3)
+
+
+@pytest.mark.parametrize("screen", ["title", "worlds", "disconnected"])
+def test_from_a_server_these_screens_lead_nowhere_and_nothing_on_them_is_clicked(
+    screen: ScreenName, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient()
+    titled(client, monkeypatch, SERVER)
+    way = way_of(client)
+    client.game.open(screen)
+    client.clock.sleep(0.3)
+    monkeypatch.setattr(client.pointer, "press", None)
+    with pytest.raises(LiveError, match=f"the server was left, the screen is {screen}: join the server again"):
+        way.find()
+    assert client.game.screen == screen
+
+
+@pytest.mark.parametrize("screen", ["pause", "chat", "death"])
+def test_on_a_server_the_way_back_from_other_screens_is_the_same(
+    screen: ScreenName, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient()
+    titled(client, monkeypatch, SERVER)
+    way = way_of(client)
+    if screen == "death":
+        client.game.die()
+    else:
+        client.game.open(screen)
+    client.clock.sleep(1.5)
+    assert way.find().screens[0] == screen
+    assert client.game.screen == "world"
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "said"), [(SERVER, OWN, "was a server's, and is your own"), (OWN, SERVER, "is a server's now")]
+)
+def test_a_world_of_another_kind_than_before_is_not_the_one_that_was_left(
+    before: str, after: str, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient()
+    titled(client, monkeypatch, before)
+    way = way_of(client)
+    way.find()
+    titled(client, monkeypatch, after)
+    with pytest.raises(LiveError, match=said):
+        way.find()
+
+
+def test_a_servers_world_is_never_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    client = VirtualClient()
+    titled(client, monkeypatch, SERVER)
+    with pytest.raises(LiveError, match="is not left, since nothing leads back"):
+        way_of(client).leave_world()
+    assert client.game.screen == "world"
+
+
+def test_after_a_disconnect_from_a_server_no_command_is_sent_anywhere(monkeypatch: pytest.MonkeyPatch) -> None:
+    client = VirtualClient()
+    titled(client, monkeypatch, SERVER)
+    profile = Profile(game=GameVersion(version=client.settings.version), arena=arena_of(client))
+    with LiveGame(
+        load_scenario("line"),
+        profile,
+        display=client.display,
+        keyboard=client.keyboard,
+        pointer=client.pointer,
+        clock=client.clock,
+        screen=WindowScreen(client.display, FONT),
+        is_server_allowed=True,
+    ) as game:
+        game.reset(1)
+        client.mishaps.plan("disconnect", 0.1)
+        client.clock.sleep(0.5)
+        monkeypatch.setattr(client.keyboard, "type", None)
+        with pytest.raises(LiveError, match="join the server again"):
+            game.reset(1)
+    assert client.game.screen == "disconnected"
