@@ -179,8 +179,8 @@ def _warnings(gauge: Gauge, profile: Profile) -> list[str]:
     lines = []
     if gauge.is_lagging:
         lines.append(
-            f"Warning: the game lags: ticks came late in {gauge.late} holds, and {gauge.lost} were of no use. Close other "
-            "programs, or lower the render distance."
+            f"Warning: the game lags: ticks came late in {gauge.late} holds, and {gauge.lost} were of no use. "
+            "Close other programs, or lower the render distance."
         )
     if not gauge.is_plain:
         lines.append(
