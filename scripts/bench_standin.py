@@ -56,6 +56,14 @@ def standin_up() -> Iterator[dict[str, Any]]:
             subprocess.run([*script, "down"], check=True)  # noqa: S603 - fixed
 
 
+def in_its_window(state: dict[str, Any], scenario: Scenario, count: int, seed: int) -> Play:
+    """Play in the stand-in's window; what held on to its display has let go when this returns."""
+    os.environ["DISPLAY"] = state["display"]
+    arena = load_profile(state["profile"]).marked_arena()
+    with open_live_game(scenario, state["profile"], lambda line: print(line, file=sys.stderr)) as (game, _):
+        return play(game, scenario, arena, state["oracle"], count, seed)
+
+
 def play(game: LiveGame, scenario: Scenario, arena: Arena, oracle: str, count: int, seed: int) -> Play:
     """Take ``count`` actions, and ask the server after each."""
     done = Play()
@@ -104,10 +112,7 @@ def main() -> int:
     options = parser.parse_args()
     scenario = load_scenario("diamond")
     with standin_up() as state:
-        os.environ["DISPLAY"] = state["display"]
-        arena = load_profile(state["profile"]).marked_arena()
-        with open_live_game(scenario, state["profile"], lambda line: print(line, file=sys.stderr)) as (game, _):
-            played = play(game, scenario, arena, state["oracle"], options.actions, options.seed)
+        played = in_its_window(state, scenario, options.actions, options.seed)
     summary = figures(played)
     if options.json:
         print(json.dumps(summary))

@@ -7,6 +7,8 @@ from mc_nested.live.desktop.keys import WORDS, check_key
 from mc_nested.live.desktop.pointer import load_pyautogui
 from mc_nested.live.panic import CORNER_REASON, KEY_REASON, Stop, corners_of
 
+LET_GO_S = 1.0
+
 
 @contextmanager
 def open_panic_switch(key: str, stop: Stop) -> Iterator[None]:
@@ -35,3 +37,6 @@ def open_panic_switch(key: str, stop: Stop) -> Iterator[None]:
         keys.wait()
         moves.wait()
         yield
+    # They let go of the display some time after they are told to.
+    for listener in (keys, moves):
+        listener.join(LET_GO_S)
