@@ -21,7 +21,7 @@ from calibration.step import Bench, Found
 from calibration.written import write_found
 from mc_nested.errors import DesktopError
 from mc_nested.live.devices import Display
-from mc_nested.live.fingerprint import game_in, version_in
+from mc_nested.live.fingerprint import check_single_player, game_in, version_in
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.profile import Profile
@@ -64,13 +64,17 @@ def calibrate_all(
     steps: Sequence[Step],
     progress: Progress,
     today: str | None = None,
+    *,
+    is_server_allowed: bool = False,
 ) -> Whole:
     """Calibrate a profile, a new one where there is none of that name; nothing of it is written before all is done.
 
-    ``today`` is the day that is noted, as year-month-day.
+    ``today`` is the day that is noted, as year-month-day. Unless ``is_server_allowed``, a game that others may share is
+    refused before anything is pressed.
 
     Raises:
-        DesktopError: a row of the doctor's fails that all the rest needs; it says what to do.
+        DesktopError: a row of the doctor's fails that all the rest needs, or others may share the game; it says what
+            to do.
         UserError, LiveError: a needed step failed, or the game was taken away. The profile is as it was, every key up.
     """
     path, profile = profile_to_calibrate(profile_name)
@@ -81,6 +85,7 @@ def calibrate_all(
             raise DesktopError(f"{check.name}: {check.detail}: {check.fix or 'run mc-nested doctor'}")
     with bench_of(profile) as bench:
         display = bench.desktop.display
+        check_single_player(display.title(), is_server_allowed=is_server_allowed)
         profile = profile.model_copy(update={"game": game_in(display.title(), profile.game)})
         guided = run_steps.run_steps(steps, bench, profile, progress, partial(_find_world, bench))
         fingerprint = _fingerprint(guided, display, today or datetime.date.today().isoformat())

@@ -35,8 +35,8 @@ def guided_steps(
 
     return [
         Step("font", with_font),
-        Step("arena", partial(build_arena, standing=standing)),
-        Step("walk", walk),
+        Step("arena", partial(build_arena, standing=standing, is_server_allowed=is_server_allowed)),
+        Step("walk", partial(walk, is_server_allowed=is_server_allowed)),
         Step("clicks", find_clicks, is_needed=False),
         Step("cross-check", cross_check, is_needed=False),
         Step("proof", partial(prove, is_server_allowed=is_server_allowed)),

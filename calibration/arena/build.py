@@ -29,7 +29,7 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import NotConfirmedError, UserError
 from mc_nested.live.at_rest import read_at_rest
 from mc_nested.live.commands import teleport_command
-from mc_nested.live.fingerprint import game_in
+from mc_nested.live.fingerprint import check_single_player, game_in
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.profile import Profile, save_profile
@@ -55,6 +55,7 @@ def calibrate_built_arena(
     standing: Cell = NEAR_MIDDLE,
     font: Path | None = None,
     yes: bool = False,
+    is_server_allowed: bool = False,
 ) -> tuple[Found, Path]:
     """Build the arena as ``build_arena`` does, and write it into a profile; what was found, and the profile's file.
 
@@ -62,7 +63,7 @@ def calibrate_built_arena(
     """
     path, profile, _ = begun(profile_name, standing, font)
     with bench_of(profile) as bench:
-        found = build_arena(bench, profile, standing=standing, yes=yes)
+        found = build_arena(bench, profile, standing=standing, yes=yes, is_server_allowed=is_server_allowed)
     save_profile(found.profile, path)
     keep(path, [found])
     return found, path
@@ -79,6 +80,7 @@ def build_arena(
     *,
     standing: Cell = NEAR_MIDDLE,
     yes: bool = False,
+    is_server_allowed: bool = False,
 ) -> Found:
     """Mark and build the arena around the player; the profile with it, and with the version that the title says.
 
@@ -90,8 +92,10 @@ def build_arena(
         profile: with the font.
         standing: the cell that the player stands on.
         yes: build without asking.
+        is_server_allowed: build in a game that others may share, too.
 
     Raises:
+        DesktopError: a game that others may share; nothing was pressed.
         UserError: a stand that can't be the arena's, a world without commands, a place that isn't loaded, or a no.
         NotConfirmedError: what was built is not what is seen.
         NotInFrontError, UnreadableError: the game isn't in front, or its debug screen can't be read.
@@ -102,6 +106,7 @@ def build_arena(
     screen = WindowScreen(bench.desktop.display, load_font(profile.screen.font_path()), overlay_of(profile))
     bench.say("Stand on the middle of the arena's near edge and look across it; then leave mouse and keys alone.")
     reading = read_at_rest(bench.desktop.display, bench.desktop.clock, screen.read)
+    check_single_player(bench.desktop.display.title(), is_server_allowed=is_server_allowed)
     arena = arena_seen(reading, standing)
     profile = profile.model_copy(update={"game": game_in(bench.desktop.display.title(), profile.game)})
     console = Console(bench, profile, screen)

@@ -11,6 +11,7 @@ from calibration.step import Bench, Found
 from mc_nested.errors import NotConfirmedError, UserError
 from mc_nested.live.at_rest import read_at_rest
 from mc_nested.live.commands import teleport_command
+from mc_nested.live.fingerprint import check_single_player
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.profile import Profile, load_profile, profile_path, save_profile
@@ -18,20 +19,23 @@ from mc_nested.live.reading import Block
 from mc_nested.live.session import overlay_of
 
 
-def undo_built_arena(profile_name: str | Path, bench_of: BenchOf) -> tuple[Found, Path]:
+def undo_built_arena(
+    profile_name: str | Path, bench_of: BenchOf, *, is_server_allowed: bool = False
+) -> tuple[Found, Path]:
     """Put back what stood where a profile's arena is, and write that; what was done, and the profile's file."""
     profile = load_profile(profile_name)
     _copy_of(profile)
     with bench_of(profile) as bench:
-        found = undo_arena(bench, profile)
+        found = undo_arena(bench, profile, is_server_allowed=is_server_allowed)
     save_profile(found.profile, profile_path(profile_name))
     return found, profile_path(profile_name)
 
 
-def undo_arena(bench: Bench, profile: Profile) -> Found:
+def undo_arena(bench: Bench, profile: Profile, *, is_server_allowed: bool = False) -> Found:
     """Put back what stood where the profile's arena is, and forget the arena.
 
     Raises:
+        DesktopError: a game that others may share, unless ``is_server_allowed``; nothing was pressed.
         UserError: no copy is known.
         NotConfirmedError: the copy isn't where it was left, or was not seen put back; it is kept then.
     """
@@ -39,6 +43,7 @@ def undo_arena(bench: Bench, profile: Profile) -> Found:
     screen = WindowScreen(bench.desktop.display, load_font(profile.screen.font_path()), overlay_of(profile))
     bench.say("Switch to the game: what stood where the arena is will be put back.")
     read_at_rest(bench.desktop.display, bench.desktop.clock, screen.read)
+    check_single_player(bench.desktop.display.title(), is_server_allowed=is_server_allowed)
     console = Console(bench, profile, screen)
     questions = Questions(console, profile, screen, arena.yaw)
     box = box_of(arena)

@@ -36,7 +36,7 @@ def calibrate(
     bench_of = bench_for(typer.echo, (lambda _: True) if yes else typer.confirm)
     steps = guided_steps(font, standing=standing, is_server_allowed=server_allowed)
     shown = Lines()
-    whole = calibrate_all(profile, bench_of, _examined, steps, shown)
+    whole = calibrate_all(profile, bench_of, _examined, steps, shown, is_server_allowed=server_allowed)
     left_out = [TITLES.get(name, name) for name in whole.guided.passed_over]
     without = f", without: {', '.join(left_out)}" if left_out else ""
     typer.echo(f"calibrated in {shown.seconds:.0f} s{without}")

@@ -147,6 +147,17 @@ def test_however_it_ends_early_the_profile_is_as_it_was_and_no_key_is_down(
     assert not client.window.down
 
 
+def test_a_game_that_others_may_share_is_refused_before_any_step(
+    client: VirtualClient, profile: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
+    watcher = Watcher()
+    with pytest.raises(DesktopError, match=r"others may be playing there.*--server-allowed"):
+        run(client, profile, Step("walk", swapped), watcher=watcher)
+    assert watcher.begun == []
+    assert client.built == {}
+
+
 def test_a_window_made_another_size_midway_is_one_line(client: VirtualClient, profile: Path) -> None:
     def resized(bench: Bench, profile: Profile) -> Found:
         client.resize((1280, 720))

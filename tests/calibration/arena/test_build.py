@@ -213,6 +213,43 @@ def test_the_verbs_write_what_was_built_and_undone(tmp_path: Path) -> None:
     assert load_profile(file).arena is None
 
 
+def shared(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
+    """Makes the client's world one that others may share; what is sent to it from here on."""
+    pressed: list[str] = []
+    press = client.keyboard.press
+
+    def noted(key: str) -> None:
+        pressed.append(key)
+        press(key)
+
+    patch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
+    patch.setattr(client.keyboard, "press", noted)
+    return pressed
+
+
+def test_in_a_game_that_others_may_share_nothing_is_pressed_and_built(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient()
+    pressed = shared(client, monkeypatch)
+    with pytest.raises(DesktopError, match=r"others may be playing there.*--server-allowed"):
+        built(client, tmp_path)
+    assert pressed == []
+    assert client.built == {}
+
+
+def test_in_a_game_that_others_may_share_nothing_is_undone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    client = VirtualClient()
+    profile = built(client, tmp_path).profile
+    after, pressed = client.built, shared(client, monkeypatch)
+    with bench_on(client)(profile) as bench:
+        with pytest.raises(DesktopError, match="--server-allowed"):
+            undo_arena(bench, profile)
+        assert (client.built, pressed) == (after, [])
+        undo_arena(bench, profile, is_server_allowed=True)
+    assert client.built == {}
+
+
 @pytest.mark.parametrize("after_s", [0.3, 2.0, 5.0, 8.0])
 @pytest.mark.parametrize("error", [KeyboardInterrupt(), DesktopError("the game's window has closed: open it again")])
 def test_ctrl_c_or_a_closed_window_at_any_time_leaves_keys_up_and_the_profile_as_it_was(
