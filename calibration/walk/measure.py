@@ -10,7 +10,7 @@ import cv2
 
 from calibration.bench import BenchOf
 from calibration.console import Console
-from calibration.report.kept import keep
+from calibration.report.kept import keep_or_warn
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found
 from calibration.walk.figure import picture_of_walk
@@ -61,7 +61,7 @@ def calibrate_walk(
     with bench_of(profile) as bench:
         found = walk(bench, profile, is_server_allowed=is_server_allowed)
     save_profile(found.profile, path)
-    keep(path, [found])
+    keep_or_warn(bench.say, path, [found])
     picture = path.with_name(f"{path.stem}-walk.png")
     try:
         picture.write_bytes(cv2.imencode(".png", found.pictures[0].frame)[1].tobytes())

@@ -41,4 +41,5 @@ def arena(
         )
     for line in found.lines:
         typer.echo(line)
-    typer.echo(f"written to {file}")
+    if file.is_file():
+        typer.echo(f"written to {file}")
