@@ -12,16 +12,17 @@ from pathlib import Path
 from typing import Protocol
 
 from calibration import run_steps
+from calibration.arena.copy_note import forget_known_copy, saying_how_to_undo
 from calibration.bench import BenchOf
 from calibration.doctor.check import Check
-from calibration.report.kept import keep
+from calibration.report.kept import keep_or_warn
 from calibration.run_steps import Guided, Step
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found
 from calibration.written import write_found
 from mc_nested.errors import DesktopError
 from mc_nested.live.devices import Display
-from mc_nested.live.fingerprint import game_in, version_in
+from mc_nested.live.fingerprint import check_single_player, game_in, version_in
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.profile import Profile
@@ -64,14 +65,19 @@ def calibrate_all(
     steps: Sequence[Step],
     progress: Progress,
     today: str | None = None,
+    *,
+    is_server_allowed: bool = False,
 ) -> Whole:
     """Calibrate a profile, a new one where there is none of that name; nothing of it is written before all is done.
 
-    ``today`` is the day that is noted, as year-month-day.
+    ``today`` is the day that is noted, as year-month-day. Unless ``is_server_allowed``, a game that others may share is
+    refused before anything is pressed.
 
     Raises:
-        DesktopError: a row of the doctor's fails that all the rest needs; it says what to do.
-        UserError, LiveError: a needed step failed, or the game was taken away. The profile is as it was, every key up.
+        DesktopError: a row of the doctor's fails that all the rest needs, or others may share the game; it says what
+            to do.
+        UserError, LiveError: a needed step failed, or the game was taken away. The profile is as it was, every key up;
+            where an arena was built, a note beside the profile lets it be undone.
     """
     path, profile = profile_to_calibrate(profile_name)
     checks = examined(profile_name)
@@ -79,16 +85,19 @@ def calibrate_all(
         if check.status == "fail" and check.name in GATES:
             raise DesktopError(f"{check.name}: {check.detail}: {check.fix or 'run mc-nested doctor'}")
     progress.checked(checks)
-    with bench_of(profile) as bench:
+    with saying_how_to_undo(path), bench_of(profile) as bench:
         display = bench.desktop.display
+        check_single_player(display.title(), is_server_allowed=is_server_allowed)
         profile = profile.model_copy(update={"game": game_in(display.title(), profile.game)})
         guided = run_steps.run_steps(steps, bench, profile, progress, partial(_find_world, bench))
         fingerprint = _fingerprint(guided, display, today or datetime.date.today().isoformat())
     guided = dataclasses.replace(guided, profile=guided.profile.model_copy(update={"calibrated": fingerprint}))
     points = tuple(point for found in guided.found for point in found.points)
-    write_found(Found("all", guided.profile, (), 0, points=points), path)
+    with saying_how_to_undo(path):
+        write_found(Found("all", guided.profile, (), 0, points=points), path)
+    forget_known_copy(guided.profile, path)
     checks = examined(profile_name)
-    keep(path, guided.found, checks, fingerprint.date)
+    keep_or_warn(bench.say, path, guided.found, checks, fingerprint.date)
     return Whole(path, guided, checks)
 
 

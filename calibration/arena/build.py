@@ -3,17 +3,25 @@
 stand and look -> is it loaded, free, flat? -> the question -> a copy -> floor, border, rules, materials -> seen
 """
 
+import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
 
-from calibration.arena.ground import Ground, looked_over
+from calibration.arena.copy_note import (
+    forget_known_copy,
+    note_copy,
+    noted_copy,
+    saying_how_to_undo,
+    undo_command,
+)
+from calibration.arena.ground import is_copy_gone, looked_over
 from calibration.arena.plan import (
     FLOOR,
     border_block,
     box_of,
     build_commands,
     copy_command,
-    moved,
+    do_meet,
 )
 from calibration.arena.questions import Questions
 from calibration.arena.sight import turned
@@ -22,14 +30,14 @@ from calibration.arena.words import how_to_undo, lines, question
 from calibration.bench import BenchOf
 from calibration.console import Console
 from calibration.report.chat_region import without_chat
-from calibration.report.kept import keep
+from calibration.report.kept import keep_or_warn
 from calibration.step import Bench, Found, Picture
 from mc_nested.arena.rules import SIZE, Cell
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import NotConfirmedError, UserError
 from mc_nested.live.at_rest import read_at_rest
 from mc_nested.live.commands import teleport_command
-from mc_nested.live.fingerprint import game_in
+from mc_nested.live.fingerprint import check_single_player, game_in
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.profile import Profile, save_profile
@@ -55,16 +63,19 @@ def calibrate_built_arena(
     standing: Cell = NEAR_MIDDLE,
     font: Path | None = None,
     yes: bool = False,
+    is_server_allowed: bool = False,
 ) -> tuple[Found, Path]:
     """Build the arena as ``build_arena`` does, and write it into a profile; what was found, and the profile's file.
 
     ``font`` is the client jar or font picture to read with, noted in the profile; left out, the profile's own.
     """
     path, profile, _ = begun(profile_name, standing, font)
-    with bench_of(profile) as bench:
-        found = build_arena(bench, profile, standing=standing, yes=yes)
-    save_profile(found.profile, path)
-    keep(path, [found])
+    with saying_how_to_undo(path), bench_of(profile) as bench:
+        found = build_arena(bench, profile, path=path, standing=standing, yes=yes, is_server_allowed=is_server_allowed)
+    with saying_how_to_undo(path):
+        save_profile(found.profile, path)
+    forget_known_copy(found.profile, path)
+    keep_or_warn(bench.say, path, [found])
     return found, path
 
 
@@ -77,8 +88,10 @@ def build_arena(
     bench: Bench,
     profile: Profile,
     *,
+    path: Path | None = None,
     standing: Cell = NEAR_MIDDLE,
     yes: bool = False,
+    is_server_allowed: bool = False,
 ) -> Found:
     """Mark and build the arena around the player; the profile with it, and with the version that the title says.
 
@@ -88,10 +101,14 @@ def build_arena(
     Args:
         bench: the devices and the person.
         profile: with the font.
+        path: the profile's file: the copy is noted beside it before anything is built, and a copy that was noted
+            earlier, and never undone, is kept. Left out, nothing is noted.
         standing: the cell that the player stands on.
         yes: build without asking.
+        is_server_allowed: build in a game that others may share, too.
 
     Raises:
+        DesktopError: a game that others may share; nothing was pressed.
         UserError: a stand that can't be the arena's, a world without commands, a place that isn't loaded, or a no.
         NotConfirmedError: what was built is not what is seen.
         NotInFrontError, UnreadableError: the game isn't in front, or its debug screen can't be read.
@@ -104,19 +121,32 @@ def build_arena(
     screen = WindowScreen(bench.desktop.display, load_font(profile.screen.font_path()), overlay_of(profile))
     bench.say("Stand on the middle of the arena's near edge and look across it; then leave mouse and keys alone.")
     reading = read_at_rest(bench.desktop.display, bench.desktop.clock, screen.read)
+    check_single_player(bench.desktop.display.title(), is_server_allowed=is_server_allowed)
     arena = arena_seen(reading, standing)
     profile = profile.model_copy(update={"game": game_in(bench.desktop.display.title(), profile.game)})
     console = Console(bench, profile, screen)
-    ground = looked_over(console, Questions(console, profile, screen, arena.yaw), profile, arena, standing)
+    questions = Questions(console, profile, screen, arena.yaw)
+    ground = looked_over(console, questions, profile, arena, standing)
     before = Picture("The place of the arena, before", without_chat(bench.desktop.display.grab(), screen.scale()))
-    old = profile.arena
-    if old is not None and old.copied_to is not None and box_of(old) == box_of(arena):
-        # The first copy is of what stood there before any arena did.
-        ground, arena = Ground(**{**vars(ground), "copy_to": None}), _with_copy(arena, old.copied_to)
+    noted = noted_copy(path) if path else None
+    old = noted.arena if noted else profile.arena
+    first = _first_copy(questions, arena, [each.arena for each in (noted, profile) if each and each.arena])
+    if first is not None:
+        ground, arena = dataclasses.replace(ground, copy_to=None), _with_copy(arena, first)
+    elif path and noted and noted.arena and _stands_in_part(questions, noted.arena, arena):
+        raise UserError(
+            "an arena of a calibration that ended early stands here: put back what stood there before, with "
+            f"{undo_command(path)}, or stand where you stood then"
+        )
     if not yes and not bench.ask(question(arena, ground, old, blocks)):
         raise UserError("the arena was not built: nothing was changed, in the world or in the profile")
     if ground.copy_to is not None:
-        arena = _copied(bench, console, Questions(console, profile, screen, arena.yaw), arena, ground.copy_to)
+        arena = _copied(console, questions, arena, ground.copy_to)
+        how = how_to_undo(arena)
+        if path:
+            note_copy(profile.model_copy(update={"arena": arena}), path)
+            how = f"From now on it is put back by {undo_command(path)}"
+        bench.say(f"A copy of what stands there is at {ground.copy_to}. {how}")
     for command in build_commands(profile, arena, blocks, builds_floor=not ground.keeps_floor):
         console.send(command)
     built = _seen_built(console, profile, arena, blocks, floor=ground.floor if ground.keeps_floor else FLOOR)
@@ -128,14 +158,24 @@ def build_arena(
     )
 
 
-def _copied(bench: Bench, console: Console, questions: Questions, arena: Arena, to: Block) -> Arena:
+def _first_copy(questions: Questions, arena: Arena, earlier: Sequence[Arena]) -> Block | None:
+    """Where a copy lies, if any does, of what stood at the same place before any arena did."""
+    for old in earlier:
+        if old.copied_to and box_of(old) == box_of(arena) and not is_copy_gone(questions, old):
+            return old.copied_to
+    return None
+
+
+def _stands_in_part(questions: Questions, old: Arena, arena: Arena) -> bool:
+    """Whether an old arena, whose copy is there, has blocks in common with this one."""
+    return do_meet(box_of(old), box_of(arena)) and not is_copy_gone(questions, old)
+
+
+def _copied(console: Console, questions: Questions, arena: Arena, to: Block) -> Arena:
     box = box_of(arena)
     console.send(copy_command(box, to))
     if not questions.are_alike(box, to):
         raise NotConfirmedError(f"the copy to {to} was not seen to be made: nothing else was changed, try again")
-    bench.say(
-        f"A copy of what stands there is at {to}. By hand it is put back with {copy_command(moved(box, to), box[0])}"
-    )
     return _with_copy(arena, to)
 
 

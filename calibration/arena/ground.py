@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from calibration.arena.plan import box_of, copy_places, floor_of, is_fit, moved
 from calibration.arena.questions import Questions
 from calibration.arena.sight import Sights, look_around, turned
+from calibration.arena.stand import NEAR_MIDDLE
 from calibration.console import Console
 from mc_nested.arena.rules import Cell
 from mc_nested.errors import UserError
@@ -56,6 +57,18 @@ def looked_over(console: Console, questions: Questions, profile: Profile, arena:
             raise UserError("part of the place isn't loaded: go nearer to its middle, or raise the render distance")
     sights = None if free and flat else look_around(console, arena)
     return Ground(free, flat, name, copy_to, sights)
+
+
+def is_copy_gone(questions: Questions, arena: Arena) -> bool:
+    """Whether no copy is where the arena's lies: there is only air, as above it. False where that can't be told."""
+    if arena.copied_to is None:
+        return True
+    copy = moved(box_of(arena), arena.copied_to)
+    x, _, z = arena.block_of(NEAR_MIDDLE)
+    # One block of its floor tells it mostly; what was copied may have had a hole there.
+    if questions.is_air((x, copy[0][1], z)) is not True:
+        return False
+    return questions.are_alike(copy, (copy[0][0], copy[1][1] + 1, copy[0][2])) is True
 
 
 def _place_in_the_sky(questions: Questions, arena: Arena, version: str) -> Block | None:

@@ -56,6 +56,11 @@ def moved(box: Box, to: Block) -> Box:
     return to, (to[0] + high[0] - low[0], to[1] + high[1] - low[1], to[2] + high[2] - low[2])
 
 
+def do_meet(one: Box, other: Box) -> bool:
+    """Whether two boxes have a block in common."""
+    return all(one[0][axis] <= other[1][axis] and other[0][axis] <= one[1][axis] for axis in range(3))
+
+
 def is_fit(floor_id: str) -> bool:
     """Whether a floor of this block, as the debug screen names it, is as good as any."""
     return not any(part in floor_id for part in UNFIT)

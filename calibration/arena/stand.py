@@ -87,8 +87,7 @@ def begun(profile_name: str | Path, standing: Cell, font: Path | None) -> tuple[
 
     UserError for a cell outside the arena, or a profile or font that can't be used.
     """
-    if not is_inside(standing):
-        raise UserError(f"cell {standing} lies outside the arena: choose 0 to {SIZE - 1} for x and y")
+    check_standing(standing)
     path, profile = profile_to_calibrate(profile_name)
     if font is not None:
         screen = profile.screen.model_copy(update={"font": str(font.expanduser().resolve())})
@@ -96,6 +95,12 @@ def begun(profile_name: str | Path, standing: Cell, font: Path | None) -> tuple[
     if profile.screen.font is None:
         raise ProfileError("the game's font is needed the first time: name its client jar with --font")
     return path, profile, load_font(profile.screen.font_path())
+
+
+def check_standing(standing: Cell) -> None:
+    """UserError for a cell outside the arena."""
+    if not is_inside(standing):
+        raise UserError(f"cell {standing} lies outside the arena: choose 0 to {SIZE - 1} for x and y")
 
 
 def arena_seen(reading: Reading, standing: Cell) -> Arena:

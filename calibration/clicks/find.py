@@ -11,7 +11,7 @@ from calibration.bench import BenchOf
 from calibration.clicks.by_hand import largest_scale, record
 from calibration.clicks.menu_walk import MenuWalk
 from calibration.clicks.shown import Point, dry_run, picture_of, picture_of_screen
-from calibration.report.kept import keep
+from calibration.report.kept import keep_or_warn
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found, Picture
 from calibration.written import write_found, write_picture
@@ -99,7 +99,7 @@ def calibrate_clicks(
                 bench.say(line)
             return None
     write_found(found, path)
-    keep(path, [found])
+    keep_or_warn(bench.say, path, [found])
     picture = picture_file(path)
     write_picture(found.pictures[0].frame, picture)
     return found, picture

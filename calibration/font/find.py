@@ -12,7 +12,7 @@ from calibration.font.problems import Candidate, fits_in_part, nothing_fits
 from calibration.font.read_back import ReadLine, phase_of, read_back, side_by_side
 from calibration.font.sources import FontSources, font_sources
 from calibration.game.folders import System
-from calibration.report.kept import keep
+from calibration.report.kept import keep_or_warn
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found, Picture
 from calibration.written import write_found, write_picture
@@ -62,7 +62,7 @@ def calibrate_font(
     with bench_of(profile) as bench:
         found = find_font(bench, profile, sources_for(bench, profile, font, sources))
     write_found(found, path)
-    keep(path, [found])
+    keep_or_warn(bench.say, path, [found])
     picture = path.with_name(f"{path.stem}-font.png")
     write_picture(found.pictures[0].frame, picture)
     return found, picture

@@ -8,7 +8,7 @@ default-calibration/font-1.png     their pictures, by step and number
 import dataclasses
 import datetime
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -112,6 +112,20 @@ def keep(profile: Path, found: Sequence[Found], checks: Sequence[Check] = (), to
                 left.unlink()
     except OSError as error:
         raise ProfileError(f"{folder}: can't be written ({error}): make room, or mend its permissions") from error
+
+
+def keep_or_warn(
+    say: Callable[[str], None],
+    profile: Path,
+    found: Sequence[Found],
+    checks: Sequence[Check] = (),
+    today: str | None = None,
+) -> None:
+    """As ``keep``, after the profile was written: where that fails, a warning is all that is said of it."""
+    try:
+        keep(profile, found, checks, today)
+    except ProfileError as error:
+        say(f"warning: {error}; the profile is written, only the report will lack what was found")
 
 
 def load_kept(profile: Path) -> Kept:

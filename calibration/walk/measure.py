@@ -10,7 +10,7 @@ import cv2
 
 from calibration.bench import BenchOf
 from calibration.console import Console
-from calibration.report.kept import keep
+from calibration.report.kept import keep_or_warn
 from calibration.start import profile_to_calibrate
 from calibration.step import Bench, Found
 from calibration.walk.figure import picture_of_walk
@@ -23,6 +23,7 @@ from mc_nested.arena.rules import SIZE, Cell
 from mc_nested.errors import NotConfirmedError, ProfileError
 from mc_nested.live.at_rest import read_at_rest
 from mc_nested.live.commands import clear_command, teleport_command
+from mc_nested.live.fingerprint import check_single_player
 from mc_nested.live.font import load_font
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.profile import Profile, save_profile
@@ -43,12 +44,15 @@ MOST_BACK = 6
 """Holds that the way back may take."""
 
 
-def calibrate_walk(profile_name: str | Path, bench_of: BenchOf) -> tuple[Found, Path]:
+def calibrate_walk(
+    profile_name: str | Path, bench_of: BenchOf, *, is_server_allowed: bool = False
+) -> tuple[Found, Path]:
     """Measure how the player of a profile's game walks and write it into the profile; what was found, and its picture.
 
     Args:
         profile_name: a name or a file.
         bench_of: opens the window.
+        is_server_allowed: measure in a game that others may share, too.
 
     Raises as ``walk``, and ProfileError where the profile or the picture can't be written.
     """
@@ -57,9 +61,9 @@ def calibrate_walk(profile_name: str | Path, bench_of: BenchOf) -> tuple[Found, 
         raise ProfileError("places are read with the game's font: run mc-nested calibrate font first")
     profile.screen.font_path()  # before a window is looked for
     with bench_of(profile) as bench:
-        found = walk(bench, profile)
+        found = walk(bench, profile, is_server_allowed=is_server_allowed)
     save_profile(found.profile, path)
-    keep(path, [found])
+    keep_or_warn(bench.say, path, [found])
     picture = path.with_name(f"{path.stem}-walk.png")
     try:
         picture.write_bytes(cv2.imencode(".png", found.pictures[0].frame)[1].tobytes())
@@ -68,7 +72,7 @@ def calibrate_walk(profile_name: str | Path, bench_of: BenchOf) -> tuple[Found, 
     return found, picture
 
 
-def walk(bench: Bench, profile: Profile) -> Found:
+def walk(bench: Bench, profile: Profile, *, is_server_allowed: bool = False) -> Found:
     """Measure how the player walks; the profile with its [walk] table, and the keys as they really go.
 
     It walks in the middle of the marked arena, cleared as by every reset, where there is one and commands are allowed;
@@ -76,6 +80,7 @@ def walk(bench: Bench, profile: Profile) -> Found:
 
     Raises:
         ProfileError, FontError: the profile names no font, or one that can't be used.
+        DesktopError: a game that others may share, unless ``is_server_allowed``; nothing was pressed.
         UserError: keys that don't go four ways, or a floor that isn't free.
         NotConfirmedError: what was seen can't be explained; the keys are up.
         NotInFrontError, UnreadableError: the game isn't in front, or its debug screen can't be read.
@@ -83,6 +88,7 @@ def walk(bench: Bench, profile: Profile) -> Found:
     screen = WindowScreen(bench.desktop.display, load_font(profile.screen.font_path()), overlay_of(profile))
     bench.say("Measuring how you walk, for about a minute: leave mouse and keys alone.")
     read_at_rest(bench.desktop.display, bench.desktop.clock, screen.read)
+    check_single_player(bench.desktop.display.title(), is_server_allowed=is_server_allowed)
     walker, console = Walker(bench, profile, screen), Console(bench, profile, screen)
     began = walker.look()
     if profile.arena is not None and profile.world is None:

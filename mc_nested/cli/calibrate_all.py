@@ -18,7 +18,9 @@ from calibration.step import Found
 from calibration.steps import guided_steps
 from mc_nested.cli.calibrate_report import report_path, write_report
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite, ServerOption
+from mc_nested.errors import ProfileError
 from mc_nested.live.desktop.clipboard import open_clipboard
+from mc_nested.live.profile import profile_path
 
 
 def calibrate(
@@ -34,14 +36,17 @@ def calibrate(
 ) -> None:
     """Do all of it in one go, in about two minutes; stand on the middle of the arena's near edge and look across it."""
     bench_of = bench_for(typer.echo, (lambda _: True) if yes else typer.confirm)
-    steps = guided_steps(font, standing=standing, is_server_allowed=server_allowed)
+    steps = guided_steps(font, standing=standing, is_server_allowed=server_allowed, path=profile_path(profile))
     shown = Lines()
-    whole = calibrate_all(profile, bench_of, _examined, steps, shown)
+    whole = calibrate_all(profile, bench_of, _examined, steps, shown, is_server_allowed=server_allowed)
     left_out = [TITLES.get(name, name) for name in whole.guided.passed_over]
     without = f", without: {', '.join(left_out)}" if left_out else ""
     typer.echo(f"calibrated in {shown.seconds:.0f} s{without}")
     typer.echo(f"profile: {whole.path}")
-    write_report(profile, report_path(whole.path))
+    try:
+        write_report(profile, report_path(whole.path))
+    except ProfileError as error:
+        typer.echo(f"warning: no report: {error}")
 
 
 class Lines:

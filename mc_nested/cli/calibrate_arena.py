@@ -9,7 +9,7 @@ from calibration.arena.build import calibrate_built_arena
 from calibration.arena.stand import NEAR_MIDDLE, calibrate_arena
 from calibration.arena.undo import undo_built_arena
 from calibration.bench import bench_for
-from mc_nested.cli.options import DEFAULT_PROFILE
+from mc_nested.cli.options import DEFAULT_PROFILE, ServerOption
 from mc_nested.errors import UserError
 
 
@@ -26,6 +26,7 @@ def arena(
     yes: Annotated[bool, typer.Option("--yes", help="build, or mark, without asking")] = False,
     mark_only: Annotated[bool, typer.Option("--mark-only", help="type no commands, write only where it is")] = False,
     undo: Annotated[bool, typer.Option("--undo", help="put back what stood there before it was built")] = False,
+    server_allowed: ServerOption = False,
 ) -> None:
     """Build the arena where you stand and look, with commands; what stood there is shown, asked about and copied."""
     if mark_only and undo:
@@ -36,9 +37,12 @@ def arena(
         return
     bench_of = bench_for(typer.echo, typer.confirm)
     if undo:
-        found, file = undo_built_arena(profile, bench_of)
+        found, file = undo_built_arena(profile, bench_of, is_server_allowed=server_allowed)
     else:
-        found, file = calibrate_built_arena(profile, bench_of, standing=standing, font=font, yes=yes)
+        found, file = calibrate_built_arena(
+            profile, bench_of, standing=standing, font=font, yes=yes, is_server_allowed=server_allowed
+        )
     for line in found.lines:
         typer.echo(line)
-    typer.echo(f"written to {file}")
+    if file.is_file():
+        typer.echo(f"written to {file}")

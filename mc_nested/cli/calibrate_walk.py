@@ -6,16 +6,17 @@ import typer
 
 from calibration.bench import bench_for
 from calibration.walk.measure import calibrate_walk
-from mc_nested.cli.options import DEFAULT_PROFILE
+from mc_nested.cli.options import DEFAULT_PROFILE, ServerOption
 
 
 def walk(
     profile: Annotated[
         str, typer.Option(metavar="NAME|FILE", help="the profile to write; it must name the font")
     ] = DEFAULT_PROFILE,
+    server_allowed: ServerOption = False,
 ) -> None:
     """Measure how you walk, for a minute, in the marked arena or around where you stand."""
-    found, picture = calibrate_walk(profile, bench_for(typer.echo, typer.confirm))
+    found, picture = calibrate_walk(profile, bench_for(typer.echo, typer.confirm), is_server_allowed=server_allowed)
     for line in found.lines:
         typer.echo(line)
     typer.echo(f"written to {profile}; look at the curve in {picture}")

@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from mc_nested.errors import ProfileError
+from mc_nested.errors import DesktopError, ProfileError
 from mc_nested.live.profile_tables import Calibrated, GameVersion
 
 _TITLE = re.compile(r"Minecraft\*? (\d+\.\d+(?:\.\d+)?)(?:[ -].*)?")
@@ -63,6 +63,15 @@ def check_fit(calibrated: Calibrated | None, seen: Seen, profile: str) -> None:
     """ProfileError, with the step to repeat, where a profile no longer fits; one never calibrated fits anything."""
     if calibrated is not None and (problem := misfit(calibrated, seen, profile)):
         raise ProfileError(problem)
+
+
+def check_single_player(title: str, *, is_server_allowed: bool) -> None:
+    """DesktopError where the title of the game's window says that others may play there, unless that is allowed."""
+    if "Multiplayer" in title and not is_server_allowed:
+        raise DesktopError(
+            f"the window's title is {title!r}, so others may be playing there: open a world of your own, or allow "
+            "it with --server-allowed"
+        )
 
 
 def _size(size: tuple[int, int]) -> str:

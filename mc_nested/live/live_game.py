@@ -7,13 +7,14 @@ from mc_nested.arena import rules
 from mc_nested.arena.game import Outcome
 from mc_nested.arena.rules import Action, Cell
 from mc_nested.arena.scenario import Scenario
-from mc_nested.errors import DesktopError, LiveError, ProfileError, StoppedError
+from mc_nested.errors import LiveError, ProfileError, StoppedError
 from mc_nested.live.action_log import ActionLog
 from mc_nested.live.body import Body
 from mc_nested.live.chat import Chat
 from mc_nested.live.click_points import ClickPoints
 from mc_nested.live.commands import reset_commands, teleport_command
 from mc_nested.live.devices import Clock, Display, Keyboard, Pointer
+from mc_nested.live.fingerprint import check_single_player
 from mc_nested.live.game_screen import GameScreen
 from mc_nested.live.hands import Hands
 from mc_nested.live.last_frames import LastFrames
@@ -104,7 +105,7 @@ class LiveGame:
         self._cell = None
         for tries_left in reversed(range(RESET_TRIES)):
             try:
-                self._check_title()
+                check_single_player(self._display.title(), is_server_allowed=self._is_server_allowed)
                 self.hands.release_again()
                 if self._way_back.find().screens:
                     self.log.recoveries += 1
@@ -142,14 +143,6 @@ class LiveGame:
         if outcome.placed is not None:
             self._placed.add(outcome.placed)
         return outcome
-
-    def _check_title(self) -> None:
-        title = self._display.title()
-        if "Multiplayer" in title and not self._is_server_allowed:
-            raise DesktopError(
-                f"the window's title is {title!r}, so others may be playing there: open a world of your own, or allow "
-                "it with --server-allowed"
-            )
 
     def _given_up(self, error: LiveError) -> LiveError:
         """The same error, which also says where the last frames are, if there are any."""

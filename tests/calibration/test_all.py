@@ -1,19 +1,22 @@
 """Everything in one go on virtual clients: what is written, and that nothing is where anything goes wrong."""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from calibration.all import GATES, Whole, calibrate_all
+from calibration.arena.build import build_arena
+from calibration.arena.undo import undo_built_arena
 from calibration.doctor.check import NAMES, Check
 from calibration.report.chat_region import without_chat
 from calibration.report.kept import kept_folder, load_kept
-from calibration.run_steps import Step
+from calibration.run_steps import Run, Step
 from calibration.step import Bench, Found, Picture
 from calibration.steps import guided_steps
-from mc_nested.errors import DesktopError, LiveError, McNestedError, NotConfirmedError
+from mc_nested.errors import DesktopError, LiveError, McNestedError, NotConfirmedError, ProfileError, UserError
 from mc_nested.live.profile import Profile, earlier_path, load_profile, save_profile
 from mc_nested.live.profile_tables import Calibrated, Keys, Screen
 from scripts.bench_calibration import bench_of, examined_by, font_in
@@ -146,6 +149,60 @@ def test_however_it_ends_early_the_profile_is_as_it_was_and_no_key_is_down(
     assert not kept_folder(profile).exists()
     assert not earlier_path(profile).exists()
     assert not client.window.down
+
+
+def test_a_game_that_others_may_share_is_refused_before_any_step(
+    client: VirtualClient, profile: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
+    watcher = Watcher()
+    with pytest.raises(DesktopError, match=r"others may be playing there.*--server-allowed"):
+        run(client, profile, Step("walk", swapped), watcher=watcher)
+    assert watcher.begun == []
+    assert client.built == {}
+
+
+@pytest.mark.parametrize("name", ["dir.toml", "file/mine.toml"])
+def test_a_place_that_no_profile_can_be_written_to_is_said_before_the_window_is_looked_for(
+    name: str, client: VirtualClient, tmp_path: Path
+) -> None:
+    (tmp_path / "dir.toml").mkdir()
+    (tmp_path / "file").write_text("", "utf-8")
+    watcher = Watcher()
+    with pytest.raises(ProfileError, match="--profile"):
+        run(client, tmp_path / name, Step("walk", swapped), watcher=watcher)
+    assert watcher.rows == (), "not even the doctor has looked"
+    assert watcher.begun == []
+
+
+def test_what_can_not_be_kept_for_the_report_does_not_end_it(client: VirtualClient, profile: Path) -> None:
+    kept_folder(profile).write_text("no folder", "utf-8")
+    run(client, profile, Step("walk", swapped))
+    assert load_profile(profile).keys.left == "d"
+
+
+@pytest.mark.parametrize("standing", [(99, 99), (-1, 0), (15, 0)])
+def test_a_cell_outside_the_arena_is_refused_before_anything(standing: tuple[int, int]) -> None:
+    with pytest.raises(UserError, match="outside the arena"):
+        guided_steps(standing=standing)
+
+
+@pytest.mark.parametrize("last", [broken, stopped])
+def test_ended_after_the_arena_was_built_it_says_how_to_undo_that_and_can(last: Run, tmp_path: Path) -> None:
+    client = VirtualClient()
+    client.realm.world.put((3, 64, 6), "stone")
+    before, file = client.built, tmp_path / "new.toml"
+    arena = Step("arena", partial(build_arena, path=file))
+    font = Profile(screen=Screen(font=str(font_in(tmp_path))))
+    with pytest.raises((LiveError, KeyboardInterrupt)) as ended:
+        run(client, file, Step("font", lambda _bench, _profile: Found("font", font, (), 0)), arena, Step("walk", last))
+    if isinstance(ended.value, LiveError):
+        assert str(ended.value).endswith(f"mc-nested calibrate arena --undo --profile {file}")
+    assert not file.exists()
+    assert client.built != before
+    undo_built_arena(str(file), bench_of(client))
+    assert client.built == before
+    assert list(tmp_path.glob("new*")) == []
 
 
 def test_a_window_made_another_size_midway_is_one_line(client: VirtualClient, profile: Path) -> None:

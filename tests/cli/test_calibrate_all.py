@@ -104,3 +104,42 @@ def test_a_row_of_the_doctors_that_all_needs_ends_it_with_its_remedy(
     assert code_of(tmp_path / "mine.toml") == 2
     said = capsys.readouterr()
     assert (said.out, said.err) == ("", "mc-nested: in front: it is wrong: mend it\n")
+
+
+def test_a_cell_outside_the_arena_is_one_line_before_anything(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(calibrate_all, "bench_for", lambda _say, _ask: bench_of(client))
+    with pytest.raises(SystemExit) as ended:
+        main(["calibrate", "all", "--yes", "--profile", str(tmp_path / "mine.toml"), "--standing", "-1", "0"])
+    assert ended.value.code == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err == "mc-nested: cell (-1, 0) lies outside the arena: choose 0 to 14 for x and y\n"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_steps_know_the_profiles_file_and_whether_a_server_is_allowed(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path
+) -> None:
+    given: dict[str, object] = {}
+    set_up(monkeypatch, client)
+
+    def steps(*_: object, **options: object) -> list[Step]:
+        given.update(options)
+        return [with_font(tmp_path)]
+
+    monkeypatch.setattr(calibrate_all, "guided_steps", steps)
+    assert code_of(tmp_path / "mine.toml") in (0, None)
+    assert given == {"standing": (7, 0), "is_server_allowed": False, "path": tmp_path / "mine.toml"}
+
+
+def test_a_report_that_can_not_be_made_is_a_warning(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    set_up(monkeypatch, client, with_font(tmp_path))
+    (tmp_path / "mine-calibration").mkdir()
+    (tmp_path / "mine-calibration" / "found.json").write_text("broken", "utf-8")
+    assert code_of(tmp_path / "mine.toml") in (0, None)
+    assert "warning: no report: " in capsys.readouterr().out
+    assert (tmp_path / "mine.toml").is_file()

@@ -5,13 +5,15 @@ from pathlib import Path
 
 import pytest
 
+from calibration.arena import build
 from calibration.arena.build import build_arena, calibrate_built_arena
+from calibration.arena.copy_note import note_path, noted_copy
 from calibration.arena.plan import box_of
 from calibration.arena.undo import undo_arena, undo_built_arena
 from calibration.step import Found
 from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, UserError
+from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, ProfileError, UserError
 from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile import Profile, load_profile, save_profile
@@ -209,8 +211,164 @@ def test_the_verbs_write_what_was_built_and_undone(tmp_path: Path) -> None:
     save_profile(profile_of(client, tmp_path), file)
     calibrate_built_arena(file, bench_on(client))
     assert load_profile(file).marked_arena().copied_to == (-8, 127, -1)
+    assert not note_path(file).exists(), "what the profile knows needs no note"
     undo_built_arena(file, bench_on(client))
     assert load_profile(file).arena is None
+
+
+def test_a_build_that_ends_early_is_undone_from_the_note(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    client = VirtualClient()
+    spoil(client)
+    before = client.built
+    file = tmp_path / "mine.toml"
+    save_profile(profile_of(client, tmp_path), file)
+    said: list[str] = []
+
+    def refused(*_: object) -> None:
+        raise ProfileError("the disk is full")
+
+    monkeypatch.setattr(build, "save_profile", refused)
+    with pytest.raises(ProfileError, match=f"full; .*--undo --profile {file}$"):
+        calibrate_built_arena(file, bench_on(client, said.append))
+    assert any(f"mc-nested calibrate arena --undo --profile {file}" in line for line in said)
+    assert load_profile(file).arena is None
+    undo_built_arena(file, bench_on(client))
+    assert client.built == before
+    assert not note_path(file).exists()
+
+
+def test_the_note_is_written_before_anything_is_built(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    client = VirtualClient()
+    spoil(client)
+    before = client.built
+    file = tmp_path / "mine.toml"
+    save_profile(profile_of(client, tmp_path), file)
+
+    def stopped(*_: object, **__: object) -> None:
+        assert noted_copy(file) is not None
+        assert {block: name for block, name in client.built.items() if block[1] < 120} == before
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(build, "build_commands", stopped)
+    with pytest.raises(KeyboardInterrupt):
+        calibrate_built_arena(file, bench_on(client))
+    assert noted_copy(file) is not None
+
+
+def left_early(client: VirtualClient, folder: Path) -> tuple[Profile, Path]:
+    """A profile without an arena, whose file isn't there, with the note of one that was built."""
+    file = folder / "new.toml"
+    with bench_on(client)(profile_of(client, folder)) as bench:
+        build_arena(bench, profile_of(client, folder), path=file)
+    return profile_of(client, folder), file
+
+
+def test_a_copy_that_was_not_undone_is_kept_by_the_next_try_and_no_profile_is_needed_to_undo(tmp_path: Path) -> None:
+    client = VirtualClient()
+    spoil(client)
+    before = client.built
+    profile, file = left_early(client, tmp_path)
+    noted = note_path(file).read_bytes()
+    with bench_on(client)(profile) as bench:
+        again = build_arena(bench, profile, path=file)
+    assert note_path(file).read_bytes() == noted
+    assert again.profile.marked_arena().copied_to == (-8, 127, -1)
+    undo_built_arena(file, bench_on(client))
+    assert client.built == before
+    assert [each.name for each in tmp_path.iterdir()] == ["ascii.png"]
+
+
+def test_an_arena_that_was_left_early_is_not_copied_in_part(tmp_path: Path) -> None:
+    client = VirtualClient()
+    profile, file = left_early(client, tmp_path)
+    after = client.built
+    with bench_on(client)(profile) as bench, pytest.raises(UserError, match="--undo --profile"):
+        build_arena(bench, profile, path=file, standing=(6, 0))
+    assert client.built == after
+
+
+def test_in_another_world_the_note_of_a_copy_is_not_believed(tmp_path: Path) -> None:
+    profile, file = left_early(VirtualClient(), tmp_path)
+    client = VirtualClient()
+    spoil(client)
+    before = client.built
+    with bench_on(client)(profile) as bench:
+        build_arena(bench, profile, path=file)
+    undo_built_arena(file, bench_on(client))
+    assert client.built == before
+
+
+def test_an_earlier_profile_keeps_its_other_arena_when_the_note_is_undone(tmp_path: Path) -> None:
+    client = VirtualClient()
+    profile, file = left_early(client, tmp_path)
+    elsewhere = Arena.around((500, 70, 500), "east")
+    save_profile(profile.model_copy(update={"arena": elsewhere}), file)
+    undo_built_arena(file, bench_on(client))
+    assert client.built == {}
+    assert load_profile(file).arena == elsewhere
+
+
+def test_a_copy_with_a_hole_in_its_floor_is_put_back(tmp_path: Path) -> None:
+    client = VirtualClient()
+    profile = profile_of(client, tmp_path)
+    hole = Arena.around((3, 64, 0), "south").block_of((7, 0))
+    client.realm.world.put((hole[0], 63, hole[2]), "air")
+    before = client.built
+    with bench_on(client)(profile) as bench:
+        found = build_arena(bench, profile, standing=(3, 0))
+        assert found.profile.marked_arena().origin == (3, 64, 0)
+        assert client.built != before
+        undo_arena(bench, found.profile)
+    assert client.built == before
+
+
+def test_what_can_not_be_kept_for_the_report_is_a_warning(tmp_path: Path) -> None:
+    client = VirtualClient()
+    file = tmp_path / "mine.toml"
+    save_profile(profile_of(client, tmp_path), file)
+    (tmp_path / "mine-calibration").write_text("no folder", "utf-8")
+    said: list[str] = []
+    calibrate_built_arena(file, bench_on(client, said.append))
+    assert load_profile(file).arena is not None
+    assert "the profile is written" in said[-1]
+    assert said[-1].startswith("warning: ")
+
+
+def shared(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
+    """Makes the client's world one that others may share; what is sent to it from here on."""
+    pressed: list[str] = []
+    press = client.keyboard.press
+
+    def noted(key: str) -> None:
+        pressed.append(key)
+        press(key)
+
+    patch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
+    patch.setattr(client.keyboard, "press", noted)
+    return pressed
+
+
+def test_in_a_game_that_others_may_share_nothing_is_pressed_and_built(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient()
+    pressed = shared(client, monkeypatch)
+    with pytest.raises(DesktopError, match=r"others may be playing there.*--server-allowed"):
+        built(client, tmp_path)
+    assert pressed == []
+    assert client.built == {}
+
+
+def test_in_a_game_that_others_may_share_nothing_is_undone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    client = VirtualClient()
+    profile = built(client, tmp_path).profile
+    after, pressed = client.built, shared(client, monkeypatch)
+    with bench_on(client)(profile) as bench:
+        with pytest.raises(DesktopError, match="--server-allowed"):
+            undo_arena(bench, profile)
+        assert (client.built, pressed) == (after, [])
+        undo_arena(bench, profile, is_server_allowed=True)
+    assert client.built == {}
 
 
 @pytest.mark.parametrize("after_s", [0.3, 2.0, 5.0, 8.0])

@@ -186,6 +186,18 @@ def test_a_sneaking_key_that_does_nothing_is_noticed(tmp_path: Path) -> None:
         measured(client, tmp_path, profile)
 
 
+def test_in_a_game_that_others_may_share_nothing_is_pressed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    client = VirtualClient(pitch=20.0)
+    client.realm.world.put((-20, 64, 35), "stone")
+    before = client.built
+    monkeypatch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (3rd-party Server)")
+    arena = Arena.around((-20, 64, 31), "east")
+    with pytest.raises(DesktopError, match=r"others may be playing there.*--server-allowed"):
+        measured(client, tmp_path, profile_of(client, tmp_path).model_copy(update={"arena": arena}))
+    assert client.built == before
+    assert client.realm.player.feet == (0.5, 64.0, 0.5)
+
+
 @pytest.fixture
 def kept(tmp_path: Path) -> Path:
     """A profile's file, which names no walk of its own."""
