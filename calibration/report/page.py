@@ -115,7 +115,7 @@ def _tiles(report: Report) -> list[tuple[str, str]]:
     calibrated, version = report.profile.calibrated, report.profile.game.version
     if calibrated is None:
         return [("Minecraft", version), ("Calibrated", "not as a whole")]
-    window = f"{calibrated.window[0]} × {calibrated.window[1]}" if calibrated.window else "unknown"  # noqa: RUF001
+    window = f"{calibrated.window[0]} x {calibrated.window[1]}" if calibrated.window else "unknown"
     return [
         ("Minecraft", calibrated.version or version),
         ("Window", window),

@@ -91,7 +91,7 @@ def test_it_fetches_nothing() -> None:
 
 def test_it_shows_the_fingerprint_the_checks_and_the_steps_in_the_order_of_the_run() -> None:
     texts = page(MADE).texts
-    for text in ("1.20.1", "854 × 480", "2026-11-21", "not found", "start the game", "0.216 blocks a tick"):  # noqa: RUF001
+    for text in ("1.20.1", "854 x 480", "2026-11-21", "not found", "start the game", "0.216 blocks a tick"):
         assert text in texts
     assert texts.index("Font and screen") < texts.index("Walk") < texts.index("Doctor") < texts.index("[window]")
     assert texts.index("window") < texts.index("session"), "what fails comes first"
