@@ -1,1 +1,1 @@
-"""What a person does once: tell the agent where their arena and their buttons are. Reads devices, writes a Profile."""
+"""Calibration: a player runs it once, so that the agent knows their game. It reads devices and writes a Profile."""

@@ -1,31 +1,30 @@
-"""The reader checked against the game itself: F3+C copies where the player stands and looks (FACTS: Keys).
+"""Checks the reader against the game itself: F3+C copies the player's position and view (FACTS: Keys).
 
-The keys are tapped, never held: after ten seconds the game would crash itself, as it is meant to. What was on the
-clipboard is put back, whatever happens.
+The keys are tapped, never held: after ten seconds the game would crash itself, on purpose. The clipboard's contents
+are restored, whatever happens.
 """
 
 import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from calibration.step import Bench, Found
+from calibration.context import CalibrationContext, StepResult
 from mc_nested.errors import LiveError, NotConfirmedError, UnreadableError
-from mc_nested.live.at_rest import read_at_rest
-from mc_nested.live.coordinates import turn_between
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.deadline import Deadline
 from mc_nested.live.devices import Clipboard
-from mc_nested.live.fingerprint import game_in
-from mc_nested.live.font import load_font
-from mc_nested.live.game_screen import WindowScreen
-from mc_nested.live.profile import Profile
-from mc_nested.live.reading import Reading
-from mc_nested.live.session import overlay_of
-from mc_nested.live.walk import TICK_S
-from mc_nested.live.way_back import WayBack
+from mc_nested.live.menus.recovery import Recovery
+from mc_nested.live.menus.wait_for_player import wait_until_standing_still
+from mc_nested.live.model.coordinates import turn_between
+from mc_nested.live.model.kinematics import TICK_S
+from mc_nested.live.model.reading import Reading
+from mc_nested.live.profile.fingerprint import game_in
+from mc_nested.live.profile.tables import Profile
 
 STEP = "cross-check"
 
 COPY = "c"
-"""The letter beside the debug key; up to 1.21.10 neither can be another one (FACTS: Keys)."""
+"""The letter pressed with the debug key; up to 1.21.10 neither can be rebound (FACTS: Keys)."""
 
 TAP_S = 1.5 * TICK_S
 """How long both keys are down: a tick falls into it, and it ends within two."""
@@ -33,53 +32,55 @@ TAP_S = 1.5 * TICK_S
 TRIES = 3
 
 PATIENCE_S = 1.5
-"""How long the copy may take to be on the clipboard."""
+"""How long the copy may take to reach the clipboard."""
 
-LOOK_S = 0.1
+POLL_S = 0.1
 
-OFF_BLOCKS = 0.005 + 0.0005
-OFF_DEGREES = 0.05 + 0.005
-"""How far the same value may be off: F3+C gives two decimals, the screen three of a place and one of an angle."""
+TOLERANCE_BLOCKS = 0.005 + 0.0005
+TOLERANCE_DEG = 0.05 + 0.005
+"""Rounding: F3+C gives two decimals, the screen three of a coordinate and one of an angle."""
 
 _NUMBER = r"(-?\d+(?:\.\d+)?)"
 _COPIED = re.compile(r"/execute in \S+ run tp @s " + " ".join([_NUMBER] * 5))
 _MARK = "mc-nested: F3+C comes here"
 
 
-def cross_check(bench: Bench, profile: Profile) -> Found:
-    """Compare what the reader reads with what F3+C copies. Nothing of the profile changes.
+def cross_check(context: CalibrationContext, profile: Profile) -> StepResult:
+    """Compare the reader's reading with what F3+C copies. The profile doesn't change.
 
-    In a version before 1.13, which has no F3+C, nothing is compared, and that is said.
+    Versions before 1.13 have no F3+C: nothing is compared, and the result says so.
 
     Raises:
-        ClipboardError: the clipboard can't be reached, or holds what could not be put back.
+        ClipboardError: the clipboard can't be reached, or its contents could not be restored.
         UnreadableError: the two differ, or the debug screen can't be read.
         NotConfirmedError: nothing was copied.
-        LiveError: the player was moved meanwhile; what the hands raise.
+        LiveError: the player was moved meanwhile; errors of the input controller.
     """
-    game = game_in(bench.desktop.display.title(), profile.game)
+    game = game_in(context.devices.display.title(), profile.game)
     if game.dialect == "1.12":
-        return Found(STEP, profile, (f"F3+C is not in Minecraft {game.version}, it came with 1.13: not compared",), 0)
-    desktop = bench.desktop
-    screen = WindowScreen(desktop.display, load_font(profile.screen.font_path()), overlay_of(profile))
-    reading = read_at_rest(desktop.display, desktop.clock, screen.read)
-    with _put_back(desktop.clipboard):
-        copied = _copied(bench, profile, screen)
-    if screen.read() != reading:
+        return StepResult(
+            STEP, profile, (f"F3+C is not in Minecraft {game.version}, it came with 1.13: not compared",), 0
+        )
+    connection = context.connection.for_profile(profile)
+    reading = wait_until_standing_still(connection)
+    with _restored(connection.devices.clipboard):
+        copied = _copied(connection, profile)
+    if connection.screen.read() != reading:
         raise LiveError("the player was moved while F3+C was pressed: stand still, and run this again")
-    place, view = _differences(reading, copied)
-    if place > OFF_BLOCKS or view > OFF_DEGREES:
+    blocks, degrees = _differences(reading, copied)
+    if blocks > TOLERANCE_BLOCKS or degrees > TOLERANCE_DEG:
         raise UnreadableError(
-            f"the screen reads {_shown(reading)}, but F3+C says {copied}: is this the running game's own font? "
+            f"the screen reads {_pose_text(reading)}, but F3+C says {copied}: is this the running game's own font? "
             "Name its jar: mc-nested calibrate font --font"
         )
-    line = f"F3+C agrees with the reading: {_shown(reading)}, off by {place:.4f} blocks and {view:.3f} degrees at most"
-    return Found(STEP, profile, (line,), 1)
+    off = f"off by {blocks:.4f} blocks and {degrees:.3f} degrees at most"
+    line = f"F3+C agrees with the reading: {_pose_text(reading)}, {off}"
+    return StepResult(STEP, profile, (line,), 1)
 
 
 @contextmanager
-def _put_back(clipboard: Clipboard) -> Iterator[None]:
-    """What is on the clipboard is there again when the block is left, unless somebody else copied something."""
+def _restored(clipboard: Clipboard) -> Iterator[None]:
+    """Restores the clipboard when the block is left, unless somebody else copied something meanwhile."""
     before = clipboard.read()
     try:
         clipboard.write(_MARK)
@@ -89,24 +90,29 @@ def _put_back(clipboard: Clipboard) -> Iterator[None]:
             clipboard.write(before)
 
 
-def _copied(bench: Bench, profile: Profile, screen: WindowScreen) -> tuple[float, ...]:
+def _copied(connection: GameConnection, profile: Profile) -> tuple[float, ...]:
     """x, y, z, yaw and pitch as F3+C copies them."""
-    hands, clock, clipboard, debug = bench.hands, bench.desktop.clock, bench.desktop.clipboard, profile.keys.debug
-    way = WayBack(profile, hands, screen, bench.desktop.display, clock)
+    controller, clock, clipboard, debug = (
+        connection.controller,
+        connection.devices.clock,
+        connection.devices.clipboard,
+        profile.keys.debug,
+    )
+    recovery = Recovery(profile, connection)
     for _ in range(TRIES):
-        way.find()  # a letter that was lost has left F3 alone, which switches the debug screen off
-        hands.saw("world")
-        until = clock.now() + TAP_S
-        hands.press(until, debug, COPY)
-        hands.wait_until(until)
-        # A release may have been lost on its way: held on, these two would end the game.
-        hands.release_again()
-        end = clock.now() + PATIENCE_S
-        while clock.now() < end:
-            hands.wait(LOOK_S)
-            if found := _COPIED.fullmatch(clipboard.read()):
-                return tuple(float(part) for part in found.groups())
-    way.find()  # a game that doesn't know these keys has taken F3 for itself
+        recovery.recover()  # if the letter was lost, F3 alone has switched the debug screen off
+        controller.confirm_screen("world")
+        release = Deadline(clock, TAP_S)
+        controller.press(release.at, debug, COPY)
+        controller.wait_until(release.at)
+        # The release may have been lost: if these two keys stay down, the game crashes.
+        controller.release_again()
+        deadline = Deadline(clock, PATIENCE_S)
+        while not deadline.has_passed:
+            controller.wait(POLL_S)
+            if match := _COPIED.fullmatch(clipboard.read()):
+                return tuple(float(part) for part in match.groups())
+    recovery.recover()  # a game that doesn't know F3+C has taken F3 alone
     raise NotConfirmedError(
         "F3+C copied nothing: leave mouse and keys alone, switch the gamerule reducedDebugInfo off, and from 1.21.11 "
         f"on leave the debug modifier on {debug} and copying on {COPY}"
@@ -116,12 +122,12 @@ def _copied(bench: Bench, profile: Profile, screen: WindowScreen) -> tuple[float
 def _differences(reading: Reading, copied: tuple[float, ...]) -> tuple[float, float]:
     """The largest difference in blocks, and in degrees."""
     if reading.xyz is None or reading.yaw is None or reading.pitch is None:
-        raise UnreadableError("the debug screen shows no place: turn the whole of it on (F3)")
+        raise UnreadableError("the debug screen shows no position: turn the whole of it on (F3)")
     x, y, z, yaw, pitch = copied
-    place = max(abs(read - said) for read, said in zip(reading.xyz, (x, y, z), strict=True))
-    return place, max(turn_between(reading.yaw, yaw), abs(reading.pitch - pitch))
+    blocks = max(abs(read - value) for read, value in zip(reading.xyz, (x, y, z), strict=True))
+    return blocks, max(turn_between(reading.yaw, yaw), abs(reading.pitch - pitch))
 
 
-def _shown(reading: Reading) -> str:
+def _pose_text(reading: Reading) -> str:
     x, y, z = reading.xyz or (0.0, 0.0, 0.0)
     return f"{x:.3f} {y:.3f} {z:.3f}, yaw {reading.yaw}, pitch {reading.pitch}"

@@ -2,7 +2,7 @@
 
 import gymnasium
 
-# Strings, resolved when an env is made: the one place where the lower floors name the simulator.
+# Strings, resolved when an env is made: only here do the lower packages name the simulator.
 gymnasium.register(
     id="mc_nested/Arena-v0",
     entry_point="sim.grid:arena_env",

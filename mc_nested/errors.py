@@ -1,7 +1,7 @@
-"""What can go wrong, as one tree. Each message is one line: what is wrong, and what to do.
+"""All errors that are raised on purpose, as one tree. Each message is one line: what is wrong, and what to do.
 
 McNestedError
-├── UserError            something the user can mend; the command line prints it and exits with 2
+├── UserError            something the user can fix; the command line prints it and exits with 2
 │   ├── ScenarioError    a scenario that can't be found, read or built
 │   ├── PresetError      a preset that can't be found or read
 │   ├── ProfileError     a profile that can't be found or read, or doesn't fit the screen
@@ -13,9 +13,9 @@ McNestedError
 └── LiveError            the game did not do what was asked; keys are released before it is raised
     ├── NotInFrontError  another window is in front: nothing was pressed
     ├── WrongScreenError the screen was not just seen to be the one that a press is meant for: nothing was pressed
-    ├── StoppedError     somebody stopped it, by the panic key or the mouse in a corner: it is not tried again
+    ├── StoppedError     stopped by the panic key or the mouse in a corner: it is not tried again
     ├── UnreadableError  the debug screen stayed unreadable for too long
-    └── NotConfirmedError  a move or a placing was not seen on the screen in time
+    └── NotConfirmedError  a move or a placed block was not seen on the screen in time
 """
 
 
@@ -24,7 +24,7 @@ class McNestedError(Exception):
 
 
 class UserError(McNestedError):
-    """A mistake that the user can mend."""
+    """A mistake that the user can fix."""
 
 
 class ScenarioError(UserError):
@@ -52,7 +52,7 @@ class DesktopError(UserError):
 
 
 class NoWindowError(DesktopError):
-    """A desktop without a window of that title: the game isn't running, or not under that name."""
+    """There is no window of that title: the game isn't running, or not under that name."""
 
 
 class ClipboardError(DesktopError):
@@ -72,7 +72,7 @@ class WrongScreenError(LiveError):
 
 
 class StoppedError(LiveError):
-    """Somebody stopped the agent: nothing is pressed any more, and nothing is tried again."""
+    """The agent was stopped on purpose: nothing is pressed any more, and nothing is tried again."""
 
 
 class UnreadableError(LiveError):
@@ -80,4 +80,4 @@ class UnreadableError(LiveError):
 
 
 class NotConfirmedError(LiveError):
-    """A move or a placing that was not seen on the screen in time."""
+    """A move or a placed block was not seen on the screen in time."""

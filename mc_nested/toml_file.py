@@ -1,4 +1,4 @@
-"""Reading the project's TOML files: scenarios, presets and profiles, each a pydantic model, each mistake one line."""
+"""Reading the project's TOML files: scenarios, presets and profiles. Each is a pydantic model; errors are one line."""
 
 import difflib
 import json
@@ -17,11 +17,11 @@ from mc_nested.errors import UserError
 Model = TypeVar("Model", bound=BaseModel)
 
 _SHOWN = 60
-"""Characters of a wrong value that a message repeats: enough to find it, and still one line."""
+"""Characters of a wrong value shown in a message: enough to find it, and still one line."""
 
 
 def read_toml_text(path: Path, error: type[UserError]) -> str:
-    """The text of a TOML file; ``error``, one line, where it can't be read."""
+    """The text of a TOML file; ``error``, one line, if it can't be read."""
     try:
         return path.read_text("utf-8-sig")
     except (OSError, UnicodeDecodeError) as cause:
@@ -32,9 +32,9 @@ def read_toml_text(path: Path, error: type[UserError]) -> str:
 def read_shipped_or_named(
     name_or_file: str | Path, what: str, folder: str, shipped: Sequence[str], error: type[UserError]
 ) -> str:
-    """The text of a TOML file that comes with the project, by its name in a package's folder, or of any, by its path.
+    """The text of a shipped TOML file, by its name in a package's folder, or of any TOML file, by its path.
 
-    ``error``, one line that says ``what`` was looked for and what there is, where there is none or it can't be read.
+    ``error``, one line that says ``what`` was looked for and what there is, if there is none or it can't be read.
     """
     name = str(name_or_file)
     if name in shipped:
@@ -47,7 +47,7 @@ def read_shipped_or_named(
 
 
 def parse_document(text: str, source: str, error: type[UserError]) -> tomlkit.TOMLDocument:
-    """A TOML text with its comments; ``error``, one line that names ``source``, where it isn't TOML."""
+    """A TOML text with its comments; ``error``, one line that names ``source``, if it isn't TOML."""
     try:
         return tomlkit.parse(text)
     except TOMLKitError as cause:
@@ -55,17 +55,17 @@ def parse_document(text: str, source: str, error: type[UserError]) -> tomlkit.TO
 
 
 def parse_toml(model: type[Model], text: str, source: str, error: type[UserError]) -> Model:
-    """The model that a TOML text describes; ``error``, one line that names ``source`` and the key, where it doesn't."""
+    """The model that a TOML text describes; ``error``, one line that names ``source`` and the key, if it doesn't."""
     tables = parse_document(text, source, error).unwrap()
     try:
-        # Through JSON, since TOML's arrays are lists, and strict tuples take lists from JSON alone.
+        # Through JSON, since TOML's arrays are lists, and strict tuples accept lists only from JSON.
         return model.model_validate_json(json.dumps(tables, default=str))
     except ValidationError as cause:
         raise error(f"{source}: {_in_one_line(model, cause.errors()[0])}") from cause
 
 
 def table_of_key(model: type[BaseModel], key: str) -> type[BaseModel] | None:
-    """The model of the table, or tables, that a key holds; None where it holds something else, or isn't known."""
+    """The model of the table, or of the tables, under a key; None if it holds something else, or is unknown."""
     field = model.model_fields.get(key)
     kinds = (field.annotation, *get_args(field.annotation)) if field else ()
     return next((each for each in kinds if isinstance(each, type) and issubclass(each, BaseModel)), None)
@@ -84,12 +84,12 @@ def _in_one_line(model: type[BaseModel], mistake: ErrorDetails) -> str:
     return f"{key}: {mistake['msg']}, not {_shortened(mistake['input'])}: mend that key"
 
 
-def _remedy_for_unknown(model: type[BaseModel], place: tuple[int | str, ...]) -> str:
+def _remedy_for_unknown(model: type[BaseModel], keys: tuple[int | str, ...]) -> str:
     kind: type[BaseModel] | None = model
-    for key in (part for part in place[:-1] if isinstance(part, str)):
+    for key in (part for part in keys[:-1] if isinstance(part, str)):
         kind = table_of_key(kind, key) if kind else None
     known = list(kind.model_fields) if kind else []
-    near = difflib.get_close_matches(str(place[-1]), known, n=1)
+    near = difflib.get_close_matches(str(keys[-1]), known, n=1)
     return f"did you mean {near[0]}?" if near else f"remove it; known are {', '.join(known)}"
 
 

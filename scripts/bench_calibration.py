@@ -1,13 +1,13 @@
-"""How well a calibration does by itself: random virtual clients, each calibrated and then played in.
+"""Measures how well calibration works unattended: calibrates random virtual clients, then plays in each.
 
     python scripts/bench_calibration.py [--clients 50] [--actions 200] [--seed 0] [--json]
 
-Each client (scripts/calibration_clients.py) is met as a person leaves it: a world, a player who looks about along an
-axis, the debug screen on, no profile. `calibrate all --yes` is what runs, with nobody there; then ``actions`` random
-actions are played from the profile that it wrote, each against what the client's world holds. A client counts as
-unattended where a profile came of it. Seconds are the game's; ``longest_game_s`` and ``median_game_s`` are those of the
-calibration alone. ``walk_rms_blocks`` is how far the profile's holds are off the client's physics, the worst client's;
-``click_off_gui_px_max`` how far any recorded point is from its button's middle. Exit code 1 where a target is missed.
+Each client (scripts/calibration_clients.py) is as a person leaves it: in a world, the player looking roughly along an
+axis, the debug screen on, no profile. `calibrate all --yes` runs with nobody there. Then ``actions`` random actions are
+played with the new profile, each checked against the client's world. A client counts as unattended if it got a profile.
+Seconds are the game's; ``longest_game_s`` and ``median_game_s`` are those of the calibration alone. ``walk_rms_blocks``
+is the worst client's error of the profile's walk against the client's physics; ``click_off_gui_px_max`` is the largest
+distance of a recorded point from its button's middle. Exit code 1 if a target is missed.
 """
 
 import argparse
@@ -29,29 +29,28 @@ from rich.table import Table
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from calibration.all import calibrate_all
-from calibration.bench import BenchOf
+from calibration.calibrate_all import Examine, calibrate_all
+from calibration.context import CalibrationContext, StepResult
 from calibration.doctor.check import Check
 from calibration.doctor.examination import examine
-from calibration.game.folders import System
-from calibration.step import Bench, Found
-from calibration.steps import guided_steps
+from calibration.installation.folders import System
+from calibration.open_context import OpenContext
+from calibration.registry import registered_steps
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import McNestedError
-from mc_nested.live.desktop import Desktop
-from mc_nested.live.font import load_font
-from mc_nested.live.game_screen import WindowScreen
-from mc_nested.live.hands import Hands
+from mc_nested.live.connection import GameConnection, connect
+from mc_nested.live.devices import Devices
+from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile import Profile, load_profile
-from mc_nested.live.session import overlay_of
-from scripts.bench_live import Play, play_in
+from mc_nested.live.profile.store import load_profile
+from mc_nested.live.profile.tables import Profile
+from scripts.bench_live import PlayCounts, play_in
 from scripts.calibration_clients import clients
 from sim.client.client import VirtualClient
-from sim.client.font import drawn_atlas
-from sim.client.physics import Ground, displacement
-from sim.client.screens import MenuState, ScreenName, menu
+from sim.client.drawing.font import drawn_atlas
+from sim.client.game.physics import Ground, displacement
+from sim.client.game.screens import MenuState, ScreenName, menu
 from sim.client.settings import ClientSettings
 
 TARGETS = {"longest_game_s": 300.0, "walk_rms_blocks": 0.02, "click_off_gui_px_max": 2.0}
@@ -62,96 +61,94 @@ BUTTONS: dict[str, tuple[ScreenName, str]] = {
     "singleplayer": ("title", "Singleplayer"),
     "play_selected_world": ("worlds", "Play Selected World"),
 }
-"""The points whose buttons have a label, hence a middle: a world's row has none."""
+"""The points whose buttons have a label, so they have a middle; a world in the list has none."""
 
 
 @dataclasses.dataclass
-class Calibrated:
-    """What one client's calibration and the playing after it came to; ``problem`` is why there was none."""
+class ClientResult:
+    """One client's calibration, and the playing after it; ``problem`` says what failed."""
 
     settings: ClientSettings
     problem: str = ""
     game_s: float = 0.0
-    passed_over: tuple[str, ...] = ()
+    skipped: tuple[str, ...] = ()
     walk_rms: float = 0.0
-    clicks_off: tuple[float, ...] = ()
-    play: Play = dataclasses.field(default_factory=Play)
+    click_errors: tuple[float, ...] = ()
+    play: PlayCounts = dataclasses.field(default_factory=PlayCounts)
 
     @property
     def wrong(self) -> int:
-        """Cells, blocks and outcomes that were not as they should be."""
+        """Cells, blocks and outcomes that were wrong."""
         return self.play.wrong_cells + self.play.wrong_blocks + self.play.unnoticed
 
 
-class Silent:
-    """Nobody watches."""
+class SilentProgress:
+    """Shows nothing."""
 
-    def checked(self, checks: Sequence[Check]) -> None:
-        """Say nothing."""
+    def doctor_done(self, checks: Sequence[Check]) -> None:
+        """Show nothing."""
 
     def begin(self, name: str, number: int, of: int) -> None:
-        """Say nothing."""
+        """Show nothing."""
 
-    def end(self, found: Found, seconds: float) -> None:
-        """Say nothing."""
+    def end(self, result: StepResult, seconds: float) -> None:
+        """Show nothing."""
 
-    def passed_over(self, reason: str, seconds: float) -> None:
-        """Say nothing."""
+    def skip(self, reason: str, seconds: float) -> None:
+        """Show nothing."""
 
 
-def calibrated(settings: ClientSettings, folder: Path, actions: int, scenario: Scenario) -> Calibrated:
+def calibrate_and_play(settings: ClientSettings, folder: Path, actions: int, scenario: Scenario) -> ClientResult:
     """Calibrate a client with a profile in that folder, and play so many actions in it."""
     client = VirtualClient(settings)
-    done = Calibrated(settings)
+    result = ClientResult(settings)
     profile_file = folder / "default.toml"
     began = client.clock.now()
     try:
-        whole = calibrate_all(
-            str(profile_file), bench_of(client), examined_by(client, folder), guided_steps(font_in(folder)), Silent()
+        calibration = calibrate_all(
+            str(profile_file),
+            context_opener_for(client),
+            doctor_for(client, folder),
+            registered_steps(write_font(folder)),
+            SilentProgress(),
         )
     except McNestedError as error:
-        done.problem = f"{type(error).__name__}: {error}"
-        return done
+        result.problem = f"{type(error).__name__}: {error}"
+        return result
     finally:
-        done.game_s = client.clock.now() - began
-    done.passed_over = tuple(whole.guided.passed_over)
+        result.game_s = client.clock.now() - began
+    result.skipped = tuple(calibration.run.skipped)
     profile = load_profile(profile_file)
-    done.walk_rms = walk_off(profile, settings)
-    done.clicks_off = tuple(clicks_off(profile, client))
+    result.walk_rms = walk_rms(profile, settings)
+    result.click_errors = tuple(click_errors(profile, client))
     game = live_game(client, profile, scenario)
     try:
-        done.play = play_in(client, game, profile.marked_arena(), scenario, range(actions), 0.0, settings.seed)
+        result.play = play_in(client, game, profile.marked_arena(), scenario, range(actions), 0.0, settings.seed)
     except McNestedError as error:
-        done.problem = f"playing: {type(error).__name__}: {error}"
-    done.play.left_down = len(client.window.down)
-    return done
+        result.problem = f"playing: {type(error).__name__}: {error}"
+    result.play.left_down = len(client.window.down)
+    return result
 
 
-def bench_of(client: VirtualClient) -> BenchOf:
-    """Opens benches over a client, wired as a desktop's, whose person says yes to everything."""
+def context_opener_for(client: VirtualClient) -> OpenContext:
+    """Opens contexts on a client, connected as on a desktop, whose person says yes to everything."""
 
     @contextmanager
-    def opened(profile: Profile) -> Iterator[Bench]:
-        desktop = desktop_of(client)
-        with Hands(desktop.display, desktop.keyboard, desktop.pointer, desktop.clock, profile.input) as hands:
-            yield Bench(desktop, hands, lambda _: None, lambda _: True)
+    def opened(profile: Profile) -> Iterator[CalibrationContext]:
+        with GameConnection(client.devices, InputController(client.devices, profile.input)) as connection:
+            yield CalibrationContext(connection, lambda _: None, lambda _: True)
 
     return opened
 
 
-def desktop_of(client: VirtualClient) -> Desktop:
-    """A client's devices."""
-    return Desktop(client.display, client.keyboard, client.pointer, client.clock, client.clipboard, client.display.size)
-
-
-def examined_by(client: VirtualClient, folder: Path) -> Any:
+def doctor_for(client: VirtualClient, folder: Path) -> Examine:
     """The doctor, on a computer without any launcher's folder, whose one window is the client's."""
 
     @contextmanager
-    def open_devices(_title: str) -> Iterator[Desktop]:
-        yield desktop_of(client)
+    def open_devices(_title: str) -> Iterator[Devices]:
+        yield client.devices
 
-    def examined(profile_name: str) -> Sequence[Check]:
+    def checks(profile_name: str) -> Sequence[Check]:
         return examine(
             profile_name,
             say=lambda _: None,
@@ -162,39 +159,30 @@ def examined_by(client: VirtualClient, folder: Path) -> Any:
             processes=lambda: (),
         ).checks
 
-    return examined
+    return checks
 
 
 def live_game(client: VirtualClient, profile: Profile, scenario: Scenario) -> LiveGame:
-    """The live path from a profile alone, wired to a client."""
-    font = load_font(profile.screen.font_path())
-    return LiveGame(
-        scenario,
-        profile,
-        display=client.display,
-        keyboard=client.keyboard,
-        pointer=client.pointer,
-        clock=client.clock,
-        screen=WindowScreen(client.display, font, overlay_of(profile)),
-    )
+    """A live game on a client, from the profile alone."""
+    return LiveGame(scenario, profile, connect(profile, client.devices))
 
 
-def font_in(folder: Path) -> Path:
-    """The virtual clients' own font as a picture in a folder."""
+def write_font(folder: Path) -> Path:
+    """Write the virtual clients' own font as a picture into a folder; returns its file."""
     file = folder / "ascii.png"
     file.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
     return file
 
 
-def walk_off(profile: Profile, settings: ClientSettings) -> float:
-    """Root mean square, in blocks, of what lies between a profile's holds and the client's physics."""
+def walk_rms(profile: Profile, settings: ClientSettings) -> float:
+    """Root mean square, in blocks, of the differences between a profile's walk and the client's physics."""
     ground = Ground(settings.slipperiness, settings.speed)
-    off = [covered - displacement(ticks, "walk", ground) for ticks, covered in enumerate(profile.walk.covered, 1)]
-    return math.sqrt(statistics.fmean(each**2 for each in off))
+    errors = [covered - displacement(ticks, "walk", ground) for ticks, covered in enumerate(profile.walk.covered, 1)]
+    return math.sqrt(statistics.fmean(each**2 for each in errors))
 
 
-def clicks_off(profile: Profile, client: VirtualClient) -> Iterator[float]:
-    """How far each recorded point that has a button is off its middle, in GUI pixels, the farther of both axes."""
+def click_errors(profile: Profile, client: VirtualClient) -> Iterator[float]:
+    """Each recorded point's distance from its button's middle in GUI pixels, along the worse axis."""
     (width, height), scale = client.window.size, client.scale
     for name, (screen, label) in BUTTONS.items():
         if name not in profile.points:
@@ -206,36 +194,38 @@ def clicks_off(profile: Profile, client: VirtualClient) -> Iterator[float]:
         yield max(abs(point[0] * width / scale - middle[0]), abs(point[1] * height / scale - middle[1]))
 
 
-def report(done: Sequence[Calibrated]) -> dict[str, Any]:
+def report(results: Sequence[ClientResult]) -> dict[str, Any]:
     """What --json prints."""
-    good = [each for each in done if not each.problem]
-    times = [each.game_s for each in done]
-    offs = [off for each in good for off in each.clicks_off]
+    good = [each for each in results if not each.problem]
+    times = [each.game_s for each in results]
+    errors = [error for each in good for error in each.click_errors]
     return {
-        "clients": len(done),
+        "clients": len(results),
         "unattended": len(good),
-        "wrong_cells": sum(each.play.wrong_cells for each in done),
-        "wrong_blocks": sum(each.play.wrong_blocks for each in done),
-        "unnoticed": sum(each.play.unnoticed for each in done),
-        "actions": sum(each.play.actions for each in done),
-        "failed_actions": sum(each.play.failed_actions for each in done),
-        "gave_up": sum(each.play.gave_up for each in done),
-        "left_down": sum(each.play.left_down for each in done),
-        "corrections": sum(each.play.corrections for each in done),
+        "wrong_cells": sum(each.play.wrong_cells for each in results),
+        "wrong_blocks": sum(each.play.wrong_blocks for each in results),
+        "unnoticed": sum(each.play.unnoticed for each in results),
+        "actions": sum(each.play.actions for each in results),
+        "failed_actions": sum(each.play.failed_actions for each in results),
+        "gave_up": sum(each.play.gave_up for each in results),
+        "left_down": sum(each.play.left_down for each in results),
+        "corrections": sum(each.play.corrections for each in results),
         "longest_game_s": round(max(times, default=0.0), 1),
         "median_game_s": round(statistics.median(times), 1) if times else 0.0,
         "walk_rms_blocks": round(max((each.walk_rms for each in good), default=0.0), 5),
-        "click_points": len(offs),
-        "click_off_gui_px_max": round(max(offs, default=0.0), 2),
-        "steps_passed_over": sum(len(each.passed_over) for each in done),
-        "versions": len({each.settings.version for each in done}),
-        "problems": [f"{each.settings.version} {each.settings.size}: {each.problem}" for each in done if each.problem],
+        "click_points": len(errors),
+        "click_off_gui_px_max": round(max(errors, default=0.0), 2),
+        "steps_passed_over": sum(len(each.skipped) for each in results),
+        "versions": len({each.settings.version for each in results}),
+        "problems": [
+            f"{each.settings.version} {each.settings.size}: {each.problem}" for each in results if each.problem
+        ],
     }
 
 
 def main() -> int:
     """Parse the command line, measure, print."""
-    parser = argparse.ArgumentParser(description="How well a calibration does by itself, on random virtual clients.")
+    parser = argparse.ArgumentParser(description="How well calibration works unattended, on random virtual clients.")
     parser.add_argument("--clients", type=int, default=50)
     parser.add_argument("--actions", type=int, default=200, help="played with each profile")
     parser.add_argument("--scenario", default="diamond")
@@ -246,22 +236,22 @@ def main() -> int:
         parser.error("--clients and --actions must be at least 1")
     cv2.setNumThreads(1)
     scenario, console = load_scenario(arguments.scenario), Console(stderr=True)
-    done = []
+    results: list[ClientResult] = []
     chosen = list(clients(arguments.clients, arguments.seed))
     for settings in track(chosen, "clients", console=console):
         with tempfile.TemporaryDirectory() as folder:
-            done.append(calibrated(settings, Path(folder), arguments.actions, scenario))
-        if done[-1].problem or done[-1].wrong or done[-1].passed_over:
-            console.print(f"{settings}: {done[-1].problem or f'{done[-1].wrong} wrong'} {done[-1].passed_over}")
-    result = report(done)
-    print(json.dumps(result)) if arguments.json else _show(result)
-    right = result["unattended"] == result["clients"] and not any(each.wrong or each.play.gave_up for each in done)
-    return int(not (right and all(result[name] <= most for name, most in TARGETS.items())))
+            results.append(calibrate_and_play(settings, Path(folder), arguments.actions, scenario))
+        if results[-1].problem or results[-1].wrong or results[-1].skipped:
+            console.print(f"{settings}: {results[-1].problem or f'{results[-1].wrong} wrong'} {results[-1].skipped}")
+    summary = report(results)
+    print(json.dumps(summary)) if arguments.json else _show(summary)
+    right = summary["unattended"] == summary["clients"] and not any(each.wrong or each.play.gave_up for each in results)
+    return int(not (right and all(summary[name] <= most for name, most in TARGETS.items())))
 
 
-def _show(result: dict[str, Any]) -> None:
+def _show(summary: dict[str, Any]) -> None:
     table = Table(show_header=False)
-    for key, value in result.items():
+    for key, value in summary.items():
         table.add_row(key, str(value))
     Console().print(table)
 

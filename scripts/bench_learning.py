@@ -1,9 +1,9 @@
-"""How fast the agents learn: updates a second of many runs at once, beside single-run loops doing the same work.
+"""How fast the agents learn: updates per second of many runs at once, compared with single-run loops.
 
-The same work: the line in the simulator, one environment step and one DDQN update of batch 32 a step, two hidden layers
-of 32, Adam. Every core for each: our runs are shared out over the cores as ``mc-nested reproduce`` does it, of the
-single-run loops there is one on each core. All take turns in short slices, so that a machine whose speed drifts hits
-them alike; quote the ratios.
+The same work: the line in the simulator, one environment step and one DDQN update of batch 32 per step, two hidden
+layers of 32, Adam. Each contestant uses all cores: our runs are divided over the cores as in ``mc-nested reproduce``,
+and each core runs one single-run loop. All take turns in short slices, so that a drift in the machine's speed affects
+them equally; quote the ratios.
 
 Usage: python scripts/bench_learning.py [--runs 1 10 30 90] [--rounds 5] [--slice-s 2] [--json]
 stable-baselines3 takes part where the bench extra is installed.
@@ -29,7 +29,7 @@ from rich.progress import track
 from rich.table import Table
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.learn.agents import FORMS, Agent
+from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
@@ -40,20 +40,20 @@ from scripts.bench_learning_loops import Slices, plain_loop, sb3
 LINE, PAPER = load_scenario("line"), load_preset("paper")
 WARM_UP_S = 1.0
 MOST_RUNS = 90
-"""The runs of the paper's experiment: what the ratios are quoted at, if they are measured."""
+"""The runs of the paper's experiment: the ratios are quoted for this number if it is measured."""
 
 
 def ours(runs: int) -> Slices:
     """This project's trainer with that many runs; the main agent's updates are left out of the count."""
     scenarios = [LINE] * runs
-    agent = Agent(FORMS["nested"], scenarios, PAPER, seed=0)
+    agent = Agent(AGENT_SPECS["nested"], scenarios, PAPER, seed=0)
     trainer = Trainer(GridVectorEnv(scenarios), scenarios, agent, PAPER, seed=0)
 
     def work() -> int:
-        before = int(agent.low.ddqn.updates.sum())
+        before = int(agent.low_level.ddqn.updates.sum())
         for _ in range(20):
             trainer.tick()
-        return int(agent.low.ddqn.updates.sum()) - before
+        return int(agent.low_level.ddqn.updates.sum()) - before
 
     return work
 
@@ -84,7 +84,7 @@ def flops_of_an_update() -> int:
 
 
 def contestant(name: str, core: int, cores: int) -> Slices | None:
-    """What the process on that core does for a contestant; None where it has no part in it."""
+    """The work of the process on that core for a contestant; None if it has none."""
     if name == "plain loop":
         return plain_loop()
     if name == "stable-baselines3":
@@ -143,7 +143,7 @@ def measure(runs: Sequence[int], rounds: int, slice_s: float, cores: int) -> dic
 
 
 def ratio(rates: dict[str, list[float]], one: str, other: str) -> float:
-    """How many times the one is as fast as the other: the median over the rounds."""
+    """How many times as fast the one is as the other: the median over the rounds."""
     return statistics.median(a / b for a, b in zip(rates[one], rates[other], strict=True))
 
 

@@ -1,4 +1,4 @@
-"""What bench_learning.py measures this project beside: DDQN loops of a single run, doing the same work."""
+"""What bench_learning.py compares this project with: DDQN loops of a single run, doing the same work."""
 
 from collections.abc import Callable, Iterator
 
@@ -13,7 +13,7 @@ from sim.grid import arena_env
 LINE, PAPER = load_scenario("line"), load_preset("paper")
 
 Slices = Callable[[], int]
-"""Does a little of the work and says how many updates that were."""
+"""Does a little of the work and returns how many updates that was."""
 
 
 def plain_loop() -> Slices:
@@ -50,9 +50,9 @@ def _plain_ddqn() -> Iterator[None]:
                     action = int(online(torch.from_numpy(state)).argmax())
             observation, reward, terminated, truncated, _ = env.step(action)
             following, over = _features(observation), terminated or truncated
-            place = stored % room
-            states[place], next_states[place] = state, following
-            actions[place], rewards[place], ends[place] = action, reward, terminated
+            index = stored % room
+            states[index], next_states[index] = state, following
+            actions[index], rewards[index], ends[index] = action, reward, terminated
             stored, state = stored + 1, following
             if stored < batch:
                 continue

@@ -1,13 +1,13 @@
-"""How exact and how fast the live path plays, on the virtual client: every action against the client's own truth.
+"""Measures how exactly and how fast the live path plays on the virtual client, whose world checks every action.
 
     python scripts/bench_live.py [--actions 10000] [--rate 0.01] [--frames 20000] [--seed 0] [--json]
 
 ``clean`` plays without mishaps, ``soak`` with one before every hundredth action (lost focus, menus, death, disconnect,
-lag, lost keys and so on). Actions are drawn evenly from those of the eight that the rules don't void; an episode ends
-after 60 steps or when no block is left, and where an action fails: that episode is thrown away, and a reset finds the
-way back. An outcome that isn't what the client's world holds is a wrong cell or a wrong block; one that is neither, of
-an action that did not happen, is unnoticed. Times are the game's, from act() called to returned. ``reader`` is what
-scripts/bench_reader.py measures. Exit code 1 where anything was wrong.
+lag, lost keys and so on). Actions are drawn uniformly from those that the rules don't void. An episode ends after 60
+steps, when no block is left, or when an action fails: then it is thrown away, and the reset recovers. An outcome that
+differs from the client's world is a wrong cell or a wrong block. An outcome that matches the world but not the rules is
+unnoticed: the action did not happen. Times are the game's, for one call of act(). ``reader`` is what
+scripts/bench_reader.py measures. Exit code 1 if anything was wrong.
 """
 
 import argparse
@@ -17,7 +17,7 @@ import sys
 import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import cv2
 import numpy as np
@@ -33,18 +33,19 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError
 from mc_nested.live.action_log import percentile
-from mc_nested.live.font import Font, font_of
-from mc_nested.live.game_screen import WindowScreen
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import Arena, GameVersion
-from mc_nested.live.reading import Block
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.tables import GameVersion, InputTable, Profile
+from mc_nested.live.vision.font import Font, font_of
+from mc_nested.live.vision.game_screen import WindowScreen
 from scripts import bench_reader
 from sim.client.client import VirtualClient
-from sim.client.font import drawn_atlas
+from sim.client.drawing.font import drawn_atlas
 
 MISHAP_WITHIN_S = 0.5
-"""A mishap comes at some moment of the action before which it was drawn, or of the one after."""
+"""A mishap happens at a random moment within this time after it is drawn: in that action or in the next one."""
 
 SOAK_FIGURES = (
     *("actions", "mishaps", "wrong_cells", "wrong_blocks", "unnoticed", "failed_actions", "resets", "recoveries"),
@@ -54,8 +55,8 @@ TARGETS = {"median_action_s": 0.35, "p95_action_s": 0.55}
 
 
 @dataclasses.dataclass
-class Play:
-    """What an amount of playing came to."""
+class PlayCounts:
+    """What was played, what went wrong, and how long it took."""
 
     actions: int = 0
     mishaps: int = 0
@@ -83,12 +84,41 @@ class Play:
         )
 
 
-def play(count: int, rate: float, seed: int, scenario: Scenario) -> Play:
-    """Play ``count`` actions, with a mishap before a share ``rate`` of them."""
+def play(count: int, rate: float, seed: int, scenario: Scenario) -> PlayCounts:
+    """Play ``count`` actions on a new client, with a mishap before a share ``rate`` of them."""
     client = VirtualClient(seed=seed)
     arena = Arena.around((-20, client.realm.world.floor, 31), "south")
     steps = track(range(count), "soak" if rate else "clean", console=Console(stderr=True))
     return play_in(client, live_game(client, scenario, arena), arena, scenario, steps, rate, seed)
+
+
+class WorldTruth(Protocol):
+    """What the game's world really holds, known otherwise than from its screen."""
+
+    def cell(self) -> Cell:
+        """The cell that the player stands on."""
+
+    def is_built(self, placed: set[Cell]) -> bool:
+        """Whether these cells hold a block, and nothing else was built."""
+
+
+class ClientTruth:
+    """What the client's world really holds. What was built before, such as a floor and a border, must stay."""
+
+    def __init__(self, client: VirtualClient, arena: Arena) -> None:
+        self._client, self._arena = client, arena
+        self._built_before = client.built
+
+    def cell(self) -> Cell:
+        """The cell that the player stands on."""
+        return self._client.cell(self._arena)
+
+    def is_built(self, placed: set[Cell]) -> bool:
+        """Whether these cells hold a block, and everything else is as before."""
+        cells = {self._arena.block_of(cell) for cell in placed}
+        built = self._client.built
+        others = {block: built[block] for block in built if block not in cells}
+        return cells <= built.keys() and others == self._built_before
 
 
 def play_in(
@@ -99,13 +129,10 @@ def play_in(
     steps: Iterable[int],
     rate: float,
     seed: int,
-) -> Play:
-    """Play as many actions as there are steps in that client's game, each against what the client's world holds.
-
-    What stands there before, such as an arena's floor and border, is meant to stay as it is.
-    """
-    done = Play()
-    laid = client.built
+) -> PlayCounts:
+    """Play as many actions as there are steps in that client's game, each checked against the client's world."""
+    counts = PlayCounts()
+    truth = ClientTruth(client, arena)
     rng = np.random.default_rng(seed)
     began, cpu = client.clock.now(), time.process_time()
     with game:
@@ -113,75 +140,71 @@ def play_in(
         cell, in_episode = scenario.start, 0
         for _ in steps:
             while placed is None:
-                placed, cell, in_episode = _reset(game, client, arena, laid, scenario, done, rng)
+                placed, cell, in_episode = _reset(game, truth, scenario, counts, rng)
             action = drawn_action(rng, cell, placed)
             if rate:
                 client.mishaps.maybe(rate, MISHAP_WITHIN_S)
-            done.actions += 1
-            at = client.clock.now()
+            counts.actions += 1
+            act_began = client.clock.now()
             try:
                 outcome = game.act(action)
             except LiveError:
-                done.failed_actions += 1
+                counts.failed_actions += 1
                 placed = None
                 continue
-            times = done.placings_s if action in rules.PLACES else done.moves_s
-            times.append(client.clock.now() - at)
-            wanted = rules.moved(cell, action, placed)
-            landing = rules.landing(wanted, action, placed)
+            times = counts.placings_s if action in rules.PLACES else counts.moves_s
+            times.append(client.clock.now() - act_began)
+            expected_cell = rules.moved(cell, action, placed)
+            expected_block = rules.landing(expected_cell, action, placed)
             placed |= {outcome.placed} if outcome.placed else set()
             cell = outcome.cell
-            done.wrong_cells += client.cell(arena) != outcome.cell
-            done.wrong_blocks += not _is_built(client, arena, laid, placed)
-            done.unnoticed += (outcome.cell, outcome.placed) != (wanted, landing)
+            counts.wrong_cells += truth.cell() != outcome.cell
+            counts.wrong_blocks += not truth.is_built(placed)
+            counts.unnoticed += (outcome.cell, outcome.placed) != (expected_cell, expected_block)
             in_episode += 1
             if len(placed) == scenario.blocks or in_episode == scenario.step_limit:
                 placed = None
-    done.mishaps = len(client.mishaps.happened)
-    done.left_down, done.strays = len(client.window.down), len(client.window.strays)
+    counts.mishaps = len(client.mishaps.happened)
+    counts.left_down, counts.strays = len(client.window.down), len(client.window.strays)
     effort = game.log.effort
-    done.corrections, done.second_clicks = effort.corrections, effort.second_clicks
-    done.recoveries = game.log.recoveries
-    done.played_s, done.cpu_s = client.clock.now() - began, time.process_time() - cpu
-    return done
+    counts.corrections, counts.second_clicks = effort.corrections, effort.second_clicks
+    counts.recoveries = game.log.recoveries
+    counts.played_s, counts.cpu_s = client.clock.now() - began, time.process_time() - cpu
+    return counts
 
 
 def live_game(client: VirtualClient, scenario: Scenario, arena: Arena) -> LiveGame:
-    """The live path, wired to a virtual client."""
+    """A live game on a virtual client."""
     return LiveGame(
         scenario,
         Profile(game=GameVersion(version=client.settings.version), arena=arena),
-        display=client.display,
-        keyboard=client.keyboard,
-        pointer=client.pointer,
-        clock=client.clock,
-        screen=WindowScreen(client.display, _font()),
+        connection_to(client),
     )
 
 
+def connection_to(client: VirtualClient) -> GameConnection:
+    """A connection to a virtual client, read with its own font."""
+    controller = InputController(client.devices, InputTable())
+    return GameConnection(client.devices, controller, WindowScreen(client.display, _font()))
+
+
 def _reset(
-    game: LiveGame,
-    client: VirtualClient,
-    arena: Arena,
-    laid: dict[Block, str],
-    scenario: Scenario,
-    done: Play,
-    rng: np.random.Generator,
+    game: LiveGame, truth: WorldTruth, scenario: Scenario, counts: PlayCounts, rng: np.random.Generator
 ) -> tuple[set[Cell] | None, Cell, int]:
-    """Begin an episode: the blocks (none) and the cell, and 0 steps; None instead where that was given up."""
+    """Begin an episode: no blocks yet, the start cell, 0 steps. None instead of the blocks if the game gave up."""
     try:
         cell = game.reset(int(rng.integers(len(scenario.materials))))
     except LiveError:
-        done.gave_up += 1
+        counts.gave_up += 1
         return None, scenario.start, 0
-    done.resets += 1
-    done.wrong_cells += client.cell(arena) != cell
-    done.wrong_blocks += not _is_built(client, arena, laid, set())
+    counts.resets += 1
+    counts.wrong_cells += truth.cell() != cell
+    counts.wrong_blocks += not truth.is_built(set())
     return set(), cell, 0
 
 
 def drawn_action(rng: np.random.Generator, cell: Cell, placed: set[Cell]) -> Action:
-    """One of the actions that the rules don't void."""
+    """A random action among those that the rules don't void."""
     return Action(int(rng.choice([int(action) for action in _possible(cell, placed)])))
 
 
@@ -192,19 +215,12 @@ def _possible(cell: Cell, placed: set[Cell]) -> Iterator[Action]:
             yield action
 
 
-def _is_built(client: VirtualClient, arena: Arena, laid: dict[Block, str], placed: set[Cell]) -> bool:
-    """Whether these cells hold a block, and nothing else differs from what was laid before."""
-    cells = {arena.block_of(cell) for cell in placed}
-    built = client.built
-    return cells <= built.keys() and {block: built[block] for block in built if block not in cells} == laid
-
-
 def _font() -> Font:
     return font_of(drawn_atlas())
 
 
-def figures(played: Play) -> dict[str, Any]:
-    """How exact and how fast it was played, without mishaps."""
+def figures(played: PlayCounts) -> dict[str, Any]:
+    """The counts and times of playing without mishaps."""
     every = sorted([*played.moves_s, *played.placings_s])
     counts = ("actions", "wrong_cells", "wrong_blocks", "failed_actions", "corrections", "second_clicks")
     return {
@@ -216,7 +232,7 @@ def figures(played: Play) -> dict[str, Any]:
     }
 
 
-def report(clean: Play, soak: Play, reader: bench_reader.Result) -> dict[str, Any]:
+def report(clean: PlayCounts, soak: PlayCounts, reader: bench_reader.Result) -> dict[str, Any]:
     """What --json prints."""
     return {
         "soak": {name: getattr(soak, name) for name in SOAK_FIGURES},
@@ -228,7 +244,7 @@ def report(clean: Play, soak: Play, reader: bench_reader.Result) -> dict[str, An
 
 def main() -> int:
     """Parse the command line, measure, print."""
-    parser = argparse.ArgumentParser(description="How exact and how fast the live path plays on the virtual client.")
+    parser = argparse.ArgumentParser(description="How exactly and how fast the live path plays on the virtual client.")
     parser.add_argument("--actions", type=int, default=10_000, help="of the clean run, and of the soak")
     parser.add_argument("--rate", type=float, default=0.01, help="mishaps an action in the soak")
     parser.add_argument("--frames", type=int, default=20_000, help="frames for the reader")

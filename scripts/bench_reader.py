@@ -1,14 +1,13 @@
-"""How well and how fast the F3 reader reads painted frames of all layouts, GUI scales, window sizes and worlds.
+"""Accuracy and speed of the debug screen's reader on painted frames of all layouts, GUI scales, windows and worlds.
 
     python scripts/bench_reader.py [--frames 20000] [--font PNG_OR_JAR] [--seed 0] [--tesseract 200] [--json]
 
-Frames come in pairs: the second shows the player a tick later before another world. The first is read by a reader that
-knows nothing ("cold"), the second by the same one, which remembers where the lines stood ("warm"); warm times are of
-those that needed no second look, each read five times more. Times are medians of processor time at 1920 x 1080 on one
-core; ``workload_ms`` is a fixed piece of NumPy beside them, to compare machines by. Tesseract, where the program is
-installed, is given the XYZ line of some of the same frames, cut out, black on white, enlarged and smoothed; it counts
-as right if the three numbers are. Its time is the clock's, start and all. Exit code 1 if a reading was wrong or more
-than 0.1 % were not read.
+Frames come in pairs: the second shows the player a tick later before another world. A new reader reads the first
+("cold"), then the second, where it remembers where the lines stood ("warm"). Warm times are of frames that needed no
+second look, each read five times more. Times are medians of processor time at 1920 x 1080 on one core;
+``workload_ms`` is a fixed piece of NumPy work, to compare machines. Where Tesseract is installed, it is given the XYZ
+line of some of these frames, cut out, black on white, enlarged and smoothed; it is right if the three numbers are. Its
+time is wall clock, process start included. Exit code 1 if a reading was wrong or more than 0.1 % were not read.
 """
 
 import argparse
@@ -33,13 +32,14 @@ from rich.progress import track
 
 from mc_nested.errors import UserError
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.font import Font, font_of, load_font
-from mc_nested.live.overlay import POSITION, places_of, see
-from mc_nested.live.screen_reader import ScreenReader
-from sim.client.f3 import paint
-from sim.client.f3_cases import WORLDS, expected, frames, random_world
-from sim.client.f3_text import F3Screen
-from sim.client.font import drawn_atlas
+from mc_nested.live.vision.font import Font, font_of, load_font
+from mc_nested.live.vision.overlay import POSITION, find_debug_screen
+from mc_nested.live.vision.screen_reader import ScreenReader
+from mc_nested.live.vision.text_lines import positions_of
+from sim.client.drawing.f3_cases import WORLDS, expected, frames, random_world
+from sim.client.drawing.f3_layers import paint
+from sim.client.drawing.font import drawn_atlas
+from sim.client.game.f3_text import F3Screen
 
 WINDOWS = ((854, 480), (1280, 720), (1366, 768), (1600, 900), (1920, 1080))
 FULL_HD = (1080, 1920)
@@ -47,7 +47,7 @@ TICK_BLOCKS = 0.216
 """How far a walking player gets in a tick (FACTS: Walking)."""
 
 REREADS = 5
-"""How often a warm frame is read for its time, as the body does that waits for the next tick."""
+"""How often a warm frame is read again for its time, as while waiting for the next tick."""
 
 T = TypeVar("T")
 
@@ -56,7 +56,7 @@ _NUMBER = re.compile(r"-?\d+[.,]\d+")
 
 @dataclasses.dataclass(frozen=True)
 class Result:
-    """What the frames gave: counts, milliseconds at 1920 x 1080, and the share of lines that Tesseract read.
+    """Counts, milliseconds at 1920 x 1080, and the share of lines that Tesseract read.
 
     None where there was no such frame, or no Tesseract.
     """
@@ -72,7 +72,7 @@ class Result:
     tesseract_ms: float | None
 
 
-class Picture:
+class OneFrameDisplay:
     """A Display that shows one frame."""
 
     def __init__(self, frame: Frame) -> None:
@@ -104,7 +104,7 @@ def measure(font: Font, count: int, seed: int, tesseract_count: int) -> Result:
     every = max(1, count // 2 // tesseract_count) if tesseract_count and shutil.which("tesseract") else 0
     cases = track(pairs(font, seed, count // 2), "reading", total=count // 2, console=Console(stderr=True))
     for index, (first, second) in enumerate(cases):
-        display = Picture(first[1])
+        display = OneFrameDisplay(first[1])
         reader = ScreenReader(display, font)
         for times, (screen, frame) in ((cold, first), (warm, second)):
             display.frame, display.whole_grabs = frame, 0
@@ -142,10 +142,10 @@ def pairs(font: Font, seed: int, count: int) -> Iterator[tuple[tuple[F3Screen, F
 
 def tesseract_reads(font: Font, screen: F3Screen, frame: Frame) -> list[tuple[bool, float]]:
     """Whether Tesseract reads the XYZ line of this frame, and the seconds it takes; nothing where there is no line."""
-    sight = see(frame, font)
-    if sight is None or sight.prefix != POSITION:
+    found = find_debug_screen(frame, font)
+    if found is None or found.label != POSITION:
         return []
-    row, column = places_of(sight.dots, font, POSITION)[0]
+    row, column = positions_of(found.dots, font, POSITION)[0]
     xyz = expected(screen).xyz or ()
     numbers = [f"{value:.{decimals}f}" for value, decimals in zip(xyz, _decimals(screen), strict=True)]
     scale, wide = screen.gui_scale, len(font.columns(f"{POSITION} {' / '.join(numbers)}"))
@@ -192,7 +192,7 @@ def _median_ms(seconds: list[float]) -> float | None:
 
 def main() -> int:
     """Parse the command line, measure, print."""
-    parser = argparse.ArgumentParser(description="How well and how fast the F3 reader reads painted frames.")
+    parser = argparse.ArgumentParser(description="Accuracy and speed of the debug screen's reader on painted frames.")
     parser.add_argument("--frames", type=int, default=20_000)
     parser.add_argument("--font", type=Path, help="a font picture, jar or resource pack; without it the drawn font")
     parser.add_argument("--seed", type=int, default=0)

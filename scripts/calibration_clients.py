@@ -1,11 +1,11 @@
-"""Random virtual clients to calibrate: versions, windows, latencies, worlds and players as people have them."""
+"""Random virtual clients to calibrate: realistic versions, windows, latencies, worlds and players."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
-from sim.client.edition import Edition
-from sim.client.scenery import WORLDS
+from sim.client.drawing.scenery import WORLDS
+from sim.client.game.edition import Edition
 from sim.client.settings import ClientSettings, gui_scale
 
 VERSIONS = (
@@ -25,18 +25,18 @@ VERSIONS = (
         "26.3",
     ),
 )
-"""Of each row of each table of FACTS, from the first version whose commands are known to the last that can be read."""
+"""One or more of each row of FACTS' tables, from the first version with known commands to the last that can be read."""
 
 NARROWEST = 360
-"""GUI pixels of width: in a narrower window the debug screen's two columns run into each other."""
+"""Width in GUI pixels: in a narrower window the two columns of the debug screen overlap."""
 
 FLOORS = ("bedrock", "stone", "dirt", "grass_block", "sand")
-SKEWED_DEG = 15.0
-"""How far off an axis of the world a player may look who means it."""
+FACING_ERROR_DEG = 15.0
+"""How far from an axis of the world a player may look when facing along it."""
 
 
 def clients(count: int, seed: int) -> Iterator[ClientSettings]:
-    """So many clients, the same ones for the same seed; each version comes as often as any other."""
+    """``count`` clients, the same for the same seed; all versions are equally frequent."""
     rng = np.random.default_rng(seed)
     rounds = -(-count // len(VERSIONS))
     versions = [version for _ in range(rounds) for version in rng.permutation(VERSIONS)]
@@ -60,7 +60,7 @@ def _client(rng: np.random.Generator, version: str) -> ClientSettings:
         input_latency_s=_latency(rng, 0.002, 0.015, 0.02),
         capture_latency_s=_latency(rng, 0.005, 0.020, 0.02),
         feet=(x, float(rng.integers(lowest, 120)), z),
-        yaw=float(rng.choice([0, 90, 180, -90]) + rng.uniform(-SKEWED_DEG, SKEWED_DEG)),
+        yaw=float(rng.choice([0, 90, 180, -90]) + rng.uniform(-FACING_ERROR_DEG, FACING_ERROR_DEG)),
         pitch=float(rng.uniform(-10, 60)),
         floor_block=str(rng.choice(floors)),
         mode="creative" if rng.random() < 0.7 else "survival",
@@ -72,7 +72,7 @@ def _client(rng: np.random.Generator, version: str) -> ClientSettings:
 
 
 def _window(rng: np.random.Generator) -> tuple[tuple[int, int], int]:
-    """A size, odd ones too, and a GUI scale that fits it; 0 is auto."""
+    """A size, odd or even, and a GUI scale that fits it; 0 is auto."""
     while True:
         size, scale = (int(rng.integers(640, 1921)), int(rng.integers(480, 1081))), int(rng.integers(0, 5))
         if size[0] >= NARROWEST * gui_scale(size, scale):
@@ -80,6 +80,6 @@ def _window(rng: np.random.Generator) -> tuple[tuple[int, int], int]:
 
 
 def _latency(rng: np.random.Generator, least: float, most: float, spread: float) -> tuple[float, float]:
-    """From and to, in seconds."""
+    """The least and the most latency of a client, in seconds."""
     begin = float(rng.uniform(least, most))
     return begin, begin + float(rng.uniform(0.0, spread))

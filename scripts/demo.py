@@ -12,7 +12,7 @@ from scripts import environment
 
 
 def main() -> int:
-    """Install, train until a greedy evaluation is at the optimum, and show the built arena; an exit code."""
+    """Install, train until a greedy evaluation is at the optimum, and show what was built; returns the exit code."""
     python = environment.main_python()
     run = environment.ROOT / "runs" / f"demo-{datetime.now():%Y%m%d-%H%M%S}"
     mc_nested: list[str | Path] = [python, "-m", "mc_nested.cli"]

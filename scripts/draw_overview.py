@@ -1,4 +1,4 @@
-"""Draws README's picture: what a training learnt, what it builds, and what it reads on a game's screen.
+"""Draws README's picture: what a training learned, what it builds, and what it reads on a game's screen.
 
 Usage: python scripts/draw_overview.py RUN [OUT.png]    (RUN: the folder of a training, mc-nested train --out)
 """
@@ -13,14 +13,14 @@ from matplotlib.figure import Figure
 
 from mc_nested.arena.drawing import draw_picture
 from mc_nested.cli.evaluate import greedy_episodes, load_agent
-from mc_nested.learn.run_folder import RunFolder
-from mc_nested.live.debug_screen import read_debug_screen
-from mc_nested.live.font import font_of
-from mc_nested.live.reading import Target
+from mc_nested.learn.runs.run_folder import RunFolder
+from mc_nested.live.model.reading import Target
+from mc_nested.live.vision.debug_screen import read_debug_screen
+from mc_nested.live.vision.font import font_of
 from mc_nested.report.curve import MEAN, OPTIMUM, align_trials, bootstrap_interval
-from sim.client.f3 import paint
-from sim.client.f3_text import F3Screen
-from sim.client.font import drawn_atlas
+from sim.client.drawing.f3_layers import paint
+from sim.client.drawing.font import drawn_atlas
+from sim.client.game.f3_text import F3Screen
 from sim.grid import arena_env
 
 DEFAULT_OUT = Path(__file__).with_name("overview.png")

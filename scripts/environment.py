@@ -1,4 +1,4 @@
-"""The project's own environment: .venv beside pyproject.toml, made and brought up to date by the other scripts.
+"""The project's own environment: .venv beside pyproject.toml, made and updated by the other scripts.
 
 Needs nothing but Python 3.10 or newer. Versions come from constraints.txt.
 """
@@ -58,7 +58,7 @@ def _wanted(extras: Sequence[str]) -> str:
 
 def _pip(python: Path, *what: str) -> None:
     if run([python, "-m", "pip", "install", "--disable-pip-version-check", "-c", "constraints.txt", *what]):
-        sys.exit("installing failed: see pip's message above, mend it and run this again")
+        sys.exit("installing failed: see pip's message above, fix that and run this again")
 
 
 def _can_build_evdev() -> bool:
@@ -70,7 +70,7 @@ def _can_build_evdev() -> bool:
 
 
 def _install_without_evdev(python: Path, extras: Sequence[str]) -> None:
-    """Install everything but evdev: pynput needs it for a console without X11 only, which nothing here uses."""
+    """Install everything but evdev: pynput needs it only for a console without X11, which nothing here uses."""
     print("no C compiler or headers here: installing pynput without evdev", flush=True)
     _pip(python, "--no-deps", "-e", ".")
     listing = "import importlib.metadata, json; print(json.dumps(importlib.metadata.requires('mc-nested')))"
@@ -90,6 +90,6 @@ def _requirements_but_pynput(requirements: Sequence[str], extras: Sequence[str])
 
 
 def _settle_xlib(python: Path) -> None:
-    """Let python-xlib have the last word: pyautogui brings the far older python3-xlib, and both are named Xlib."""
+    """Install python-xlib last: pyautogui brings the far older python3-xlib, and both are named Xlib."""
     if sys.platform.startswith("linux"):
         _pip(python, "--quiet", "--no-deps", "--force-reinstall", "python-xlib")

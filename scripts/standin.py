@@ -5,10 +5,10 @@
     python scripts/standin.py down     stop everything that `up` started
 
 An X server (Xvfb) shows a browser with prismarine-web-client, joined to flying-squid, a Minecraft 1.18.2 server:
-programs of others, fetched with apt and npm and pinned in standin_parts.py. All of it listens on 127.0.0.1 alone, on
+third-party programs, fetched with apt and npm and pinned in standin_parts.py. Everything listens only on 127.0.0.1, on
 free ports. `up` prints the state, which is in .standin/state.json too: `display`, `window_title`, `oracle` (the address
 that answers what standin/oracle.js lists), `font` (an ascii.png), `fonts` (a folder of them, by version), `profile` (of
-mc-nested), `pids` and `logs`. Where it is up already, `up` prints that state. Exit code 2: the machine lacks something
+mc-nested), `pids` and `logs`. Where it is already up, `up` prints that state. Exit code 2: the machine lacks something
 that the message names; 1: the stand-in did not come up, or is down.
 """
 
@@ -31,9 +31,9 @@ from scripts.standin_parts import FONTS, WEB_CLIENT, MissingError, fetch, instal
 from scripts.standin_processes import StandinError, State, clean_up, load_state, wait_until  # noqa: E402
 
 PATIENCE_S = 1800.0
-"""How long to wait for another one: it may be fetching everything over a slow line."""
+"""Seconds to wait for another run: it may be fetching everything over a slow connection."""
 STOPPED = 130
-"""The exit code of a program that was stopped by Ctrl+C."""
+"""The exit code after Ctrl+C."""
 
 
 def main(arguments: Sequence[str] | None = None, cache: Path = ROOT / ".standin") -> int:
@@ -64,7 +64,7 @@ def up(cache: Path) -> int:
     path = cache / "state.json"
     state = load_state(path)
     if state is not None and not _is_up(state):
-        say("clearing away what is left of an earlier one")
+        say("cleaning up after an earlier run")
         clean_up(state)
         state = None
     if state is None:
@@ -84,7 +84,7 @@ def _start(path: Path, folders: Folders) -> int:
         state.save()
         start_game(state, folders, say)
     except (StandinError, KeyboardInterrupt) as error:
-        # A second Ctrl+C would leave behind what the first one asked to stop.
+        # A second Ctrl+C would interrupt the stopping.
         for again in (signal.SIGINT, signal.SIGTERM):
             signal.signal(again, signal.SIG_IGN)
         clean_up(state)
@@ -97,7 +97,7 @@ def _start(path: Path, folders: Folders) -> int:
 
 
 def down(cache: Path) -> int:
-    """Stop whatever `up` started, whether or not it got to its end."""
+    """Stop everything that `up` started, whether or not it finished."""
     state = load_state(cache / "state.json")
     if state is not None:
         clean_up(state)
@@ -106,7 +106,7 @@ def down(cache: Path) -> int:
 
 
 def status(cache: Path) -> int:
-    """Say whether the stand-in is up, and print its state."""
+    """Print whether the stand-in is up, and its state."""
     state = load_state(cache / "state.json")
     is_up = state is not None and _is_up(state)
     remains = state is not None and any(process.pids() for process in state.processes)
@@ -116,7 +116,7 @@ def status(cache: Path) -> int:
 
 
 def say(line: str) -> None:
-    """One line of progress, or why it ended."""
+    """Print one line of progress, or why it ended."""
     print(f"standin: {line}", file=sys.stderr, flush=True)
 
 
@@ -139,8 +139,8 @@ def _fetched(cache: Path) -> Folders:
 
 @contextmanager
 def _alone(cache: Path) -> Iterator[None]:
-    """Keep a second one out: it waits for the first. The kernel lifts the lock whatever happens to this process."""
-    import fcntl  # not on Windows, where `main` has said so
+    """Let one run at a time use the cache: a second waits. The kernel lifts the lock even if this process is killed."""
+    import fcntl  # missing on Windows, which `main` has refused
     import os
 
     folder = os.open(cache, os.O_RDONLY)
@@ -156,7 +156,7 @@ def _alone(cache: Path) -> Iterator[None]:
         if not is_mine():
             say("waiting for another standin.py to end")
             if not wait_until(is_mine, PATIENCE_S):
-                raise StandinError("another standin.py is still at work here: wait for it, or stop it")
+                raise StandinError("another standin.py is still running here: wait for it, or stop it")
         yield
     finally:
         os.close(folder)

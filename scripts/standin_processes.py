@@ -1,4 +1,4 @@
-"""Processes that outlive the script that started them: their start, their end, and the file that remembers them.
+"""Processes that outlive the script that started them: their start, their end, and the file that records them.
 
 Standard library only, and Linux only: a process is known by its pid together with its start time in /proc.
 """
@@ -17,12 +17,12 @@ from pathlib import Path
 
 
 class StandinError(Exception):
-    """The stand-in did not come up, or not down: one line."""
+    """The stand-in did not start, or did not stop; the message is one line."""
 
 
 @dataclass(frozen=True)
 class Running:
-    """One started process, the leader of its own session: the pid alone may be another's by now."""
+    """One started process, the leader of its own session. A pid alone may have been reused by another process."""
 
     name: str
     pid: int
@@ -30,7 +30,7 @@ class Running:
 
     @property
     def is_alive(self) -> bool:
-        """Whether this very process still runs."""
+        """Whether this process still runs."""
         return start_time(self.pid) == self.started
 
     def pids(self) -> list[int]:
@@ -43,7 +43,7 @@ class Running:
 
 @dataclass
 class State:
-    """What `up` leaves behind for `status`, `down`, and whoever plays: the file is written after every step."""
+    """What `up` leaves for `status`, `down` and players; the file is written after every step."""
 
     path: Path
     ready: bool = False
@@ -53,13 +53,13 @@ class State:
     facts: dict[str, str] = field(default_factory=dict)
 
     def save(self) -> None:
-        """Write the file, whole or not at all."""
+        """Write the file atomically."""
         part = self.path.with_suffix(".part")
         part.write_text(json.dumps(self.as_json(), indent=1) + "\n", encoding="utf-8")
         part.replace(self.path)
 
     def as_json(self) -> dict[str, object]:
-        """The file's content; README of the keys: scripts/standin.py."""
+        """The file's content; scripts/standin.py explains the keys."""
         return {
             "ready": self.ready,
             "display": self.display,
@@ -71,7 +71,7 @@ class State:
 
     @property
     def is_up(self) -> bool:
-        """Whether `up` got to its end and everything it started still runs."""
+        """Whether `up` finished and everything it started still runs."""
         return self.ready and all(process.is_alive for process in self.processes)
 
 
@@ -106,7 +106,7 @@ def start(
             start_new_session=True,
             pass_fds=keep,
         )
-    child.returncode = 0  # or Popen would warn of a process that is meant to go on without it
+    child.returncode = 0  # otherwise Popen would warn that the process, which is meant to stay, still runs
     started = start_time(child.pid)
     if started is None:
         raise StandinError(f"{name} stopped at once: {last_line(log)}")
@@ -114,12 +114,12 @@ def start(
 
 
 def stop(process: Running, patience_s: float = 5.0) -> bool:
-    """End a process and its session: asked first, killed after ``patience_s``; whether it is gone."""
+    """End a process and its session, with SIGTERM first and SIGKILL after ``patience_s``; whether it has ended."""
     for how in (signal.SIGTERM, signal.SIGKILL):
         pids = process.pids()
         if not pids:
             return True
-        # Chromium ends its own children in order when only itself is asked.
+        # Chromium ends its children in order when only it gets the signal.
         for pid in [process.pid] if how == signal.SIGTERM and process.pid in pids else pids:
             _send(pid, how)
         if wait_until(lambda: not process.pids(), patience_s):
@@ -128,11 +128,11 @@ def stop(process: Running, patience_s: float = 5.0) -> bool:
 
 
 def clean_up(state: State) -> None:
-    """Stop everything that ``state`` names, last started first, and remove what it left on the disk."""
+    """Stop everything that ``state`` names, last started first, and remove what it left on disk."""
     stubborn = [process for process in reversed(state.processes) if not stop(process)]
     if stubborn:
         names = ", ".join(f"{process.name} (pid {process.pid})" for process in stubborn)
-        raise StandinError(f"these do not stop, end them by hand: {names}")
+        raise StandinError(f"these don't stop, end them by hand: {names}")
     if state.display:
         remove_socket(state.display)
     if state.scratch:
@@ -151,7 +151,7 @@ def wait_until(is_so: Callable[[], bool], timeout_s: float, every_s: float = 0.0
 
 
 def start_time(pid: int) -> int | None:
-    """When a process started, in clock ticks since boot; None when there is none, or only its exit status is left."""
+    """When a process started, in clock ticks since boot; None for none, or one that has ended but isn't collected."""
     fields = _stat(pid)
     return int(fields[19]) if fields and fields[0] != "Z" else None
 
@@ -164,7 +164,7 @@ def last_line(log: Path) -> str:
 
 def _stat(pid: int) -> list[str]:
     try:
-        # The second field, a name in brackets, may hold blanks and brackets itself: count from the last bracket.
+        # The second field, a name in brackets, may contain blanks and brackets: count from the last bracket.
         return Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()
     except (FileNotFoundError, ProcessLookupError):
         return []
@@ -185,12 +185,12 @@ def _send(pid: int, how: signal.Signals) -> None:
 
 
 def remove_socket(display: str, folder: Path = Path("/tmp/.X11-unix")) -> None:  # noqa: S108 - where X has it
-    """Remove the socket that an X server leaves when it is killed, unless another one listens there by now."""
+    """Remove the socket that a killed X server leaves, unless another server listens there."""
     path = folder / f"X{display.lstrip(':')}"
     with socket.socket(socket.AF_UNIX) as client:
         try:
             client.connect(str(path))
         except ConnectionRefusedError:
             path.unlink(missing_ok=True)
-        except OSError:  # none is left
+        except OSError:  # there is none
             return

@@ -1,1 +1,1 @@
-"""Test doubles: the headless simulator, and what a real game would show on its screen."""
+"""Test doubles: the headless simulator, and a virtual Minecraft client with a window and devices."""

@@ -9,12 +9,13 @@ from gymnasium.vector import VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from mc_nested.arena.env import ArenaEnv, observation_space
-from mc_nested.arena.game import Outcome
-from mc_nested.arena.rules import PLACES, SIZE, STEP, Action, Cell, landing, moved
+from mc_nested.arena.env import ArenaEnv, highest_observation, space_up_to
+from mc_nested.arena.game import Outcome, PlayLog, Resumable
+from mc_nested.arena.rules import PLACES, SIZE, STEP, Action, Cell, cells_of, grid_of, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.arena.vector import METADATA, NO_ACTION, Bools, Floats, Ints, reset_options
+from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
 
 class GridGame:
@@ -24,6 +25,16 @@ class GridGame:
         self._start = scenario.start
         self._cell = scenario.start
         self._placed: set[Cell] = set()
+
+    @property
+    def resumable(self) -> Resumable | None:
+        """This game: its episode is nothing but a cell and the blocks."""
+        return self
+
+    @property
+    def log(self) -> PlayLog | None:
+        """None: simulated actions take no time."""
+        return None
 
     def reset(self, material: int) -> Cell:  # noqa: ARG002 - the rules are the same for every material
         self._cell = self._start
@@ -36,6 +47,16 @@ class GridGame:
         if block is not None:
             self._placed.add(block)
         return Outcome(self._cell, block)
+
+    def snapshot(self) -> Arrays:
+        """The cell and the blocks, for ``restore``."""
+        return {"game_cell": np.array(self._cell), "game_placed": grid_of(self._placed)}
+
+    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
+        """Put the agent and the blocks back as they stood at ``snapshot``."""
+        x, y = snapshot["game_cell"].tolist()
+        self._cell = x, y
+        self._placed = set(cells_of(snapshot["game_placed"]))
 
 
 def arena_env(scenario: str | Scenario = "line", render_mode: str | None = None) -> ArenaEnv:
@@ -50,8 +71,8 @@ def arena_vector_env(num_envs: int = 1, scenario: str | Scenario = "line") -> "G
     return GridVectorEnv([loaded] * num_envs)
 
 
-# A border of solid cells around the arena stops every move and every block at its edge without a test of its own. The
-# arenas lie flat behind each other, so that one index names a cell of a run, and a move is one addition to it.
+# A border of solid cells stops every move and every block at the arena's edge, so nothing has to test for it. The
+# arenas are one flat array, so that one index names a cell of a run, and a move is one addition to it.
 _SIDE = SIZE + 2
 _AREA = _SIDE * _SIDE
 _MOVE = np.array([STEP[action][0] * _SIDE + STEP[action][1] for action in Action])
@@ -63,15 +84,16 @@ def _index(cell: Cell) -> int:
     return (cell[0] + 1) * _SIDE + cell[1] + 1
 
 
-class GridVectorEnv(VectorEnv[Ints, Ints, Any]):
-    """R arenas in NumPy arrays, each with a scenario of its own; as ArenaVectorEnv over R GridGames, only faster."""
+class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
+    """R arenas in NumPy arrays, each with its own scenario; the same as ArenaVectorEnv over GridGames, faster."""
 
     metadata = METADATA
 
     def __init__(self, scenarios: Sequence[Scenario]) -> None:
         self.scenarios = tuple(scenarios)
         runs = self.num_envs = len(self.scenarios)
-        self.single_observation_space = observation_space(max(self.scenarios, key=lambda s: s.blocks))
+        highest = np.max([highest_observation(scenario) for scenario in self.scenarios], axis=0)
+        self.single_observation_space = space_up_to(highest)
         self.single_action_space = Discrete(len(Action))
         self.observation_space = batch_space(self.single_observation_space, runs)
         self.action_space = batch_space(self.single_action_space, runs)
@@ -100,7 +122,7 @@ class GridVectorEnv(VectorEnv[Ints, Ints, Any]):
 
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Ints, dict[str, Any]]:
+    ) -> tuple[Int64s, dict[str, Any]]:
         """Begin an episode in the masked arenas (all, without a mask), each with its material (the best, without)."""
         super().reset(seed=seed if isinstance(seed, int) else None)
         mask, materials = reset_options(options, self.scenarios)
@@ -112,8 +134,8 @@ class GridVectorEnv(VectorEnv[Ints, Ints, Any]):
         self._terminated[mask] = self._truncated[mask] = False
         return self._observations(), {}
 
-    def step(self, actions: Ints) -> tuple[Ints, Floats, Bools, Bools, dict[str, Any]]:
-        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M where ``_score``."""
+    def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
+        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``."""
         running = ~(self._terminated | self._truncated) & (actions != NO_ACTION)
         ahead = self._position + _MOVE[actions]
         self._position = np.where(self._solid[ahead] | ~running, self._position, ahead)
@@ -133,20 +155,24 @@ class GridVectorEnv(VectorEnv[Ints, Ints, Any]):
     def placed(self, run: int) -> frozenset[Cell]:
         """The cells where a block landed in that arena since its last reset."""
         built = self._solid.reshape(-1, _SIDE, _SIDE)[run, 1:-1, 1:-1]
-        return frozenset((int(x), int(y)) for x, y in np.argwhere(built))
+        return cells_of(built)
 
-    def snapshot(self) -> dict[str, NDArray[Any]]:
-        """Every arena as it stands, for ``restore``: arrays by name."""
+    @property
+    def resumable(self) -> Resumable | None:
+        """These arenas: their episodes can be saved half-way."""
+        return self
+
+    def snapshot(self) -> Arrays:
+        """Every arena as it stands, for ``restore``."""
         return {name: getattr(self, name).copy() for name in self._STATE}
 
-    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> Ints:
-        """Put every arena back as it stood at ``snapshot``; return the observations."""
+    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
+        """Put every arena back as it stood at ``snapshot``."""
         for name in self._STATE:
             setattr(self, name, snapshot[name].copy())
-        return self._observations()
 
     _STATE = ("_solid", "_position", "_blocks_left", "_steps", "_score", "_terminated", "_truncated")
 
-    def _observations(self) -> Ints:
+    def _observations(self) -> Int64s:
         x, y = np.divmod(self._position - self._base, _SIDE)
         return np.stack((x - 1, y - 1, self._blocks_left), axis=1)

@@ -16,8 +16,8 @@ import pytest
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import draw_grid, load_scenario
-from mc_nested.live.profile import load_profile
-from mc_nested.live.profile_tables import Arena
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.store import load_profile
 from tests.standin_fixture import Block, Standin
 
 LATE_ERROR_S = 5.5

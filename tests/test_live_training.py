@@ -6,9 +6,9 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.errors import LiveError
-from mc_nested.learn.agents import FORMS, Agent
+from mc_nested.learn.agents import AGENT_SPECS, Agent
+from mc_nested.learn.episode_log import EpisodeRow
 from mc_nested.learn.preset import load_preset
-from mc_nested.learn.records import EpisodeRow
 from mc_nested.learn.trainer import Trainer
 from mc_nested.live.live_game import LiveGame
 from sim.client.client import VirtualClient
@@ -21,7 +21,7 @@ EPISODES = 8
 
 def _trainer(env: ArenaVectorEnv | GridVectorEnv, episodes: int = EPISODES) -> Trainer:
     preset = load_preset("paper").model_copy(update={"episodes": episodes})
-    return Trainer(env, [LINE], Agent(FORMS["nested"], [LINE], preset, 3), preset, 3)
+    return Trainer(env, [LINE], Agent(AGENT_SPECS["nested"], [LINE], preset, 3), preset, 3)
 
 
 def _live(game: LiveGame) -> ArenaVectorEnv:
@@ -60,20 +60,20 @@ def test_after_a_kill_it_goes_on_at_the_next_episode() -> None:
 
 
 @pytest.mark.slow
-def test_an_episode_that_a_mishap_spoils_is_thrown_away_and_the_training_finishes() -> None:
+def test_an_episode_in_which_a_mishap_happens_is_thrown_away_and_the_training_finishes() -> None:
     client = VirtualClient(seed=8)
     client.mishaps.every(0.15)
-    spoiled = 0
+    failures = 0
     with play(client, LINE) as game:
         trainer = _trainer(_live(game), episodes=4)
         while not trainer.finished:
             try:
                 trainer.tick()
             except LiveError:  # noqa: PERF203 - each tick may fail
-                spoiled += 1
+                failures += 1
                 trainer.abandon_episodes()
-        assert game.log.failed_actions <= spoiled
-    assert spoiled > 0
+        assert game.log.failed_actions <= failures
+    assert failures > 0
     assert [row.episode for row in trainer.episode_rows] == [1, 2, 3, 4]
     assert client.window.down == set()
     assert client.window.strays == []

@@ -1,1 +1,1 @@
-"""What a person and the agent do to have an arena: where it lies, looked over, asked about, built, undone."""
+"""The arena: marked where the player stands, surveyed, confirmed by the player, built and undone."""

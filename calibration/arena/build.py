@@ -1,49 +1,40 @@
-"""Building the arena where the player stands: looked at first, asked about, copied, built, and looked at again.
+"""Builds the arena where the player stands: survey, ask, copy what is there, build, and check what was built.
 
-stand and look -> is it loaded, free, flat? -> the question -> a copy -> floor, border, rules, materials -> seen
+stand and look -> is it loaded, free, flat? -> the question -> a copy -> floor, border, gamerules, materials -> check
 """
 
 import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
 
+from calibration.arena.block_queries import BlockQueries
 from calibration.arena.copy_note import (
-    forget_known_copy,
-    note_copy,
-    noted_copy,
-    saying_how_to_undo,
+    read_copy_note,
+    remove_saved_copy_note,
     undo_command,
+    undo_hint_on_error,
+    write_copy_note,
 )
-from calibration.arena.ground import is_copy_gone, looked_over
-from calibration.arena.plan import (
-    FLOOR,
-    border_block,
-    box_of,
-    build_commands,
-    copy_command,
-    do_meet,
-)
-from calibration.arena.questions import Questions
-from calibration.arena.sight import turned
-from calibration.arena.stand import NEAR_MIDDLE, arena_seen, begun
-from calibration.arena.words import how_to_undo, lines, question
-from calibration.bench import BenchOf
-from calibration.console import Console
-from calibration.report.chat_region import without_chat
+from calibration.arena.ground_survey import is_copy_gone, survey_ground
+from calibration.arena.look_around import teleport_and_look
+from calibration.arena.mark import NEAR_MIDDLE, arena_from_reading, load_profile_with_font
+from calibration.arena.messages import build_question, build_summary, undo_hint
+from calibration.arena.plan import FLOOR, border_block, box_of, build_commands, copy_command, do_overlap
+from calibration.command_console import CommandConsole
+from calibration.context import CalibrationContext, ReportPicture, StepResult
+from calibration.open_context import OpenContext
 from calibration.report.kept import keep_or_warn
-from calibration.step import Bench, Found, Picture
 from mc_nested.arena.rules import SIZE, Cell
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import NotConfirmedError, UserError
-from mc_nested.live.at_rest import read_at_rest
-from mc_nested.live.commands import teleport_command
-from mc_nested.live.fingerprint import check_single_player, game_in
-from mc_nested.live.font import load_font
-from mc_nested.live.game_screen import WindowScreen
-from mc_nested.live.profile import Profile, save_profile
-from mc_nested.live.profile_tables import Arena
-from mc_nested.live.reading import Block
-from mc_nested.live.session import overlay_of
+from mc_nested.live.menus.commands import teleport_command
+from mc_nested.live.menus.wait_for_player import wait_until_standing_still
+from mc_nested.live.model.reading import Block
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.fingerprint import game_in
+from mc_nested.live.profile.store import save_profile
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.chat_region import without_chat
 
 MIDDLE: Cell = (SIZE // 2, SIZE // 2)
 
@@ -53,30 +44,29 @@ EDGES: tuple[tuple[Cell, float], ...] = (
     ((SIZE // 2, 0), 180.0),
     ((0, SIZE // 2), -90.0),
 )
-"""Cells in front of the middle of each border, and the turn, in degrees to the right, that looks at it from there."""
+"""Cells in front of the middle of each border, and the turn, in degrees to the right, that faces it from there."""
 
 
 def calibrate_built_arena(
     profile_name: str | Path,
-    bench_of: BenchOf,
+    open_context: OpenContext,
     *,
     standing: Cell = NEAR_MIDDLE,
     font: Path | None = None,
     yes: bool = False,
-    is_server_allowed: bool = False,
-) -> tuple[Found, Path]:
-    """Build the arena as ``build_arena`` does, and write it into a profile; what was found, and the profile's file.
+) -> tuple[StepResult, Path]:
+    """Build the arena as ``build_arena`` does, and write it into a profile. Returns the result and the profile's file.
 
-    ``font`` is the client jar or font picture to read with, noted in the profile; left out, the profile's own.
+    ``font`` is the client jar or font picture to read with, recorded in the profile; default: the profile's own.
     """
-    path, profile, _ = begun(profile_name, standing, font)
-    with saying_how_to_undo(path), bench_of(profile) as bench:
-        found = build_arena(bench, profile, path=path, standing=standing, yes=yes, is_server_allowed=is_server_allowed)
-    with saying_how_to_undo(path):
-        save_profile(found.profile, path)
-    forget_known_copy(found.profile, path)
-    keep_or_warn(bench.say, path, [found])
-    return found, path
+    path, profile = load_profile_with_font(profile_name, standing, font)
+    with undo_hint_on_error(path), open_context(profile) as context:
+        result = build_arena(context, profile, path=path, standing=standing, yes=yes)
+    with undo_hint_on_error(path):
+        save_profile(result.profile, path)
+    remove_saved_copy_note(result.profile, path)
+    keep_or_warn(context.say, path, [result])
+    return result, path
 
 
 def shipped_materials() -> tuple[str, ...]:
@@ -85,31 +75,30 @@ def shipped_materials() -> tuple[str, ...]:
 
 
 def build_arena(
-    bench: Bench,
+    context: CalibrationContext,
     profile: Profile,
     *,
     path: Path | None = None,
     standing: Cell = NEAR_MIDDLE,
     yes: bool = False,
-    is_server_allowed: bool = False,
-) -> Found:
-    """Mark and build the arena around the player; the profile with it, and with the version that the title says.
+) -> StepResult:
+    """Mark and build the arena around the player. The profile gets the arena, and the version in the window's title.
 
-    Nothing is touched before the person has said yes, or with ``yes`` without asking. What stood there is copied into
-    the sky first, wherever the game can copy, and ``arena.copied_to`` says where.
+    Nothing is changed before the person has said yes (or, with ``yes``, without asking). If the game can copy blocks,
+    what stood there is copied into the sky first, and ``arena.copied_to`` says where.
 
     Args:
-        bench: the devices and the person.
+        context: the devices and the person.
         profile: with the font.
-        path: the profile's file: the copy is noted beside it before anything is built, and a copy that was noted
-            earlier, and never undone, is kept. Left out, nothing is noted.
+        path: the profile's file. The copy is noted beside it before anything is built. A copy that was noted earlier
+            and never undone is kept. Default: nothing is noted.
         standing: the cell that the player stands on.
         yes: build without asking.
-        is_server_allowed: build in a game that others may share, too.
 
     Raises:
-        DesktopError: a game that others may share; nothing was pressed.
-        UserError: a stand that can't be the arena's, a world without commands, a place that isn't loaded, or a no.
+        DesktopError: others may share the game, and that is not allowed; nothing was pressed.
+        UserError: no arena can be where the player stands, the world has no commands, its blocks aren't loaded, or the
+            answer was no.
         NotConfirmedError: what was built is not what is seen.
         NotInFrontError, UnreadableError: the game isn't in front, or its debug screen can't be read.
     """
@@ -117,64 +106,65 @@ def build_arena(
         raise UserError(
             "the profile's [world] has no commands: mark the arena only, with mc-nested calibrate arena --mark-only"
         )
-    blocks = shipped_materials()
-    screen = WindowScreen(bench.desktop.display, load_font(profile.screen.font_path()), overlay_of(profile))
-    bench.say("Stand on the middle of the arena's near edge and look across it; then leave mouse and keys alone.")
-    reading = read_at_rest(bench.desktop.display, bench.desktop.clock, screen.read)
-    check_single_player(bench.desktop.display.title(), is_server_allowed=is_server_allowed)
-    arena = arena_seen(reading, standing)
-    profile = profile.model_copy(update={"game": game_in(bench.desktop.display.title(), profile.game)})
-    console = Console(bench, profile, screen)
-    questions = Questions(console, profile, screen, arena.yaw)
-    ground = looked_over(console, questions, profile, arena, standing)
-    before = Picture("The place of the arena, before", without_chat(bench.desktop.display.grab(), screen.scale()))
-    noted = noted_copy(path) if path else None
+    materials = shipped_materials()
+    connection = context.connection.for_profile(profile)
+    display, screen = connection.devices.display, connection.screen
+    context.say("Stand on the middle of the arena's near edge and look across it; then leave mouse and keys alone.")
+    reading = wait_until_standing_still(connection)
+    connection.check_single_player()
+    arena = arena_from_reading(reading, standing)
+    profile = profile.model_copy(update={"game": game_in(display.title(), profile.game)})
+    console = CommandConsole(connection, profile)
+    queries = BlockQueries(console, profile, screen, arena.yaw)
+    ground = survey_ground(console, queries, profile, arena, standing)
+    before = ReportPicture("The ground of the arena, before", without_chat(display.grab(), screen.scale()))
+    noted = read_copy_note(path) if path else None
     old = noted.arena if noted else profile.arena
-    first = _first_copy(questions, arena, [each.arena for each in (noted, profile) if each and each.arena])
+    first = _first_copy(queries, arena, [each.arena for each in (noted, profile) if each and each.arena])
     if first is not None:
         ground, arena = dataclasses.replace(ground, copy_to=None), _with_copy(arena, first)
-    elif path and noted and noted.arena and _stands_in_part(questions, noted.arena, arena):
+    elif path and noted and noted.arena and _overlaps_copied(queries, noted.arena, arena):
         raise UserError(
             "an arena of a calibration that ended early stands here: put back what stood there before, with "
             f"{undo_command(path)}, or stand where you stood then"
         )
-    if not yes and not bench.ask(question(arena, ground, old, blocks)):
+    if not yes and not context.ask(build_question(arena, ground, old, materials)):
         raise UserError("the arena was not built: nothing was changed, in the world or in the profile")
     if ground.copy_to is not None:
-        arena = _copied(console, questions, arena, ground.copy_to)
-        how = how_to_undo(arena)
+        arena = _copied(console, queries, arena, ground.copy_to)
+        hint = undo_hint(arena)
         if path:
-            note_copy(profile.model_copy(update={"arena": arena}), path)
-            how = f"From now on it is put back by {undo_command(path)}"
-        bench.say(f"A copy of what stands there is at {ground.copy_to}. {how}")
-    for command in build_commands(profile, arena, blocks, builds_floor=not ground.keeps_floor):
+            write_copy_note(profile.model_copy(update={"arena": arena}), path)
+            hint = f"From now on it is put back by {undo_command(path)}"
+        context.say(f"A copy of what stands there is at {ground.copy_to}. {hint}")
+    for command in build_commands(profile, arena, materials, builds_floor=not ground.keeps_floor):
         console.send(command)
-    built = _seen_built(console, profile, arena, blocks, floor=ground.floor if ground.keeps_floor else FLOOR)
+    looks = _check_built(console, profile, arena, materials, floor=ground.floor if ground.keeps_floor else FLOOR)
     console.send(teleport_command(arena, standing, profile.body.pitch))
     console.watch(lambda seen: seen.pitch is not None and abs(seen.pitch - profile.body.pitch) < 1, 1.0)
-    after = Picture("The arena", without_chat(bench.desktop.display.grab(), screen.scale()))
-    return Found(
-        "arena", profile.model_copy(update={"arena": arena}), tuple(lines(arena, ground)), built, (before, after)
-    )
+    after = ReportPicture("The arena", without_chat(display.grab(), screen.scale()))
+    with_arena = profile.model_copy(update={"arena": arena})
+    return StepResult("arena", with_arena, tuple(build_summary(arena, ground)), looks, (before, after))
 
 
-def _first_copy(questions: Questions, arena: Arena, earlier: Sequence[Arena]) -> Block | None:
-    """Where a copy lies, if any does, of what stood at the same place before any arena did."""
+def _first_copy(queries: BlockQueries, arena: Arena, earlier: Sequence[Arena]) -> Block | None:
+    """The existing copy of what stood there before the first arena was built in the same box, if there is one."""
     for old in earlier:
-        if old.copied_to and box_of(old) == box_of(arena) and not is_copy_gone(questions, old):
+        if old.copied_to and box_of(old) == box_of(arena) and not is_copy_gone(queries, old):
             return old.copied_to
     return None
 
 
-def _stands_in_part(questions: Questions, old: Arena, arena: Arena) -> bool:
-    """Whether an old arena, whose copy is there, has blocks in common with this one."""
-    return do_meet(box_of(old), box_of(arena)) and not is_copy_gone(questions, old)
+def _overlaps_copied(queries: BlockQueries, old: Arena, arena: Arena) -> bool:
+    """Whether this arena overlaps an old one whose copy still exists."""
+    return do_overlap(box_of(old), box_of(arena)) and not is_copy_gone(queries, old)
 
 
-def _copied(console: Console, questions: Questions, arena: Arena, to: Block) -> Arena:
+def _copied(console: CommandConsole, queries: BlockQueries, arena: Arena, to: Block) -> Arena:
+    """Copy the arena's box; the arena with that copy."""
     box = box_of(arena)
     console.send(copy_command(box, to))
-    if not questions.are_alike(box, to):
+    if not queries.are_alike(box, to):
         raise NotConfirmedError(f"the copy to {to} was not seen to be made: nothing else was changed, try again")
     return _with_copy(arena, to)
 
@@ -183,8 +173,10 @@ def _with_copy(arena: Arena, to: Block) -> Arena:
     return arena.model_copy(update={"copied_to": to})
 
 
-def _seen_built(console: Console, profile: Profile, arena: Arena, materials: Sequence[str], *, floor: str) -> int:
-    """See the floor in the arena's middle and each border; how many looks that took."""
+def _check_built(
+    console: CommandConsole, profile: Profile, arena: Arena, materials: Sequence[str], *, floor: str
+) -> int:
+    """Check that the floor in the arena's middle and each border are seen. Returns the number of looks."""
     pitch, prefix = profile.body.pitch, profile.blocks.shown_prefix
     x, y, z = arena.block_of((MIDDLE[0], MIDDLE[1] + 1))
     expected = [(MIDDLE, 0.0, (x, y - 1, z), floor)]
@@ -196,11 +188,11 @@ def _seen_built(console: Console, profile: Profile, arena: Arena, materials: Seq
     for cell, turn, block, name in expected:
         east, up, south = arena.centre_of(cell)
         yaw = (arena.yaw + turn + 180) % 360 - 180
-        target = turned(console, f"{east:.1f} {up:.0f} {south:.1f} {yaw:g} {pitch:g}", yaw, pitch)
+        target = teleport_and_look(console, f"{east:.1f} {up:.0f} {south:.1f} {yaw:g} {pitch:g}", yaw, pitch)
         if target is None or target.pos != block or target.id != prefix + name:
             seen = f"{target.id} at {target.pos}" if target else "nothing"
             raise NotConfirmedError(
                 f"{name} should be seen at {block}, the screen says {seen}: are cheats on, and is the version right "
-                f"({profile.game.version})? {how_to_undo(arena)}"
+                f"({profile.game.version})? {undo_hint(arena)}"
             )
     return len(expected)

@@ -1,4 +1,4 @@
-"""What an arena is built of, and by which commands: pure. Boxes are two corners, the lowest and the highest, inside.
+"""The blocks and commands that build an arena. Pure. A box is two corners, the lowest and the highest, both inside.
 
 border       a ring of blocks on the ground around the 15 x 15 cells
 . . . . . . . . .     the marked region: two blocks of air above the floor
@@ -9,29 +9,41 @@ import re
 from collections.abc import Sequence
 
 from mc_nested.arena.rules import SIZE
-from mc_nested.live.commands import clear_command, item_command
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import Arena
-from mc_nested.live.reading import Block
+from mc_nested.live.menus.commands import clear_command, item_command
+from mc_nested.live.model.reading import Block
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.tables import Profile
 
 Box = tuple[Block, Block]
 
 FLOOR = "obsidian"
-"""Plain to walk on, of one name in every version, and no material of a shipped scenario."""
+"""Plain to walk on, with one name in every version, and not a material of a shipped scenario."""
 
 BORDERS = ("lapis_block", "mossy_cobblestone")
-"""Of one name in every version, without white, which text would be lost on, and not to be taken for a block that was
-placed; the first that is no material."""
+"""One name in every version; no white, since text would be unreadable on it; and not to be mistaken for a placed block.
+The first that is not a material is used."""
 
-UNFIT = ("ice", "slime", "soul_sand", "soul_soil", "honey", "sand", "gravel", "farmland", "path", "carpet", "leaves")
-"""Parts of names of blocks that are no floor: slippery, slow, lower than whole, or such as fall or wither."""
+BAD_FLOORS = (
+    "ice",
+    "slime",
+    "soul_sand",
+    "soul_soil",
+    "honey",
+    "sand",
+    "gravel",
+    "farmland",
+    "path",
+    "carpet",
+    "leaves",
+)
+"""Parts of names of blocks that make no good floor: slippery, slow, lower than a whole block, falling or decaying."""
 
 HEIGHTS = (64, 32, 16)
-"""Blocks above the floor at which a copy may lie, out of the way and in the same chunks."""
+"""Blocks above the floor at which the copy may lie, out of the way and in the same chunks."""
 
 
 def box_of(arena: Arena) -> Box:
-    """All that is built on: the region, the border around it, and the floor under both."""
+    """Everything that a build changes: the region, the border around it, and the floor under both."""
     (x, y, z), (other_x, other_y, other_z) = arena.region
     return (x - 1, y - 1, z - 1), (other_x + 1, other_y, other_z + 1)
 
@@ -42,47 +54,47 @@ def floor_of(arena: Arena) -> Box:
     return low, (high[0], low[1], high[2])
 
 
-def copy_places(arena: Arena, version: str) -> list[Block]:
-    """Lowest corners at which a copy of the box would lie in the sky above it, below the world's top."""
+def copy_positions(arena: Arena, version: str) -> list[Block]:
+    """Lowest corners where a copy of the box fits in the sky above it, below the world's top."""
     low, high = box_of(arena)
-    top = 319 if numbers_of(version) >= (1, 18) else 255
+    top = 319 if version_numbers(version) >= (1, 18) else 255
     tall = high[1] - low[1] + 1
     return [(low[0], low[1] + up, low[2]) for up in HEIGHTS if low[1] + up + 2 * tall <= top]
 
 
-def moved(box: Box, to: Block) -> Box:
-    """A box with its lowest corner at another place."""
+def box_at(box: Box, corner: Block) -> Box:
+    """The box moved so that its lowest corner is there."""
     low, high = box
-    return to, (to[0] + high[0] - low[0], to[1] + high[1] - low[1], to[2] + high[2] - low[2])
+    return corner, (corner[0] + high[0] - low[0], corner[1] + high[1] - low[1], corner[2] + high[2] - low[2])
 
 
-def do_meet(one: Box, other: Box) -> bool:
-    """Whether two boxes have a block in common."""
+def do_overlap(one: Box, other: Box) -> bool:
+    """Whether two boxes share a block."""
     return all(one[0][axis] <= other[1][axis] and other[0][axis] <= one[1][axis] for axis in range(3))
 
 
-def is_fit(floor_id: str) -> bool:
-    """Whether a floor of this block, as the debug screen names it, is as good as any."""
-    return not any(part in floor_id for part in UNFIT)
+def is_good_floor(floor_id: str) -> bool:
+    """Whether a block, as the debug screen names it, makes a good floor."""
+    return not any(part in floor_id for part in BAD_FLOORS)
 
 
 def border_block(materials: Sequence[str]) -> str:
-    """What the border is made of where these are placed."""
+    """The border's block, given the scenario's materials."""
     return next(block for block in BORDERS if block not in materials)
 
 
 def fill_command(box: Box, block: str) -> str:
     """Fill a box."""
-    return f"/fill {words(box)} minecraft:{block}"
+    return f"/fill {box_text(box)} minecraft:{block}"
 
 
 def copy_command(box: Box, to: Block) -> str:
-    """Copy a box to where its lowest corner shall lie."""
-    return f"/clone {words(box)} {' '.join(map(str, to))}"
+    """Copy a box to a new lowest corner."""
+    return f"/clone {box_text(box)} {' '.join(map(str, to))}"
 
 
 def build_commands(profile: Profile, arena: Arena, materials: Sequence[str], *, builds_floor: bool) -> list[str]:
-    """Floor, air, border, time, weather, mobs, game mode, materials, in the syntax of the profile's version."""
+    """Floor, air, border, game mode, mobs, time, weather, materials, in the syntax of the profile's version."""
     dialect = profile.game.dialect
     return [
         *([fill_command(floor_of(arena), FLOOR)] if builds_floor else []),
@@ -92,7 +104,7 @@ def build_commands(profile: Profile, arena: Arena, materials: Sequence[str], *, 
         "/difficulty peaceful",
         "/time set 6000",
         "/weather clear",
-        *(f"/gamerule {rule} false" for rule in rules_of(profile.game.version)),
+        *(f"/gamerule {rule} false" for rule in gamerules(profile.game.version)),
         *(item_command(dialect, slot, profile.block_name(block)) for slot, block in enumerate(materials)),
     ]
 
@@ -103,20 +115,20 @@ def border_of(arena: Arena) -> list[Box]:
     return [_ordered(one, other) for one, other in zip(corners, [*corners[1:], corners[0]], strict=True)]
 
 
-def rules_of(version: str) -> tuple[str, ...]:
-    """The rules by which time, weather and mobs go on, by their names in a version."""
-    if numbers_of(version) >= (1, 21, 11):
+def gamerules(version: str) -> tuple[str, ...]:
+    """The gamerules for time, weather and mobs, by their names in that version."""
+    if version_numbers(version) >= (1, 21, 11):
         return "advance_time", "advance_weather", "spawn_mobs"
     return "doDaylightCycle", "doWeatherCycle", "doMobSpawning"
 
 
-def numbers_of(version: str) -> tuple[int, ...]:
+def version_numbers(version: str) -> tuple[int, ...]:
     """A version as numbers; years (26.1) are newer than 1.21."""
     return tuple(int(part) for part in re.findall(r"\d+", version)[:3])
 
 
-def words(box: Box) -> str:
-    """A box as commands name it."""
+def box_text(box: Box) -> str:
+    """A box as commands write it."""
     return " ".join(str(part) for corner in box for part in corner)
 
 

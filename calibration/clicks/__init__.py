@@ -1,1 +1,1 @@
-"""Places to click in the menus: found by their labels, recorded by hand, shown."""
+"""Click points: the buttons of the game's menus, found by their labels or recorded by hand, and shown to the player."""

@@ -1,13 +1,13 @@
-"""Places to click, recorded by hand: hover, press the hotkey."""
+"""Records click points by hand: the player hovers over each and presses a hotkey."""
 
 from collections.abc import Callable, Mapping
 
-from calibration.clicks.shown import Point
-from mc_nested.live.click_points import is_telling
+from calibration.clicks.recorded_point import RecordedPoint
 from mc_nested.live.devices import Display, Pointer
+from mc_nested.live.menus.click_points import has_pattern
 
 
-def record(
+def record_by_hand(
     wanted: Mapping[str, str],
     display: Display,
     pointer: Pointer,
@@ -15,10 +15,10 @@ def record(
     *,
     skip: str,
     say: Callable[[str], None],
-) -> list[Point]:
-    """The wanted points, each recorded at the next key; those skipped are left out.
+) -> list[RecordedPoint]:
+    """The wanted points, each recorded at the next hotkey; skipped ones are left out.
 
-    ``wanted`` has each point's name and where it is found; ``next_key`` waits for the hotkey or ``skip``.
+    ``wanted`` maps each point's name to a description of where it is. ``next_key`` waits for the hotkey or ``skip``.
     """
     points = []
     for name, where in wanted.items():
@@ -31,22 +31,22 @@ def record(
     return points
 
 
-def _under_pointer(name: str, display: Display, pointer: Pointer, say: Callable[[str], None]) -> Point | None:
+def _under_pointer(name: str, display: Display, pointer: Pointer, say: Callable[[str], None]) -> RecordedPoint | None:
     if not display.is_in_front():
         say("another window is in front: click on the game, hover, and press the key again")
         return None
     (x, y), frame = pointer.position(), display.grab()
     height, width = frame.shape[:2]
     if not (0 <= x < width and 0 <= y < height):
-        say("the mouse is outside the game's window: hover over the place, and press the key again")
+        say("the mouse is outside the game's window: hover over the button, and press the key again")
         return None
-    point = Point(name, (round(x / width, 4), round(y / height, 4)), frame)
-    if not is_telling(point.click_point(largest_scale(width, height)).picture):
-        say("nothing is drawn there to know the place by: hover over its label, and press the key again")
+    point = RecordedPoint(name, (round(x / width, 4), round(y / height, 4)), frame)
+    if not has_pattern(point.click_point(largest_scale(width, height)).picture):
+        say("nothing is drawn there to recognize it by: hover over its label, and press the key again")
         return None
     return point
 
 
 def largest_scale(width: int, height: int) -> int:
-    """The GUI scale that the game takes by itself in a window of that size, where none was seen, up to 4."""
+    """The GUI scale, up to 4, that the game picks by default in a window of that size."""
     return max(1, min(width // 320, height // 240, 4))

@@ -1,1 +1,1 @@
-"""What keeps an agent from playing on this computer, one row each: looked at, and where it is harmless tried out."""
+"""The doctor: checks everything that may keep an agent from playing here, and tries out what is harmless."""

@@ -1,50 +1,56 @@
-"""A row of the doctor's table: what was looked at, how it stands, what was found, and the one thing to do."""
+"""A check of the doctor's, one row of its table: what was looked at, its status, what was found, and what to do."""
 
 from dataclasses import dataclass
+from enum import Enum
 from typing import Literal
 
 Status = Literal["pass", "warn", "fail", "skip"]
 """Good; works, but not always; keeps the agent from playing; can't be known now."""
 
-NAMES = (
-    "session",
-    "display scaling",
-    "profile",
-    "profile fits",
-    "font",
-    "game's window",
-    "in front",
-    "size and GUI scale",
-    "debug screen",
-    "reduced debug info",
-    "position line",
-    "looked-at line",
-    "options.txt",
-    "pauseOnLostFocus",
-    "autoJump",
-    "guiScale",
-    "forceUnicodeFont",
-    "fullscreen",
-    "toggleCrouch",
-    "language",
-    "keys",
-    "clipboard",
-    "input",
-)
-"""Every row that there is, in the table's order, whatever could be looked at."""
+
+class CheckName(str, Enum):
+    """Every check, in the order of the table; the value is the name that the table and the JSON show."""
+
+    SESSION = "session"
+    DISPLAY_SCALING = "display scaling"
+    PROFILE = "profile"
+    PROFILE_FITS = "profile fits"
+    FONT = "font"
+    WINDOW = "game's window"
+    IN_FRONT = "in front"
+    SIZE_AND_SCALE = "size and GUI scale"
+    DEBUG_SCREEN = "debug screen"
+    REDUCED_DEBUG_INFO = "reduced debug info"
+    POSITION_LINE = "position line"
+    TARGET_LINE = "looked-at line"
+    OPTIONS = "options.txt"
+    PAUSE_ON_LOST_FOCUS = "pauseOnLostFocus"
+    AUTO_JUMP = "autoJump"
+    GUI_SCALE = "guiScale"
+    FORCE_UNICODE_FONT = "forceUnicodeFont"
+    FULLSCREEN = "fullscreen"
+    TOGGLE_CROUCH = "toggleCrouch"
+    LANGUAGE = "language"
+    KEYS = "keys"
+    CLIPBOARD = "clipboard"
+    INPUT = "input"
+
+    def __str__(self) -> str:
+        """The name as shown."""
+        return self.value
 
 
 @dataclass(frozen=True)
 class Check:
-    """A row; ``name`` is one of ``NAMES``, and ``fix`` is empty where nothing has to be done."""
+    """A row of the table; ``fix`` is empty if nothing has to be done."""
 
-    name: str
+    name: CheckName
     status: Status
     detail: str
     fix: str = ""
 
 
-def told(name: str, status: Status, message: str) -> Check:
-    """The row of an error or a reading's problem, whose message is what is wrong, a colon, and what to do."""
+def check_from_message(name: CheckName, status: Status, message: str) -> Check:
+    """The check of an error or of a reading's problem, whose message is what is wrong, a colon, and what to do."""
     detail, _, fix = message.partition(": ")
     return Check(name, status, detail, fix)

@@ -1,46 +1,50 @@
-"""The rows of options.txt: where it is, and each option that keeps an agent from playing."""
+"""The checks of options.txt: where it is, and each option that may keep an agent from playing."""
 
-from calibration.doctor.check import Check, told
-from calibration.game.folders import GameFolder
-from calibration.game.options_txt import ACTIONS, MOUSE, OptionsTxt, load_options, same_key
+from calibration.doctor.check import Check, CheckName, check_from_message
+from calibration.installation.folders import GameFolder
+from calibration.installation.options_txt import ACTIONS, MOUSE, OptionsTxt, is_same_key, load_options
 from mc_nested.errors import ProfileError
-from mc_nested.live.overlay import SCALES
-from mc_nested.live.profile_tables import Keys
+from mc_nested.live.profile.tables import KeysTable
+from mc_nested.live.vision.overlay import SCALES
 
 FIX = "close the game and run mc-nested doctor --fix"
 
 SWITCHES = (
-    Check("pauseOnLostFocus", "warn", "the game pauses whenever another window is in front", "press F3+P once"),
-    Check("autoJump", "fail", "the player would climb onto the blocks", "Options > Controls > Auto-Jump: OFF"),
-    Check("forceUnicodeFont", "fail", "that font can't be read", "Options > Language > Force Unicode Font: OFF"),
-    Check("fullscreen", "warn", "a game that fills the screen hides all else", "press F11 in the game"),
-    Check("toggleCrouch", "fail", "a sneak key let go goes on sneaking", "Options > Controls > Sneak: Hold"),
+    Check(
+        CheckName.PAUSE_ON_LOST_FOCUS, "warn", "the game pauses whenever another window is in front", "press F3+P once"
+    ),
+    Check(CheckName.AUTO_JUMP, "fail", "the player would climb onto the blocks", "Options > Controls > Auto-Jump: OFF"),
+    Check(
+        CheckName.FORCE_UNICODE_FONT, "fail", "that font can't be read", "Options > Language > Force Unicode Font: OFF"
+    ),
+    Check(CheckName.FULLSCREEN, "warn", "a game that fills the screen hides all else", "press F11 in the game"),
+    Check(CheckName.TOGGLE_CROUCH, "fail", "a sneak key let go goes on sneaking", "Options > Controls > Sneak: Hold"),
 )
-"""The row of each option that should be false, where it is true."""
+"""The check of each option that should be false, if it is true."""
 
-ROWS = (*(row.name for row in SWITCHES), "guiScale", "language", "keys")
+OPTION_CHECKS = (*(row.name for row in SWITCHES), CheckName.GUI_SCALE, CheckName.LANGUAGE, CheckName.KEYS)
 
 _ENGLISH = "en_"
 
 
 def options_row(folder: GameFolder | None) -> tuple[OptionsTxt | None, Check]:
-    """The options of a game folder, if they can be read, and their row."""
+    """The options of a game folder, if they can be read, and their check."""
     if folder is None:
         fix = "start the game once; a folder of your own is found while its game runs"
-        return None, Check("options.txt", "skip", "no launcher's game folder holds one", fix)
+        return None, Check(CheckName.OPTIONS, "skip", "no launcher's game folder holds one", fix)
     try:
         options = load_options(folder.options)
     except ProfileError as error:
-        return None, told("options.txt", "fail", str(error).removeprefix(f"{folder.options}: "))
-    return options, Check("options.txt", "pass", f"{folder.launcher}: {folder.options}")
+        return None, check_from_message(CheckName.OPTIONS, "fail", str(error).removeprefix(f"{folder.options}: "))
+    return options, Check(CheckName.OPTIONS, "pass", f"{folder.launcher}: {folder.options}")
 
 
-def option_rows(options: OptionsTxt | None, keys: Keys, window: tuple[int, int] | None) -> list[Check]:
-    """A row for each option; ``window`` is the game's width and height in pixels, None where it isn't seen."""
+def option_rows(options: OptionsTxt | None, keys: KeysTable, window: tuple[int, int] | None) -> list[Check]:
+    """A check for each option; ``window`` is the game's width and height in pixels, None if it isn't seen."""
     if options is None:
-        return [Check(name, "skip", "no options.txt to read") for name in ROWS]
+        return [Check(name, "skip", "no options.txt to read") for name in OPTION_CHECKS]
     return [
-        *(_switch(row, options.values.get(row.name)) for row in SWITCHES),
+        *(_switch(row, options.values.get(row.name.value)) for row in SWITCHES),
         gui_scale_row(options.values.get("guiScale"), window),
         _language(options.values.get("lang")),
         keys_row(options, keys),
@@ -48,8 +52,8 @@ def option_rows(options: OptionsTxt | None, keys: Keys, window: tuple[int, int] 
 
 
 def gui_scale_row(value: str | None, window: tuple[int, int] | None) -> Check:
-    """Whether the GUI scale that the option gives can be read (FACTS: The F3 debug screen)."""
-    row, fix = "guiScale", f"Video Settings > GUI Scale: 2, or {FIX}"
+    """Whether text can be read at the option's GUI scale (FACTS: The F3 debug screen)."""
+    row, fix = CheckName.GUI_SCALE, f"Video Settings > GUI Scale: 2, or {FIX}"
     if value is None or not value.isdecimal():
         return Check(row, "skip", "the file doesn't say")
     wanted, most = int(value), max(SCALES)
@@ -66,23 +70,23 @@ def gui_scale_row(value: str | None, window: tuple[int, int] | None) -> Check:
     return Check(row, "pass", f"{said}, {scale} in this window" if scale != wanted else said)
 
 
-def keys_row(options: OptionsTxt, keys: Keys) -> Check:
+def keys_row(options: OptionsTxt, keys: KeysTable) -> Check:
     """Whether the game's keys are those that the profile presses."""
     wanted = {action: getattr(keys, name) for name, action in ACTIONS.items()}
     wanted |= {f"hotbar.{slot}": key for slot, key in enumerate(keys.hotbar, 1)} | MOUSE
     bound = {action: options.key(action) for action in wanted if f"key_key.{action}" in options.values}
     if not bound:
-        return Check("keys", "skip", "the file doesn't say")
-    other = {action: key for action, key in bound.items() if key is None or not same_key(key, wanted[action])}
-    if not other:
-        return Check("keys", "pass", f"{len(bound)} are as the profile has them")
-    detail = ", ".join(f"{action}: {_named(key)} for {wanted[action]}" for action, key in other.items())
-    # The game names keys by their place on a QWERTY keyboard, a profile by what is printed on them.
-    if all(key is not None and len(key) == 1 == len(wanted[action]) for action, key in other.items()):
+        return Check(CheckName.KEYS, "skip", "the file doesn't say")
+    different = {action: key for action, key in bound.items() if key is None or not is_same_key(key, wanted[action])}
+    if not different:
+        return Check(CheckName.KEYS, "pass", f"{len(bound)} are as the profile has them")
+    detail = ", ".join(f"{action}: {_key_text(key)} for {wanted[action]}" for action, key in different.items())
+    # The game names keys by their position on a QWERTY keyboard, a profile by what is printed on them.
+    if all(key is not None and len(key) == 1 == len(wanted[action]) for action, key in different.items()):
         return Check(
-            "keys", "warn", detail, "unless your keyboard's layout is why, make [keys] in the profile the same"
+            CheckName.KEYS, "warn", detail, "unless your keyboard's layout is why, make [keys] in the profile the same"
         )
-    return Check("keys", "fail", detail, "Options > Controls, or [keys] in the profile: make them the same")
+    return Check(CheckName.KEYS, "fail", detail, "Options > Controls, or [keys] in the profile: make them the same")
 
 
 def _switch(row: Check, value: str | None) -> Check:
@@ -95,12 +99,12 @@ def _switch(row: Check, value: str | None) -> Check:
 
 def _language(value: str | None) -> Check:
     if value is None:
-        return Check("language", "skip", "the file doesn't say")
+        return Check(CheckName.LANGUAGE, "skip", "the file doesn't say")
     if value.lower().startswith(_ENGLISH):
-        return Check("language", "pass", value)
+        return Check(CheckName.LANGUAGE, "pass", value)
     fix = f"Options > Language > English (US), or {FIX}"
-    return Check("language", "warn", f"{value}: menus are known by their English labels", fix)
+    return Check(CheckName.LANGUAGE, "warn", f"{value}: menus are known by their English labels", fix)
 
 
-def _named(key: str | None) -> str:
+def _key_text(key: str | None) -> str:
     return "another key" if key is None else key or "no key"

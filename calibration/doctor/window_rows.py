@@ -1,60 +1,63 @@
-"""The window's rows: found, in front, how large, and how many pixels its pictures have to a point of the desktop."""
+"""The window's checks: found, in front, its size, and how many pixels there are to a point of the desktop."""
 
-from calibration.doctor.check import Check
-from calibration.doctor.look import Look
-from mc_nested.live.profile import Profile
+from calibration.doctor.check import Check, CheckName
+from calibration.doctor.snapshot import WindowSnapshot
+from mc_nested.live.profile.tables import Profile
 
 LEAST = (320, 240)
 """The smallest window that the game lays its screens out for (FACTS: The F3 debug screen)."""
 
-_WHOLE = 0.01
-"""How far pixels to a point may be off a whole number: a window's edge may be cut by less than a point."""
+_RATIO_TOLERANCE = 0.01
+"""How far the ratio may be from a whole number: a window's edge may be cut by less than a point."""
 
 
-def window_rows(look: Look, profile: Profile | None) -> list[Check]:
-    """The rows of a window that is there."""
+def window_rows(snapshot: WindowSnapshot, profile: Profile | None) -> list[Check]:
+    """The checks of an open window."""
     return [
-        Check("game's window", "pass", repr(look.seen.title)),
-        front_row(look),
-        scaling_row(look),
-        size_row(look, profile),
+        Check(CheckName.WINDOW, "pass", repr(snapshot.window.title)),
+        front_row(snapshot),
+        scaling_row(snapshot),
+        size_row(snapshot, profile),
     ]
 
 
-def front_row(look: Look) -> Check:
+def front_row(snapshot: WindowSnapshot) -> Check:
     """Whether the game is in front."""
-    if look.is_in_front:
-        return Check("in front", "pass", "keys would reach the game")
+    if snapshot.is_in_front:
+        return Check(CheckName.IN_FRONT, "pass", "keys would reach the game")
     return Check(
-        "in front", "fail", "another window is in front, so nothing was pressed", "click on the game, run this again"
+        CheckName.IN_FRONT,
+        "fail",
+        "another window is in front, so nothing was pressed",
+        "click on the game, run this again",
     )
 
 
-def scaling_row(look: Look) -> Check:
-    """Pixels to a point, as measured on the picture: text that is drawn to another number of pixels can't be read."""
-    row = "display scaling"
-    if look.points is None:
+def scaling_row(snapshot: WindowSnapshot) -> Check:
+    """Pixels to a point, measured on the picture: text that is drawn with a fractional number of them can't be read."""
+    row = CheckName.DISPLAY_SCALING
+    if snapshot.points is None:
         return Check(row, "skip", "this window's points aren't known")
-    across, down = (pixels / points for pixels, points in zip(look.pictured, look.points, strict=True))
-    measured = f"{across:.3g} pixels to a point: {_size(look.pictured)} for {_size(look.points)}"
-    if abs(across - down) > _WHOLE:
+    across, down = (pixels / points for pixels, points in zip(snapshot.picture_size, snapshot.points, strict=True))
+    measured = f"{across:.3g} pixels to a point: {_size(snapshot.picture_size)} for {_size(snapshot.points)}"
+    if abs(across - down) > _RATIO_TOLERANCE:
         return Check(
             row,
             "fail",
             f"{measured}, but {down:.3g} downwards",
             "move the whole window onto one screen, run this again",
         )
-    if abs(across - round(across)) > _WHOLE:
+    if abs(across - round(across)) > _RATIO_TOLERANCE:
         return Check(
             row, "warn", measured, "if text can't be read, set the display's scaling to 100 % or 200 %, start anew"
         )
     return Check(row, "pass", measured)
 
 
-def size_row(look: Look, profile: Profile | None) -> Check:
+def size_row(snapshot: WindowSnapshot, profile: Profile | None) -> Check:
     """The window's size, and the GUI scale at which its text is seen."""
-    row, size, scale = "size and GUI scale", f"{_size(look.seen.window)} pixels", look.seen.gui_scale
-    if any(seen < least for seen, least in zip(look.seen.window, LEAST, strict=True)):
+    row, size, scale = CheckName.SIZE_AND_SCALE, f"{_size(snapshot.window.window)} pixels", snapshot.window.gui_scale
+    if any(seen < least for seen, least in zip(snapshot.window.window, LEAST, strict=True)):
         return Check(row, "fail", size, f"make the window larger than {_size(LEAST)}")
     if scale is None:
         return Check(row, "skip", f"{size}; no text of the game is seen")

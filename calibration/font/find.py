@@ -1,4 +1,4 @@
-"""The game's own font, found: tried on the screen until one reads it, then read back for a person to compare.
+"""Finds the game's own font: fonts are tried on the screen until one reads it, then read back for a person to compare.
 
 candidates (packs, jars) -> the first whose glyphs read the debug screen -> scale, colour, phase -> side by side -> F3+C
 """
@@ -6,31 +6,31 @@ candidates (packs, jars) -> the first whose glyphs read the debug screen -> scal
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from calibration.bench import BenchOf
+from calibration.context import CalibrationContext, ReportPicture, StepResult
 from calibration.cross_check import cross_check
 from calibration.font.problems import Candidate, fits_in_part, nothing_fits
 from calibration.font.read_back import ReadLine, phase_of, read_back, side_by_side
 from calibration.font.sources import FontSources, font_sources
-from calibration.game.folders import System
+from calibration.installation.folders import System
+from calibration.open_context import OpenContext
 from calibration.report.kept import keep_or_warn
-from calibration.start import profile_to_calibrate
-from calibration.step import Bench, Found, Picture
-from calibration.written import write_found, write_picture
+from calibration.starting_profile import starting_profile
+from calibration.write_result import write_picture, write_result
 from mc_nested.errors import ClipboardError, FontError, NotConfirmedError, UnreadableError
-from mc_nested.live.at_rest import wait_for_front
-from mc_nested.live.debug_screen import read_debug_screen
 from mc_nested.live.devices import Frame
-from mc_nested.live.fingerprint import version_in
-from mc_nested.live.font import load_font
-from mc_nested.live.game_screen import WindowScreen
-from mc_nested.live.overlay import find_overlay
-from mc_nested.live.profile import Profile
-from mc_nested.live.way_back import UNKNOWN_S, WayBack
+from mc_nested.live.menus.recovery import UNKNOWN_S, Recovery
+from mc_nested.live.menus.wait_for_player import wait_for_front
+from mc_nested.live.profile.fingerprint import version_in
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.debug_screen import read_debug_screen
+from mc_nested.live.vision.font import load_font
+from mc_nested.live.vision.game_screen import WindowScreen
+from mc_nested.live.vision.overlay import find_overlay
 
 STEP = "font"
 
 PATIENCE_S = 15.0
-"""How long a debug screen that is found may stay unreadable: what was said in the chat is gone in ten seconds."""
+"""How long a debug screen that is found may stay unreadable: chat messages disappear after ten seconds."""
 
 LOOK_S = 0.25
 
@@ -42,34 +42,34 @@ def sources_here(version: str | None) -> FontSources:
 
 def calibrate_font(
     profile_name: str | Path,
-    bench_of: BenchOf,
+    context_of: OpenContext,
     font: Path | None = None,
     sources: Callable[[str | None], FontSources] = sources_here,
-) -> tuple[Found, Path]:
+) -> tuple[StepResult, Path]:
     """Find the font of a profile's game and write it into the profile, with a picture beside it; both.
 
     Args:
         profile_name: a name or a file; a new profile is made where there is none.
-        bench_of: opens the window.
-        font: the client jar, resource pack or font picture to take, in the place of looking for one.
+        context_of: opens the window.
+        font: the client jar, resource pack or font picture to take, instead of looking for one.
         sources: gives what may be tried for a game of a version.
 
     Raises as ``find_font``, and ProfileError where the profile can't be used or written.
     """
-    path, profile = profile_to_calibrate(profile_name)
+    path, profile = starting_profile(profile_name)
     if font is not None:
         load_font(font.expanduser())  # before a window is looked for
-    with bench_of(profile) as bench:
-        found = find_font(bench, profile, sources_for(bench, profile, font, sources))
-    write_found(found, path)
-    keep_or_warn(bench.say, path, [found])
+    with context_of(profile) as context:
+        found = find_font(context, profile, sources_for(context, profile, font, sources))
+    write_result(found, path)
+    keep_or_warn(context.say, path, [found])
     picture = path.with_name(f"{path.stem}-font.png")
     write_picture(found.pictures[0].frame, picture)
     return found, picture
 
 
 def sources_for(
-    bench: Bench,
+    context: CalibrationContext,
     profile: Profile,
     font: Path | None = None,
     sources: Callable[[str | None], FontSources] = sources_here,
@@ -80,12 +80,12 @@ def sources_for(
     """
     if font is not None:
         return FontSources((font.expanduser().resolve(),))
-    found = sources(version_in(bench.desktop.display.title()))
+    found = sources(version_in(context.devices.display.title()))
     own = (profile.screen.font_path(),) if profile.screen.font else ()
     return FontSources((*found.paths, *own), found.options)
 
 
-def find_font(bench: Bench, profile: Profile, sources: FontSources) -> Found:
+def find_font(context: CalibrationContext, profile: Profile, sources: FontSources) -> StepResult:
     """The profile with the first font of the sources that reads the debug screen, and that screen read back.
 
     A menu that lies over the world is left, and the debug screen switched on.
@@ -93,7 +93,7 @@ def find_font(bench: Bench, profile: Profile, sources: FontSources) -> Found:
     Raises:
         FontError: there is no font to try, or none that fits what is seen.
         UnreadableError: no debug screen is seen, or F3+C doesn't say what is read.
-        LiveError: the way back into the world was not found; what the hands raise.
+        LiveError: the world was not reached; what the input controller raises.
     """
     candidates, unusable = _loaded(sources.paths)
     if not candidates:
@@ -101,34 +101,41 @@ def find_font(bench: Bench, profile: Profile, sources: FontSources) -> Found:
             "no client jar of the game can be used: name it with --font (versions/1.20.1/1.20.1.jar in the game's "
             f"folder){': ' if unusable else ''}{'; '.join(unusable[:1])}"
         )
-    bench.say("Switch to the game, in a world, with the debug screen on (F3), and stand still.")
-    wait_for_front(bench.desktop.display, bench.desktop.clock)
-    chosen = _on_screen(bench, profile, candidates, sources)
-    frame = bench.desktop.display.grab()
+    context.say("Switch to the game, in a world, with the debug screen on (F3), and stand still.")
+    wait_for_front(context.devices)
+    chosen = _on_screen(context, profile, candidates, sources)
+    frame = context.devices.display.grab()
     lines = read_back(frame, chosen.font)
     screen = profile.screen.model_copy(update={"font": str(chosen.path)})
-    told = _told(chosen, candidates, unusable, frame, lines)
+    findings = _findings(chosen, candidates, unusable, frame, lines)
     found = profile.model_copy(update={"screen": screen})
-    picture = Picture(
+    picture = ReportPicture(
         "The debug screen, and what is read of it", side_by_side(lines), "left what is seen, right what is read"
     )
-    return Found(STEP, found, (*told, *_checked(bench, found)), len(lines), (picture,))
+    return StepResult(STEP, found, (*findings, *_compared_with_clipboard(context, found)), len(lines), (picture,))
 
 
-def _on_screen(bench: Bench, profile: Profile, candidates: Sequence[Candidate], sources: FontSources) -> Candidate:
+def _on_screen(
+    context: CalibrationContext, profile: Profile, candidates: Sequence[Candidate], sources: FontSources
+) -> Candidate:
     """The first candidate that reads what is on the screen, once that is a world with its debug screen."""
-    display, clock, hands, debug = bench.desktop.display, bench.desktop.clock, bench.hands, profile.keys.debug
-    # The debug screen may be off, or something without labels be open. What was pressed in vain is pressed back.
+    display, clock, controller, debug = (
+        context.devices.display,
+        context.devices.clock,
+        context.controller,
+        profile.keys.debug,
+    )
+    # The debug screen may be off, or something without labels be open. What had no effect is pressed back.
     presses = iter(((debug,), (debug, "esc"), ("esc",)))
     began, unknown_since, unknown = clock.now(), clock.now(), [display.grab()]
     while True:
-        hands.check_front()
+        controller.check_front()
         frame = display.grab()
         for each in candidates:
             if read_debug_screen(frame, each.font).problem is None:
                 return each
-        if way := _way_from_menu(bench, profile, candidates):
-            way.find()
+        if way := _way_from_menu(context, profile, candidates):
+            way.recover()
             unknown_since = clock.now()
         elif seen := next((each for each in candidates if find_overlay(frame, each.font)), None):
             unknown_since = clock.now()
@@ -140,25 +147,25 @@ def _on_screen(bench: Bench, profile: Profile, candidates: Sequence[Candidate], 
             if keys is None:
                 raise nothing_fits(unknown, candidates, sources.options)
             for key in keys:
-                hands.saw("menu")
-                hands.tap(key, on="menu")
-                hands.wait(LOOK_S)
+                controller.confirm_screen("menu")
+                controller.tap(key, on="menu")
+                controller.wait(LOOK_S)
             unknown_since = clock.now()
-        hands.wait(LOOK_S)
+        controller.wait(LOOK_S)
 
 
-def _way_from_menu(bench: Bench, profile: Profile, candidates: Sequence[Candidate]) -> WayBack | None:
-    """The way back from the menu that one of the fonts reads; None where none does."""
-    display, clock = bench.desktop.display, bench.desktop.clock
+def _way_from_menu(context: CalibrationContext, profile: Profile, candidates: Sequence[Candidate]) -> Recovery | None:
+    """The way out of the menu that one of the fonts reads; None where none does."""
+    connection = context.connection
     for each in candidates:
-        way = WayBack(profile, bench.hands, WindowScreen(display, each.font), display, clock)
-        if way.name() not in ("unknown", "world"):
+        way = Recovery(profile, connection.with_screen(WindowScreen(connection.devices.display, each.font)))
+        if way.screen_name() not in ("unknown", "world"):
             return way
     return None
 
 
 def _loaded(paths: Sequence[Path]) -> tuple[list[Candidate], list[str]]:
-    """The fonts of these files, each different one once, and what is wrong with those that hold none."""
+    """The different fonts of these files, and what is wrong with the files that hold none."""
     candidates: list[Candidate] = []
     unusable = []
     for path in paths:
@@ -172,7 +179,7 @@ def _loaded(paths: Sequence[Path]) -> tuple[list[Candidate], list[str]]:
     return candidates, unusable
 
 
-def _told(
+def _findings(
     chosen: Candidate, candidates: Sequence[Candidate], unusable: Sequence[str], frame: Frame, lines: Sequence[ReadLine]
 ) -> list[str]:
     overlay, phase = find_overlay(frame, chosen.font), phase_of(frame, chosen.font)
@@ -180,17 +187,17 @@ def _told(
         raise UnreadableError("the debug screen was there and is gone: leave mouse and keys alone, and run this again")
     begin = "dots from the corner on" if phase == (0, 0) else f"dots shifted by {phase[0]}, {phase[1]} pixels"
     known = sum(line.is_known for line in lines)
-    told = [
+    findings = [
         f"font: {chosen.path}{f', of {len(candidates)} different ones' if len(candidates) > 1 else ''}",
         f"GUI scale {overlay.scale}, text {overlay.colour}, a line every {overlay.pitch} dots, {begin}",
         f"read back: {known} of {len(lines)} lines without an unknown glyph",
     ]
-    return [*told, *(f"not used: {problem}" for problem in unusable)]
+    return [*findings, *(f"not used: {problem}" for problem in unusable)]
 
 
-def _checked(bench: Bench, profile: Profile) -> tuple[str, ...]:
-    """What F3+C says to the reading, where it can be asked."""
+def _compared_with_clipboard(context: CalibrationContext, profile: Profile) -> tuple[str, ...]:
+    """What F3+C says about the reading, where the version has it."""
     try:
-        return cross_check(bench, profile).lines
+        return cross_check(context, profile).lines
     except (ClipboardError, NotConfirmedError) as error:
         return (f"not compared with F3+C: {error}",)

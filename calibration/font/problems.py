@@ -1,22 +1,24 @@
-"""Why no font reads the screen: what a person has to change, found out as far as pixels and options can tell."""
+"""Why no font reads the screen, and what a person has to change, as far as pixels and options tell."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from mc_nested.errors import FontError, LiveError, UnreadableError
 from mc_nested.live.devices import Frame
-from mc_nested.live.font import Font
-from mc_nested.live.overlay import SCALES, VANILLA_PITCH, see
-from mc_nested.live.session import TEXT_COLOUR
-from mc_nested.live.text_lines import Overlay
+from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.layout import VANILLA, Overlay
+from mc_nested.live.vision.overlay import SCALES, find_debug_screen
+from mc_nested.live.vision.text_colours import INK_SPREAD
 
 SHOWN = 6
 """Fonts that an error names."""
 
 _LARGER_SCALES = range(max(SCALES) + 1, 13)
 _TEXT_SHARE = 0.002
-"""Of a picture's upper left, the least that is of the text's colour where there is a debug screen."""
+"""Least share of a picture's upper left that has the text's colour where there is a debug screen."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,7 @@ class Candidate:
 def nothing_fits(
     frames: Sequence[Frame], candidates: Sequence[Candidate], options: Mapping[str, str]
 ) -> FontError | LiveError:
-    """Why none of the candidates reads any of these frames (height, width, 3), as far as it can be known.
+    """The error that says why none of the candidates reads any of these frames (height, width, 3).
 
     ``options`` are those of the game's options.txt.
     """
@@ -39,8 +41,8 @@ def nothing_fits(
             "the game's Force Unicode Font is on, which can't be read: switch it off in its Language options"
         )
     for scale in _LARGER_SCALES:
-        overlay = Overlay(scale, VANILLA_PITCH, TEXT_COLOUR)
-        if any(see(frame, each.font, overlay) for frame in frames for each in candidates):
+        overlay = Overlay(scale, VANILLA, VANILLA.text_colour)
+        if any(find_debug_screen(frame, each.font, overlay) for frame in frames for each in candidates):
             return UnreadableError(f"the GUI scale is {scale}: choose 1, 2, 3 or 4 in the game's Video Settings")
     names = _names(candidates)
     if not any(_has_text(frame) for frame in frames):
@@ -58,7 +60,7 @@ def nothing_fits(
 
 
 def fits_in_part(problem: str, candidates: Sequence[Candidate]) -> LiveError:
-    """What to say where a debug screen is seen, but not read for the reason ``problem``: the font may be the reason."""
+    """The error where a debug screen is seen, but not read because of ``problem``: the font may be the cause."""
     return UnreadableError(f"{problem}; or is it the font of another version? Tried: {_names(candidates)}")
 
 
@@ -68,7 +70,8 @@ def _names(candidates: Sequence[Candidate]) -> str:
 
 
 def _has_text(frame: Frame) -> bool:
-    """Whether so much of the upper left is of the text's colour that there must be a debug screen."""
+    """Whether so much of the upper left has the text's colour that there must be a debug screen."""
     part = frame[: frame.shape[0] // 2, : frame.shape[1] // 3]
-    inked = ((part >= 220) & (part <= 228)).all(2)
+    colour = np.array(VANILLA.text_colour, np.int16)
+    inked = (np.abs(part.astype(np.int16) - colour) <= INK_SPREAD).all(2)
     return float(inked.mean()) > _TEXT_SHARE

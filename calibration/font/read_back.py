@@ -1,4 +1,4 @@
-"""The debug screen read back, line by line, and drawn beside what was read, so that a person sees whether it is right.
+"""The debug screen read line by line, each line's picture drawn beside its text for a person to compare.
 
 | picture of the line | what is read of it |      what matches no glyph is a red ?
 """
@@ -11,10 +11,11 @@ import cv2
 import numpy as np
 
 from mc_nested.live.devices import Frame
-from mc_nested.live.font import Font
-from mc_nested.live.overlay import POSITION, VANILLA_PITCH, Sight, places_of, see
-from mc_nested.live.screen_lines import Screen
-from mc_nested.live.text_lines import UNKNOWN, Line, is_text, line_from
+from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.overlay import POSITION, FoundScreen, find_debug_screen
+from mc_nested.live.vision.screen_lines import ScreenLines
+from mc_nested.live.vision.text_colours import INK_SPREAD
+from mc_nested.live.vision.text_lines import UNKNOWN, Line, is_text, line_from, positions_of
 
 _INK_HEIGHT = 27
 """Pixels that a line's nine dots take on the drawing at least."""
@@ -41,15 +42,13 @@ class ReadLine:
 
 def read_back(frame: Frame, font: Font) -> list[ReadLine]:
     """The lines of a frame's debug screen, the left column's first; none where there is no debug screen."""
-    sight = see(frame, font)
-    if sight is None or sight.prefix != POSITION:
+    found = find_debug_screen(frame, font)
+    if found is None or found.label != POSITION:
         return []
-    read = [ReadLine(line.text, _picture_of(sight, line)) for line in _left_column(sight, font)]
-    if sight.overlay.pitch == VANILLA_PITCH:
-        lines = (line for line in Screen(sight, font).right_column() if _is_worth_it(line))
-        # Before a line of the right column lies the world, whose bright dots are no part of it.
-        read += [ReadLine(line.text.lstrip(f"{UNKNOWN} "), _picture_of(sight, line)) for line in lines]
-    return read
+    read = [ReadLine(line.text, _picture_of(found, line)) for line in _left_column(found, font)]
+    right = [line for line in ScreenLines(found.dots, font, found.overlay).right_column() if _is_mostly_known(line)]
+    # Before a line of the right column lies the world, whose bright dots are no part of it.
+    return read + [ReadLine(line.text.lstrip(f"{UNKNOWN} "), _picture_of(found, line)) for line in right]
 
 
 def phase_of(frame: Frame, font: Font) -> tuple[int, int] | None:
@@ -57,14 +56,14 @@ def phase_of(frame: Frame, font: Font) -> tuple[int, int] | None:
 
     The game draws its dots from the window's corner on: anything but (0, 0) is a picture that is shifted.
     """
-    sight = see(frame, font)
-    if sight is None:
+    found = find_debug_screen(frame, font)
+    if found is None:
         return None
-    scale, (row, column) = sight.overlay.scale, places_of(sight.dots, font, sight.prefix)[0]
-    columns = np.frombuffer(font.columns(sight.prefix), np.uint8)[np.newaxis]
+    scale, (row, column) = found.overlay.scale, positions_of(found.dots, font, found.label)[0]
+    columns = np.frombuffer(font.columns(found.label), np.uint8)[np.newaxis]
     dots = np.unpackbits(columns, axis=0, bitorder="little").astype(bool)
     wanted = dots.repeat(scale, 0).repeat(scale, 1)
-    ink = frame[..., 1] >= min(sight.overlay.colour) - 4
+    ink = frame[..., 1] >= min(found.overlay.colour) - INK_SPREAD
     steps = sorted(range(1 - scale, scale), key=abs)
 
     def fit(step: tuple[int, int]) -> int:
@@ -93,26 +92,26 @@ def side_by_side(lines: Sequence[ReadLine]) -> Frame:
     return drawn
 
 
-def _left_column(sight: Sight, font: Font) -> list[Line]:
-    dots, overlay = sight.dots, sight.overlay
-    _, column = places_of(dots, font, POSITION)[0]
+def _left_column(found: FoundScreen, font: Font) -> list[Line]:
+    dots, overlay = found.dots, found.overlay
+    _, column = positions_of(dots, font, POSITION)[0]
     lines: list[Line] = []
     for row in range(dots.first, dots.rows, dots.pitch):
-        if (not lines or row >= lines[-1].row + overlay.pitch - 1) and is_text(dots, font, overlay, row, column):
-            lines.append(line_from(dots, font, overlay, row, column))
+        if (not lines or row >= lines[-1].row + overlay.pitch - 1) and is_text(dots, font, overlay, (row, column)):
+            lines.append(line_from(dots, font, overlay, (row, column)))
     return lines
 
 
-def _is_worth_it(line: Line) -> bool:
-    """Whether a line of the right column is one: the world beside an empty line may look like a glyph or two."""
+def _is_mostly_known(line: Line) -> bool:
+    """Whether a line of the right column is text: the world beside an empty line may look like a glyph or two."""
     known = line.text.replace(UNKNOWN, "").strip()
     return len(known) > 2 and 2 * len(known) > len(line.text)
 
 
-def _picture_of(sight: Sight, line: Line) -> Frame:
-    scale = sight.overlay.scale
+def _picture_of(found: FoundScreen, line: Line) -> Frame:
+    scale = found.overlay.scale
     top, left = max(0, line.row - 1) * scale, max(0, line.start - 1) * scale
-    return sight.dots.frame[top : (line.row + 9) * scale, left : (line.end + 3) * scale]
+    return found.dots.frame[top : (line.row + 9) * scale, left : (line.end + 3) * scale]
 
 
 def _enlarged(picture: Frame) -> Frame:

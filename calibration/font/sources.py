@@ -1,4 +1,4 @@
-"""Where the font of the running game may be: resource packs that are switched on, then the launchers' client jars."""
+"""Where the running game's font may be: enabled resource packs first, then the launchers' client jars."""
 
 import json
 import re
@@ -6,21 +6,21 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from calibration.game.folders import GameFolder, System, client_jars, game_folders
+from calibration.installation.folders import GameFolder, System, client_jars, game_folders
 
 _LINE = re.compile(r"^(\w+):(.*)$", re.MULTILINE)
 
 
 @dataclass(frozen=True)
 class FontSources:
-    """Files and folders to try, the likeliest first, and what the game's options.txt says, as far as it is known."""
+    """Files and folders to try, the likeliest first, and the options of the game's options.txt, if it was found."""
 
     paths: tuple[Path, ...]
     options: Mapping[str, str] = field(default_factory=dict)
 
 
 def font_sources(system: System, version: str | None) -> FontSources:
-    """Where a game of that version may have its font from; the version is unknown where it is None."""
+    """Where a game of that version may have its font from; None is an unknown version."""
     folders = game_folders(system, version)
     options = _options_of(folders[0]) if folders else {}
     packs = _packs(folders[0], options) if folders else ()
@@ -28,7 +28,7 @@ def font_sources(system: System, version: str | None) -> FontSources:
 
 
 def _packs(folder: GameFolder, options: Mapping[str, str]) -> Sequence[Path]:
-    """The resource packs that are switched on and there, the one on top of the others first."""
+    """The enabled resource packs that exist, the uppermost first."""
     try:
         named = json.loads(options.get("resourcePacks", "[]"))
     except ValueError:

@@ -1,1 +1,1 @@
-"""What a calibration saw, kept beside the profile, and made one page of that names nobody."""
+"""What a calibration saw, kept beside the profile and made into one page that names nobody."""

@@ -1,4 +1,4 @@
-"""What calibrations leave beside a profile, so that a report can be made of it: checks, findings and their pictures.
+"""What calibrations leave beside a profile for a report: checks, findings and their pictures.
 
 default.toml
 default-calibration/found.json     the last findings of each step, and the doctor's last table
@@ -16,10 +16,10 @@ import cv2
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from calibration.context import ReportPicture, StepResult
 from calibration.doctor.check import Check, Status
-from calibration.step import Found, Picture
+from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import ProfileError
-from mc_nested.learn.whole_file import written_whole
 
 LIST = "found.json"
 
@@ -57,21 +57,31 @@ class _List(_Table):
 
 @dataclass(frozen=True)
 class KeptStep:
-    """What a step found, as ``Found`` says it, and on which day (year-month-day)."""
+    """What a step found, as in ``StepResult``, and the day (year-month-day)."""
 
     step: str
     date: str
     lines: tuple[str, ...]
     samples: int
-    pictures: tuple[Picture, ...] = ()
+    pictures: tuple[ReportPicture, ...] = ()
+
+
+@dataclass(frozen=True)
+class KeptCheck:
+    """A row of the doctor's table as it was shown; an older doctor may have named its rows otherwise."""
+
+    name: str
+    status: Status
+    detail: str
+    fix: str = ""
 
 
 @dataclass(frozen=True)
 class Kept:
-    """All that lies beside a profile: the steps in the order in which they were first done, and the doctor's table."""
+    """All that is kept beside a profile: the steps in the order of their first run, and the doctor's table."""
 
     steps: tuple[KeptStep, ...] = ()
-    checks: tuple[Check, ...] = ()
+    checks: tuple[KeptCheck, ...] = ()
     checked: str | None = None
     """The day of the checks."""
 
@@ -81,8 +91,8 @@ def kept_folder(profile: Path) -> Path:
     return profile.with_name(f"{profile.stem}-calibration")
 
 
-def keep(profile: Path, found: Sequence[Found], checks: Sequence[Check] = (), today: str | None = None) -> None:
-    """Leave these beside a profile, in the place of what the same steps, or the doctor, left before.
+def keep(profile: Path, found: Sequence[StepResult], checks: Sequence[Check] = (), today: str | None = None) -> None:
+    """Keep these beside a profile. They replace what the same steps, or the doctor, left before.
 
     ProfileError where the disk refuses.
     """
@@ -104,7 +114,7 @@ def keep(profile: Path, found: Sequence[Found], checks: Sequence[Check] = (), to
             checks=[_Row(**dataclasses.asdict(check)) for check in checks] or before.checks,
             steps=list(entries.values()),
         )
-        with written_whole(folder / LIST) as unfinished:
+        with atomic_write(folder / LIST) as unfinished:
             unfinished.write_text(after.model_dump_json(indent=1), "utf-8")
         named = {picture.file for entry in after.steps for picture in entry.pictures}
         for left in folder.glob("*.png"):
@@ -117,11 +127,11 @@ def keep(profile: Path, found: Sequence[Found], checks: Sequence[Check] = (), to
 def keep_or_warn(
     say: Callable[[str], None],
     profile: Path,
-    found: Sequence[Found],
+    found: Sequence[StepResult],
     checks: Sequence[Check] = (),
     today: str | None = None,
 ) -> None:
-    """As ``keep``, after the profile was written: where that fails, a warning is all that is said of it."""
+    """As ``keep``, after the profile was written: a failure is only a warning."""
     try:
         keep(profile, found, checks, today)
     except ProfileError as error:
@@ -129,9 +139,9 @@ def keep_or_warn(
 
 
 def load_kept(profile: Path) -> Kept:
-    """What lies beside a profile, without the pictures that are gone; nothing where no calibration left anything.
+    """What is kept beside a profile, without pictures that are gone; empty where no calibration left anything.
 
-    ProfileError where it can't be read.
+    ProfileError if it can't be read.
     """
     folder = kept_folder(profile)
     found = _read(folder)
@@ -145,7 +155,7 @@ def load_kept(profile: Path) -> Kept:
         )
         for entry in found.steps
     )
-    checks = tuple(Check(row.name, row.status, row.detail, row.fix) for row in found.checks)
+    checks = tuple(KeptCheck(row.name, row.status, row.detail, row.fix) for row in found.checks)
     return Kept(steps, checks, found.checked)
 
 
@@ -159,15 +169,15 @@ def _read(folder: Path) -> _List:
         raise ProfileError(f"{path}: can't be read: remove that folder, and calibrate again") from error
 
 
-def _write(folder: Path, step: str, number: int, picture: Picture) -> str:
+def _write(folder: Path, step: str, number: int, picture: ReportPicture) -> str:
     name = f"{step}-{number}.png"
-    with written_whole(folder / name) as unfinished:
+    with atomic_write(folder / name) as unfinished:
         unfinished.write_bytes(cv2.imencode(".png", picture.frame)[1].tobytes())
     return name
 
 
-def _pictures(folder: Path, entry: _StepEntry) -> Iterator[Picture]:
+def _pictures(folder: Path, entry: _StepEntry) -> Iterator[ReportPicture]:
     for each in entry.pictures:
         frame = cv2.imread(str(folder / each.file))
         if frame is not None:
-            yield Picture(each.title, frame.astype(np.uint8), each.note)
+            yield ReportPicture(each.title, frame.astype(np.uint8), each.note)

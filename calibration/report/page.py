@@ -1,8 +1,8 @@
-"""The calibration report: one HTML file that needs nothing else, to look at and to attach to a bug report.
+"""The calibration report: one self-contained HTML file, to look at and to attach to a bug report.
 
 profile, checks, findings -> a page of texts and pictures -> page.html.jinja -> HTML
 
-Every text goes out through ``Names.removed_from`` and is escaped; no line of the template can leave that out.
+Every text passes ``Names.removed_from`` and is escaped: the template can't leave that out.
 """
 
 import base64
@@ -17,12 +17,12 @@ import cv2
 from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
+from calibration.context import ReportPicture
 from calibration.doctor.check import Status
 from calibration.report.kept import Kept, KeptStep
 from calibration.report.privacy import Names
-from calibration.step import Picture
 from mc_nested.live.devices import Frame
-from mc_nested.live.profile import Profile
+from mc_nested.live.profile.tables import Profile
 
 TITLES: Mapping[str, str] = {
     "font": "Font and screen",
@@ -32,10 +32,10 @@ TITLES: Mapping[str, str] = {
     "cross-check": "F3+C against the reader",
     "proof": "Proof",
 }
-"""What the steps are called for a person, in the order of the guided run; any other step is called by its name."""
+"""The steps' titles, in the order of the guided run; any other step has its name as title."""
 
 SEEN = "the place where you stood, the game's and the computer's lines on the debug screen, the names of your worlds"
-"""What of a person's own the pictures of a whole calibration show."""
+"""What the pictures of a whole calibration show of the person's own."""
 
 STATUSES: tuple[Status, ...] = ("fail", "warn", "pass", "skip")
 """Of checks, the worst first."""
@@ -47,7 +47,7 @@ JPEG_QUALITY = 88
 
 
 @dataclass(frozen=True)
-class Report:
+class CalibrationReport:
     """What a report is made of. ``text`` is the profile's file, comments included; ``version`` this program's."""
 
     name: str
@@ -58,8 +58,8 @@ class Report:
     with_pictures: bool = True
 
 
-def contents(report: Report) -> list[str]:
-    """What is in the file and what isn't, one line each: shown on top of it, and to whoever makes it."""
+def contents(report: CalibrationReport) -> list[str]:
+    """What is in the file and what isn't, one line each: shown at its top, and to the person who makes it."""
     kept = report.kept
     steps = ", ".join(TITLES.get(step.step, step.step) for step in _in_order(kept.steps))
     lines = sum(len(step.lines) for step in kept.steps)
@@ -75,8 +75,8 @@ def contents(report: Report) -> list[str]:
     ]
 
 
-def report_html(report: Report, names: Names) -> str:
-    """The report as one HTML document: no script, and nothing that is fetched from anywhere."""
+def report_html(report: CalibrationReport, names: Names) -> str:
+    """The report as one HTML document, without scripts and without anything to fetch."""
     environment = Environment(
         autoescape=True,
         undefined=StrictUndefined,
@@ -89,11 +89,11 @@ def report_html(report: Report, names: Names) -> str:
 
 
 def _without(names: Names, value: Any) -> Any:
-    # Markup is what this module made itself: pictures, whose letters may read like a name by chance.
+    # Markup comes from this module alone: pictures, whose letters may spell a name by chance.
     return names.removed_from(value) if isinstance(value, str) and not isinstance(value, Markup) else value
 
 
-def _page(report: Report) -> dict[str, Any]:
+def _page(report: CalibrationReport) -> dict[str, Any]:
     kept, calibrated = report.kept, report.profile.calibrated
     statuses = Counter(check.status for check in kept.checks)
     return {
@@ -110,8 +110,8 @@ def _page(report: Report) -> dict[str, Any]:
     }
 
 
-def _tiles(report: Report) -> list[tuple[str, str]]:
-    """The fingerprint: what is known of the game and the window that this profile is for."""
+def _tiles(report: CalibrationReport) -> list[tuple[str, str]]:
+    """The fingerprint: the game and the window that this profile is for."""
     calibrated, version = report.profile.calibrated, report.profile.game.version
     if calibrated is None:
         return [("Minecraft", version), ("Calibrated", "not as a whole")]
@@ -136,7 +136,7 @@ def _section(step: KeptStep, *, with_pictures: bool) -> dict[str, Any]:
     }
 
 
-def _figure(picture: Picture) -> dict[str, Any]:
+def _figure(picture: ReportPicture) -> dict[str, Any]:
     height, width = picture.frame.shape[:2]
     return {
         "title": picture.title,
@@ -161,7 +161,7 @@ def _in_order(steps: Sequence[KeptStep]) -> list[KeptStep]:
     return sorted(steps, key=lambda step: order.index(step.step) if step.step in order else len(order))
 
 
-def _about_pictures(report: Report) -> str:
+def _about_pictures(report: CalibrationReport) -> str:
     titles = _titles(report.kept)
     if not titles:
         return "no pictures: none were kept"

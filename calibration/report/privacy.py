@@ -1,6 +1,6 @@
-r"""Texts that others will read: the home folder becomes ``~``, and whoever has an account here becomes ``<user>``.
+r"""Takes names out of texts that others will read: home folders become ``~``, names of accounts ``<user>``.
 
-What is looked for, in any spelling of a path (``/`` or ``\``, doubled where a text was quoted):
+Found in any spelling of a path (``/`` or ``\``, doubled where a text was quoted):
 
     /home/ann/.minecraft              ~/.minecraft, where that is the home folder
     C:\Users\Ann Lee\AppData          C:\Users\<user>\AppData: a home folder of anybody else
@@ -19,7 +19,7 @@ from pathlib import Path
 HOME, USER = "~", "<user>"
 
 _VARIABLES = ("USER", "USERNAME", "LOGNAME", "SUDO_USER")
-"""The environment's words for who is logged in."""
+"""Environment variables that name the user."""
 
 _ELSEWHERE = re.compile(
     # Names of Windows and macOS may hold spaces: such a name ends where the next part of its path begins.
@@ -29,12 +29,12 @@ _ELSEWHERE = re.compile(
 )
 _LETTER = r"[^\W\d_]"
 _END = r"""(?=$|[\\/\s"'`:;,)\]}>])"""
-"""What may follow a folder that is named whole."""
+"""What may follow a folder's whole name."""
 
 
 @dataclass(frozen=True)
 class Names:
-    """What gives a person away: the home folder, as the system writes it, and the names of their account."""
+    """What identifies a person: the home folder, as the system writes it, and the names of their account."""
 
     home: str
     users: tuple[str, ...]
@@ -49,7 +49,7 @@ class Names:
 
     @cached_property
     def _users(self) -> re.Pattern[str]:
-        # The longest first: a name that begins another one would leave the rest of it standing.
+        # The longest first: otherwise a name that begins another one would leave the rest of it.
         names = sorted({re.escape(name) for name in self.users if len(name) > 1}, key=len, reverse=True)
         alone = "|".join(names) or r"(?!)"
         return re.compile(rf"{USER}|(?<!{_LETTER})(?:{alone})(?!{_LETTER})", re.IGNORECASE)

@@ -1,1 +1,1 @@
-"""How a held key walks in this game, measured: which key goes which way, how far, and when it is felt and seen."""
+"""Measures how a held key walks in this game: which key goes which way, how far, and with what latency."""

@@ -1,1 +1,1 @@
-"""The task: scenarios, rules, the Game seam and the Env over it. Pure: no files drawn, no torch, no screen."""
+"""The task: scenarios, rules, the Game seam and the Env over it. Pure: no picture files, no torch, no screen."""

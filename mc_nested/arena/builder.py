@@ -1,6 +1,6 @@
-"""The scripted builder: the ceiling in every plot, and the proof that every design's optimum can be reached.
+"""The scripted builder: the upper limit in every plot, and the proof that every design's optimum can be reached.
 
-Farthest row first, each row from its nearer end: every row nearer than the one in work is still free, so nothing is
+Farthest row first, each row from its nearer end: all rows nearer than the current one are still free, so nothing is
 ever in the way, and no state (x, y, b) repeats between two blocks.
 """
 
@@ -44,7 +44,7 @@ def _walk(start: Cell, goal: Cell) -> list[Action]:
 
 
 def _step_aside(cell: Cell) -> list[Action]:
-    """Away and back: every action that places a block begins with a move, and the agent already stands right."""
+    """Away and back: the agent is in the right cell, but every action that places a block begins with a move."""
     there_and_back = ((Action.B, Action.F), (Action.L, Action.R), (Action.R, Action.L))
     return next(
         [there, back]

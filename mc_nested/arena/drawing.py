@@ -1,4 +1,4 @@
-"""The arena seen from above, the far edge on top: as text and as a picture."""
+"""The arena from above, the far edge on top, as text and as a picture."""
 
 from collections.abc import Collection
 
@@ -39,7 +39,7 @@ def draw_text(scenario: Scenario, agent: Cell | None, placed: Collection[Cell]) 
 
 
 def draw_picture(scenario: Scenario, agent: Cell | None, placed: Collection[Cell]) -> NDArray[np.uint8]:
-    """The arena as (240, 240, 3) RGB: a square a cell with a thin line between."""
+    """The arena as (240, 240, 3) RGB: a square per cell, with thin lines between."""
     picture = np.full((SIZE * CELL_PX, SIZE * CELL_PX, 3), 200, dtype=np.uint8)
     for x in range(SIZE):
         for y in range(SIZE):

@@ -1,8 +1,9 @@
-"""ArenaEnv: the abstract Env interface that every backend shares, a gymnasium.Env over any Game.
+"""ArenaEnv: a gymnasium.Env over any Game; every backend shares it.
 
-What crosses: actions 0 to 7 (rules.Action) in; raw (x, y, b) out, b the blocks left. Encoding belongs to learn/.
+Actions 0 to 7 (rules.Action) go in; raw (x, y, b) comes out, b being the blocks left. Encoding belongs to learn/.
 """
 
+from collections.abc import Mapping
 from typing import Any, TypedDict
 
 import gymnasium
@@ -12,30 +13,42 @@ from gymnasium.spaces import Box, Discrete, Space
 from numpy.typing import NDArray
 
 from mc_nested.arena.drawing import draw_picture, draw_text
-from mc_nested.arena.game import Game
-from mc_nested.arena.rules import SIZE, Action, Cell
+from mc_nested.arena.game import Game, Resumable
+from mc_nested.arena.rules import SIZE, Action, Cell, cells_of, grid_of
 from mc_nested.arena.scenario import Scenario
+from mc_nested.arrays import Arrays, Int64s
 
-Observation = NDArray[np.int64]
+Observation = Int64s
 """(3,): x, y and b, the blocks left."""
 
+X, Y, BLOCKS_LEFT = range(3)
+"""Columns of an observation."""
 
 METADATA: dict[str, Any] = {"render_modes": ["rgb_array", "ansi"], "render_fps": 4}
 
 
 class Info(TypedDict, total=False):
-    """What a step tells beside the reward: ``placed`` where a block landed, ``score`` (r_M) with the last step only."""
+    """What a step returns beside the reward: ``placed`` if a block landed, ``score`` (r_M) on the last step."""
 
     material: str
     placed: Cell
     score: float
 
 
-def observation_space(scenario: Scenario) -> Space[Observation]:
-    """The space of raw (x, y, b) as int64."""
-    high = np.array([SIZE - 1, SIZE - 1, scenario.blocks])
-    space: Space[Any] = Box(low=np.zeros_like(high), high=high, dtype=np.int64)
+def highest_observation(scenario: Scenario) -> Observation:
+    """The highest value of each part of an observation; the lowest is 0."""
+    return np.array([SIZE - 1, SIZE - 1, scenario.blocks])
+
+
+def space_up_to(highest: Int64s) -> Space[Any]:
+    """The space of observations from 0 to the highest, as int64."""
+    space: Space[Any] = Box(low=np.zeros_like(highest), high=highest, dtype=np.int64)
     return space
+
+
+def blank_observations(space: Space[Any], runs: int) -> Int64s:
+    """Zeros for one observation of that space per run."""
+    return np.zeros((runs, *(space.shape or ())), dtype=np.int64)
 
 
 class ArenaEnv(gymnasium.Env[Observation, np.int64]):
@@ -43,7 +56,7 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
 
     ``reset(options={"material": name})`` takes the main agent's choice; without it, the material with the best p.
     Terminated when no block is left, truncated at the scenario's step limit (README: the task).
-    A live game's LiveError passes through; the episode is over then, and only a reset goes on.
+    A live game's LiveError passes through; the episode is over then and has to be reset.
     """
 
     metadata = METADATA
@@ -52,7 +65,7 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
         self.game = game
         self.scenario = scenario
         self.render_mode = render_mode
-        self.observation_space = observation_space(scenario)
+        self.observation_space = space_up_to(highest_observation(scenario))
         self.action_space = Discrete(len(Action))
         self._material = scenario.best_material
         self._cell = scenario.start
@@ -73,7 +86,7 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observation, dict[str, Any]]:
-        """Begin an episode; ScenarioError where ``options["material"]`` names no material of the scenario."""
+        """Begin an episode; ScenarioError if ``options["material"]`` names no material of the scenario."""
         super().reset(seed=seed)
         name = (options or {}).get("material")
         self._material = self.scenario.best_material if name is None else self.scenario.material_index(name)
@@ -85,7 +98,7 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
         return self._observation(), dict(self._info())
 
     def step(self, action: np.int64 | int) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Do one action and earn r_N: 1 if the block just placed lies on the design, else 0 (paper, section 5.1.3)."""
+        """Do one action and earn r_N: 1 if the block just placed is on the design, else 0 (paper, section 5.1.3)."""
         if not self._running:
             raise ResetNeeded("the episode has ended, or none has begun: call reset() first")
         self._running = False
@@ -112,6 +125,25 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
         if self.render_mode == "ansi":
             return draw_text(self.scenario, self._cell, self._placed)
         return None
+
+    @property
+    def resumable(self) -> Resumable | None:
+        """This Env, if its game can be resumed."""
+        return self if self.game.resumable else None
+
+    def snapshot(self) -> Arrays:
+        """The episode as it stands, for ``restore``, the game's included; of a resumable game."""
+        stands_at = np.array([self._material, *self._cell, self._steps, self._running])
+        game = self.game.resumable.snapshot() if self.game.resumable else {}
+        return {**game, "env_stands_at": stands_at, "env_placed": grid_of(self._placed)}
+
+    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
+        """Put the episode back as it stood at ``snapshot``."""
+        self._material, x, y, self._steps, running = (int(value) for value in snapshot["env_stands_at"])
+        self._cell, self._running = (x, y), bool(running)
+        self._placed = set(cells_of(snapshot["env_placed"]))
+        if self.game.resumable:
+            self.game.resumable.restore(snapshot)
 
     @property
     def _blocks_left(self) -> int:

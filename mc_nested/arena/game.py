@@ -1,24 +1,53 @@
-"""Game: the seam between an agent and any game, simulated or real. Nothing else crosses it."""
+"""Game: the seam between an agent and any game, simulated or real."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
+
+from numpy.typing import NDArray
 
 from mc_nested.arena.rules import Action, Cell
+from mc_nested.arrays import Arrays
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What an action really did: the cell where the agent stands now, and the cell where a block landed, if one did."""
+    """What an action really did: the cell where the agent is now, and the cell where a block landed, if one did."""
 
     cell: Cell
     placed: Cell | None
 
 
+class Resumable(Protocol):
+    """Something whose episode can be saved half-way and continued later."""
+
+    def snapshot(self) -> Arrays:
+        """The episode as it stands, for ``restore``; an array's shape never changes."""
+
+    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
+        """Put the episode back as it stood at ``snapshot``."""
+
+
+class PlayLog(Protocol):
+    """What playing a game took, in a running window: times, retries, failures."""
+
+    def summary(self) -> dict[str, Any]:
+        """Everything as plain numbers, for a training's summary.json."""
+
+
 class Game(Protocol):
-    """An arena to build in. A game knows its scenario from the day it is made.
+    """An arena to build in. A game is made for one scenario.
 
     A live game raises LiveError when it can't do what was asked; it never returns an outcome that it did not see.
     """
+
+    @property
+    def resumable(self) -> Resumable | None:
+        """The game, if its episode can be saved half-way; None if not: a live game's episode has to start over."""
+
+    @property
+    def log(self) -> PlayLog | None:
+        """What playing took so far; None if the game doesn't measure it."""
 
     def reset(self, material: int) -> Cell:
         """Clear the arena, put the agent on the scenario's start cell with the material in hand; return that cell."""

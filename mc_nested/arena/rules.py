@@ -6,6 +6,10 @@ Cells are (x, y): x to the right, y forward, the way the agent looks for the who
 from collections.abc import Collection
 from enum import IntEnum
 
+import numpy as np
+
+from mc_nested.arrays import Bools
+
 Cell = tuple[int, int]
 
 SIZE = 15
@@ -52,15 +56,28 @@ def front_of(cell: Cell) -> Cell:
 
 
 def moved(cell: Cell, action: Action, placed: Collection[Cell]) -> Cell:
-    """The cell that the action's move leads to: the same one where a block or the arena's edge stops it."""
+    """The cell that the action's move leads to: the same cell if a block or the arena's edge stops it."""
     right, forward = STEP[action]
     ahead = (cell[0] + right, cell[1] + forward)
     return ahead if is_inside(ahead) and ahead not in placed else cell
 
 
 def landing(cell: Cell, action: Action, placed: Collection[Cell]) -> Cell | None:
-    """Where the action's block lands once the agent has moved to ``cell``; None where the rules void it."""
+    """Where the action's block lands once the agent has moved to ``cell``; None if the rules void it."""
     front = front_of(cell)
     if action not in PLACES or not is_inside(front) or front in placed:
         return None
     return front
+
+
+def grid_of(cells: Collection[Cell]) -> Bools:
+    """The cells as a grid (x, y)."""
+    grid = np.zeros((SIZE, SIZE), dtype=np.bool_)
+    for cell in cells:
+        grid[cell] = True
+    return grid
+
+
+def cells_of(grid: Bools) -> frozenset[Cell]:
+    """The cells that a grid (x, y) marks."""
+    return frozenset((int(x), int(y)) for x, y in np.argwhere(grid))

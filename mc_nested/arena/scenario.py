@@ -1,4 +1,4 @@
-"""Scenario: the design to build, where the agent starts, how long it has, and what each material is worth."""
+"""Scenario: the design to build, the start cell, the step limit, and the value of each material."""
 
 from dataclasses import dataclass
 
@@ -40,7 +40,7 @@ class Scenario:
 
     @property
     def best_material(self) -> int:
-        """Index of the material with the highest p; the first of them where several are alike."""
+        """Index of the material with the highest p; the first if several have the same."""
         return max(range(len(self.materials)), key=lambda index: self.materials[index].p)
 
     @property
@@ -49,7 +49,7 @@ class Scenario:
         return self.blocks + self.materials[self.best_material].p
 
     def material_index(self, name: str) -> int:
-        """Index of the material of that name; ScenarioError where there is none."""
+        """Index of the material of that name; ScenarioError if there is none."""
         names = [material.name for material in self.materials]
         if name not in names:
             raise ScenarioError(f"scenario {self.name} has no material {name!r}: choose one of {', '.join(names)}")

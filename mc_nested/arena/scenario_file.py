@@ -13,14 +13,14 @@ from mc_nested.toml_file import parse_toml, read_shipped_or_named
 BLOCK, FREE = "#", "."
 
 LARGEST_P, LONGEST = 1_000_000.0, 100_000
-"""The largest p either way, and the highest step limit: 32-bit floats hold every score, and an episode ends in time."""
+"""The largest absolute p, and the highest step limit: 32-bit floats hold every score, and episodes end in time."""
 
 Name = Annotated[str, Field(min_length=1, max_length=60, pattern=r"^\P{C}+$")]
 """A name of one line: no control characters."""
 
 
 class MaterialTable(BaseModel):
-    """A material as a file has it."""
+    """A material in a scenario file."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
     name: Name
@@ -29,7 +29,7 @@ class MaterialTable(BaseModel):
 
 
 class ScenarioTable(BaseModel):
-    """A scenario as a file has it."""
+    """A scenario file."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
     name: Name
@@ -45,7 +45,7 @@ def shipped_scenarios() -> list[str]:
 
 
 def load_scenario(name_or_file: str | Path) -> Scenario:
-    """The scenario of a shipped name or of a TOML file; ScenarioError, one line, where it can't be used."""
+    """The scenario of a shipped name or of a TOML file; ScenarioError, one line if it can't be used."""
     shipped = shipped_scenarios()
     text = read_shipped_or_named(name_or_file, "scenario", "mc_nested.arena.designs", shipped, ScenarioError)
     return parse_scenario(text, str(name_or_file))
@@ -57,7 +57,7 @@ def parse_scenario(text: str, source: str) -> Scenario:
 
 
 def scenario_of(table: ScenarioTable, source: str) -> Scenario:
-    """The scenario of a table; ScenarioError, one line that names ``source``, where nobody could build it."""
+    """The scenario of a table; ScenarioError, one line that names ``source``, if it can't be built."""
     scenario = Scenario(
         name=table.name,
         design=_parse_grid(table.design, source),
@@ -81,7 +81,7 @@ def table_of(scenario: Scenario) -> ScenarioTable:
 
 
 def draw_grid(cells: frozenset[Cell]) -> str:
-    """The cells as an ASCII grid, the far edge (y = 14) on top, as a scenario file has it."""
+    """The cells as the ASCII grid of a scenario file, the far edge (y = 14) on top."""
     rows = ("".join(BLOCK if (x, y) in cells else FREE for x in range(SIZE)) for y in reversed(range(SIZE)))
     return "".join(row + "\n" for row in rows)
 
@@ -100,8 +100,8 @@ def _parse_grid(grid: str, source: str) -> frozenset[Cell]:
 def _check(scenario: Scenario, source: str) -> None:
     if not scenario.design:
         raise ScenarioError(f"{source}: design: has no block ({BLOCK!r}): draw at least one")
-    # A block lands in front of the agent (y + 1), so nobody inside the arena can reach the near edge's cells. Every
-    # other cell can be built, and all of them together: farthest row first.
+    # A block lands in front of the agent (y + 1), so the cells of the near edge can't be reached from inside the arena.
+    # All other cells can be built, even all of them together: farthest row first.
     unreachable = sorted(cell for cell in scenario.design if cell[1] == 0)
     if unreachable:
         raise ScenarioError(

@@ -1,8 +1,8 @@
 """The fewest steps that build a whole design: exact search over every order of its blocks.
 
-A state is (which blocks stand, where the agent stands). Only states without a wasted block count, so the first is a
-subset of the design: 2^n of them. For each subset, the cells the agent can stand on after t steps are 15 rows of 15
-bits, so that one step of every subset at once is a few shifts over an array of shape (2^n, 15).
+A state is (which blocks are placed, where the agent is). Only states without a wasted block count, so the blocks are
+one of the 2^n subsets of the design. For each subset, the cells that the agent can be in after t steps are 15 rows of
+15 bits, so that one step of every subset at once is a few shifts over an array of shape (2^n, 15).
 """
 
 from dataclasses import dataclass
@@ -25,21 +25,21 @@ FULL_ROW = np.uint16((1 << SIZE) - 1)
 
 @dataclass(frozen=True)
 class FewestSteps:
-    """Steps of a full build: the fewest there are if ``exact``, else the scripted builder's, an upper bound."""
+    """Steps of a full build: the fewest possible if ``exact``, otherwise the scripted builder's, an upper bound."""
 
     steps: int
     exact: bool
 
 
 def fewest_steps(scenario: Scenario) -> FewestSteps:
-    """The fewest steps that build the whole design, the step limit aside."""
+    """The fewest steps that build the whole design, ignoring the step limit."""
     if scenario.blocks > EXACT_UP_TO:
         return FewestSteps(len(build(scenario)), exact=False)
     return FewestSteps(_search(scenario), exact=True)
 
 
 def _search(scenario: Scenario) -> int:
-    """Breadth first from the start cell until the last block of the design stands."""
+    """Breadth first from the start cell until the whole design is built."""
     blocks = sorted(scenario.design)
     free = _free_cells(blocks)
     reached = np.zeros_like(free)
@@ -64,7 +64,7 @@ def _free_cells(blocks: list[tuple[int, int]]) -> Rows:
 
 
 def _after_one_move(reached: Rows, free: Rows) -> Rows:
-    """Where the agent can stand after exactly one move: on a free neighbour, or stopped where it stood."""
+    """Where the agent can be after exactly one move: in a free neighbour, or stopped where it was."""
     left, right = reached >> 1, (reached << 1) & FULL_ROW
     back, forward = np.zeros_like(reached), np.zeros_like(reached)
     back[:, :-1], forward[:, 1:] = reached[:, 1:], reached[:, :-1]
@@ -73,7 +73,7 @@ def _after_one_move(reached: Rows, free: Rows) -> Rows:
 
 
 def _stopped(reached: Rows, free: Rows) -> Rows:
-    """Where a move can leave the agent: cells with a block or the arena's edge on some side."""
+    """Where a move can be stopped: cells with a block or the arena's edge on some side."""
     solid = ~free & FULL_ROW
     edge = np.uint16(1 | 1 << (SIZE - 1))
     beside = ((solid << 1) | (solid >> 1) | edge) & FULL_ROW
@@ -85,7 +85,7 @@ def _stopped(reached: Rows, free: Rows) -> Rows:
 
 
 def _place(moved: Rows, reached: Rows, index: int, x: int, y: int) -> None:
-    """Every subset without block ``index``, where the agent moved to (x, y) in front of it: the block stands now."""
+    """Place block ``index`` in every subset without it in which the agent moved to (x, y), right before it."""
     without = moved.reshape(-1, 2, 1 << index, SIZE)[:, 0, :, y]
     with_block = reached.reshape(-1, 2, 1 << index, SIZE)[:, 1, :, y]
     with_block |= without & np.uint16(1 << x)

@@ -1,23 +1,26 @@
 """The single agent's view of the arenas: ten actions, the first two of which choose the material (paper, appendix).
 
-The main agent's actions and the nested agent's are one set: 0 to M - 1 choose one of the M materials, the rest are the
-eight. The state is (x, y, b, m), m being 0 until a material is chosen and its action + 1 after (README: the task). The
-choice earns the material's p and counts as a step; a first action that is no material ends the episode with score 0; a
-later material action does nothing, and counts as a step.
+The main and the nested agent's actions are one set: 0 to M - 1 choose one of the M materials, the rest are the eight
+building actions. The state is (x, y, b, m); m is 0 until a material is chosen, then its action + 1 (README: the task).
+The choice earns the material's p and counts as a step. A first action that is no material ends the episode with score
+0. A later material action does nothing, and counts as a step.
 """
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from gymnasium.spaces import Box, Discrete, Space
+from gymnasium.spaces import Discrete
 from gymnasium.vector import VectorEnv, VectorWrapper
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from mc_nested.arena.rules import SIZE, Action
+from mc_nested.arena.env import highest_observation, space_up_to
+from mc_nested.arena.game import Resumable
+from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.vector import NO_ACTION, Bools, Floats, Ints, ResumableEnv, reset_options
+from mc_nested.arena.vector import NO_ACTION, reset_options, resumable_arenas
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
 
 class SingleAgentVectorEnv(VectorWrapper):
@@ -28,16 +31,16 @@ class SingleAgentVectorEnv(VectorWrapper):
         scenarios: each run's scenario; all with the same number of materials.
     """
 
-    def __init__(self, env: VectorEnv[Ints, Ints, Any], scenarios: Sequence[Scenario]) -> None:
+    def __init__(self, env: VectorEnv[Int64s, Int64s, Any], scenarios: Sequence[Scenario]) -> None:
         super().__init__(env)
         runs = env.num_envs
+        self._resumable = resumable_arenas(env)
         self._scenarios = tuple(scenarios)
         self._worth = np.array([[material.p for material in scenario.materials] for scenario in scenarios])
         self._step_limit = np.array([scenario.step_limit for scenario in scenarios])
         self._materials = self._worth.shape[1]
-        high = np.array([SIZE - 1, SIZE - 1, max(scenario.blocks for scenario in scenarios), self._materials])
-        space: Space[Any] = Box(low=np.zeros_like(high), high=high, dtype=np.int64)
-        self.single_observation_space = space
+        highest = np.max([highest_observation(scenario) for scenario in scenarios], axis=0)
+        self.single_observation_space = space_up_to(np.append(highest, self._materials))
         self.single_action_space = Discrete(self._materials + len(Action))
         self.observation_space = batch_space(self.single_observation_space, runs)
         self.action_space = batch_space(self.single_action_space, runs)
@@ -54,7 +57,7 @@ class SingleAgentVectorEnv(VectorWrapper):
         *,
         seed: int | list[int | None] | None = None,  # noqa: ARG002 - the arenas within begin when a material is chosen
         options: dict[str, Any] | None = None,
-    ) -> tuple[Ints, dict[str, Any]]:
+    ) -> tuple[Int64s, dict[str, Any]]:
         """Begin an episode in the masked arenas (all, without a mask); no material is chosen yet."""
         mask, _ = reset_options({**(options or {}), "material": np.zeros(self.num_envs, np.int64)}, self._scenarios)
         self._observations[mask] = self._start[mask]
@@ -63,8 +66,8 @@ class SingleAgentVectorEnv(VectorWrapper):
         self._terminated[mask] = self._truncated[mask] = False
         return self._seen(), {}
 
-    def step(self, actions: Ints) -> tuple[Ints, Floats, Bools, Bools, dict[str, Any]]:
-        """One of the ten actions in every arena whose episode runs; ``info["score"]`` as of the arenas within."""
+    def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
+        """One of the ten actions in every running arena; ``info["score"]`` is as that of the arenas within."""
         running = ~(self._terminated | self._truncated)
         first = running & (self._chosen == 0)
         chooses = first & (actions < self._materials)
@@ -88,22 +91,24 @@ class SingleAgentVectorEnv(VectorWrapper):
         info = {"score": np.where(ended, self._score, 0.0), "_score": ended}
         return self._seen(), rewards, self._terminated.copy(), self._truncated.copy(), info
 
-    def snapshot(self) -> dict[str, NDArray[Any]]:
-        """Every arena as it stands, for ``restore``; empty where the arenas within can't be saved half-way."""
-        if not isinstance(self.env, ResumableEnv):
-            return {}
-        own = {f"single{name}": getattr(self, name).copy() for name in self._STATE}
-        return {**own, **self.env.snapshot()}
+    @property
+    def resumable(self) -> Resumable | None:
+        """This view, if the arenas within can be resumed."""
+        return self if self._resumable else None
 
-    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> Ints:
-        """Put every arena back as it stood at ``snapshot``; return the observations."""
+    def snapshot(self) -> Arrays:
+        """Every arena as it stands, for ``restore``."""
+        own = {f"single{name}": getattr(self, name).copy() for name in self._STATE}
+        return {**own, **(self._resumable.snapshot() if self._resumable else {})}
+
+    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
+        """Put every arena back as it stood at ``snapshot``."""
         for name in self._STATE:
             setattr(self, name, snapshot[f"single{name}"].copy())
-        if isinstance(self.env, ResumableEnv):
-            self.env.restore(snapshot)
-        return self._seen()
+        if self._resumable:
+            self._resumable.restore(snapshot)
 
     _STATE = ("_observations", "_chosen", "_steps", "_score", "_terminated", "_truncated")
 
-    def _seen(self) -> Ints:
+    def _seen(self) -> Int64s:
         return np.concatenate((self._observations, self._chosen[:, None]), axis=1)

@@ -1,43 +1,41 @@
-"""The vector form of ArenaEnv over any games: what a trainer sees of one live game, or of as many as there are.
+"""The vector form of ArenaEnv over any games: what a trainer sees of one live game, or of several games.
 
 Autoreset is disabled. ``reset(options={"reset_mask": bool (R,), "material": int (R,)})`` begins an episode in the
-masked arenas; an arena whose episode has ended stands still until then: its reward is 0 and its flags stay up.
+masked arenas. An arena whose episode has ended does nothing until then: its reward is 0 and its flags stay set.
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
-from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.env import ArenaEnv, blank_observations
+from mc_nested.arena.game import Resumable
 from mc_nested.arena.rules import Cell
 from mc_nested.arena.scenario import Scenario
-
-Bools = NDArray[np.bool_]
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
 METADATA: dict[str, Any] = {"autoreset_mode": AutoresetMode.DISABLED}
-"""Autoreset is off: the trainer says which arenas begin an episode, and with which material."""
+"""Autoreset is off: the trainer decides which arenas begin an episode, and with which material."""
 
 NO_ACTION = -1
-"""In the place of an action: that arena stands still, and no step is counted."""
+"""Instead of an action: nothing happens in that arena, and no step is counted."""
 
 
-@runtime_checkable
-class ResumableEnv(Protocol):
-    """Arenas whose episodes can be saved half-way: the simulator's. A live game's can't, they begin anew."""
+def resumable_arenas(env: VectorEnv[Int64s, Int64s, Any]) -> Resumable | None:
+    """What saves and restores the arenas' episodes half-way; None if they have to start over.
 
-    def snapshot(self) -> dict[str, NDArray[Any]]: ...
+    Arenas say so themselves. A wrapper that doesn't may hold state of its own, so its episodes start over.
+    """
+    resumable: Resumable | None = getattr(env, "resumable", None)
+    return resumable
 
-    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> Ints: ...
 
-
-class ArenaVectorEnv(VectorEnv[Ints, Ints, Any]):
-    """Arenas of one scenario, each an ArenaEnv over a game of its own, stepped one after the other."""
+class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
+    """Arenas of one scenario, each an ArenaEnv over its own game, stepped one after the other."""
 
     metadata = METADATA
 
@@ -51,9 +49,29 @@ class ArenaVectorEnv(VectorEnv[Ints, Ints, Any]):
         )
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
-        self._observations = np.zeros((self.num_envs, 3), dtype=np.int64)
+        self._observations = blank_observations(self.single_observation_space, self.num_envs)
         self._terminated = np.zeros(self.num_envs, dtype=np.bool_)
         self._truncated = np.zeros(self.num_envs, dtype=np.bool_)
+
+    @property
+    def resumable(self) -> Resumable | None:
+        """These arenas, if every game can be resumed."""
+        return self if all(env.resumable for env in self.envs) else None
+
+    def snapshot(self) -> Arrays:
+        """Every arena as it stands, for ``restore``."""
+        arenas = [env.snapshot() for env in self.envs]
+        own = {name: getattr(self, name).copy() for name in self._STATE}
+        return {**own, **{name: np.stack([arena[name] for arena in arenas]) for name in arenas[0]}}
+
+    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
+        """Put every arena back as it stood at ``snapshot``."""
+        for name in self._STATE:
+            setattr(self, name, snapshot[name].copy())
+        for run, env in enumerate(self.envs):
+            env.restore({name: kept[run] for name, kept in snapshot.items()})
+
+    _STATE = ("_observations", "_terminated", "_truncated")
 
     def placed(self, run: int) -> frozenset[Cell]:
         """The cells where a block landed in that arena since its last reset."""
@@ -61,7 +79,7 @@ class ArenaVectorEnv(VectorEnv[Ints, Ints, Any]):
 
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Ints, dict[str, Any]]:
+    ) -> tuple[Int64s, dict[str, Any]]:
         """Begin an episode in the masked arenas (all, without a mask), each with its material (the best, without)."""
         mask, materials = reset_options(options, [env.scenario for env in self.envs])
         seeds = seed if isinstance(seed, list) else [seed] * self.num_envs
@@ -71,8 +89,8 @@ class ArenaVectorEnv(VectorEnv[Ints, Ints, Any]):
         self._terminated[mask] = self._truncated[mask] = False
         return self._observations.copy(), {}
 
-    def step(self, actions: Ints) -> tuple[Ints, Floats, Bools, Bools, dict[str, Any]]:
-        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M where ``_score``."""
+    def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
+        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``."""
         rewards = np.zeros(self.num_envs)
         scores = np.zeros(self.num_envs)
         ended = np.zeros(self.num_envs, dtype=np.bool_)
@@ -87,10 +105,10 @@ class ArenaVectorEnv(VectorEnv[Ints, Ints, Any]):
         return self._observations.copy(), rewards, *flags, {"score": scores, "_score": ended}
 
 
-def reset_options(options: dict[str, Any] | None, scenarios: Sequence[Scenario]) -> tuple[Bools, Ints]:
-    """The mask (R,) and the materials (R,) of a vector reset, with their defaults filled in.
+def reset_options(options: dict[str, Any] | None, scenarios: Sequence[Scenario]) -> tuple[Bools, Int64s]:
+    """The mask (R,) and the materials (R,) of a vector reset, including defaults.
 
-    ValueError where an array doesn't have one entry per run, or a material's index doesn't exist.
+    ValueError if an array doesn't have one entry per run, or a material's index doesn't exist.
     """
     runs = len(scenarios)
     options = options or {}

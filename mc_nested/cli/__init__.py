@@ -1,4 +1,4 @@
-"""The command line, one verb a file, and the processes that many runs are shared out to."""
+"""The command line, one file per verb, and the processes that train an experiment's runs."""
 
 import io
 import os
@@ -8,11 +8,11 @@ from collections.abc import Sequence
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command and exit, as ``app.main``; Ctrl+C before and behind it, while Python loads and ends, is quiet."""
+    """Run the command and exit, as ``app.main``; Ctrl+C is also quiet while Python loads and ends."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a pipe may not know ε
-    # One thread a process, said before anything is loaded: for products this small, two only wait for each other.
+    # One thread per process, set before anything is loaded: for products this small, two only wait for each other.
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     try:
         from mc_nested.cli.app import main as run

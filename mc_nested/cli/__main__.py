@@ -1,4 +1,4 @@
-"""``python -m mc_nested.cli``, where no ``mc-nested`` is on the path."""
+"""``python -m mc_nested.cli``, if no ``mc-nested`` is on the path."""
 
 from mc_nested.cli import main
 

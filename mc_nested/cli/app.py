@@ -1,4 +1,4 @@
-"""The ``mc-nested`` command: its verbs, and one line with exit code 2 for every mistake."""
+"""The ``mc-nested`` command: its verbs; every mistake is one line and exit code 2."""
 
 import importlib
 import importlib.metadata
@@ -10,16 +10,16 @@ import typer
 
 from mc_nested.cli.interrupt import INTERRUPTED, Stopped
 from mc_nested.errors import McNestedError
-from mc_nested.live.ending import EndedBySignal
+from mc_nested.live.input.signals import EndedBySignal
 
 VERBS = ("train", "reproduce", "sweep", "evaluate", "play", "scenarios", "read", "calibrate", "doctor")
-"""Each a module of this package, in the order of the help."""
+"""Each is a module of this package; in the order of the help."""
 
 
 def app_for(words: Sequence[str]) -> typer.Typer:
-    """The command with the one verb that the words begin with, or with all of them where they name none.
+    """The command with the verb that the words begin with, or with all verbs if they begin with none.
 
-    A verb's module is loaded only where it is needed: together they take seconds and hundreds of megabytes.
+    A verb's module is loaded only if it is needed: together they take seconds and hundreds of megabytes.
     """
     app = typer.Typer(name="mc-nested", add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
     app.callback(invoke_without_command=True)(version)
@@ -39,7 +39,7 @@ def version(show: Annotated[bool, typer.Option("--version", help="print the vers
 
 
 MISTAKE = 2
-"""Exit code of a mistake, or of a game that did not obey."""
+"""Exit code of a mistake, or of a game that did not do what was asked."""
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -49,13 +49,13 @@ def main(arguments: Sequence[str] | None = None) -> None:
         words.append("--help")
     try:
         code = app_for(words)(args=words, standalone_mode=False)
-        if code == INTERRUPTED:  # what typer makes of a KeyboardInterrupt, and of nothing else
+        if code == INTERRUPTED:  # typer's code for a KeyboardInterrupt, and for nothing else
             code = _say("stopped", INTERRUPTED)
     except typer.TyperException as error:
         code = _say(error.format_message())
     except McNestedError as error:
         code = _say(str(error))
-    except OSError as error:  # a path that the system refuses, wherever it was tried
+    except OSError as error:  # a path that the system refuses
         code = _say(f"{error.filename or 'the system'}: {error.strerror or error}: name another path, or make room")
     except MemoryError:
         code = _say("not enough memory: fewer --trials, or a smaller network, batch or replay in the preset")

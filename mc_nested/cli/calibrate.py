@@ -1,4 +1,4 @@
-"""``mc-nested calibrate``: tell the agent where your arena and your buttons are."""
+"""``mc-nested calibrate``: its verbs, and undoing what the last one wrote."""
 
 import typer
 
@@ -9,7 +9,7 @@ from mc_nested.cli.calibrate_font import font
 from mc_nested.cli.calibrate_report import report
 from mc_nested.cli.calibrate_walk import walk
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
-from mc_nested.live.profile import profile_path, undo_profile
+from mc_nested.live.profile.store import profile_path, undo_profile
 
 app = typer.Typer(help="Tell the agent where your arena and your buttons are.")
 app.command("all")(calibrate_all.calibrate)

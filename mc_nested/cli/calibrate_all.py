@@ -7,20 +7,20 @@ from typing import Annotated
 
 import typer
 
-from calibration.all import calibrate_all
-from calibration.arena.stand import NEAR_MIDDLE
-from calibration.bench import bench_for
+from calibration.arena.mark import NEAR_MIDDLE
+from calibration.calibrate_all import calibrate_all
+from calibration.context import StepResult
 from calibration.doctor.check import Check
 from calibration.doctor.examination import examine
-from calibration.game.folders import System
+from calibration.installation.folders import System
+from calibration.open_context import context_opener
+from calibration.registry import registered_steps
 from calibration.report.page import TITLES
-from calibration.step import Found
-from calibration.steps import guided_steps
 from mc_nested.cli.calibrate_report import report_path, write_report
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite, ServerOption
 from mc_nested.errors import ProfileError
-from mc_nested.live.desktop.clipboard import open_clipboard
-from mc_nested.live.profile import profile_path
+from mc_nested.live.desktop import open_clipboard
+from mc_nested.live.profile.store import profile_path
 
 
 def calibrate(
@@ -35,11 +35,13 @@ def calibrate(
     server_allowed: ServerOption = False,
 ) -> None:
     """Do all of it in one go, in about two minutes; stand on the middle of the arena's near edge and look across it."""
-    bench_of = bench_for(typer.echo, (lambda _: True) if yes else typer.confirm)
-    steps = guided_steps(font, standing=standing, is_server_allowed=server_allowed, path=profile_path(profile))
+    context_of = context_opener(
+        typer.echo, (lambda _: True) if yes else typer.confirm, is_server_allowed=server_allowed
+    )
+    steps = registered_steps(font, standing=standing, path=profile_path(profile))
     shown = Lines()
-    whole = calibrate_all(profile, bench_of, _examined, steps, shown, is_server_allowed=server_allowed)
-    left_out = [TITLES.get(name, name) for name in whole.guided.passed_over]
+    whole = calibrate_all(profile, context_of, _examined, steps, shown)
+    left_out = [TITLES.get(name, name) for name in whole.run.skipped]
     without = f", without: {', '.join(left_out)}" if left_out else ""
     typer.echo(f"calibrated in {shown.seconds:.0f} s{without}")
     typer.echo(f"profile: {whole.path}")
@@ -55,7 +57,7 @@ class Lines:
     def __init__(self) -> None:
         self.seconds = 0.0
 
-    def checked(self, checks: Sequence[Check]) -> None:
+    def doctor_done(self, checks: Sequence[Check]) -> None:
         """How the doctor's rows stand, and those that want something."""
         counts = [(status, sum(check.status == status for check in checks)) for status in ("pass", "warn", "fail")]
         typer.echo(f"doctor: {', '.join(f'{count} {status}' for status, count in counts if count)}")
@@ -67,14 +69,14 @@ class Lines:
         """Its name and number."""
         typer.echo(f"{number}/{of} {TITLES.get(name, name)}")
 
-    def end(self, found: Found, seconds: float) -> None:
+    def end(self, result: StepResult, seconds: float) -> None:
         """Its findings."""
         self._took(seconds)
-        for line in found.lines:
+        for line in result.lines:
             typer.echo(f"    {line}")
         typer.echo(f"    [{seconds:.0f} s, {self.seconds:.0f} s in all]")
 
-    def passed_over(self, reason: str, seconds: float) -> None:
+    def skip(self, reason: str, seconds: float) -> None:
         """Why it isn't there."""
         self._took(seconds)
         typer.echo(f"    warning: {reason}; the run goes on without it")

@@ -6,9 +6,9 @@ from typing import Annotated
 import typer
 
 from calibration.arena.build import calibrate_built_arena
-from calibration.arena.stand import NEAR_MIDDLE, calibrate_arena
+from calibration.arena.mark import NEAR_MIDDLE, mark_arena
 from calibration.arena.undo import undo_built_arena
-from calibration.bench import bench_for
+from calibration.open_context import context_opener
 from mc_nested.cli.options import DEFAULT_PROFILE, ServerOption
 from mc_nested.errors import UserError
 
@@ -32,16 +32,14 @@ def arena(
     if mark_only and undo:
         raise UserError("--mark-only and --undo do different things: choose one of them")
     if mark_only:
-        path = calibrate_arena(profile, ask=typer.confirm, say=typer.echo, standing=standing, font=font, yes=yes)
+        path = mark_arena(profile, ask=typer.confirm, say=typer.echo, standing=standing, font=font, yes=yes)
         typer.echo(f"arena written to {path}" if path else "nothing was written")
         return
-    bench_of = bench_for(typer.echo, typer.confirm)
+    context_of = context_opener(typer.echo, typer.confirm, is_server_allowed=server_allowed)
     if undo:
-        found, file = undo_built_arena(profile, bench_of, is_server_allowed=server_allowed)
+        found, file = undo_built_arena(profile, context_of)
     else:
-        found, file = calibrate_built_arena(
-            profile, bench_of, standing=standing, font=font, yes=yes, is_server_allowed=server_allowed
-        )
+        found, file = calibrate_built_arena(profile, context_of, standing=standing, font=font, yes=yes)
     for line in found.lines:
         typer.echo(line)
     if file.is_file():

@@ -4,8 +4,9 @@ from typing import Annotated
 
 import typer
 
-from calibration.bench import bench_for
-from calibration.clicks.find import calibrate_clicks, shown_clicks, try_clicks
+from calibration.clicks.find import calibrate_clicks
+from calibration.clicks.show import show_clicks, try_clicks
+from calibration.open_context import context_opener
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 from mc_nested.errors import UserError
 
@@ -22,17 +23,17 @@ def clicks(
     dry_run: Annotated[bool, typer.Option("--dry-run", help="only move the mouse there, and press nothing")] = False,
 ) -> None:
     """Find the places to click in the menus; name points to record those by hand: hover and press the hotkey."""
-    bench_of = bench_for(typer.echo, (lambda _: True) if yes else typer.confirm)
+    context_of = context_opener(typer.echo, (lambda _: True) if yes else typer.confirm)
     if show and dry_run:
         raise UserError("--show and --dry-run do different things: choose one of them")
     if show:
-        typer.echo(f"look at the points in {shown_clicks(profile, bench_of)}")
+        typer.echo(f"look at the points in {show_clicks(profile, context_of)}")
     elif dry_run:
-        for line in try_clicks(profile, bench_of):
+        for line in try_clicks(profile, context_of):
             typer.echo(line)
     else:
         names = points or ()
-        written = calibrate_clicks(profile, bench_of, names=names, is_by_hand=not yes, hotkey=hotkey, skip=skip)
+        written = calibrate_clicks(profile, context_of, names=names, is_by_hand=not yes, hotkey=hotkey, skip=skip)
         for line in written[0].lines if written else ("nothing was written",):
             typer.echo(line)
         if written:

@@ -1,12 +1,12 @@
-"""``mc-nested calibrate font``: the game's own font, found by itself, and shown beside what it reads."""
+"""``mc-nested calibrate font``: finds the game's own font, and shows what it reads beside the screen."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from calibration.bench import bench_for
 from calibration.font.find import calibrate_font
+from calibration.open_context import context_opener
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 
 
@@ -17,7 +17,7 @@ def font(
     ] = None,
 ) -> None:
     """Find the font that your game is written in, and see what is read with it."""
-    found, picture = calibrate_font(profile, bench_for(typer.echo, typer.confirm), font)
+    found, picture = calibrate_font(profile, context_opener(typer.echo, typer.confirm), font)
     for line in found.lines:
         typer.echo(line)
     typer.echo(f"compare what is seen with what is read: {picture}")

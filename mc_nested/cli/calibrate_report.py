@@ -7,12 +7,12 @@ from typing import Annotated
 import typer
 
 from calibration.report.kept import load_kept
-from calibration.report.page import Report, contents, report_html
+from calibration.report.page import CalibrationReport, contents, report_html
 from calibration.report.privacy import names_here
+from mc_nested.atomic_file import atomic_write
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption
 from mc_nested.errors import ProfileError
-from mc_nested.learn.whole_file import written_whole
-from mc_nested.live.profile import load_profile, profile_path
+from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.toml_file import read_toml_text
 
 
@@ -28,24 +28,24 @@ def report(
 
 
 def report_path(profile: Path) -> Path:
-    """Where a profile's report lies unless told otherwise."""
+    """Where a profile's report is written by default."""
     return profile.with_name(f"{profile.stem}-calibration.html")
 
 
 def write_report(name: str, out: Path, *, with_pictures: bool = True) -> None:
-    """Write the report of a profile whole or not at all, and say what is in it.
+    """Write the report of a profile whole or not at all, and print what is in it.
 
-    ProfileError where the profile, or what lies beside it, can't be read, or the file can't be written.
+    ProfileError if the profile, or what lies beside it, can't be read, or the file can't be written.
     """
     profile, path = load_profile(name), profile_path(name)
     text = read_toml_text(path, ProfileError)
     version = importlib.metadata.version("mc-nested")
-    made = Report(path.stem, profile, text, load_kept(path), version, with_pictures)
+    made = CalibrationReport(path.stem, profile, text, load_kept(path), version, with_pictures)
     names = names_here()
     out = out.expanduser()
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
-        with written_whole(out) as unfinished:
+        with atomic_write(out) as unfinished:
             unfinished.write_text(report_html(made, names), "utf-8")
     except OSError as error:
         raise ProfileError(f"{out}: can't be written ({error.strerror or error}): name another --out") from error

@@ -1,10 +1,10 @@
-"""``mc-nested calibrate walk``: measure how far a held key walks, and how late it is felt and seen."""
+"""``mc-nested calibrate walk``: measure how far a held key walks, and the latencies of input and screen."""
 
 from typing import Annotated
 
 import typer
 
-from calibration.bench import bench_for
+from calibration.open_context import context_opener
 from calibration.walk.measure import calibrate_walk
 from mc_nested.cli.options import DEFAULT_PROFILE, ServerOption
 
@@ -16,7 +16,9 @@ def walk(
     server_allowed: ServerOption = False,
 ) -> None:
     """Measure how you walk, for a minute, in the marked arena or around where you stand."""
-    found, picture = calibrate_walk(profile, bench_for(typer.echo, typer.confirm), is_server_allowed=server_allowed)
+    found, picture = calibrate_walk(
+        profile, context_opener(typer.echo, typer.confirm, is_server_allowed=server_allowed)
+    )
     for line in found.lines:
         typer.echo(line)
     typer.echo(f"written to {profile}; look at the curve in {picture}")

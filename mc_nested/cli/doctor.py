@@ -13,18 +13,18 @@ from rich.text import Text
 
 from calibration.doctor.check import Check, Status
 from calibration.doctor.examination import Examination, examine
-from calibration.doctor.repair import repaired
-from calibration.game.folders import System
+from calibration.doctor.repair import repair
+from calibration.installation.folders import System
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption
-from mc_nested.live.desktop.clipboard import open_clipboard
+from mc_nested.live.desktop import open_clipboard
 
 STYLES: dict[Status, str] = {"pass": "green", "warn": "yellow", "fail": "bold red", "skip": "bright_black"}
 
 WIDTH = 100
-"""Columns that the table takes where there are so many, or no terminal says how many there are."""
+"""The table's width in columns; less in a narrower terminal."""
 
 FAILED = 1
-"""Exit code where a row fails."""
+"""The exit code if a row fails."""
 
 
 def doctor(
@@ -37,7 +37,7 @@ def doctor(
     """Look at this computer, the game's window and its options: each row with the one thing to do."""
     say = partial(typer.echo, err=True)
     found = _examined(profile)
-    if fix and repaired(found, say):
+    if fix and repair(found, say):
         found = _examined(profile)
     if as_json:
         print(json.dumps({"checks": [dataclasses.asdict(check) for check in found.checks]}))
@@ -51,7 +51,7 @@ def doctor(
 
 
 def table_of(checks: Sequence[Check]) -> Table:
-    """The rows as a table, the status coloured."""
+    """The rows as a table, with coloured statuses."""
     table = Table(show_edge=False, pad_edge=False)
     for name, ratio in (("check", None), ("", None), ("found", 5), ("to do", 4)):
         table.add_column(name, ratio=ratio, no_wrap=ratio is None, overflow="fold")
@@ -62,7 +62,7 @@ def table_of(checks: Sequence[Check]) -> Table:
 
 
 def summary_of(checks: Sequence[Check]) -> str:
-    """How many rows there are of each status."""
+    """How many rows have each status."""
     counts = {status: sum(check.status == status for check in checks) for status in STYLES}
     return ", ".join(f"{count} {status}" for status, count in counts.items() if count)
 

@@ -9,12 +9,13 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from mc_nested.arrays import Arrays
 from mc_nested.cli.options import RunArgument
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import Agent, view_of
-from mc_nested.learn.checkpoint import Arrays, part_of
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
-from mc_nested.learn.run_folder import RunFolder
+from mc_nested.learn.runs.run_folder import RunFolder
+from mc_nested.learn.state_dict import part_of
 from sim.grid import GridVectorEnv
 
 
@@ -51,10 +52,10 @@ def load_agent(folder: RunFolder) -> Agent:
 
 
 def best_policy(run: Path, wanted: RunFolder) -> Arrays:
-    """The networks of that training's best trial, by role, to begin another with; RunError where they don't fit it."""
+    """The networks of that training's best trial, by role, to begin another with; RunError if they don't fit."""
     folder = RunFolder.open(run)
     theirs, ours = folder.new_agent(1), wanted.new_agent(1)
-    if (theirs.form, theirs.sizes) != (ours.form, ours.sizes):
+    if (theirs.spec, theirs.sizes) != (ours.spec, ours.sizes):
         raise RunError(
             f"{run}: its {folder.config.agent} agent has other networks than this {wanted.config.agent} agent: take "
             f"the same agent, a preset with the same networks, and a design of as many blocks"
@@ -66,5 +67,5 @@ def best_policy(run: Path, wanted: RunFolder) -> Arrays:
 
 def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:
     """One greedy episode of every trial in the simulator."""
-    env = view_of(agent.form, GridVectorEnv(folder.scenarios), folder.scenarios)
+    env = view_of(agent.spec, GridVectorEnv(folder.scenarios), folder.scenarios)
     return play_greedily(env, folder.scenarios, agent)

@@ -1,4 +1,4 @@
-"""One view of all that trains: a bar over all episodes, and each group's recent greedy scores beside the optimum."""
+"""Progress of an experiment: a bar over all episodes, and each group's recent greedy scores beside the optimum."""
 
 import time
 from types import TracebackType
@@ -9,31 +9,31 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Column, Table
 from rich.text import Text
 
-from mc_nested.cli.standing import Standing
-from mc_nested.cli.unit_process import Ended, Report
+from mc_nested.cli.experiment_status import ExperimentStatus
+from mc_nested.cli.job_process import JobEnded, JobReport
 
 REFRESH_S = 0.25
 """No more often than an eye can follow."""
 
 LINE_EVERY_S = 30.0
-"""How often there is a line where no terminal shows a bar."""
+"""Seconds between two lines of text, if there is no terminal to show a bar."""
 
 MOST_ROWS = 10
-"""Groups that are shown at once."""
+"""Groups shown at once."""
 
 
 class ExperimentProgress:
-    """Shows a standing on standard error.
+    """Shows a status on standard error.
 
     Args:
-        what: is being done, in a word.
-        standing: what is shown.
-        console: where; standard error unless given.
+        what: what is being done, in one word.
+        status: what is shown.
+        console: where to show it; standard error unless given.
     """
 
-    def __init__(self, what: str, standing: Standing, console: Console | None = None) -> None:
+    def __init__(self, what: str, status: ExperimentStatus, console: Console | None = None) -> None:
         self._what = what
-        self._standing = standing
+        self._status = status
         self._console = console or Console(stderr=True)
         self._bar = Progress(
             TextColumn(what),
@@ -44,7 +44,7 @@ class ExperimentProgress:
             console=self._console,
             expand=True,
         )
-        self._task = self._bar.add_task(what, total=standing.total, completed=standing.episodes, figures="")
+        self._task = self._bar.add_task(what, total=status.total, completed=status.episodes, figures="")
         self._live = Live(console=self._console, auto_refresh=False, transient=True)
         self._began = time.monotonic()
         self._next = self._began
@@ -62,36 +62,36 @@ class ExperimentProgress:
         if self._console.is_terminal:
             self._live.stop()
 
-    def watch(self, heard: Report | Ended | None) -> None:
-        """Take in what a process says, and bring the view up to date if it is time to."""
+    def watch(self, heard: JobReport | JobEnded | None) -> None:
+        """Record a message of a process, and refresh the view if it is time."""
         if heard is not None:
-            self._standing.hear(heard)
+            self._status.hear(heard)
         now = time.monotonic()
         if now < self._next:
             return
         if self._console.is_terminal:
             self._next = now + REFRESH_S
-            self._bar.update(self._task, completed=self._standing.episodes, figures=self._rate())
+            self._bar.update(self._task, completed=self._status.episodes, figures=self._rate())
             self._live.update(Group(self._bar, self._table()), refresh=True)
         else:
             self._next = now + LINE_EVERY_S
             self._console.print(self._line(now), markup=False, highlight=False, soft_wrap=True)
 
     def _rate(self) -> str:
-        return f"{self._standing.updates / max(time.monotonic() - self._began, 1e-9):,.0f} updates/s"
+        return f"{self._status.updates / max(time.monotonic() - self._began, 1e-9):,.0f} updates/s"
 
     def _line(self, now: float) -> str:
-        standing = self._standing
-        done = standing.episodes - standing.episodes_before
-        left = f"{(now - self._began) / done * (standing.total - standing.episodes) / 60:.1f} min left" if done else ""
-        share = 100 * standing.episodes / standing.total
-        return f"{self._what}: {share:.0f} % of {standing.total:,} episodes  {self._rate()}  {left}".rstrip()
+        status = self._status
+        done = status.episodes - status.episodes_before
+        left = f"{(now - self._began) / done * (status.total - status.episodes) / 60:.1f} min left" if done else ""
+        share = 100 * status.episodes / status.total
+        return f"{self._what}: {share:.0f} % of {status.total:,} episodes  {self._rate()}  {left}".rstrip()
 
     def _table(self) -> Table:
-        standing = self._standing
-        heads = [Text(f"{name} of {optimum:g}") for name, optimum in standing.optimum.items()]
+        status = self._status
+        heads = [Text(f"{name} of {optimum:g}") for name, optimum in status.optimum.items()]
         table = Table("recent score", *(Column(head, justify="right") for head in heads), box=None, padding=(0, 2))
-        for group in standing.groups[-MOST_ROWS:]:
-            scores = [standing.score(group, scenario) for scenario in standing.optimum]
+        for group in status.groups[-MOST_ROWS:]:
+            scores = [status.score(group, scenario) for scenario in status.optimum]
             table.add_row(Text(group), *("" if score is None else f"{score:.1f}" for score in scores))
         return table

@@ -1,4 +1,4 @@
-"""Ctrl+C that lets the step in hand finish, so that what is saved is whole."""
+"""Ctrl+C that lets the current step finish, so that everything can be saved."""
 
 import signal
 import threading
@@ -10,13 +10,13 @@ from types import FrameType
 INTERRUPTED = 130
 """Exit code after Ctrl+C."""
 
-ONE_AND_THE_SAME_S = 1.0
-"""A terminal and a launcher in it can both pass on the same Ctrl+C, and a finger can slip: what comes within this time
-of the first is no second request."""
+SAME_REQUEST_S = 1.0
+"""A terminal and a launcher in it can both pass on the same Ctrl+C, and a finger can slip: a signal within this time of
+the first is no second request."""
 
 
-class Stopped(Exception):  # noqa: N818 - no error: what was asked for, and how to go on
-    """Somebody stopped the command; the message says what was saved."""
+class Stopped(Exception):  # noqa: N818 - no error: it was asked for
+    """The command was stopped on purpose; the message says what was saved and how to resume."""
 
 
 class Interrupt:
@@ -27,17 +27,17 @@ class Interrupt:
         self._first = 0.0
 
     def request(self, _number: int, _frame: FrameType | None) -> None:
-        """Take note of a signal; a second one, a while later, doesn't wait any longer."""
+        """Record a signal; a second one, SAME_REQUEST_S later or more, interrupts at once."""
         now = time.monotonic()
         if not self.requested:
             self.requested, self._first = True, now
-        elif now - self._first > ONE_AND_THE_SAME_S:
+        elif now - self._first > SAME_REQUEST_S:
             raise KeyboardInterrupt
 
 
 @contextmanager
 def catch_interrupts() -> Iterator[Interrupt]:
-    """While inside, the first Ctrl+C or termination only takes note; outside the main thread nothing changes."""
+    """Inside, the first Ctrl+C or SIGTERM is only recorded; outside the main thread nothing changes."""
     interrupt = Interrupt()
     if threading.current_thread() is not threading.main_thread():
         yield interrupt

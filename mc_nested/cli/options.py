@@ -1,4 +1,4 @@
-"""What several verbs take, and how they open a backend."""
+"""Options that several verbs share, and opening a backend."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -11,19 +11,19 @@ import typer
 from gymnasium.vector import VectorEnv
 
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.game import Game
+from mc_nested.arena.game import Game, PlayLog
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.vector import ArenaVectorEnv, Ints
+from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.arrays import Int64s
 from mc_nested.errors import RunError
 from mc_nested.live.devices import Display
-from mc_nested.live.live_game import LiveGame
+from mc_nested.live.failure_budget import FailureBudget
 from mc_nested.live.session import open_live_game
-from mc_nested.live.spoiled import Spoiled
 from sim.grid import GridGame, GridVectorEnv
 
 
 class Backend(str, Enum):
-    """Where the arena is: in the headless simulator, or in a running game's window."""
+    """The backend: the headless simulator, or a running game's window."""
 
     SIM = "sim"
     LIVE = "live"
@@ -52,11 +52,11 @@ def open_game(
     server_allowed: bool = False,
     evidence: Path | None = None,
 ) -> Iterator[tuple[Game, Display | None]]:
-    """The backend's game for as long as the block runs, and the window it is seen in, if it has one.
+    """The backend's game, and its window, if it has one; both are closed after the block.
 
     ``evidence`` is the folder for the last frames of a live game that was given up.
 
-    DesktopError or ProfileError, one line each, where a live game can't be played.
+    DesktopError or ProfileError, one line each if a live game can't be played.
     """
     if backend is Backend.SIM:
         yield GridGame(scenario), None
@@ -74,22 +74,26 @@ def open_game(
 
 @contextmanager
 def open_arenas(
-    backend: Backend, profile: str | None, scenarios: Sequence[Scenario], **live: Any
-) -> Iterator[VectorEnv[Ints, Ints, Any]]:
-    """The backend's arenas, one a scenario, for as long as the block runs.
+    backend: Backend,
+    profile: str | None,
+    scenarios: Sequence[Scenario],
+    *,
+    server_allowed: bool = False,
+    evidence: Path | None = None,
+) -> Iterator[tuple[VectorEnv[Int64s, Int64s, Any], PlayLog | None]]:
+    """The backend's arenas, one per scenario, and the log of playing them, if any; closed after the block.
 
-    RunError where a live game should be several arenas; else as ``open_game``, which takes ``live`` too.
+    RunError if a live game should be several arenas; otherwise as ``open_game``.
     """
     if backend is Backend.SIM:
-        yield GridVectorEnv(scenarios)
+        yield GridVectorEnv(scenarios), None
         return
     if len(scenarios) != 1:
         raise RunError(f"a live game is one arena, not {len(scenarios)}: train one trial at a time, --trials 1")
-    with open_game(backend, profile, scenarios[0], **live) as (game, _):
-        yield ArenaVectorEnv([ArenaEnv(game, scenarios[0])])
+    with open_game(backend, profile, scenarios[0], server_allowed=server_allowed, evidence=evidence) as (game, _):
+        yield ArenaVectorEnv([ArenaEnv(game, scenarios[0])]), game.log
 
 
-def played_live(env: VectorEnv[Ints, Ints, Any], spoiled: Spoiled) -> dict[str, Any]:
-    """What playing in a running game took since it was opened, for a training's summary; nothing for the simulator."""
-    game = env.envs[0].game if isinstance(env, ArenaVectorEnv) else None
-    return {"live": {**game.log.summary(), **spoiled.summary()}} if isinstance(game, LiveGame) else {}
+def played_live(log: PlayLog | None, failure_budget: FailureBudget) -> dict[str, Any]:
+    """What playing in a running game took, for a training's summary; nothing for the simulator."""
+    return {"live": {**log.summary(), **failure_budget.summary()}} if log else {}

@@ -1,4 +1,4 @@
-"""``mc-nested play``: a trained agent builds, in the simulator or in a running game, and you watch."""
+"""``mc-nested play``: watch a trained agent build, in the simulator or in a running game."""
 
 from pathlib import Path
 from typing import Annotated
@@ -18,12 +18,12 @@ from mc_nested.cli.options import Backend, BackendOption, ProfileOption, RunArgu
 from mc_nested.errors import LiveError, NotInFrontError, RunError, StoppedError, UserError
 from mc_nested.learn.agents import Agent, view_of
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
-from mc_nested.learn.run_folder import RunFolder
+from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.devices import Display
 from mc_nested.report.terminal import arena_view
 
 TRIES = 3
-"""Episodes that are begun, of which a mishap in the running game may spoil all but the last."""
+"""Attempts at an episode: a mishap in the running game may end all but the last."""
 
 
 def play(
@@ -36,7 +36,7 @@ def play(
         bool, typer.Option("--screenshots", help="keep a picture of the window after each step, under RUN/screenshots")
     ] = False,
 ) -> None:
-    """Play one greedy episode and show the arena as it is built; one that a mishap spoils begins anew."""
+    """Play one greedy episode and show the arena as it is built; after a mishap the episode starts over."""
     folder = RunFolder.open(run)
     scenario = folder.scenario
     if screenshots and backend is Backend.SIM:
@@ -54,7 +54,7 @@ def play(
             except LiveError as error:
                 if not tries_left:
                     raise
-                typer.echo(f"  {error}; the episode begins anew", err=True)
+                typer.echo(f"  {error}; the episode starts over", err=True)
     material = episode.material_name(scenario)
     typer.echo(f"  score {episode.score:g} of {scenario.optimum:g}, in {material}, {len(episode.actions)} steps")
     if pictures:
@@ -76,15 +76,15 @@ def _watch(game: Game, scenario: Scenario, agent: Agent, which: int, pictures: "
             if pictures:
                 pictures.take()
 
-        arenas = view_of(agent.form, ArenaVectorEnv([env]), [scenario])
+        arenas = view_of(agent.spec, ArenaVectorEnv([env]), [scenario])
         episode = play_greedily(arenas, [scenario], agent, show)[0]
     if not console.is_terminal:
-        console.print()  # rich leaves the last line open then
+        console.print()  # rich leaves the last line unfinished then
     return episode
 
 
 def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
-    """The agent of one trial alone, and which trial: the asked one, or the best in the simulator."""
+    """The agent of one trial, and which trial: the one asked for, or the best in the simulator."""
     agent = load_agent(folder)
     if trial is None:
         scores = [episode.score for episode in greedy_episodes(folder, agent)]
@@ -97,9 +97,9 @@ def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
 
 
 class _Screenshots:
-    """Pictures of the game's window, and of nothing around it, numbered in the order they were taken.
+    """Pictures of the game's window alone, numbered in the order they are taken.
 
-    Those of an earlier episode are removed. RunError where one can't be written.
+    Those of an earlier episode are removed. RunError if one can't be written.
     """
 
     def __init__(self, folder: Path, display: Display) -> None:

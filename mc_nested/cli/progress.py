@@ -1,4 +1,4 @@
-"""A training's progress bar: episodes, score, ε (the main agent's, the nested agent's) and updates a second."""
+"""A training's progress bar: episodes, score, ε (the main agent's, the nested agent's) and updates per second."""
 
 import time
 from types import TracebackType
@@ -12,7 +12,7 @@ from mc_nested.learn.trainer import Trainer
 
 REFRESH_S = 0.2
 RECENT = 30
-"""Episodes that the shown score is the mean of."""
+"""The score shown is the mean over this many episodes."""
 
 
 class TrainingProgress:
@@ -46,7 +46,7 @@ class TrainingProgress:
         self._bar.stop()
 
     def show(self) -> None:
-        """Bring the bar up to date if it is time to."""
+        """Refresh the bar if it is time."""
         now = time.monotonic()
         if now >= self._next:
             self._next = now + REFRESH_S

@@ -1,4 +1,4 @@
-"""``mc-nested read``: what the debug screen says on pictures."""
+"""``mc-nested read``: what pictures of the debug screen say."""
 
 import json
 from pathlib import Path
@@ -7,10 +7,10 @@ from typing import Annotated, Any
 import typer
 
 from mc_nested.errors import FontError
-from mc_nested.live.font import load_font
-from mc_nested.live.profile import load_profile
-from mc_nested.live.read_pictures import read_picture
-from mc_nested.live.session import overlay_of
+from mc_nested.live.profile.overlay import overlay_of
+from mc_nested.live.profile.store import load_profile
+from mc_nested.live.vision.font import load_font
+from mc_nested.live.vision.read_pictures import read_picture
 
 
 def read(
@@ -43,5 +43,5 @@ def _line(found: dict[str, Any]) -> str:
         return f"{found['file']}: unread: {found['problem']}"
     position = " ".join(f"{value:.3f}" for value in found["xyz"])
     target = found["target"]
-    looked_at = f"looks at {target['id']} {target['pos']}" if target else "looks at no block"
-    return f"{found['file']}: at {position}, yaw {found['yaw']}, pitch {found['pitch']}, {looked_at}"
+    target_block = f"looks at {target['id']} {target['pos']}" if target else "looks at no block"
+    return f"{found['file']}: at {position}, yaw {found['yaw']}, pitch {found['pitch']}, {target_block}"

@@ -1,4 +1,4 @@
-"""``mc-nested reproduce``: the paper's experiment, every agent on every design, and what is left of its claims."""
+"""``mc-nested reproduce``: the paper's experiment, every agent on every design, and tests of its claims."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -19,27 +19,27 @@ from mc_nested.cli.experiment import (
     OutOption,
     ResumeOption,
     SeedOption,
+    check_new_folder,
+    check_nothing_beside_resume,
     cores,
-    new_folder_needed,
-    refuse_beside_resume,
-    trained,
+    train_all,
 )
 from mc_nested.errors import UserError
-from mc_nested.learn.agents import FORMS, check_exploration
-from mc_nested.learn.experiment_folder import ExperimentFolder
+from mc_nested.learn.agents import AGENT_SPECS, check_exploration
+from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
+from mc_nested.learn.experiments.reproduction import LONGER, LONGER_AGENTS, LONGER_SCENARIOS, ReproduceConfig
 from mc_nested.learn.preset import MOST, load_preset
-from mc_nested.learn.reproduction import LONGER, LONGER_AGENTS, LONGER_SCENARIOS, ReproduceConfig
 from mc_nested.report.results import Cost, Evaluation, Results
 from sim.grid import arena_env
 
-if TYPE_CHECKING:  # loads scipy, which a process that waits for others can do without
+if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others doesn't need
     from mc_nested.report.verdicts import JudgedClaim
 
 VERB = "reproduce"
 TRIALS, PRESET = 10, "paper"
 
 
-def reproduce(
+def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     trials: Annotated[
         int | None, typer.Option(min=1, max=MOST_TRIALS, help=f"of each agent on each design [{TRIALS}]")
@@ -50,36 +50,38 @@ def reproduce(
         list[str] | None, typer.Option(metavar="NAME|FILE", help="a design, as often as you like [the paper's three]")
     ] = None,
     agent: Annotated[
-        list[str] | None, typer.Option(help=f"an agent, as often as you like [{', '.join(FORMS)}]")
+        list[str] | None, typer.Option(help=f"an agent, as often as you like [{', '.join(AGENT_SPECS)}]")
     ] = None,
     preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=f"hyper-parameters [{PRESET}]")] = None,
     longer: Annotated[
         int | None,
         typer.Option(
-            min=2, max=1000, help="also train nested and hierarchical on zigzag and diamond so many times as long [no]"
+            min=2,
+            max=1000,
+            help="also train nested and hierarchical on zigzag and diamond so many times as long [no]",
         ),
     ] = None,
     jobs: JobsOption = None,
     out: OutOption = None,
     resume: ResumeOption = None,
 ) -> None:
-    """Repeat the paper's experiment and put its claims to the test; Ctrl+C saves, and --resume goes on from there.
+    """Repeat the paper's experiment and test its claims; Ctrl+C saves, and --resume goes on from there.
 
     Writes figure5.png and figure5.svg, results.csv and report.md. The defaults take some minutes on two cores.
     """
     if resume is not None:
-        refuse_beside_resume(context.params)
+        check_nothing_beside_resume(context.params)
         _run(ExperimentFolder.open(resume, ReproduceConfig, VERB))
         return
-    path = new_folder_needed(out)
+    path = check_new_folder(out)
     for name in agent or ():
-        if name not in FORMS:
-            raise UserError(f"no agent {name!r}: choose one of {', '.join(FORMS)}")
+        if name not in AGENT_SPECS:
+            raise UserError(f"no agent {name!r}: choose one of {', '.join(AGENT_SPECS)}")
     chosen = load_preset(preset or PRESET)
-    for name in agent or FORMS:
-        check_exploration(FORMS[name], chosen)
+    for name in agent or AGENT_SPECS:
+        check_exploration(AGENT_SPECS[name], chosen)
     config = ReproduceConfig(
-        agents=[name for name in FORMS if name in agent] if agent else list(FORMS),
+        agents=[name for name in AGENT_SPECS if name in agent] if agent else list(AGENT_SPECS),
         trials=trials or TRIALS,
         seed=seed or 0,
         jobs=jobs or cores(),
@@ -97,9 +99,9 @@ def reproduce(
 
 
 def _run(folder: ExperimentFolder[ReproduceConfig]) -> None:
-    outcomes = trained(folder)
+    outcomes = train_all(folder)
     results, longer = results_of(folder.config, outcomes)
-    # What tests and draws takes memory and a second to load: not while everything trains.
+    # Tests and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.reproduction import write_reproduction
 
     with folder.writing():
@@ -122,9 +124,9 @@ def _results(
 ) -> Results:
     evaluations: dict[tuple[str, str, int], list[Evaluation]] = {}
     costs: dict[tuple[str, str], list[Cost]] = {(agent, name): [] for agent in agents for name in names}
-    for unit, outcome in outcomes:
+    for job, outcome in outcomes:
         updates = sum(run.updates for run in outcome.runs)
-        for group, scenario, trial, run in zip(unit.groups, unit.scenarios, unit.trials, outcome.runs, strict=True):
+        for group, scenario, trial, run in zip(job.groups, job.scenarios, job.trials, outcome.runs, strict=True):
             agent = group.removesuffix(LONGER)
             if group != agent + suffix:
                 continue
@@ -149,7 +151,7 @@ def _results(
         keeps_best=preset.keep == "best",
         optimum={scenario.name: scenario.optimum for scenario in scenarios},
         builder={scenario.name: builders_score(scenario) for scenario in scenarios},
-        # In an order that doesn't depend on how the runs were shared out.
+        # In an order that doesn't depend on how the runs were divided into jobs.
         evaluations=[
             row
             for agent in agents
@@ -170,7 +172,7 @@ def _sum(costs: Sequence[Cost]) -> Cost:
 
 
 def builders_score(scenario: Scenario) -> float:
-    """What the scripted builder scores within the step limit, with the best material."""
+    """The scripted builder's score within the step limit, with the best material."""
     env = arena_env(scenario)
     env.reset(options={"material": scenario.materials[scenario.best_material].name})
     for action in build(scenario):

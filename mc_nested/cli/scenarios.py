@@ -1,4 +1,4 @@
-"""``mc-nested scenarios``: the designs, drawn, with their optimum and the fewest steps there are."""
+"""``mc-nested scenarios``: the designs as drawings, with their optimum and the fewest steps."""
 
 from typing import Annotated
 

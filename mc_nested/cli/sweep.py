@@ -1,4 +1,4 @@
-"""``mc-nested sweep``: what each choice that the paper leaves open does to each design."""
+"""``mc-nested sweep``: the effect of each choice that the paper leaves open, on each design."""
 
 from pathlib import Path
 from typing import Annotated
@@ -13,21 +13,21 @@ from mc_nested.cli.experiment import (
     OutOption,
     ResumeOption,
     SeedOption,
+    check_new_folder,
+    check_nothing_beside_resume,
     cores,
-    new_folder_needed,
-    refuse_beside_resume,
-    trained,
+    train_all,
 )
-from mc_nested.learn.experiment_folder import ExperimentFolder
+from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
+from mc_nested.learn.experiments.sweep import SweepConfig, shipped_variants
 from mc_nested.learn.preset import MOST, load_preset
-from mc_nested.learn.sweep import SweepConfig, shipped_variants
 from mc_nested.report.sweep_results import Sweep, SweepRow
 
 VERB = "sweep"
 TRIALS, EPISODES, PRESET = 5, 1000, "paper"
 
 
-def sweep(
+def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     trials: Annotated[
         int | None, typer.Option(min=1, max=MOST_TRIALS, help=f"of each variant on each design [{TRIALS}]")
@@ -47,10 +47,10 @@ def sweep(
     Writes sweep.png, sweep.md and sweep.csv. The defaults take about ten minutes on two cores.
     """
     if resume is not None:
-        refuse_beside_resume(context.params)
+        check_nothing_beside_resume(context.params)
         _run(ExperimentFolder.open(resume, SweepConfig, VERB))
         return
-    path = new_folder_needed(out)
+    path = check_new_folder(out)
     base = load_preset(preset or PRESET).model_copy(update={"episodes": episodes or EPISODES})
     scenarios = [load_scenario(name) for name in scenario or shipped_scenarios()]
     config = SweepConfig(
@@ -66,8 +66,8 @@ def sweep(
 
 
 def _run(folder: ExperimentFolder[SweepConfig]) -> None:
-    found = sweep_of(folder.config, trained(folder))
-    # What tests and draws takes memory and a second to load: not while everything trains.
+    found = sweep_of(folder.config, train_all(folder))
+    # Tests and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.sweep import write_sweep
 
     with folder.writing():
@@ -77,12 +77,12 @@ def _run(folder: ExperimentFolder[SweepConfig]) -> None:
 
 
 def sweep_of(config: SweepConfig, outcomes: Outcomes) -> Sweep:
-    """What came out, variant by variant, scenario by scenario, trial by trial."""
+    """The results, variant by variant, scenario by scenario, trial by trial."""
     optimum = {scenario.name: scenario.optimum for scenario in config.loaded_scenarios()}
     variants = {variant.name: variant for variant in config.variants}
     rows: dict[tuple[str, str, int], SweepRow] = {}
-    for unit, outcome in outcomes:
-        for group, scenario, trial, run in zip(unit.groups, unit.scenarios, unit.trials, outcome.runs, strict=True):
+    for job, outcome in outcomes:
+        for group, scenario, trial, run in zip(job.groups, job.scenarios, job.trials, outcome.runs, strict=True):
             variant = variants[group]
             scores = [row.score for row in run.evaluations]
             rows[group, scenario.name, trial] = SweepRow(

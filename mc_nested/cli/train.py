@@ -1,4 +1,4 @@
-"""``mc-nested train``: begin a training, or go on with one."""
+"""``mc-nested train``: begin a training, or resume one."""
 
 import time
 from collections.abc import Callable
@@ -8,25 +8,25 @@ from typing import Annotated, Any
 import typer
 
 from mc_nested.arena.scenario_file import load_scenario, table_of
+from mc_nested.atomic_file import atomic_write
 from mc_nested.cli.evaluate import best_policy
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
 from mc_nested.cli.options import DEFAULT_PROFILE, Backend, ProfileOption, ServerOption, open_arenas, played_live
 from mc_nested.cli.progress import TrainingProgress
 from mc_nested.errors import DesktopError, LiveError, UserError
-from mc_nested.learn.agents import FORMS, view_of
+from mc_nested.learn.agents import AGENT_SPECS, view_of
 from mc_nested.learn.preset import MOST, load_preset
-from mc_nested.learn.run_folder import RunConfig, RunFolder
+from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
 from mc_nested.learn.trainer import Trainer
-from mc_nested.learn.whole_file import written_whole
-from mc_nested.live.spoiled import Spoiled
+from mc_nested.live.failure_budget import FailureBudget
 from mc_nested.report.curve import align_trials, draw_curve
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 
 SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.LIVE: 15.0}
-"""Seconds between checkpoints: what a kill can cost, in a game that moves a block a second or a simulator."""
+"""Seconds between checkpoints, which is what a kill can cost: in the simulator, or in a game of a block per second."""
 
 MOST_TRIALS = 1000
-"""More at once would only wait for memory."""
+"""More at once would only run out of memory."""
 
 DEFAULTS: dict[str, Any] = {
     "scenario": "line",
@@ -38,10 +38,10 @@ DEFAULTS: dict[str, Any] = {
 }
 
 
-def train(
+def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     scenario: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="the design to build [line]")] = None,
-    agent: Annotated[str | None, typer.Option(help=f"who learns: {', '.join(FORMS)} [nested]")] = None,
+    agent: Annotated[str | None, typer.Option(help=f"the agent: {', '.join(AGENT_SPECS)} [nested]")] = None,
     backend: Annotated[Backend | None, typer.Option(help="where [sim]")] = None,
     preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="hyper-parameters [paper]")] = None,
     episodes: Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial [the preset's]")] = None,
@@ -72,8 +72,8 @@ def train(
         return
     if out is None:
         raise UserError("name a new folder for the run with --out DIR, or a run to go on with, --resume DIR")
-    if agent not in (None, *FORMS):
-        raise UserError(f"no agent {agent!r}: choose one of {', '.join(FORMS)}")
+    if agent not in (None, *AGENT_SPECS):
+        raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENT_SPECS)}")
     chosen = load_preset(DEFAULTS["preset"] if preset is None else preset)
     where = backend or DEFAULTS["backend"]
     config = RunConfig(
@@ -99,15 +99,20 @@ def run_training(
     *,
     server_allowed: bool = False,
 ) -> None:
-    """Train until the run is finished or somebody stops it, saving as it goes and at the end."""
+    """Train until the run is finished or somebody stops it; saved on the way and at the end."""
     config = folder.config
     earlier = best_policy(begin_from, folder) if begin_from else None
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
     with catch_interrupts() as interrupt:
-        live = {"server_allowed": server_allowed, "evidence": folder.path / "evidence"}
-        with open_arenas(Backend(config.backend), profile, folder.scenarios, **live) as env:
+        with open_arenas(
+            Backend(config.backend),
+            profile,
+            folder.scenarios,
+            server_allowed=server_allowed,
+            evidence=folder.path / "evidence",
+        ) as (env, log):
             agent = folder.new_agent(config.trials)
-            view = view_of(agent.form, env, folder.scenarios)
+            view = view_of(agent.spec, env, folder.scenarios)
             trainer = Trainer(view, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
             if resumed:
                 folder.checkpoint.load_into(trainer)
@@ -116,13 +121,13 @@ def run_training(
                     trainer.begin_from(earlier)
                     folder.save_before_all(trainer)
                 folder.begin()
-            spoiled = Spoiled()
+            failure_budget = FailureBudget()
 
             def save() -> dict[str, Any]:
-                return folder.save(trainer, time.monotonic() - began, played_live(env, spoiled))
+                return folder.save(trainer, time.monotonic() - began, played_live(log, failure_budget))
 
             try:
-                _tick_until_done(folder, trainer, interrupt, spoiled, save)
+                _tick_until_done(folder, trainer, interrupt, failure_budget, save)
             except (LiveError, DesktopError) as error:
                 trainer.abandon_episodes()
                 save()
@@ -142,7 +147,11 @@ def run_training(
 
 
 def _tick_until_done(
-    folder: RunFolder, trainer: Trainer, interrupt: Interrupt, spoiled: Spoiled, save: Callable[[], dict[str, Any]]
+    folder: RunFolder,
+    trainer: Trainer,
+    interrupt: Interrupt,
+    failure_budget: FailureBudget,
+    save: Callable[[], dict[str, Any]],
 ) -> None:
     every = SAVE_EVERY_S[Backend(folder.config.backend)]
     save_at = time.monotonic() + every
@@ -152,7 +161,7 @@ def _tick_until_done(
             try:
                 trainer.tick()
             except LiveError as error:
-                spoiled.count(error, trainer.env_steps)
+                failure_budget.record_failure(error, trainer.env_steps)
                 trainer.abandon_episodes()
                 continue
             progress.show()
@@ -175,5 +184,5 @@ def _draw(folder: RunFolder, trainer: Trainer) -> None:
     rows = [(row.trial, row.episode, row.score) for row in trainer.evaluation_rows]
     episodes, scores = align_trials(rows, folder.config.trials)
     title = f"{folder.scenario.name}, {folder.config.agent} agent, preset {Path(folder.config.preset_name).stem}"
-    with folder.writing(), written_whole(folder.path / "curve.png") as path:
+    with folder.writing(), atomic_write(folder.path / "curve.png") as path:
         draw_curve(path, title, episodes, scores, folder.scenario.optimum)

@@ -1,1 +1,1 @@
-"""How the task is learnt: networks, DDQN, replay, agents, trainer. Knows observations and actions, never Minecraft."""
+"""How the task is learned: networks, DDQN, replay, agents, trainer. Knows observations and actions, never Minecraft."""

@@ -1,8 +1,9 @@
-"""The paper's three agents: who acts, and what is appended to whose state (paper, sections 4 and 5, appendix).
+"""The paper's three agents: which agent acts, and what is appended to its state (paper, sections 4 and 5, appendix).
 
-nested        a main agent chooses the material on (x, y, b); one nested agent does the rest on (x, y, b, a_M)
-hierarchical  a top agent chooses the material on (x, y, b), and with it which low agent does the rest on (x, y, b)
-single        one agent does it all on (x, y, b, m), in ten actions (arena/single.py)
+nested        a main agent sees (x, y, b) and chooses the material; one nested agent sees (x, y, b, a_M) and builds
+hierarchical  a top agent sees (x, y, b) and chooses the material, and with it the low-level agent, which sees
+              (x, y, b) and builds
+single        one agent sees (x, y, b, m) and does all of it, in ten actions (arena/single.py)
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,123 +15,120 @@ from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
 from pydantic import AfterValidator
 
-from mc_nested.arena.rules import SIZE, Action
+from mc_nested.arena.env import highest_observation
+from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
+from mc_nested.arrays import Arrays, Float64s, Int64s
 from mc_nested.errors import PresetError
-from mc_nested.learn.checkpoint import Arrays, named_for, part_of
-from mc_nested.learn.learner import Floats, Ints, Learner
-from mc_nested.learn.networks import Sizes, parameter_count
+from mc_nested.learn.dqn.networks import Sizes, parameter_count
+from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.states import StateSpace
+from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import initial_stream
 
 
 @dataclass(frozen=True)
-class Form:
-    """What makes one of the agents another.
+class AgentSpec:
+    """How an agent is put together.
 
     ``has_main``: a main (top) agent chooses the material before the first move. ``appends_material``: its choice is
-    appended to the low agent's state. ``one_low_a_material``: each material has a low agent of its own.
-    ``sees_choice``: an agent that chooses the material itself sees which; without it x, y and b alone.
+    appended to the low-level agent's state. ``low_level_per_material``: each material has its own low-level agent.
+    ``sees_choice``: an agent that chooses the material itself sees its choice; otherwise only x, y and b.
     """
 
     has_main: bool
     appends_material: bool
-    one_low_a_material: bool
+    low_level_per_material: bool
     sees_choice: bool
 
-    @property
-    def width(self) -> int:
-        """Integers in the low agent's state: x, y, b, and the material where it is told or seen."""
-        return 4 if self.appends_material or self.sees_choice else 3
 
-
-FORMS: Mapping[str, Form] = {
-    "nested": Form(has_main=True, appends_material=True, one_low_a_material=False, sees_choice=False),
-    "hierarchical": Form(has_main=True, appends_material=False, one_low_a_material=True, sees_choice=False),
-    "single": Form(has_main=False, appends_material=False, one_low_a_material=False, sees_choice=True),
+AGENT_SPECS: Mapping[str, AgentSpec] = {
+    "nested": AgentSpec(has_main=True, appends_material=True, low_level_per_material=False, sees_choice=False),
+    "hierarchical": AgentSpec(has_main=True, appends_material=False, low_level_per_material=True, sees_choice=False),
+    "single": AgentSpec(has_main=False, appends_material=False, low_level_per_material=False, sees_choice=True),
 }
 """The agents that can be trained, by name."""
 
 
-def check_exploration(form: Form, preset: Preset) -> None:
-    """PresetError where the preset explores in a way that the form can't."""
-    if preset.excursions and not form.has_main:  # its choice of a material is a step like any other
+def check_exploration(spec: AgentSpec, preset: Preset) -> None:
+    """PresetError if the preset explores in a way that the spec can't."""
+    if preset.excursions and not spec.has_main:  # its choice of a material is a step like any other
         raise PresetError("[excursions] are not for the single agent: take nested or hierarchical, or the preset paper")
 
 
 def _known(name: str) -> str:
-    if name not in FORMS:
-        raise ValueError(f"must be one of {', '.join(FORMS)}")
+    if name not in AGENT_SPECS:
+        raise ValueError(f"must be one of {', '.join(AGENT_SPECS)}")
     return name
 
 
 AgentName = Annotated[str, AfterValidator(_known)]
-"""The name of one of FORMS, in a file that pydantic checks."""
+"""The name of one of AGENT_SPECS, in a file that pydantic checks."""
 
 
 class Agent:
     """One of the paper's agents in R runs, one scenario a run.
 
-    ``main`` is the main or top agent, None for the single agent; ``low`` is the nested agent, the low agents (a row for
-    each run and material), or the single agent.
+    ``main`` is the main or top agent, None for the single agent. ``low_level`` is the nested agent, the low-level
+    agents of the hierarchy (a row for each run and material), or the single agent.
 
     Args:
-        form: which agent.
+        spec: which agent.
         scenarios: each run's scenario; all with the same number of materials.
         preset: the hyper-parameters of all its learners.
         seed: of the initial parameters.
         runs: each run's number (streams.py); from 0 on unless named.
 
     Raises:
-        PresetError: where the preset explores in a way that the form can't.
+        PresetError: the preset explores in a way that such an agent can't.
     """
 
     def __init__(
-        self, form: Form, scenarios: Sequence[Scenario], preset: Preset, seed: int, runs: Sequence[int] | None = None
+        self,
+        spec: AgentSpec,
+        scenarios: Sequence[Scenario],
+        preset: Preset,
+        seed: int,
+        runs: Sequence[int] | None = None,
     ) -> None:
-        check_exploration(form, preset)
+        check_exploration(spec, preset)
         self.runs = tuple(range(len(scenarios)) if runs is None else runs)
         streams = [initial_stream(seed, run) for run in self.runs]
         materials = len(scenarios[0].materials)
-        observed = np.array([[SIZE - 1, SIZE - 1, scenario.blocks] for scenario in scenarios])
-        self.form = form
+        observed = np.stack([highest_observation(scenario) for scenario in scenarios])
+        self.spec = spec
         encoding = preset.encoding
-        self.main = Learner(StateSpace(observed, materials, encoding), preset, streams) if form.has_main else None
-        self._lows = materials if form.one_low_a_material else 1
-        appended = np.full((len(scenarios), 1), _highest_appended(form, materials))[:, : form.width - 3]
-        highest = np.hstack([observed, appended])
-        actions = len(Action) + (0 if form.has_main else materials)
+        self.main = Learner(StateSpace(observed, materials, encoding), preset, streams) if spec.has_main else None
+        self._low_levels = materials if spec.low_level_per_material else 1
+        highest = np.hstack([observed, *_highest_appended(spec, len(scenarios), materials)])
+        self._width = highest.shape[1]
+        actions = len(Action) + (0 if spec.has_main else materials)
         longest = max(scenario.step_limit for scenario in scenarios)
-        self.low = Learner(
-            StateSpace(np.repeat(highest, self._lows, axis=0), actions, encoding),
+        self.low_level = Learner(
+            StateSpace(np.repeat(highest, self._low_levels, axis=0), actions, encoding),
             preset,
-            [stream for stream in streams for _ in range(self._lows)],
+            [stream for stream in streams for _ in range(self._low_levels)],
             (preset.imitation, longest) if preset.imitation else None,
         )
 
-    @property
-    def observed(self) -> int:
-        """Integers that the env shows in this agent's view of it."""
-        return 3 if self.main else 4
-
-    def low_states(self, observations: Ints, materials: Ints) -> Ints:
-        """What the low agents decide on, (runs, width): for the nested agent s_N = [s_M, a_M] (paper, section 4.1)."""
-        if not self.form.appends_material:
-            return observations[:, : self.form.width]
+    def low_level_states(self, observations: Int64s, materials: Int64s) -> Int64s:
+        """The low-level agents' states, (runs, width): the nested agent's is s_N = [s_M, a_M] (paper, section 4.1)."""
+        if not self.spec.appends_material:
+            return observations[:, : self._width]
         return np.concatenate((observations, materials[:, None]), axis=1)
 
-    def low_rows(self, runs: Ints, materials: Ints) -> Ints:
-        """The rows of ``low`` that act in the named runs (k,), for the materials of all runs (runs,)."""
-        if self._lows == 1:
+    def low_level_rows(self, runs: Int64s, materials: Int64s) -> Int64s:
+        """The rows of ``low_level`` that act in the named runs (k,), for the materials of all runs (runs,)."""
+        if self._low_levels == 1:
             return runs
-        return runs * self._lows + materials[runs]
+        return runs * self._low_levels + materials[runs]
 
-    def act(self, states: Ints, materials: Ints, epsilon: Floats, uniforms: Floats) -> Ints:
-        """The low agents' ε-greedy actions in every run, (runs,)."""
-        rows = None if self._lows == 1 else self.low_rows(np.arange(len(states)), materials)
-        return self.low.act(states, epsilon, uniforms, rows)
+    def act(self, states: Int64s, materials: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:
+        """The low-level agents' ε-greedy actions in every run, (runs,)."""
+        rows = None if self._low_levels == 1 else self.low_level_rows(np.arange(len(states)), materials)
+        return self.low_level.act(states, epsilon, uniforms, rows)
 
     @property
     def sizes(self) -> dict[str, Sizes]:
@@ -140,13 +138,13 @@ class Agent:
     @property
     def networks(self) -> int:
         """Networks that one run trains: 2 nested, 3 hierarchical with two materials, 1 single (paper, section 6)."""
-        return self._lows + (self.main is not None)
+        return self._low_levels + (self.main is not None)
 
     @property
     def parameters(self) -> int:
         """Parameters of one run's networks, target networks not counted."""
         main = parameter_count(self.main.ddqn.sizes) if self.main else 0
-        return main + self._lows * parameter_count(self.low.ddqn.sizes)
+        return main + self._low_levels * parameter_count(self.low_level.ddqn.sizes)
 
     @property
     def updates(self) -> int:
@@ -154,9 +152,9 @@ class Agent:
         return sum(int(learner.ddqn.updates.sum()) for learner in self._learners().values())
 
     def last_figures(self) -> Arrays:
-        """Loss and mean Q of each run's last updates, (runs,), by name; nan where an agent hasn't learnt yet.
+        """Loss and mean Q of each run's last updates, (runs,), by name; nan before an agent's first update.
 
-        Of several low agents of a run, the mean over those that have learnt.
+        If a run has several low-level agents, the mean over those that have been updated.
         """
         figures = {}
         for role, learner in self._learners().items():
@@ -170,44 +168,44 @@ class Agent:
         return figures
 
     def state(self) -> Arrays:
-        """All that later choices and updates depend on but the transitions, by name."""
+        """What later choices and updates depend on, by name; without the transitions."""
         return {k: v for role, learner in self._learners().items() for k, v in named_for(role, learner.state()).items()}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Go on from what ``state`` gave; KeyError or ValueError where it is of another shape."""
+        """Continue from what ``state`` returned; KeyError or ValueError if the shape differs."""
         for role, learner in self._learners().items():
             learner.load(part_of(state, role))
 
     def networks_state(self) -> Arrays:
-        """The networks and their optimisers, by name: enough to act."""
+        """The networks and their optimisers, by name: enough to act with."""
         return {
             k: v for role, learner in self._learners().items() for k, v in named_for(role, learner.ddqn.state()).items()
         }
 
     def load_networks(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Take over the networks; KeyError or ValueError where they are of another shape."""
+        """Load the networks; KeyError or ValueError if their shape differs."""
         for role, learner in self._learners().items():
             learner.ddqn.load(part_of(state, role))
 
     def online(self) -> Arrays:
-        """The online networks' parameters, by role: what acting takes."""
+        """The online networks' parameters, by role: what acting needs."""
         return {role: learner.ddqn.online for role, learner in self._learners().items()}
 
-    def take_over(self, online: Mapping[str, NDArray[Any]]) -> None:
-        """Give every run one run's online networks, by role; ValueError where they are of another shape."""
+    def load_online(self, online: Mapping[str, NDArray[Any]]) -> None:
+        """Load one run's online networks, by role, into every run; ValueError if their shape differs."""
         for role, learner in self._learners().items():
-            learner.ddqn.take_over(np.tile(online[role], (len(self.runs), 1)))
+            learner.ddqn.load_online(np.tile(online[role], (len(self.runs), 1)))
 
     def rows_of(self, run: int) -> dict[str, slice]:
         """A run's rows, by role."""
-        return {"main": slice(run, run + 1), "low": slice(run * self._lows, (run + 1) * self._lows)}
+        return {"main": slice(run, run + 1), "low": slice(run * self._low_levels, (run + 1) * self._low_levels)}
 
     def marks(self) -> Arrays:
-        """How many transitions each row has remembered so far, by role."""
+        """How many transitions each row has stored so far, by role."""
         return {role: learner.replay.added.copy() for role, learner in self._learners().items()}
 
     def transitions_since(self, marks: Mapping[str, NDArray[Any]] | None) -> Arrays:
-        """What was remembered since those marks; everything without them."""
+        """What was stored since those marks; everything if there are none."""
         return {
             k: v
             for role, learner in self._learners().items()
@@ -216,13 +214,13 @@ class Agent:
             ).items()
         }
 
-    def remember_again(self, transitions: Mapping[str, NDArray[Any]]) -> None:
-        """Take back what ``transitions_since`` gave; KeyError or ValueError where it is of another shape."""
+    def store_again(self, transitions: Mapping[str, NDArray[Any]]) -> None:
+        """Store what ``transitions_since`` returned; KeyError or ValueError if the shape differs."""
         for role, learner in self._learners().items():
             learner.replay.extend(part_of(transitions, role))
 
     def forget_since(self, marks: Mapping[str, NDArray[Any]]) -> None:
-        """Forget what was remembered since those marks."""
+        """Forget what was stored since those marks."""
         for role, learner in self._learners().items():
             learner.replay.forget_since(marks[role])
 
@@ -232,19 +230,24 @@ class Agent:
         return {name: kept[rows[name.split(".")[0]]] for name, kept in self.networks_state().items()}
 
     def _learners(self) -> dict[str, Learner]:
-        return {"main": self.main, "low": self.low} if self.main else {"low": self.low}
+        return {"main": self.main, "low": self.low_level} if self.main else {"low": self.low_level}
 
 
-def view_of(form: Form, env: VectorEnv[Ints, Ints, Any], scenarios: Sequence[Scenario]) -> VectorEnv[Ints, Ints, Any]:
-    """The arenas as that agent sees them: the single agent's actions include the choice of a material."""
-    return env if form.has_main else SingleAgentVectorEnv(env, scenarios)
+def view_of(
+    spec: AgentSpec, env: VectorEnv[Int64s, Int64s, Any], scenarios: Sequence[Scenario]
+) -> VectorEnv[Int64s, Int64s, Any]:
+    """The arenas as that agent sees them: for the single agent, choosing a material is an action."""
+    return env if spec.has_main else SingleAgentVectorEnv(env, scenarios)
 
 
-def chosen_materials(observations: Ints) -> Ints:
-    """The materials that the single agent's observations (runs, 4) show as chosen, -1 before the choice."""
-    return observations[:, 3] - 1
+def chosen_materials(observations: Int64s) -> Int64s:
+    """The materials that the single agent's observations show as chosen, in their last column; -1 before the choice."""
+    return observations[:, -1] - 1
 
 
-def _highest_appended(form: Form, materials: int) -> int:
-    # The single agent's m is 0 before the choice: one value more than there are materials.
-    return materials - 1 if form.appends_material else materials
+def _highest_appended(spec: AgentSpec, runs: int, materials: int) -> list[Int64s]:
+    """The highest material in the low-level agents' states, as a column (runs, 1); none if they don't have it."""
+    if spec.appends_material:
+        return [np.full((runs, 1), materials - 1)]
+    # The single agent's m is 0 before the choice: it has one more value than there are materials.
+    return [np.full((runs, 1), materials)] if spec.sees_choice else []

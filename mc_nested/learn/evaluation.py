@@ -1,4 +1,4 @@
-"""Greedy play: what the saved networks' argmax does, without exploring and without learning."""
+"""Greedy play: the argmax of the networks, without exploration and without learning."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -8,8 +8,9 @@ import numpy as np
 from gymnasium.vector import VectorEnv
 
 from mc_nested.arena.scenario import Scenario
+from mc_nested.arrays import Int64s
 from mc_nested.learn.agents import Agent, chosen_materials
-from mc_nested.learn.learner import CHOICE_NUMBERS, Ints
+from mc_nested.learn.learner import CHOICE_NUMBERS
 
 
 @dataclass
@@ -26,12 +27,12 @@ class GreedyEpisode:
 
 
 def play_greedily(
-    env: VectorEnv[Ints, Ints, Any],
+    env: VectorEnv[Int64s, Int64s, Any],
     scenarios: Sequence[Scenario],
     agent: Agent,
     after_step: Callable[[], None] = lambda: None,
 ) -> list[GreedyEpisode]:
-    """One greedy episode of every run, over arenas that begin anew; ``after_step`` is called after each step of all."""
+    """One greedy episode of every run, from a reset on; ``after_step`` is called after each step of all runs."""
     start = np.array([scenario.start_state for scenario in scenarios])
     never, unused = np.zeros(len(start)), np.ones((len(start), CHOICE_NUMBERS))
     materials = agent.main.act(start, never, unused) if agent.main else np.zeros(len(start), dtype=np.int64)
@@ -39,7 +40,7 @@ def play_greedily(
     episodes = [GreedyEpisode() for _ in scenarios]
     running = np.ones(len(start), dtype=np.bool_)
     while running.any():
-        actions = agent.act(agent.low_states(observations, materials), materials, never, unused)
+        actions = agent.act(agent.low_level_states(observations, materials), materials, never, unused)
         observations, _, terminated, truncated, info = env.step(actions)
         for run in np.flatnonzero(running):
             episodes[run].actions.append(int(actions[run]))

@@ -1,4 +1,4 @@
-"""Preset: every number of a training that is not the task's, as a TOML file that pydantic checks."""
+"""Preset: all hyper-parameters of a training, as a TOML file that pydantic checks."""
 
 from importlib import resources
 from pathlib import Path
@@ -10,13 +10,13 @@ from mc_nested.errors import PresetError
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
 
 MOST = 1_000_000_000
-"""The highest count of anything: fits 32 bits, and no training comes near it."""
+"""The highest count of anything: it fits 32 bits, and no training comes near it."""
 
 WIDEST, DEEPEST, LARGEST_BATCH = 4096, 16, 4096
-"""The largest networks and batches: a slip of the pen beyond them would eat the machine's memory first."""
+"""The largest networks and batches: beyond them, a typo would fill the memory before anything else fails."""
 
 MOST_UPDATES_A_STEP = 1000
-"""More would take longer than the slowest game's step."""
+"""More would take longer than a step of the slowest game."""
 
 Count = Annotated[int, Field(ge=1, le=MOST)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
@@ -37,11 +37,11 @@ class Exploration(_Table):
 
 
 class ExcursionRule(_Table):
-    """Exploration from the own best episode (excursions.py): in the place of ε.
+    """Exploration from the best episode so far (return_then_explore.py), instead of ε.
 
-    ``at_end`` is the share of excursions that follow it to its end; the others leave it at a step of it, by chance,
-    and wander at most ``wander`` steps; ``rejoin`` is the probability, each time its path is met, to go on along it;
-    ``repeat`` the probability to place where it is known to lie on the design.
+    ``at_end`` is the share of excursions that follow it to its end. The others leave it at a random step and wander at
+    most ``wander`` steps. ``rejoin`` is the probability to follow its path again each time it is met, ``repeat`` the
+    probability to place a block where that is known to be on the design.
     """
 
     at_end: Probability
@@ -51,21 +51,21 @@ class ExcursionRule(_Table):
 
 
 class Imitation(_Table):
-    """Self-imitation (imitation.py): how much of each batch is of the own best episode, and its actions' margin."""
+    """Self-imitation (self_imitation.py): how much of each batch is from the best episode, and its actions' margin."""
 
     batch: Count
     margin: Positive
 
 
 class Prioritized(_Table):
-    """Prioritized replay (priorities.py): how much priorities count, and how much of their bias is taken back."""
+    """Prioritized replay (prioritized.py): how much priorities count, and how much of their bias is corrected."""
 
     alpha: Probability
     beta: Probability
 
 
 class Update(_Table):
-    """What an update of either agent does, and from how many transitions on there are updates."""
+    """What an update of any agent does, and how many transitions there must be before the first."""
 
     batch: Annotated[int, Field(ge=1, le=LARGEST_BATCH)]
     learning_starts: Count
@@ -93,7 +93,7 @@ class Preset(_Table):
     prioritized: Prioritized | None = None
 
     @model_validator(mode="after")
-    def _explores_in_one_way(self) -> "Preset":
+    def _check_exploration(self) -> "Preset":
         if (self.explore_nested is None) == (self.excursions is None):
             raise ValueError("name one way to explore: [explore_nested] or [excursions]")
         if self.imitation and not self.excursions:
@@ -110,7 +110,7 @@ def shipped_presets() -> list[str]:
 
 
 def load_preset(name_or_file: str | Path) -> Preset:
-    """The preset of a shipped name or of a TOML file; PresetError, one line, where it can't be used."""
+    """The preset of a shipped name or of a TOML file; PresetError, one line if it can't be used."""
     shipped = shipped_presets()
     text = read_shipped_or_named(name_or_file, "preset", "mc_nested.learn.presets", shipped, PresetError)
     return parse_preset(text, str(name_or_file))

@@ -1,15 +1,16 @@
 """Each run's own random numbers: a pure function of the seed, the run and the tick, so that nothing has to be saved.
 
-A run's numbers don't depend on how many runs train beside it, nor on where a training was interrupted.
+They don't depend on how many runs train at the same time, nor on when a training was interrupted.
 """
 
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+
+from mc_nested.arrays import Float64s
 
 TICKS_A_CHUNK = 256
-"""Ticks whose numbers are drawn at once; part of what a seed means, so a change gives other runs."""
+"""Ticks whose numbers are drawn at once; another value changes the numbers of every seed."""
 
 INITIAL = 0
 TICKS = 1
@@ -26,8 +27,8 @@ class Streams:
 
     Args:
         seed: the training's seed, not negative.
-        runs: each run's number, the same wherever and beside whatever it trains.
-        width: numbers that a run needs at a tick.
+        runs: each run's number, wherever and with whatever other runs it trains.
+        width: random numbers that a run needs per tick.
     """
 
     def __init__(self, seed: int, runs: Sequence[int], width: int) -> None:
@@ -36,7 +37,7 @@ class Streams:
         self._chunk = -1
         self._numbers = np.empty((len(runs), TICKS_A_CHUNK, width))
 
-    def at(self, tick: int) -> NDArray[np.float64]:
+    def at(self, tick: int) -> Float64s:
         """The numbers of that tick, (runs, width)."""
         chunk, within = divmod(tick, TICKS_A_CHUNK)
         if chunk != self._chunk:

@@ -1,9 +1,9 @@
 """Training R runs of an agent, one tick at a time (paper, Algorithm 1).
 
-A tick is one step of every run that isn't finished: choose, step, remember, update. Every run is somewhere in an
-episode of its own: a training episode, or a greedy evaluation that is neither learnt from nor counted. The trainer sees
-the arenas as a gymnasium VectorEnv with autoreset disabled and nothing else, so it can't tell a simulated from a live
-game.
+A tick is one step of every run that isn't finished: choose, step, store, update. Every run is in an episode of its own:
+a training episode, or a greedy evaluation that is neither learned from nor counted. The trainer sees the arenas only as
+a gymnasium VectorEnv with autoreset disabled, so it can't tell a simulated from a live game; whether episodes can be
+saved half-way, the arenas say themselves.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,31 +14,33 @@ import numpy as np
 from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
 
+from mc_nested.arena.env import blank_observations
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.vector import ResumableEnv
+from mc_nested.arena.vector import resumable_arenas
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.agents import Agent, chosen_materials
-from mc_nested.learn.before_episode import BeforeEpisode
-from mc_nested.learn.checkpoint import Arrays, named_for, part_of
-from mc_nested.learn.learner import CHOICE_NUMBERS, Bools, Floats, Ints
+from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
+from mc_nested.learn.episode_rollback import EpisodeRollback
+from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
+from mc_nested.learn.exploration.schedules import LinearDecay
+from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.preset import Exploration, Preset
-from mc_nested.learn.records import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
-from mc_nested.learn.schedules import LinearDecay
-from mc_nested.learn.scouts import NUMBERS, Scouts
+from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import Streams
 
 EXCURSIONS_ONLY = LinearDecay(1.0, 1.0, 1.0)
-"""The nested agent's ε where every training episode is an excursion: no step is the greedy policy's."""
+"""The nested agent's ε if every training episode is an excursion: no step is the greedy policy's."""
 
 
 @dataclass
 class _Runs:
-    """Where each run stands; every array (runs, …)."""
+    """The progress of each run; every array is (runs, …)."""
 
-    observations: Ints
-    materials: Ints
-    episodes: Ints
-    steps_in_episode: Ints
-    evaluated_at: Ints
+    observations: Int64s
+    materials: Int64s
+    episodes: Int64s
+    steps_in_episode: Int64s
+    evaluated_at: Int64s
     between_episodes: Bools
     evaluating: Bools
     finished: Bools
@@ -52,13 +54,13 @@ class Trainer:
         scenarios: each run's scenario.
         agent: what is trained.
         preset: the hyper-parameters; ``episodes`` as in the preset or as asked for.
-        seed: of the run's choices; the same seed gives the same training.
+        seed: of all random choices; the same seed gives the same training.
         stop_at_optimum: finish a run at its first greedy evaluation at its scenario's optimum.
     """
 
     def __init__(
         self,
-        env: VectorEnv[Ints, Ints, Any],
+        env: VectorEnv[Int64s, Int64s, Any],
         scenarios: Sequence[Scenario],
         agent: Agent,
         preset: Preset,
@@ -74,22 +76,23 @@ class Trainer:
         self.episode_rows: list[EpisodeRow] = []
         self.evaluation_rows: list[EvaluationRow] = []
         self._env = env
-        self._before: BeforeEpisode | None = None
+        self._resumable = resumable_arenas(env)
+        self._rollback: EpisodeRollback | None = None
         self._stop_at_optimum = stop_at_optimum
         self._optimum = np.array([scenario.optimum for scenario in scenarios])
         self._start = np.array([scenario.start_state for scenario in scenarios])
         self._explore_main = _decay(preset.explore_main)
         self._explore_nested = _decay(preset.explore_nested) if preset.explore_nested else EXCURSIONS_ONLY
-        self._scouts = Scouts(preset.excursions, agent) if preset.excursions else None
+        self._explorer = BatchedReturnThenExplore(preset.excursions, agent) if preset.excursions else None
         self._kept = {role: online.copy() for role, online in agent.online().items()}
         self._kept_scores = np.full(runs, -np.inf)
-        batch, scouting = preset.update.batch, NUMBERS if preset.excursions else 0
-        widths = [CHOICE_NUMBERS, batch, CHOICE_NUMBERS, batch * preset.updates_a_step, scouting]
+        batch, exploring = preset.update.batch, NUMBERS if preset.excursions else 0
+        widths = [CHOICE_NUMBERS, batch, CHOICE_NUMBERS, batch * preset.updates_a_step, exploring]
         ends = [sum(widths[: part + 1]) for part in range(len(widths))]
         self._numbers = [slice(end - width, end) for width, end in zip(widths, ends, strict=True)]
         self._streams = Streams(seed, agent.runs, sum(widths))
         self._runs = _Runs(
-            observations=np.zeros((runs, agent.observed), dtype=np.int64),
+            observations=blank_observations(env.single_observation_space, runs),
             materials=np.zeros(runs, dtype=np.int64),
             episodes=np.zeros(runs, dtype=np.int64),
             steps_in_episode=np.zeros(runs, dtype=np.int64),
@@ -105,7 +108,7 @@ class Trainer:
         return bool(self._runs.finished.all())
 
     @property
-    def episodes_done(self) -> Ints:
+    def episodes_done(self) -> Int64s:
         """Training episodes completed, (runs,)."""
         return self._runs.episodes
 
@@ -115,52 +118,51 @@ class Trainer:
         return self._runs.finished
 
     @property
-    def kept_scores(self) -> Floats:
+    def kept_scores(self) -> Float64s:
         """The greedy score of the policy that each run keeps, (runs,); -inf before the first evaluation."""
         return self._kept_scores
 
     @property
-    def epsilon(self) -> tuple[Floats, Floats]:
+    def epsilon(self) -> tuple[Float64s, Float64s]:
         """The main and the nested agent's ε of the training episodes now, (runs,) each."""
         done, episodes = self._runs.episodes, self.preset.episodes
         return self._explore_main.epsilon(done, episodes), self._explore_nested.epsilon(done, episodes)
 
     def begin_from(self, online: Mapping[str, NDArray[Any]]) -> None:
-        """Begin with every run's networks as given, one run's by role, and evaluate them before the first episode."""
-        self.agent.take_over(online)
+        """Begin with one run's networks, by role, in every run, and evaluate them before the first episode."""
+        self.agent.load_online(online)
         self._kept = {role: taken.copy() for role, taken in self.agent.online().items()}
         self._runs.evaluated_at[:] = -1
 
     def tick(self) -> None:
         """One step of every run that isn't finished.
 
-        An error of the env passes through; the next tick goes on with new episodes where ``abandon_episodes`` was
-        called.
+        An error of the env passes through; after ``abandon_episodes`` the next tick begins new episodes.
         """
         numbers = self._streams.at(self.ticks)
-        main_choice, main_draws, low_choice, low_draws, scouting = (numbers[:, part] for part in self._numbers)
-        self._begin_episodes(main_choice, scouting)
+        main_choice, main_draws, nested_choice, nested_draws, exploring = (numbers[:, part] for part in self._numbers)
+        self._begin_episodes(main_choice, exploring)
         runs = self._runs
         training = ~(runs.finished | runs.evaluating)
-        states = self.agent.low_states(runs.observations, runs.materials)
+        states = self.agent.low_level_states(runs.observations, runs.materials)
         epsilon = np.where(training, self._explore_nested.epsilon(runs.episodes, self.preset.episodes), 0.0)
-        actions = self.agent.act(states, runs.materials, epsilon, low_choice)
+        actions = self.agent.act(states, runs.materials, epsilon, nested_choice)
         rows = np.flatnonzero(training)
-        if self._scouts:
-            actions[rows] = self._scouts.act(rows, runs.observations, scouting)
+        if self._explorer:
+            actions[rows] = self._explorer.act(rows, runs.observations, exploring)
         observations, rewards, terminated, truncated, info = self._env.step(actions)
-        next_states = self.agent.low_states(observations, runs.materials)
+        next_states = self.agent.low_level_states(observations, runs.materials)
 
-        learners = self.agent.low_rows(rows, runs.materials)
+        learners = self.agent.low_level_rows(rows, runs.materials)
         seen = states[rows], actions[rows], rewards[rows], next_states[rows], terminated[rows]
-        self.agent.low.remember(learners, *seen)
-        if self._scouts:
+        self.agent.low_level.store(learners, *seen)
+        if self._explorer:
             active = np.flatnonzero(~runs.finished)
-            before, came_to = runs.observations[active], (rewards[active], next_states[active], terminated[active])
-            self._scouts.saw(active, before, states[active], actions[active], *came_to)
-        draws = low_draws[rows].reshape(len(rows), self.preset.updates_a_step, self.preset.update.batch)
+            before, seen_after = runs.observations[active], (rewards[active], next_states[active], terminated[active])
+            self._explorer.observe(active, before, states[active], actions[active], *seen_after)
+        draws = nested_draws[rows].reshape(len(rows), self.preset.updates_a_step, self.preset.update.batch)
         for update in range(self.preset.updates_a_step):
-            self.agent.low.learn(learners, draws[:, update])
+            self.agent.low_level.learn(learners, draws[:, update])
 
         runs.observations = observations
         if self.agent.main is None:
@@ -170,41 +172,41 @@ class Trainer:
         self.evaluation_steps += int((runs.evaluating & ~runs.finished).sum())
         ended = (terminated | truncated) & ~runs.finished
         if ended.any():
-            if self._scouts:
+            if self._explorer:
                 over = np.flatnonzero(ended)
-                self._scouts.end(over, self.agent.low_rows(over, runs.materials))
+                self._explorer.end(over, self.agent.low_level_rows(over, runs.materials))
             self._end_training_episodes(np.flatnonzero(ended & training), info["score"], main_draws)
             self._end_evaluations(np.flatnonzero(ended & runs.evaluating), info["score"])
             runs.between_episodes |= ended
         self.ticks += 1
 
     def abandon_episodes(self) -> None:
-        """Begin anew every episode that is under way: its env is gone or in an unknown state.
+        """Start every unfinished episode over: its env is gone or in an unknown state.
 
-        What a single arena's episode had taught is taken back, so that one which a mishap spoils is never learnt from.
+        With a single arena, what its episode had taught is undone, so that nothing is learned from a mishap.
         """
-        if self._before and not self._runs.between_episodes.all():
-            self._before.bring_back(self.agent, self._scouts)
+        if self._rollback and not self._runs.between_episodes.all():
+            self._rollback.restore(self.agent, self._explorer)
         self._runs.between_episodes[:] = True
 
     def state(self) -> Arrays:
-        """What the rest of the training depends on, the journal left out, as it stands between two ticks."""
+        """What the rest of the training depends on, between two ticks; without the journal."""
         return {
             "counts": np.array([self.ticks, self.env_steps, self.evaluation_steps]),
             **named_for("runs", vars(self._runs)),
-            **named_for("env", self._arenas()),
+            **named_for("env", self._resumable.snapshot() if self._resumable else {}),
             **named_for("agent", self.agent.state()),
             **named_for("kept", {**self._kept, "scores": self._kept_scores}),
-            **named_for("scouts", self._scouts.state() if self._scouts else {}),
+            **named_for("scouts", self._explorer.state() if self._explorer else {}),
         }
 
     def marks(self) -> Arrays:
-        """Where the journal stands: how many rows there are, and how many transitions."""
+        """The length of the journal now: how many rows there are, and how many transitions."""
         rows = np.array([len(self.episode_rows), len(self.evaluation_rows)])
         return {"rows": rows, **named_for("agent", self.agent.marks())}
 
     def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
-        """The rows and transitions that came since those marks; all of them without."""
+        """The rows and transitions since those marks; all of them if there are none."""
         episodes, evaluations = since["rows"] if since else (0, 0)
         return {
             "rows.episodes": table_of_rows(self.episode_rows[episodes:], EpisodeRow),
@@ -213,30 +215,26 @@ class Trainer:
         }
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: Sequence[Mapping[str, NDArray[Any]]]) -> None:
-        """Go on from what ``state`` and ``journal`` gave; KeyError or ValueError where they are of another shape."""
+        """Continue from what ``state`` and ``journal`` returned; KeyError or ValueError if the shape differs."""
         self.ticks, self.env_steps, self.evaluation_steps = (int(count) for count in state["counts"])
         for name, kept in part_of(state, "runs").items():
             getattr(self._runs, name)[:] = kept
         self.agent.load(part_of(state, "agent"))
         for name, kept in {**self._kept, "scores": self._kept_scores}.items():
             kept[:] = state[f"kept.{name}"]
-        if self._scouts:
-            self._scouts.load(part_of(state, "scouts"))
+        if self._explorer:
+            self._explorer.load(part_of(state, "scouts"))
         for journal in journals:
             self.episode_rows += rows_of_table(journal["rows.episodes"], EpisodeRow)
             self.evaluation_rows += rows_of_table(journal["rows.evaluations"], EvaluationRow)
-            self.agent.remember_again(part_of(journal, "agent"))
+            self.agent.store_again(part_of(journal, "agent"))
         arenas = part_of(state, "env")
-        if isinstance(self._env, ResumableEnv) and arenas:
-            self._env.restore(arenas)
+        if self._resumable and arenas:
+            self._resumable.restore(arenas)
         else:
             self.abandon_episodes()
 
-    def _arenas(self) -> Arrays:
-        """The arenas as they stand; nothing of a live game, which can't be saved half-way."""
-        return self._env.snapshot() if isinstance(self._env, ResumableEnv) else {}
-
-    def _begin_episodes(self, choice: Floats, scouting: Floats) -> None:
+    def _begin_episodes(self, choice: Float64s, exploring: Float64s) -> None:
         runs = self._runs
         begins = runs.between_episodes & ~runs.finished
         if not begins.any():
@@ -248,14 +246,14 @@ class Trainer:
             rows = np.flatnonzero(begins)
             runs.materials[rows] = self.agent.main.act(self._start[rows], epsilon[rows], choice[rows], rows)
         runs.observations, _ = self._env.reset(options={"reset_mask": begins, "material": runs.materials})
-        if len(begins) == 1 and not self._arenas():
-            self._before = BeforeEpisode.of(self.agent, self._scouts)
-        if self._scouts:
-            self._scouts.begin(np.flatnonzero(begins), scouting)
+        if len(begins) == 1 and self._resumable is None:
+            self._rollback = EpisodeRollback.of(self.agent, self._explorer)
+        if self._explorer:
+            self._explorer.begin(np.flatnonzero(begins), exploring)
         runs.steps_in_episode[begins] = 0
         runs.between_episodes &= ~begins
 
-    def _end_training_episodes(self, rows: Ints, scores: Floats, draws: Floats) -> None:
+    def _end_training_episodes(self, rows: Int64s, scores: Float64s, draws: Float64s) -> None:
         if not len(rows):
             return
         runs = self._runs
@@ -275,12 +273,12 @@ class Trainer:
             )
         if not self.agent.main:
             return
-        # The main agent's one transition an episode: after its choice, nothing is left for it to decide.
+        # The main agent has one transition per episode: after its choice there is nothing left to decide.
         ended, start, after = np.ones(len(rows), dtype=np.bool_), self._start[rows], runs.observations[rows]
-        self.agent.main.remember(rows, start, runs.materials[rows], scores[rows], after, ended)
+        self.agent.main.store(rows, start, runs.materials[rows], scores[rows], after, ended)
         self.agent.main.learn(rows, draws[rows])
 
-    def _end_evaluations(self, rows: Ints, scores: Floats) -> None:
+    def _end_evaluations(self, rows: Int64s, scores: Float64s) -> None:
         runs = self._runs
         for run in rows:
             score, episode = float(scores[run]), int(runs.episodes[run])

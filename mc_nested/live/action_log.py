@@ -1,15 +1,15 @@
-"""What playing live took: seconds an action, retries, corrections, recoveries; for a training's summary."""
+"""What playing live took, for a training's summary: seconds per action, retries, corrections, recoveries."""
 
 import statistics
 from dataclasses import dataclass, field
 from typing import Any
 
-from mc_nested.live.effort import Effort
+from mc_nested.live.motion.effort import Effort
 
 
 @dataclass
 class ActionLog:
-    """Counts of one session; ``effort`` is the body's own, ``seconds`` those of each action that was confirmed."""
+    """Counts of one session. ``effort`` is the body's own; ``seconds`` has the time of each confirmed action."""
 
     effort: Effort
     seconds: list[float] = field(default_factory=list)
@@ -33,7 +33,7 @@ class ActionLog:
 
 
 def percentile(values: list[float], share: int) -> float | None:
-    """The value that ``share`` of a hundred lie below, to the millisecond; None of nothing."""
+    """The percentile of values in seconds, to the millisecond; None if there are no values."""
     if len(values) < 2:
         return round(values[0], 3) if values else None
     return round(statistics.quantiles(values, n=100, method="inclusive")[share - 1], 3)

@@ -1,8 +1,9 @@
-"""The devices between an agent and a game, as protocols: a desktop and a virtual client both implement them.
+"""The devices between an agent and a game, as protocols that a desktop and the virtual client both implement.
 
-Everything in ``live`` and ``calibration`` is written against these; ``desktop/`` has the real ones.
+``live`` and ``calibration`` use these alone; ``desktop/`` has the real ones.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -17,7 +18,7 @@ Button = Literal["left", "right", "middle"]
 
 @dataclass(frozen=True)
 class Region:
-    """A rectangle of a window's client area in framebuffer pixels, from its top left corner."""
+    """A rectangle of a window's client area, in framebuffer pixels from its top left corner."""
 
     left: int
     top: int
@@ -26,12 +27,12 @@ class Region:
 
 
 class Clock(Protocol):
-    """Time in seconds on a monotonic scale of its own."""
+    """Monotonic time in seconds, from an arbitrary zero."""
 
     def now(self) -> float: ...
 
     def sleep_until(self, at: float) -> None:
-        """Return at the absolute time ``at``, or at once if it has passed."""
+        """Return at the time ``at``, or at once if it has passed."""
 
 
 class Display(Protocol):
@@ -78,3 +79,18 @@ class Clipboard(Protocol):
     def read(self) -> str: ...
 
     def write(self, text: str) -> None: ...
+
+
+@dataclass(frozen=True)
+class Devices:
+    """The devices of one game window.
+
+    ``points`` gives the client area's width and height in points of the desktop; None if they can't be known.
+    """
+
+    display: Display
+    keyboard: Keyboard
+    pointer: Pointer
+    clock: Clock
+    clipboard: Clipboard
+    points: Callable[[], tuple[int, int]] | None = None

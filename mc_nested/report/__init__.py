@@ -1,1 +1,1 @@
-"""What people look at: curves, terminal views, tables."""
+"""Results for people: curves, terminal views, tables, the report."""

@@ -1,11 +1,12 @@
-"""The paper's claims on its three agents, each as what was measured and the test that decides (from section 5.2 on)."""
+"""The paper's claims about its three agents (from section 5.2 on): what is measured for each, and the test."""
 
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from mc_nested.arrays import Float64s
 from mc_nested.report.inference import Tails, ahead, alike, difference_interval, mostly, share_interval
-from mc_nested.report.measures import Curve, Floats, curves_of
+from mc_nested.report.measures import Curve, curves_of
 from mc_nested.report.results import Cost, Results
 from mc_nested.report.verdicts import Claim, Evidence, JudgedClaim, Verdict, judged
 
@@ -16,9 +17,9 @@ UNSOLVED = ("zigzag", "diamond")
 """The paper's scenarios 1, and 2 and 3, which it left unsolved."""
 
 MARGIN = 1.0
-"""Scores that differ by less than one block are alike."""
+"""Scores that differ by less than one block count as alike."""
 
-MEASURES: Mapping[str, Callable[[Curve], Floats]] = {
+MEASURES: Mapping[str, Callable[[Curve], Float64s]] = {
     "early score": lambda curve: curve.early,
     "final score": lambda curve: curve.final,
     "spread": lambda curve: curve.spread,
@@ -51,14 +52,14 @@ CHEAPER_THAN = {
     ),
     SINGLE: (f"{OUTPERFORMED} training stability, converged score, and computational expense", "5.2"),
 }
-"""What the paper says of the nested agent's costs beside another's, and in which section."""
+"""What the paper says about the nested agent's costs compared with another's, and in which section."""
 
 SOLVED = (
     "Exact binomial tests of the share of trials whose final greedy episode scores the optimum. Holds: it is above one "
     "half, so a trial is more likely than not to get there. Does not hold: it is below."
 )
 
-Contest = Callable[[Floats, Floats], Tails]
+Contest = Callable[[Float64s, Float64s], Tails]
 
 
 def judge(results: Results, longer: Results | None = None) -> tuple[JudgedClaim, ...]:
@@ -155,7 +156,7 @@ def cheaper(letter: str, other: str, costs: Mapping[tuple[str, str], Cost], scen
 
 
 def solved_in_the_end(results: Results, longer: Results | None) -> Claim:
-    """Claim (f), decided by ``longer``; the shares of ``results`` stand beside it."""
+    """Claim (f), decided by ``longer``; the shares of ``results`` are shown beside it."""
     runs = [(run, curves_of(run)) for run in (results, longer) if run]
     return Claim(
         "f",
@@ -168,21 +169,21 @@ def solved_in_the_end(results: Results, longer: Results | None) -> Claim:
     )
 
 
-def trials_solved(final: Floats, optimum: float) -> int:
+def trials_solved(final: Float64s, optimum: float) -> int:
     """How many of the final scores (trials,) are the optimum."""
     return int(np.count_nonzero(final >= optimum))
 
 
-def _ahead_by_score(left: Floats, right: Floats) -> Tails:
+def _ahead_by_score(left: Float64s, right: Float64s) -> Tails:
     return ahead(left, right, MARGIN)
 
 
-def _alike_in_score(left: Floats, right: Floats) -> Tails:
+def _alike_in_score(left: Float64s, right: Float64s) -> Tails:
     return alike(left, right, MARGIN)
 
 
-def _less_spread(left: Floats, right: Floats) -> Tails:
-    # Without a margin: what a block is to a score, nothing in the paper is to a spread.
+def _less_spread(left: Float64s, right: Float64s) -> Tails:
+    # Without a margin: the paper gives no unit for a spread, as a block is for a score.
     return ahead(right, left, 0.0)
 
 

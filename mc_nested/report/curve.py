@@ -5,7 +5,8 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
+
+from mc_nested.arrays import Float64s
 
 RESAMPLES = 2000
 """Bootstrap resamples of the trials behind the interval."""
@@ -13,7 +14,7 @@ RESAMPLES = 2000
 MEAN, OPTIMUM = "#1f5f8b", "#3a7d44"
 
 
-def draw_curve(path: Path, title: str, episodes: Sequence[int], scores: NDArray[np.float64], optimum: float) -> None:
+def draw_curve(path: Path, title: str, episodes: Sequence[int], scores: Float64s, optimum: float) -> None:
     """Write a PNG of greedy scores (trials, evaluations) at those episodes, with the optimum as a line."""
     figure = Figure(figsize=(8, 4.5), dpi=120, layout="constrained")
     axes = figure.subplots()
@@ -26,14 +27,14 @@ def draw_curve(path: Path, title: str, episodes: Sequence[int], scores: NDArray[
         label = f"mean of {trials} trials" if trials > 1 else "one trial"
         marker = "o" if len(episodes) == 1 else None
         axes.plot(episodes, scores.mean(axis=0), color=MEAN, linewidth=1.6, marker=marker, label=label)
-    axes.set_title(title, parse_math=False)  # a scenario's name is its user's, dollar signs and all
+    axes.set_title(title, parse_math=False)  # users name scenarios, so dollar signs may appear
     axes.set(xlabel="training episodes", ylabel="score of a greedy episode")
     axes.grid(alpha=0.25)
     axes.legend(loc="lower right", frameon=False)
     figure.savefig(path, format="png", metadata={"Software": None})
 
 
-def bootstrap_interval(scores: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def bootstrap_interval(scores: Float64s) -> tuple[Float64s, Float64s]:
     """The 95 % percentile interval of the mean over trials (trials, evaluations), resampled with a fixed seed."""
     random = np.random.default_rng(0)
     drawn = random.integers(len(scores), size=(RESAMPLES, len(scores)))
@@ -43,7 +44,7 @@ def bootstrap_interval(scores: NDArray[np.float64]) -> tuple[NDArray[np.float64]
     return low, high
 
 
-def align_trials(evaluations: Sequence[tuple[int, int, float]], trials: int) -> tuple[list[int], NDArray[np.float64]]:
+def align_trials(evaluations: Sequence[tuple[int, int, float]], trials: int) -> tuple[list[int], Float64s]:
     """Episodes and scores (trials, evaluations) from (trial, episode, score) rows.
 
     A trial that finished early keeps its last score, that of the policy it keeps; episodes that some trial has not
@@ -59,7 +60,7 @@ def align_trials(evaluations: Sequence[tuple[int, int, float]], trials: int) -> 
     scores = np.empty((trials, len(episodes)))
     for trial, own in enumerate(by_trial):
         last = own[min(own)]
-        for place, episode in enumerate(episodes):
+        for column, episode in enumerate(episodes):
             last = own.get(episode, last)
-            scores[trial, place] = last
+            scores[trial, column] = last
     return episodes, scores

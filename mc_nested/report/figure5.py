@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 
-from mc_nested.learn.whole_file import written_whole
+from mc_nested.atomic_file import atomic_write
 from mc_nested.report.curve import bootstrap_interval
 from mc_nested.report.measures import Curve, curves_of
 from mc_nested.report.results import Results
@@ -21,11 +21,11 @@ CURVES: dict[str, dict[str, Any]] = {
     "hierarchical": {"color": "#D55E00", "linestyle": "-"},
     "single": {"color": "#009E73", "linestyle": (0, (4, 1.2))},
 }
-"""Okabe and Ito's colours, told apart with any colour vision."""
+"""Okabe and Ito's colours, distinguishable with any colour vision."""
 
 OPTIMUM: dict[str, Any] = {"color": "black", "linewidth": 0.8}
 BUILDER: dict[str, Any] = {"color": "black", "linewidth": 2.6, "linestyle": (0, (1, 4))}
-"""Wide dots, to be seen where the builder's score is the optimum."""
+"""Wide dots, so that the line is visible even if the builder's score is the optimum."""
 
 BAND = 0.18
 """Opacity of the intervals."""
@@ -34,15 +34,15 @@ COLUMNS = 3
 
 
 def draw_figure5(folder: Path, results: Results) -> None:
-    """Write figure5.png and figure5.svg, whole or not at all; OSError where the disk refuses.
+    """Write figure5.png and figure5.svg, each atomically; OSError if the disk refuses.
 
     The same results give the same bytes with the same matplotlib.
     """
     figure = _figure(results)
     with matplotlib.rc_context({"svg.hashsalt": "figure5"}):
-        with written_whole(folder / "figure5.png") as unfinished:
+        with atomic_write(folder / "figure5.png") as unfinished:
             figure.savefig(unfinished, format="png", dpi=160, metadata={"Software": None})
-        with written_whole(folder / "figure5.svg") as unfinished:
+        with atomic_write(folder / "figure5.svg") as unfinished:
             figure.savefig(unfinished, format="svg", metadata={"Date": None})
 
 
@@ -56,7 +56,7 @@ def _figure(results: Results) -> Figure:
         _draw_levels(axes, results, scenario)
         for agent in results.agents:
             _draw_curve(axes, agent, curves[agent, scenario])
-        axes.set_title(scenario, parse_math=False)  # a scenario's name is its user's, dollar signs and all
+        axes.set_title(scenario, parse_math=False)  # users name scenarios, so dollar signs may appear
         axes.set_xlabel("training episodes")
         axes.set_xlim(0, results.episodes)
         axes.xaxis.set_major_locator(MaxNLocator(3, integer=True))

@@ -11,11 +11,11 @@ from typing import NamedTuple
 import numpy as np
 from scipy import stats
 
+from mc_nested.arrays import Float64s
 from mc_nested.report.curve import bootstrap_interval
-from mc_nested.report.measures import Floats
 
 ALPHA = 0.05
-"""The level of the verdicts, over all tests together."""
+"""The significance level of the verdicts, over all tests together."""
 
 RESAMPLES = 9_999
 """Bootstrap resamples, and permutations where there are more ways than these to split the trials; else all of them."""
@@ -29,13 +29,13 @@ class Interval(NamedTuple):
 
 
 class Tails(NamedTuple):
-    """The two p of a claim: small ``claim`` speaks for it, small ``against`` speaks against it."""
+    """The two p-values of a claim: a small ``claim`` speaks for it, a small ``against`` speaks against it."""
 
     claim: float
     against: float
 
 
-def exceeds(left: Floats, right: Floats) -> float:
+def exceeds(left: Float64s, right: Float64s) -> float:
     """One-sided p of a permutation test that the mean of ``left`` is above that of ``right``; at least two of both."""
     test = stats.permutation_test(
         (left, right),
@@ -48,15 +48,15 @@ def exceeds(left: Floats, right: Floats) -> float:
     return float(test.pvalue)
 
 
-def ahead(left: Floats, right: Floats, margin: float) -> Tails:
+def ahead(left: Float64s, right: Float64s, margin: float) -> Tails:
     """Whether ``left`` is ahead. For: the difference is above 0. Against: it is below ``margin``.
 
-    Both can be so, for a lead smaller than the margin: then it is ahead.
+    Both can hold, for a lead smaller than the margin: then it is ahead.
     """
     return Tails(exceeds(left, right), exceeds(right, left - margin))
 
 
-def alike(left: Floats, right: Floats, margin: float) -> Tails:
+def alike(left: Float64s, right: Float64s, margin: float) -> Tails:
     """Whether the means differ by less than ``margin``. For: two one-sided tests. Against: they differ by more."""
     within = max(exceeds(left + margin, right), exceeds(right + margin, left))
     beyond = min(exceeds(left - margin, right), exceeds(right - margin, left))
@@ -70,7 +70,7 @@ def mostly(successes: int, trials: int) -> Tails:
     return Tails(float(above), float(below))
 
 
-def difference_interval(left: Floats, right: Floats) -> Interval:
+def difference_interval(left: Float64s, right: Float64s) -> Interval:
     """Percentile bootstrap interval of the difference of the means; at least two trials of both."""
     test = stats.bootstrap(
         (left, right),
@@ -83,7 +83,7 @@ def difference_interval(left: Floats, right: Floats) -> Interval:
     return Interval(float(test.confidence_interval.low), float(test.confidence_interval.high))
 
 
-def mean_interval(trials: Floats) -> Interval | None:
+def mean_interval(trials: Float64s) -> Interval | None:
     """Percentile bootstrap interval of the mean over trials (trials,); None for fewer than two."""
     if len(trials) < 2:
         return None
@@ -98,15 +98,15 @@ def share_interval(successes: int, trials: int) -> Interval:
 
 
 def holm(p_values: Sequence[float]) -> list[float]:
-    """Holm's adjusted p of each: compared with α they keep the chance of any false rejection among all below α."""
+    """Holm's adjusted p-values: compared with α, they keep the chance of any false rejection among all below α."""
     adjusted = [0.0] * len(p_values)
     largest = 0.0
-    for place, index in enumerate(sorted(range(len(p_values)), key=lambda index: p_values[index])):
-        largest = max(largest, min(1.0, (len(p_values) - place) * p_values[index]))
+    for rank, index in enumerate(sorted(range(len(p_values)), key=lambda index: p_values[index])):
+        largest = max(largest, min(1.0, (len(p_values) - rank) * p_values[index]))
         adjusted[index] = largest
     return adjusted
 
 
-def _difference(left: Floats, right: Floats, axis: int = -1) -> Floats:
-    difference: Floats = left.mean(axis=axis) - right.mean(axis=axis)
+def _difference(left: Float64s, right: Float64s, axis: int = -1) -> Float64s:
+    difference: Float64s = left.mean(axis=axis) - right.mean(axis=axis)
     return difference

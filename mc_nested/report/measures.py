@@ -1,22 +1,20 @@
-"""What is measured of a trial: its early score, its final score, and how much its evaluations still spread late."""
+"""What is measured per trial: its early score, its final score, and the spread of its late evaluations."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mc_nested.arrays import Float64s, Int64s
 from mc_nested.report.curve import align_trials
 from mc_nested.report.results import Results
-
-Floats = NDArray[np.float64]
 
 EARLY_EPISODES = 1000
 """Early is the first 1,000 episodes, or the first third of a training of fewer than 3,000."""
 
 
 def early_limit(episodes: int) -> int:
-    """The last episode that counts as early in a training of so many."""
+    """The last episode that counts as early in a training of that many."""
     return min(EARLY_EPISODES, episodes // 3)
 
 
@@ -25,33 +23,33 @@ class Curve:
     """The greedy scores of an agent on a scenario.
 
     Args:
-        episodes: after which the agent was evaluated, (evaluations,).
-        scores: (trials, evaluations).
+        episodes: training episodes before each evaluation, (evaluations,).
+        scores: greedy scores, (trials, evaluations).
         trained: episodes of the whole training.
         keeps_best: whether the policy kept is the best, not the last.
     """
 
-    episodes: NDArray[np.int64]
-    scores: Floats
+    episodes: Int64s
+    scores: Float64s
     trained: int
     keeps_best: bool
 
     @property
-    def final(self) -> Floats:
+    def final(self) -> Float64s:
         """The score of each trial's policy, the last or the best, (trials,); empty where not every was evaluated."""
         if not len(self.episodes):
             return np.empty(0)
-        best: Floats = self.scores.max(axis=1)
+        best: Float64s = self.scores.max(axis=1)
         return best if self.keeps_best else self.scores[:, -1]
 
     @property
-    def early(self) -> Floats:
+    def early(self) -> Float64s:
         """Each trial's mean score over the early evaluations, (trials,); empty where there are none."""
         early = self.episodes <= early_limit(self.trained)
         return self.scores[:, early].mean(axis=1) if early.any() else np.empty(0)
 
     @property
-    def spread(self) -> Floats:
+    def spread(self) -> Float64s:
         """Each trial's standard deviation over the evaluations of the last third; empty where there are not two."""
         late = 3 * self.episodes > 2 * self.trained
         return self.scores[:, late].std(axis=1, ddof=1) if late.sum() > 1 else np.empty(0)

@@ -3,26 +3,27 @@
 from collections.abc import Sequence
 from math import comb
 
+from mc_nested.arrays import Float64s
 from mc_nested.report.claims import trials_solved
 from mc_nested.report.inference import ALPHA, RESAMPLES, Interval, Tails, mean_interval, share_interval
-from mc_nested.report.measures import Curve, Floats, curves_of, early_limit
+from mc_nested.report.measures import Curve, curves_of, early_limit
 from mc_nested.report.results import Cost, Results
 from mc_nested.report.verdicts import Evidence, Finding, JudgedClaim
 
 METHOD = """\
-- A claim holds where all its lines do, and doesn't where any doesn't, at α = {alpha:g}. Holm's correction is over all
-  {tests} one-sided tests of this report: one for and one against in each line that has a p.
+- A claim holds if all its lines do, and does not hold if any of them doesn't, at α = {alpha:g}. Holm's correction is
+  over all {tests} one-sided tests of this report: one for and one against in each line that has a p.
 - The trials of two agents are independent samples: the seed that they share gives them the same random numbers, but
   they spend them on other networks and other choices, so nothing pairs them.
 - Permutation tests go through all splits of the trials where there are at most {splits:,}, else through {resamples:,}
   drawn with a fixed seed, which makes {smallest} the smallest p.
 - The intervals of means and differences are percentile bootstraps over the trials, with a fixed seed; with few trials
   they are somewhat narrow. Those of shares are exact. None is corrected for being one of many: an interval without 0
-  can stand beside an undecided test.
+  can occur beside an undecided test.
 - Greedy episodes don't vary by chance: a final score is one episode. What varies is the training, so the unit is the
   trial.
-- A small spread is no virtue in an agent that is stuck: read it beside the final score.
-- Undecided means that these trials don't tell, not that there is no difference."""
+- A small spread is no merit in an agent that is stuck: read it together with the final score.
+- Undecided means that these trials don't show it, not that there is no difference."""
 
 TOO_FEW_TRIALS = """
 - With {trials} trials no permutation test can come below {smallest}, which is too much for {tests} tests: all of them
@@ -34,8 +35,8 @@ NONE = "-"
 def report_text(results: Results, claims: Sequence[JudgedClaim], longer: Results | None = None) -> str:
     """The report as Markdown; ``claims`` and ``longer`` as in ``judge``.
 
-    The same results give the same text. ``Cost.seconds`` stands in one line, which begins with "Seconds": the only one
-    that differs where the same experiment is repeated.
+    The same results give the same text. ``Cost.seconds`` is only in the line that begins with "Seconds": the only line
+    that differs if the same experiment is repeated.
     """
     parts = [
         "# The paper's experiment, repeated",
@@ -159,7 +160,7 @@ def _method(results: Results, claims: Sequence[JudgedClaim]) -> str:
 
 
 def _smallest_p(trials: int) -> float:
-    """The p of a permutation test that finds no other split of the trials as extreme."""
+    """The p-value of a permutation test that finds no other split of the trials as extreme."""
     return max(1 / comb(2 * trials, trials), 1 / (RESAMPLES + 1))
 
 
@@ -174,7 +175,7 @@ def _verdict(finding: Finding) -> str:
     return f"{finding.verdict.value}: {missing}" if missing else finding.verdict.value
 
 
-def _mean(trials: Floats) -> str:
+def _mean(trials: Float64s) -> str:
     return _two(float(trials.mean())) if len(trials) else NONE
 
 
@@ -198,5 +199,5 @@ def _two(value: float) -> str:
 
 def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     lines = [header, ["---"] * len(header), *rows]
-    # A scenario's name is its user's, bars and all.
+    # Users name scenarios, so bars may appear.
     return "\n".join(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in line)} |" for line in lines)

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from mc_nested.learn.whole_file import written_whole
+from mc_nested.atomic_file import atomic_write
 from mc_nested.report.claims import judge
 from mc_nested.report.figure5 import draw_figure5
 from mc_nested.report.report_text import report_text
@@ -11,7 +11,7 @@ from mc_nested.report.verdicts import JudgedClaim
 
 
 def write_reproduction(folder: Path, results: Results, longer: Results | None = None) -> tuple[JudgedClaim, ...]:
-    """Write the files, each whole or not at all, and return what was judged; OSError where the disk refuses.
+    """Write the files, each atomically, and return what was judged; OSError if the disk refuses.
 
     ``longer``, the same with ten times the episodes, is judged for claim (f) and kept in results_longer.csv. All but
     report.md's line of seconds is the same for the same results, to the byte.
@@ -21,6 +21,6 @@ def write_reproduction(folder: Path, results: Results, longer: Results | None = 
     if longer:
         write_evaluations(folder / "results_longer.csv", longer.evaluations)
     draw_figure5(folder, results)
-    with written_whole(folder / "report.md") as unfinished:
+    with atomic_write(folder / "report.md") as unfinished:
         unfinished.write_text(report_text(results, claims, longer), encoding="utf-8", newline="\n")
     return claims

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
+from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError
-from mc_nested.learn.whole_file import written_whole
 
 
 class Evaluation(NamedTuple):
@@ -23,7 +23,7 @@ class Evaluation(NamedTuple):
 
 
 class Cost(NamedTuple):
-    """What an agent's trials on a scenario took.
+    """The costs of an agent's trials on a scenario.
 
     ``networks`` and ``parameters`` are those of one trial; ``updates``, ``env_steps`` and ``seconds`` are summed over
     all its trials. Seconds are their share where others were trained at once.
@@ -40,7 +40,7 @@ class Cost(NamedTuple):
 
 @dataclass(frozen=True)
 class Results:
-    """An experiment: agents x scenarios x trials, each trained alike.
+    """An experiment: agents x scenarios x trials, all trained in the same way.
 
     Args:
         agents: of nested, hierarchical and single, those that were trained.
@@ -72,15 +72,15 @@ class Results:
 
 
 def write_evaluations(path: Path, evaluations: Iterable[Evaluation]) -> None:
-    """Write them as CSV, whole or not at all; OSError where the disk refuses."""
-    with written_whole(path) as unfinished, unfinished.open("w", newline="", encoding="utf-8") as file:
+    """Write them as CSV, atomically; OSError if the disk refuses."""
+    with atomic_write(path) as unfinished, unfinished.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(Evaluation._fields)
         writer.writerows(evaluations)
 
 
 def read_evaluations(path: Path) -> list[Evaluation]:
-    """Exactly what was written; RunError where the file is missing or isn't such a table."""
+    """Exactly what was written; RunError if the file is missing or isn't such a table."""
     try:
         with path.open(newline="", encoding="utf-8") as file:
             header, *rows = list(csv.reader(file)) or [[]]
@@ -100,4 +100,4 @@ def _evaluation(path: Path, number: int, row: Sequence[str]) -> Evaluation:
         agent, scenario, trial, episode, score, material, steps = row
         return Evaluation(agent, scenario, int(trial), int(episode), float(score), material, int(steps))
     except ValueError as error:
-        raise RunError(f"{path}: row {number} isn't an evaluation ({error}): write the file anew") from error
+        raise RunError(f"{path}: row {number} isn't an evaluation ({error}): write the file again") from error

@@ -7,19 +7,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from mc_nested.learn.whole_file import written_whole
+from mc_nested.atomic_file import atomic_write
 from mc_nested.report.inference import Interval
 from mc_nested.report.sweep_results import Effect, Sweep, effects_on
 
 FINAL, MEAN = "#0072B2", "#E69F00"
-"""Okabe and Ito's colours, told apart with any colour vision."""
+"""Okabe and Ito's colours, distinguishable with any colour vision."""
 
 APART = 0.17
 """Between the two marks of a line, in lines."""
 
 
 def draw_sweep(path: Path, sweep: Sweep) -> None:
-    """Write it as a PNG, whole or not at all; OSError where the disk refuses."""
+    """Write it as a PNG, atomically; OSError if the disk refuses."""
     effects = {
         scenario: [effect for effect in effects_on(sweep, scenario) if effect.choice] for scenario in sweep.optimum
     }
@@ -30,12 +30,12 @@ def draw_sweep(path: Path, sweep: Sweep) -> None:
         _draw(axes, own)
         base = next(effect for effect in effects_on(sweep, scenario) if not effect.choice)
         title = f"{scenario}\nbase {base.final:.1f}, mean {base.mean:.1f} of {sweep.optimum[scenario]:g}"
-        axes.set_title(title, parse_math=False, fontsize=10)  # a scenario's name is its user's, dollar signs and all
+        axes.set_title(title, parse_math=False, fontsize=10)  # users name scenarios, so dollar signs may appear
         axes.set_xlabel("score above the base")
     panels[0].set_yticks(range(lines), [f"{effect.choice}: {effect.value}" for effect in next(iter(effects.values()))])
     panels[0].set_ylim(lines - 0.5, -0.5)
     figure.legend(handles=_legend(), loc="outside lower center", ncols=2, frameon=False)
-    with written_whole(path) as unfinished:
+    with atomic_write(path) as unfinished:
         figure.savefig(unfinished, format="png", dpi=140, metadata={"Software": None})
 
 

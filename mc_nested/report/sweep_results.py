@@ -1,4 +1,4 @@
-"""What a sensitivity run measured, and what each variant does to each scenario beside its agent's base."""
+"""The results of a sensitivity run, and each variant's effect on each scenario compared with its agent's base."""
 
 import csv
 from collections.abc import Sequence
@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mc_nested.learn.whole_file import written_whole
+from mc_nested.arrays import Float64s
+from mc_nested.atomic_file import atomic_write
 from mc_nested.report.inference import Interval, difference_interval
-from mc_nested.report.measures import Floats
 
 
 class SweepRow(NamedTuple):
@@ -32,7 +32,7 @@ class SweepRow(NamedTuple):
 
 @dataclass(frozen=True)
 class Sweep:
-    """A sensitivity run: its rows, and what they are to be read with.
+    """A sensitivity run: its rows, and what is needed to read them.
 
     Args:
         preset: its name.
@@ -97,12 +97,12 @@ def effects_on(sweep: Sweep, scenario: str) -> list[Effect]:
 
 
 def write_rows(path: Path, rows: Sequence[SweepRow]) -> None:
-    """Write them as CSV, whole or not at all; OSError where the disk refuses."""
-    with written_whole(path) as unfinished, unfinished.open("w", newline="", encoding="utf-8") as file:
+    """Write them as CSV, atomically; OSError if the disk refuses."""
+    with atomic_write(path) as unfinished, unfinished.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(SweepRow._fields)
         writer.writerows(rows)
 
 
-def _column(rows: Sequence[SweepRow], name: str) -> Floats:
+def _column(rows: Sequence[SweepRow], name: str) -> Float64s:
     return np.array([getattr(row, name) for row in rows], dtype=np.float64)

@@ -1,4 +1,4 @@
-"""sweep.md: a table for each scenario of what each variant does to it."""
+"""sweep.md: a table for each scenario with the effect of each variant."""
 
 from collections.abc import Sequence
 from statistics import median
@@ -34,7 +34,7 @@ def sweep_text(sweep: Sweep) -> str:
     effects = {scenario: effects_on(sweep, scenario) for scenario in sweep.optimum}
     many = 2 * sum(effect.final_interval is not None for own in effects.values() for effect in own)
     trials = f"{sweep.trials} trials" if sweep.trials > 1 else "one trial"
-    what = f"One choice at a time made otherwise than in the preset `{sweep.preset}`, seed {sweep.seed}"
+    what = f"One choice at a time changed from the preset `{sweep.preset}`, seed {sweep.seed}"
     parts = [
         "# What each choice does",
         f"{what}: {trials} of {sweep.episodes:,} episodes for each variant and scenario.",

@@ -19,16 +19,16 @@ FILE = "events.out.tfevents.mc-nested"
 
 
 def is_installed() -> bool:
-    """Whether TensorBoard is there."""
+    """Whether TensorBoard is installed."""
     return importlib.util.find_spec("tensorboard") is not None
 
 
 class TensorBoard:
-    """Writes what a trainer's runs have come to at each of their greedy evaluations.
+    """Writes the figures of a trainer's runs at each of their greedy evaluations.
 
     Args:
-        folders: each run's folder; made where it isn't there.
-        trainer: whose runs; what it has evaluated already is taken for written.
+        folders: each run's folder; made if it doesn't exist.
+        trainer: its runs; evaluations from before count as written.
     """
 
     def __init__(self, folders: Sequence[Path], trainer: Trainer) -> None:
@@ -39,7 +39,7 @@ class TensorBoard:
         self._updates, self._at = trainer.agent.updates, time.monotonic()
 
     def write(self) -> None:
-        """Write the evaluations since the last call; OSError where the disk refuses."""
+        """Write the evaluations since the last call; OSError if the disk refuses."""
         trainer = self._trainer
         evaluations = trainer.evaluation_rows[self._evaluations :]
         if not evaluations:

@@ -1,4 +1,4 @@
-"""From the evidence on a claim to its verdict: Holm over every test of every claim, then a rule."""
+"""From the evidence on a claim to its verdict: Holm's correction over the tests of all claims, then a rule."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from mc_nested.report.inference import ALPHA, Interval, Tails, holm
 
 
 class Verdict(Enum):
-    """What the trials say of a claim."""
+    """What the trials say about a claim."""
 
     HOLDS = "holds"
     FAILS = "does not hold"
@@ -21,11 +21,11 @@ class Evidence:
     """One comparison that a claim rests on.
 
     Args:
-        what: is compared.
-        figures: the measured ones, by name.
-        interval: of the last of the figures.
-        tails: of the test; None where there was none.
-        counted: the verdict, where figures are counted and need no test.
+        what: what is compared.
+        figures: what was measured, by name.
+        interval: the interval of the last figure.
+        tails: the p-values of the test; None if there was none.
+        counted: the verdict, if the figures are counted and need no test.
         missing: why there is neither, for the reader.
     """
 
@@ -39,7 +39,7 @@ class Evidence:
 
 @dataclass(frozen=True)
 class Claim:
-    """What the paper says, where, how it is put to the test, and what was measured."""
+    """What the paper says and where, how it is tested, and what was measured."""
 
     letter: str
     title: str
@@ -83,7 +83,7 @@ def judged(claims: Sequence[Claim]) -> tuple[JudgedClaim, ...]:
 
 
 def verdict_of(evidence: Evidence, adjusted: Tails | None) -> Verdict:
-    """A claim's evidence holds where its test says so; else it fails where the opposite test says so."""
+    """A claim's evidence holds if its test says so; otherwise it fails if the opposite test says so."""
     if evidence.counted:
         return evidence.counted
     if adjusted is None:
@@ -94,7 +94,7 @@ def verdict_of(evidence: Evidence, adjusted: Tails | None) -> Verdict:
 
 
 def verdict_on_all(verdicts: Sequence[Verdict]) -> Verdict:
-    """A claim holds where all its evidence does, and doesn't where any doesn't."""
+    """A claim holds if all its evidence does, and does not hold if any of it doesn't."""
     if Verdict.FAILS in verdicts:
         return Verdict.FAILS
     if all(verdict is Verdict.NOT_RUN for verdict in verdicts):

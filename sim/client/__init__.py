@@ -1,14 +1,19 @@
-"""A virtual Minecraft client behind the same device protocols as the desktop, on a virtual clock. Nothing sleeps.
+"""A virtual Minecraft client behind the same device protocols as a desktop, on a virtual clock. Nothing sleeps.
 
-client.py  settings.py  devices.py        VirtualClient, what it is like, and its five devices
-clock.py  window.py  controls.py  keys.py when, to whom and to what end keys and buttons go
-game.py  realm.py  world.py               a tick of the game; the player and the rules; the blocks
-physics.py  ray.py                        walking, falling, bumping; what is looked at
-chat.py  chat_commands.py  screens.py     what is said, typed and clicked, in each version (edition.py)
-mishaps.py  save.py                       what goes wrong; the world as a folder
-view.py                                   what is to be seen at one moment, before it is drawn
-painter.py  picture.py  layers.py         from a view to pixels: only what changed, only what is grabbed
-f3.py  f3_text.py  f3_groups.py           the debug screen      hud_layers.py  menu_layers.py  scenery.py  the rest
-font.py  letters.py                       a font drawn for this project, and texts in any font
-f3_cases.py                               random debug screens, to try a reader on
+client.py    VirtualClient: the game, its window and its devices, put together    settings.py  how one is set up
+mishaps.py   what goes wrong: lost focus, lag, lost keys, death and so on
+
+game/        the game, a tick at a time; it knows no pixels
+    game.py  realm.py  world.py  world_folder.py    a tick; the player and the rules; the blocks; saved as a folder
+    physics.py  ray.py                              walking, falling, bumping; what is looked at
+    controls.py  keys.py                            what keys, buttons and the mouse do on each screen
+    chat.py  commands/                              messages, and chat commands of each version (edition.py)
+    screens.py  f3_text.py  colours.py              menus and the debug screen: their texts and buttons
+    view.py                                         what is seen at one moment, before it is drawn
+drawing/     from a view to pixels: only what changed, only what is grabbed
+    painter.py  picture.py  layers.py               a view as layers, and layers as a picture
+    f3_layers.py  f3_groups.py  hud_layers.py  menu_layers.py  scenery.py
+    letters.py  font.py                             texts in any font, and a font drawn for this project
+    f3_cases.py                                     random debug screens, to test a reader on
+desktop/     clock.py  window.py (focus, latency)  display.py  keyboard.py  pointer.py  clipboard.py
 """

@@ -1,12 +1,14 @@
 """What goes wrong in a game: each kind by name, planned for a time or drawn at random."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import Literal, Protocol, get_args
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from sim.client.client import VirtualClient
+from sim.client.desktop.clock import Event, VirtualClock
+from sim.client.desktop.window import VirtualWindow
+from sim.client.game.game import VirtualGame
+from sim.client.settings import Size
 
 Kind = Literal[
     "lost_focus",
@@ -29,10 +31,34 @@ Kind = Literal[
 ]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 DRAWN: tuple[Kind, ...] = tuple(kind for kind in KINDS if kind != "ghost_block")
-"""Those that are drawn at random unless others are asked for; a ghost is a block that is seen and then taken back."""
+"""Those drawn at random unless others are asked for. A ghost block appears and is then taken back."""
 
-SIZES = ((854, 480), (1024, 768), (1280, 720))
+SIZES: tuple[Size, ...] = ((854, 480), (1024, 768), (1280, 720))
 """What a window may be resized to."""
+
+_OF_THE_WORLD = frozenset(
+    {"pause", "chat", "inventory", "death", "disconnect", "f3_off", "knocked_away", "refused_placing", "ghost_block"}
+)
+
+
+class MishapTarget(Protocol):
+    """A client that mishaps happen to."""
+
+    clock: VirtualClock
+    game: VirtualGame
+    window: VirtualWindow
+
+    def set_front(self, *, is_in_front: bool) -> None: ...
+
+    def stall(self, seconds: float) -> None: ...
+
+    def freeze(self, seconds: float) -> None: ...
+
+    def blacken(self, seconds: float) -> None: ...
+
+    def resize(self, size: Size) -> None: ...
+
+    def shift_window(self, right: int, down: int) -> None: ...
 
 
 @dataclass(frozen=True)
@@ -44,11 +70,31 @@ class Mishap:
 
 
 class Mishaps:
-    """Makes mishaps happen to a client, and keeps account of them."""
+    """Makes mishaps happen to a client, and records them in ``happened``."""
 
-    def __init__(self, client: "VirtualClient", rng: np.random.Generator) -> None:
+    def __init__(self, client: MishapTarget, rng: np.random.Generator) -> None:
         self._client, self._rng = client, rng
         self.happened: list[Mishap] = []
+        game, window = client.game, client.window
+        self._effects: dict[Kind, Event] = {
+            "lost_focus": self._lose_focus,
+            "pause": lambda: game.open("pause"),
+            "chat": lambda: game.open("chat"),
+            "inventory": lambda: game.open("inventory"),
+            "death": game.die,
+            "disconnect": lambda: game.disconnect("Timed out"),
+            "frozen_frame": lambda: client.freeze(self._between(0.1, 1.0)),
+            "black_frame": lambda: client.blacken(self._between(0.05, 0.5)),
+            "lag": lambda: client.stall(self._between(0.1, 1.0)),
+            "dropped_key": window.drop_next,
+            "late_key": lambda: window.delay_next(self._between(0.05, 0.3)),
+            "f3_off": game.hide_f3,
+            "moved_window": self._move_window,
+            "resized_window": self._resize_window,
+            "knocked_away": self._knock_away,
+            "refused_placing": game.refuse_next,
+            "ghost_block": game.expect_ghost,
+        }
 
     def plan(self, kind: Kind, in_s: float = 0.0) -> None:
         """Let a mishap happen so many seconds from now."""
@@ -56,13 +102,13 @@ class Mishaps:
         clock.call_at(clock.now() + in_s, lambda: self._happen(kind))
 
     def maybe(self, rate: float, within_s: float, kinds: tuple[Kind, ...] = DRAWN) -> bool:
-        """With probability ``rate``, plan one of these kinds for a moment of the next ``within_s``; whether so.
+        """With probability ``rate``, plan one of these kinds for a moment of the next ``within_s``; whether it did.
 
-        Asked once before each action, ``rate`` is a rate an action.
+        Asked once before each action, ``rate`` is a rate per action.
         """
         if self._rng.random() >= rate:
             return False
-        self.plan(kinds[int(self._rng.integers(len(kinds)))], float(self._rng.uniform(0, within_s)))
+        self.plan(self._drawn(kinds), float(self._rng.uniform(0, within_s)))
         return True
 
     def every(self, rate_per_s: float, kinds: tuple[Kind, ...] = DRAWN) -> None:
@@ -70,57 +116,36 @@ class Mishaps:
         clock = self._client.clock
 
         def next_one() -> None:
-            self._happen(kinds[int(self._rng.integers(len(kinds)))])
+            self._happen(self._drawn(kinds))
             clock.call_at(clock.now() + float(self._rng.exponential(1 / rate_per_s)), next_one)
 
         clock.call_at(clock.now() + float(self._rng.exponential(1 / rate_per_s)), next_one)
 
     def _happen(self, kind: Kind) -> None:
-        """Do it, unless it can't be: what happens in the world happens only while that is on the screen."""
-        client, game = self._client, self._client.game
-        if game.screen != "world" and kind in _OF_THE_WORLD:
+        """Make it happen. What happens in the world is left out while another screen is open."""
+        if self._client.game.screen != "world" and kind in _OF_THE_WORLD:
             return
-        self.happened.append(Mishap(kind, client.clock.now()))
-        if kind == "lost_focus":
-            client.set_front(is_in_front=False)
-            client.clock.call_at(
-                client.clock.now() + self._between(0.2, 2.0), lambda: client.set_front(is_in_front=True)
-            )
-        elif kind in ("pause", "chat", "inventory"):
-            game.open(kind)
-        elif kind == "death":
-            game.die()
-        elif kind == "disconnect":
-            game.disconnect("Timed out")
-        elif kind == "frozen_frame":
-            client.freeze(self._between(0.1, 1.0))
-        elif kind == "black_frame":
-            client.blacken(self._between(0.05, 0.5))
-        elif kind == "lag":
-            client.stall(self._between(0.1, 1.0))
-        elif kind == "dropped_key":
-            client.window.to_drop += 1
-        elif kind == "late_key":
-            client.window.next_late_s = self._between(0.05, 0.3)
-        elif kind == "f3_off":
-            game.has_f3 = False
-        elif kind == "moved_window":
-            client.shift_window(int(self._rng.integers(-200, 200)), int(self._rng.integers(-200, 200)))
-        elif kind == "resized_window":
-            others = [size for size in SIZES if size != client.window.size]
-            client.resize(others[int(self._rng.integers(len(others)))])
-        elif kind == "knocked_away":
-            turn = self._between(0, 2 * np.pi)
-            game.knock((0.4 * float(np.cos(turn)), 0.36, 0.4 * float(np.sin(turn))))
-        elif kind == "refused_placing":
-            game.refusals += 1
-        else:
-            game.expect_ghost()
+        self.happened.append(Mishap(kind, self._client.clock.now()))
+        self._effects[kind]()
+
+    def _lose_focus(self) -> None:
+        client = self._client
+        client.set_front(is_in_front=False)
+        client.clock.call_at(client.clock.now() + self._between(0.2, 2.0), lambda: client.set_front(is_in_front=True))
+
+    def _move_window(self) -> None:
+        self._client.shift_window(int(self._rng.integers(-200, 200)), int(self._rng.integers(-200, 200)))
+
+    def _resize_window(self) -> None:
+        others = [size for size in SIZES if size != self._client.window.size]
+        self._client.resize(others[int(self._rng.integers(len(others)))])
+
+    def _knock_away(self) -> None:
+        turn = self._between(0, 2 * np.pi)
+        self._client.game.knock((0.4 * float(np.cos(turn)), 0.36, 0.4 * float(np.sin(turn))))
+
+    def _drawn(self, kinds: tuple[Kind, ...]) -> Kind:
+        return kinds[int(self._rng.integers(len(kinds)))]
 
     def _between(self, low: float, high: float) -> float:
         return float(self._rng.uniform(low, high))
-
-
-_OF_THE_WORLD = frozenset(
-    {"pause", "chat", "inventory", "death", "disconnect", "f3_off", "knocked_away", "refused_placing", "ghost_block"}
-)

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mc_nested.live.font import Font
-from sim.client.physics import Vector
-from sim.client.realm import Mode
+from mc_nested.live.vision.font import Font
+from sim.client.game.physics import Vector
+from sim.client.game.realm import Mode
 
 Size = tuple[int, int]
 """A window's width and height in framebuffer pixels."""
@@ -14,15 +14,15 @@ Size = tuple[int, int]
 
 @dataclass(frozen=True)
 class ClientSettings:
-    """What a virtual client is like. Two of the same settings, used alike, do the same to the bit.
+    """What a virtual client is like. Two clients of the same settings, used alike, behave the same to the bit.
 
-    ``size`` in framebuffer pixels, ``scale`` the GUI scale asked for (0 is auto); ``world`` is what is seen behind the
-    text, of ``scenery.WORLDS``, bright or dark; ``font`` the project's own where it is None. Latencies are from and to,
-    in seconds: until an event reaches the game, and how old a picture is. ``feet``, ``yaw`` and ``pitch`` are where the
-    player begins and begins again after a death. ``shows_target`` is whether the debug screen names the block looked
-    at. ``slipperiness`` is the floor's, ``speed`` what an effect makes of every step; ``swaps_sides`` has A go right
-    and D left. ``words`` are what menus say in another language, by their English. With a ``world_folder`` the world is
-    written into it whenever it is left, and read from it when it is entered.
+    ``size`` in framebuffer pixels, ``scale`` the GUI scale asked for (0 is auto); ``world`` is the kind of world behind
+    the text, of ``scenery.WORLDS``, bright or dark; ``font`` is the project's own where it is None. Latencies are from
+    and to, in seconds: until an event reaches the game, and the age of a picture. ``feet``, ``yaw`` and ``pitch`` are
+    where the player starts, and restarts after a death. ``shows_target`` is whether the debug screen names the block
+    looked at. ``slipperiness`` is the floor's, ``speed`` an effect's factor on every push; with ``swaps_sides``, A goes
+    right and D left. ``words`` are the menus' texts in another language, by their English. With a ``world_folder`` the
+    world is written into it whenever it is left, and read from it when it is entered.
     """
 
     seed: int = 0

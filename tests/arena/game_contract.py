@@ -1,8 +1,8 @@
 """What every Game must do, whatever is behind it; test_game_contract proves that liars fail it."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 
-from mc_nested.arena.game import Game
+from mc_nested.arena.game import Game, Outcome
 from mc_nested.arena.rules import Action, Cell, landing, moved
 from mc_nested.arena.scenario import Scenario
 
@@ -18,22 +18,30 @@ Truth = Callable[[], tuple[Cell, set[Cell]]]
 """Where the agent stands and which cells hold a block, by somebody who knows."""
 
 
-def check_game(game: Game, scenario: Scenario, actions: Iterable[Action], truth: Truth | None = None) -> None:
+def check_game(game: Game, scenario: Scenario, actions: Sequence[Action], truth: Truth | None = None) -> None:
     """AssertionError where the game's outcomes aren't those of the rules, over one episode after a spoiled one.
 
-    Where somebody knows the ``truth``, the outcomes must be that too.
+    Where somebody knows the ``truth``, the outcomes must be that too. A resumable game must come back to what it was.
     """
     assert game.reset(0) == scenario.start, "a reset leads to the start cell"
     game.act(Action.BD)
     assert game.reset(scenario.best_material) == scenario.start, "a reset leads to the start cell from anywhere"
     cell, placed = scenario.start, set[Cell]()
     assert truth is None or truth() == (cell, placed), "a reset clears the arena"
-    for action in actions:
+    half, kept, said = len(actions) // 2, {}, list[Outcome]()
+    for step, action in enumerate(actions):
+        if game.resumable and step == half:
+            kept = game.resumable.snapshot()
         cell = moved(cell, action, placed)
         block = landing(cell, action, placed)
         outcome = game.act(action)
+        said.append(outcome)
         assert outcome.cell == cell, f"{action.name} leads to {cell}"
         assert outcome.placed == block, f"{action.name} places a block in {block}"
         if block is not None:
             placed.add(block)
         assert truth is None or truth() == (cell, placed), f"{action.name} did what was said"
+    if game.resumable and kept:
+        game.reset(0)
+        game.resumable.restore(kept)
+        assert [game.act(action) for action in actions[half:]] == said[half:], "a restored episode goes on as before"

@@ -1,10 +1,13 @@
 """The contract suite: the simulator passes it, and Games that lie don't."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from mc_nested.arena.builder import build
 from mc_nested.arena.game import Outcome
@@ -71,6 +74,11 @@ class WalksOutOfTheArena(GridGame):
         return Outcome((x - (x == 0 and action is Action.L), y), outcome.placed)
 
 
+class ForgetsItsBlocks(GridGame):
+    def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
+        super().restore({**snapshot, "game_placed": np.zeros((15, 15), np.bool_)})
+
+
 class NeverLooks(GridGame):
     """Says what the rules say, and knows nothing of a world."""
 
@@ -91,6 +99,7 @@ def test_the_simulator_passes_over_any_actions(actions: list[Action]) -> None:
 LIARS = [
     *(ForgetsToReset, StaysPut, WalksThroughBlocks, ClaimsBlocksThatDidNotLand),
     *(StartsElsewhere, PlacesAgainAndAgain, PlacesBeforeItMoves, WalksOutOfTheArena),
+    ForgetsItsBlocks,
 ]
 
 

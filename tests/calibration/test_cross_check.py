@@ -7,12 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from calibration.context import CalibrationContext
 from calibration.cross_check import cross_check
-from calibration.step import Bench
 from mc_nested.errors import ClipboardError, LiveError, NotConfirmedError, UnreadableError
-from mc_nested.live.profile import Profile
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.profile.tables import Profile
 from sim.client.client import VirtualClient
-from tests.calibration.benches import bench_over, profile_in, started
+from tests.calibration.contexts import context_over, profile_in, started
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +34,7 @@ def test_the_two_agree_wherever_the_player_stands_and_looks(
 ) -> None:
     client = started(VirtualClient(version=version, feet=(x, 64.0, z), yaw=yaw, pitch=pitch))
     client.clipboard.write("mine")
-    found = cross_check(bench_over(client), profile)
+    found = cross_check(context_over(client), profile)
     assert found.samples == 1
     assert found.lines[0].startswith("F3+C agrees")
     assert found.profile == profile
@@ -57,7 +58,7 @@ def test_the_keys_are_up_again_within_two_ticks(profile: Profile) -> None:
         release(key)
 
     client.keyboard.press, client.keyboard.release = pressed, released  # type: ignore[method-assign]
-    cross_check(bench_over(client), profile)
+    cross_check(context_over(client), profile)
     assert len(longest) == 2
     assert 0.05 < max(longest) <= 0.1
 
@@ -65,7 +66,7 @@ def test_the_keys_are_up_again_within_two_ticks(profile: Profile) -> None:
 def test_1_12_is_told_that_it_has_no_such_key_and_nothing_is_pressed(profile: Profile) -> None:
     client = started(VirtualClient(version="1.12.2"))
     client.clipboard.write("mine")
-    found = cross_check(bench_over(client), profile)
+    found = cross_check(context_over(client), profile)
     assert found.samples == 0
     assert found.lines == ("F3+C is not in Minecraft 1.12.2, it came with 1.13: not compared",)
     assert client.game.chat.lines(client.game.ticks) == ()
@@ -75,9 +76,9 @@ def test_1_12_is_told_that_it_has_no_such_key_and_nothing_is_pressed(profile: Pr
 def test_keys_that_get_lost_leave_nothing_down_and_the_debug_screen_on(profile: Profile, lost: int) -> None:
     client = started(VirtualClient())
     client.clipboard.write("mine")
-    bench = bench_over(client)
+    context = context_over(client)
     client.window.to_drop = lost
-    cross_check(bench, profile)
+    cross_check(context, profile)
     client.clock.sleep(0.5)
     assert client.clipboard.read() == "mine"
     assert client.game.has_f3
@@ -96,7 +97,7 @@ def test_releases_that_get_lost_are_made_again(profile: Profile) -> None:
         release(key)
 
     client.keyboard.release = lose_the_first_two  # type: ignore[method-assign]
-    cross_check(bench_over(client), profile)
+    cross_check(context_over(client), profile)
     client.clock.sleep(0.5)
     assert set(lost) == {"f3", "c"}
     assert not client.game.keys.physical & {"f3", "c"}
@@ -115,10 +116,11 @@ class Liar:
         self.text = text.replace("tp @s 0.50", "tp @s 1.50")
 
 
-def with_clipboard(client: VirtualClient, clipboard: Liar) -> Bench:
-    bench = bench_over(client)
+def with_clipboard(client: VirtualClient, clipboard: Liar) -> CalibrationContext:
+    context = context_over(client)
     client.controls._write_clipboard, client.controls._read_clipboard = clipboard.write, clipboard.read
-    return dataclasses.replace(bench, desktop=dataclasses.replace(bench.desktop, clipboard=clipboard))
+    devices = dataclasses.replace(context.devices, clipboard=clipboard)
+    return dataclasses.replace(context, connection=GameConnection(devices, context.controller))
 
 
 def test_a_reading_that_the_game_does_not_confirm_is_an_error_and_the_clipboard_put_back(profile: Profile) -> None:
@@ -150,7 +152,7 @@ def test_a_game_that_copies_nothing_is_told_and_the_clipboard_put_back(
     client.clipboard.write("mine")
     monkeypatch.setattr(client.controls, "_write_clipboard", lambda _: None)
     with pytest.raises(NotConfirmedError, match="copied nothing"):
-        cross_check(bench_over(client), profile)
+        cross_check(context_over(client), profile)
     assert client.clipboard.read() == "mine"
 
 
@@ -159,13 +161,13 @@ def test_what_somebody_else_copies_meanwhile_is_theirs(profile: Profile, monkeyp
     client.clipboard.write("mine")
     monkeypatch.setattr(client.controls, "_write_clipboard", lambda _: client.clipboard.write("theirs"))
     with pytest.raises(NotConfirmedError):
-        cross_check(bench_over(client), profile)
+        cross_check(context_over(client), profile)
     assert client.clipboard.read() == "theirs"
 
 
 def test_a_player_who_is_moved_meanwhile_is_told(profile: Profile) -> None:
     client = started(VirtualClient())
-    bench = bench_over(client)
+    context = context_over(client)
     write = client.controls._write_clipboard
 
     def copied(text: str) -> None:
@@ -174,7 +176,7 @@ def test_a_player_who_is_moved_meanwhile_is_told(profile: Profile) -> None:
 
     client.controls._write_clipboard = copied
     with pytest.raises(LiveError, match="was moved while"):
-        cross_check(bench, profile)
+        cross_check(context, profile)
 
 
 @pytest.mark.parametrize("after_s", [0.1, 0.2, 0.25, 0.3, 0.35])
@@ -186,13 +188,13 @@ def test_ctrl_c_at_any_moment_puts_the_clipboard_back_and_lets_go(profile: Profi
         raise KeyboardInterrupt
 
     client.clock.call_at(client.clock.now() + after_s, interrupt)
-    bench = bench_over(client)
-    with pytest.raises(KeyboardInterrupt), bench.hands:
-        cross_check(bench, profile)
+    context = context_over(client)
+    with pytest.raises(KeyboardInterrupt), context.controller:
+        cross_check(context, profile)
     assert client.clipboard.read() == "mine"
     assert client.window.down == set()
 
 
 def test_the_profile_is_not_written(profile: Profile, tmp_path: Path) -> None:
-    cross_check(bench_over(started(VirtualClient())), profile)
+    cross_check(context_over(started(VirtualClient())), profile)
     assert list(tmp_path.iterdir()) == []

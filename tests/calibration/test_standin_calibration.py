@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.live.profile import load_profile
+from mc_nested.live.profile.store import load_profile
 from tests.standin_fixture import Standin
 from tests.test_end_to_end import built, mc_nested, standing
 

@@ -5,22 +5,22 @@ from pathlib import Path
 
 import pytest
 
-from calibration.bench import BenchOf
 from calibration.clicks.find import calibrate_clicks
 from calibration.font.find import calibrate_font
 from calibration.font.sources import FontSources
+from calibration.open_context import OpenContext
 from mc_nested.errors import DesktopError, LiveError, McNestedError, NotInFrontError
-from mc_nested.live import way_back
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.profile import load_profile, save_profile
+from mc_nested.live.menus import recovery
+from mc_nested.live.profile.store import load_profile, save_profile
 from sim.client.client import VirtualClient
 from sim.client.mishaps import Kind
-from tests.calibration.benches import bench_of, profile_in, started
+from tests.calibration.contexts import context_of, profile_in, started
 
-Step = Callable[[Path, BenchOf], object]
+Step = Callable[[Path, OpenContext], object]
 
 
-def font_step(file: Path, opened: BenchOf) -> object:
+def font_step(file: Path, opened: OpenContext) -> object:
     return calibrate_font(file, opened, sources=lambda _: FontSources((file.parent / "ascii.png",)))
 
 
@@ -67,7 +67,7 @@ def test_ctrl_c_at_every_stage(step: str, after_s: float, file: Path) -> None:
 
     client.clock.call_at(client.clock.now() + after_s, interrupt)
     with pytest.raises(KeyboardInterrupt):
-        STEPS[step](file, bench_of(client))
+        STEPS[step](file, context_of(client))
     check_nothing_left(client, file, before)
 
 
@@ -76,7 +76,7 @@ def test_another_program_that_comes_to_the_front_and_stays_there(step: str, afte
     client, before = client_for(step, pauses_unfocused=False), file.read_bytes()
     client.clock.call_at(client.clock.now() + after_s, lambda: client.set_front(is_in_front=False))
     with pytest.raises(NotInFrontError) as raised:
-        STEPS[step](file, bench_of(client))
+        STEPS[step](file, context_of(client))
     assert "\n" not in str(raised.value)
     check_nothing_left(client, file, before)
 
@@ -93,7 +93,7 @@ def test_a_window_that_closes(step: str, after_s: float, file: Path, monkeypatch
 
     monkeypatch.setattr(client.display, "grab", grabbed)
     with pytest.raises(DesktopError, match="has closed"):
-        STEPS[step](file, bench_of(client))
+        STEPS[step](file, context_of(client))
     check_nothing_left(client, file, before)
 
 
@@ -102,18 +102,18 @@ def test_a_window_that_gets_another_size(after_s: float, file: Path) -> None:
     client, before = client_for("clicks"), file.read_bytes()
     client.clock.call_at(client.clock.now() + after_s, lambda: client.resize((1024, 768)))
     with pytest.raises(LiveError, match="changed its size"):
-        calibrate_clicks(file, bench_of(client))
+        calibrate_clicks(file, context_of(client))
     check_nothing_left(client, file, before)
 
 
 @pytest.mark.parametrize("after_s", moments("clicks", 3))
 def test_a_window_that_is_covered(after_s: float, file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(way_back, "PATIENCE_S", 8.0)
+    monkeypatch.setattr(recovery, "PATIENCE_S", 8.0)
     client, before = client_for("clicks"), file.read_bytes()
     client.clock.call_at(client.clock.now() + after_s, lambda: client.blacken(1000.0))
     began = client.clock.now()
     with pytest.raises(LiveError) as raised:
-        calibrate_clicks(file, bench_of(client))
+        calibrate_clicks(file, context_of(client))
     assert "\n" not in str(raised.value)
     assert client.clock.now() - began < 100
     check_nothing_left(client, file, before)
@@ -131,7 +131,7 @@ def test_a_mishap_leaves_a_good_profile_or_the_old_one_and_one_line(step: str, k
     client, before = client_for(step, seed=3), file.read_bytes()
     client.mishaps.plan(kind, LENGTHS[step] / 3)
     try:
-        STEPS[step](file, bench_of(client))
+        STEPS[step](file, context_of(client))
     except McNestedError as error:
         problem = str(error)
     else:

@@ -4,15 +4,15 @@ from pathlib import Path
 
 import pytest
 
-from calibration.doctor.check import NAMES, Check
-from calibration.run_steps import Step
-from calibration.step import Bench, Found
+from calibration.context import CalibrationContext, StepResult
+from calibration.doctor.check import Check, CheckName
+from calibration.open_context import OpenContext
+from calibration.runner import CalibrationStep
 from mc_nested.cli import calibrate_all
 from mc_nested.cli.app import main
 from mc_nested.errors import LiveError
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import Screen
-from scripts.bench_calibration import bench_of, font_in
+from mc_nested.live.profile.tables import Profile, ScreenTable
+from scripts.bench_calibration import context_opener_for, write_font
 from sim.client.client import VirtualClient
 
 
@@ -23,37 +23,40 @@ def client() -> VirtualClient:
     return client
 
 
-def code_of(profile: Path) -> int | str | None:
+def code_of(profile: Path, *options: str) -> int | str | None:
     with pytest.raises(SystemExit) as ended:
-        main(["calibrate", "all", "--yes", "--profile", str(profile)])
+        main(["calibrate", "all", "--yes", "--profile", str(profile), *options])
     return ended.value.code
 
 
-def set_up(monkeypatch: pytest.MonkeyPatch, client: VirtualClient, *steps: Step, failing: str | None = None) -> None:
+def set_up(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, *steps: CalibrationStep, failing: str | None = None
+) -> None:
     """From here on the desktop has that client's window alone, and these are the steps."""
     rows = [
-        Check(name, "fail", "it is wrong", "mend it") if name == failing else Check(name, "pass", "") for name in NAMES
+        Check(name, "fail", "it is wrong", "mend it") if name == failing else Check(name, "pass", "")
+        for name in CheckName
     ]
-    monkeypatch.setattr(calibrate_all, "bench_for", lambda _say, _ask: bench_of(client))
-    monkeypatch.setattr(calibrate_all, "guided_steps", lambda *_, **__: list(steps))
+    monkeypatch.setattr(calibrate_all, "context_opener", lambda *_, **__: context_opener_for(client))
+    monkeypatch.setattr(calibrate_all, "registered_steps", lambda *_, **__: list(steps))
     monkeypatch.setattr(calibrate_all, "_examined", lambda _name: rows)
 
 
-def with_font(folder: Path) -> Step:
-    font = str(font_in(folder))
+def with_font(folder: Path) -> CalibrationStep:
+    font = str(write_font(folder))
 
-    def run(bench: Bench, profile: Profile) -> Found:
-        bench.desktop.clock.sleep_until(bench.desktop.clock.now() + 4)
-        return Found("font", profile.model_copy(update={"screen": Screen(font=font)}), ("GUI scale 2",), 3)
+    def run(context: CalibrationContext, profile: Profile) -> StepResult:
+        context.devices.clock.sleep_until(context.devices.clock.now() + 4)
+        return StepResult("font", profile.model_copy(update={"screen": ScreenTable(font=font)}), ("GUI scale 2",), 3)
 
-    return Step("font", run)
+    return CalibrationStep("font", run)
 
 
-def failing(error: BaseException, *, is_needed: bool = True) -> Step:
-    def run(_bench: Bench, _profile: Profile) -> Found:
+def failing(error: BaseException, *, is_needed: bool = True) -> CalibrationStep:
+    def run(_context: CalibrationContext, _profile: Profile) -> StepResult:
         raise error
 
-    return Step("clicks", run, is_needed)
+    return CalibrationStep("clicks", run, is_needed)
 
 
 def test_each_step_is_said_with_what_it_found_and_the_report_is_made(
@@ -65,7 +68,7 @@ def test_each_step_is_said_with_what_it_found_and_the_report_is_made(
     assert code_of(profile) in (0, None)
     said = capsys.readouterr().out.splitlines()
     assert said[:6] == [
-        f"doctor: {len(NAMES) - 1} pass, 1 fail",
+        f"doctor: {len(CheckName) - 1} pass, 1 fail",
         "    fail: autoJump: it is wrong; mend it",
         "1/2 Font and screen",
         "    GUI scale 2",
@@ -109,7 +112,7 @@ def test_a_row_of_the_doctors_that_all_needs_ends_it_with_its_remedy(
 def test_a_cell_outside_the_arena_is_one_line_before_anything(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(calibrate_all, "bench_for", lambda _say, _ask: bench_of(client))
+    monkeypatch.setattr(calibrate_all, "context_opener", lambda *_, **__: context_opener_for(client))
     with pytest.raises(SystemExit) as ended:
         main(["calibrate", "all", "--yes", "--profile", str(tmp_path / "mine.toml"), "--standing", "-1", "0"])
     assert ended.value.code == 2
@@ -119,19 +122,29 @@ def test_a_cell_outside_the_arena_is_one_line_before_anything(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_steps_know_the_profiles_file_and_whether_a_server_is_allowed(
+def test_the_steps_know_the_profiles_file_and_the_game_whether_a_server_is_allowed(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path
 ) -> None:
     given: dict[str, object] = {}
-    set_up(monkeypatch, client)
+    allowed: dict[str, object] = {}
 
-    def steps(*_: object, **options: object) -> list[Step]:
+    def opener(*_: object, **options: object) -> OpenContext:
+        allowed.update(options)
+        return context_opener_for(client)
+
+    set_up(monkeypatch, client)
+    monkeypatch.setattr(calibrate_all, "context_opener", opener)
+
+    def steps(*_: object, **options: object) -> list[CalibrationStep]:
         given.update(options)
         return [with_font(tmp_path)]
 
-    monkeypatch.setattr(calibrate_all, "guided_steps", steps)
+    monkeypatch.setattr(calibrate_all, "registered_steps", steps)
     assert code_of(tmp_path / "mine.toml") in (0, None)
-    assert given == {"standing": (7, 0), "is_server_allowed": False, "path": tmp_path / "mine.toml"}
+    assert given == {"standing": (7, 0), "path": tmp_path / "mine.toml"}
+    assert allowed == {"is_server_allowed": False}
+    assert code_of(tmp_path / "mine.toml", "--server-allowed") in (0, None)
+    assert allowed == {"is_server_allowed": True}
 
 
 def test_a_report_that_can_not_be_made_is_a_warning(

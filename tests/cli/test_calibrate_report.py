@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from calibration.context import ReportPicture, StepResult
 from calibration.report.kept import keep
-from calibration.step import Found, Picture
 from mc_nested.cli.app import main
-from mc_nested.live.profile import Profile, save_profile
-from mc_nested.live.profile_tables import Screen
+from mc_nested.live.profile.store import save_profile
+from mc_nested.live.profile.tables import Profile, ScreenTable
 
 
 def code_of(*words: str | Path) -> int | str | None:
@@ -23,9 +23,9 @@ def code_of(*words: str | Path) -> int | str | None:
 def profile(tmp_path: Path) -> Path:
     path = tmp_path / "mine.toml"
     font = str(Path.home() / ".minecraft" / "1.20.1.jar")
-    save_profile(Profile(screen=Screen(font=font)), path)
-    picture = Picture("The debug screen", np.zeros((2, 2, 3), np.uint8))
-    keep(path, [Found("font", Profile(), (f"font of {font}",), 1, (picture,))], today="2026-11-21")
+    save_profile(Profile(screen=ScreenTable(font=font)), path)
+    picture = ReportPicture("The debug screen", np.zeros((2, 2, 3), np.uint8))
+    keep(path, [StepResult("font", Profile(), (f"font of {font}",), 1, (picture,))], today="2026-11-21")
     return path
 
 

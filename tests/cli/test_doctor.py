@@ -7,14 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from calibration.doctor.check import NAMES, Check, Status
+from calibration.doctor.check import Check, CheckName, Status
 from calibration.doctor.examination import Examination, examine
-from calibration.game.folders import System
+from calibration.installation.folders import System
 from mc_nested.cli import doctor
 from mc_nested.cli.app import main
 from mc_nested.errors import DesktopError
-from mc_nested.live.profile import Profile, save_profile
-from mc_nested.live.profile_tables import GameVersion
+from mc_nested.live.profile.tables import Profile
 
 
 def code_of(*words: str | Path) -> int | str:
@@ -38,7 +37,7 @@ def bare(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def with_rows(monkeypatch: pytest.MonkeyPatch, *statuses: Status) -> None:
     """From here on the doctor finds rows of these statuses, over and over."""
-    checks = [Check(name, statuses[i % len(statuses)], "found " * 30, "do " * 30) for i, name in enumerate(NAMES)]
+    checks = [Check(name, statuses[i % len(statuses)], "found " * 30, "do " * 30) for i, name in enumerate(CheckName)]
     found = Examination(checks, Profile(), None, None, None, None)
     monkeypatch.setattr(doctor, "examine", lambda *_args, **_more: found)
 
@@ -47,7 +46,7 @@ def test_json_is_one_object_of_all_rows_and_nothing_else(bare: Path, capsys: pyt
     assert code_of("doctor", "--json", "--profile", bare / "none.toml") == 1
     printed = json.loads(capsys.readouterr().out)
     assert list(printed) == ["checks"]
-    assert [check["name"] for check in printed["checks"]] == list(NAMES)
+    assert [check["name"] for check in printed["checks"]] == list(CheckName)
     assert all(list(check) == ["name", "status", "detail", "fix"] for check in printed["checks"])
     assert {check["status"] for check in printed["checks"]} == {"fail", "skip"}
 
@@ -71,7 +70,7 @@ def test_the_table_fits_a_hundred_columns_and_names_every_row(
     code_of("doctor")
     lines = capsys.readouterr().out.splitlines()
     assert max(len(line) for line in lines) <= 100
-    assert all(any(line.startswith(name) for line in lines) for name in NAMES)
+    assert all(any(line.startswith(name) for line in lines) for name in CheckName)
     assert lines[-1] == "6 pass, 6 warn, 6 fail, 5 skip"
 
 
@@ -100,18 +99,6 @@ def test_an_examination_that_is_stopped_ends_as_a_stopped_command(
     assert capsys.readouterr().out == ""
 
 
-def test_undo_puts_the_earlier_profile_back(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    file = tmp_path / "mine.toml"
-    save_profile(Profile(), file)
-    before = file.read_text("utf-8")
-    save_profile(Profile(game=GameVersion(version="1.12.2")), file)
-    assert code_of("calibrate", "undo", "--profile", file) == 0
-    assert file.read_text("utf-8") == before
-    assert str(file) in capsys.readouterr().out
-    assert code_of("calibrate", "undo", "--profile", tmp_path / "new.toml") == 2
-    assert "there is no earlier profile" in capsys.readouterr().err
-
-
 if sys.platform.startswith("linux"):
 
     def test_on_a_computer_without_a_desktop_every_row_is_there(
@@ -122,7 +109,7 @@ if sys.platform.startswith("linux"):
         monkeypatch.setenv("HOME", str(tmp_path))
         assert code_of("doctor", "--json") == 1
         rows = {check["name"]: check for check in json.loads(capsys.readouterr().out)["checks"]}
-        assert tuple(rows) == NAMES
+        assert tuple(rows) == tuple(CheckName)
         assert rows["session"]["status"] == "fail"
         assert "no display" in rows["session"]["detail"]
         assert list(tmp_path.rglob("*")) == []

@@ -7,18 +7,18 @@ from rich.console import Console
 
 from mc_nested.cli import experiment_progress as progress_module
 from mc_nested.cli.experiment_progress import ExperimentProgress
-from mc_nested.cli.standing import Standing
-from mc_nested.cli.unit_process import Report
-from tests.learn.experiments import BAR, DOT, one_unit
+from mc_nested.cli.experiment_status import ExperimentStatus
+from mc_nested.cli.job_process import JobReport
+from tests.learn.made_experiments import BAR, DOT, one_job
 
-UNIT = one_unit("nested", [DOT, BAR], 2)
-HALF = Report(UNIT.name, [10, 10, 10, 10], (11.0, 10.0, None, 12.0), updates=100)
+JOB = one_job("nested", [DOT, BAR], 2)
+HALF = JobReport(JOB.name, [10, 10, 10, 10], (11.0, 10.0, None, 12.0), updates=100)
 
 
 def test_a_terminal_shows_scores_beside_the_optimum() -> None:
     screen = io.StringIO()
     console = Console(file=screen, force_terminal=True, width=120)
-    with ExperimentProgress("reproduce", Standing([(UNIT, None)]), console) as progress:
+    with ExperimentProgress("reproduce", ExperimentStatus([(JOB, None)]), console) as progress:
         progress.watch(HALF)
     shown = screen.getvalue()
     for words in ("reproduce", "50 %", "updates/s", "dot of 11", "bar of 13", "nested", "10.5", "12.0"):
@@ -28,7 +28,7 @@ def test_a_terminal_shows_scores_beside_the_optimum() -> None:
 def test_without_a_terminal_there_is_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(progress_module, "LINE_EVERY_S", 0.0)
     log = io.StringIO()
-    with ExperimentProgress("sweep", Standing([(UNIT, None)]), Console(file=log, width=40)) as progress:
+    with ExperimentProgress("sweep", ExperimentStatus([(JOB, None)]), Console(file=log, width=40)) as progress:
         progress.watch(HALF)
         progress.watch(None)
     lines = log.getvalue().splitlines()
@@ -38,6 +38,6 @@ def test_without_a_terminal_there_is_a_line_now_and_then(monkeypatch: pytest.Mon
 
 def test_without_a_terminal_a_short_experiment_says_nothing() -> None:
     log = io.StringIO()
-    with ExperimentProgress("sweep", Standing([(UNIT, None)]), Console(file=log)) as progress:
+    with ExperimentProgress("sweep", ExperimentStatus([(JOB, None)]), Console(file=log)) as progress:
         progress.watch(HALF)
     assert log.getvalue() == ""

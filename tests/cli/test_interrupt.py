@@ -17,7 +17,7 @@ def test_the_first_is_noted_and_its_echo_is_not_a_second_one() -> None:
 
 
 def test_a_later_one_does_not_wait(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(interrupt_module, "ONE_AND_THE_SAME_S", -1.0)
+    monkeypatch.setattr(interrupt_module, "SAME_REQUEST_S", -1.0)
     with catch_interrupts():
         signal.raise_signal(signal.SIGINT)
         with pytest.raises(KeyboardInterrupt):

@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mc_nested.arena.game import Outcome
+from mc_nested.arena.game import Outcome, Resumable
 from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli import options, scenarios
 from mc_nested.cli.app import main
 from mc_nested.errors import DesktopError, LiveError, McNestedError, NotInFrontError, StoppedError
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.ending import EndedBySignal
+from mc_nested.live.input.signals import EndedBySignal
 from sim.grid import GridGame
 
 
@@ -29,6 +29,10 @@ class FragileGame(GridGame):
         self._left = lasts
         self._error = error
         self._failures = failures
+
+    @property
+    def resumable(self) -> Resumable | None:
+        return None
 
     def act(self, action: Action) -> Outcome:
         self._left -= 1
@@ -133,7 +137,7 @@ def test_an_episode_that_is_watched_begins_anew_twice_where_mishaps_spoil_it(
     capsys.readouterr()
     assert (code_of("play", tmp_path / "run", "--backend", "live", "--profile", "mine") or 0) == code
     told = capsys.readouterr().err.splitlines()
-    assert told.count("  it lagged; the episode begins anew") == min(failures, 2)
+    assert told.count("  it lagged; the episode starts over") == min(failures, 2)
     assert ("mc-nested: it lagged" in told) is (code == 2)
 
 

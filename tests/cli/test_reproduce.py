@@ -15,9 +15,9 @@ import pytest
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.cli.app import main
 from mc_nested.cli.reproduce import builders_score
-from mc_nested.learn.checkpoint import FILE
+from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.report.results import read_evaluations
-from tests.learn.experiments import BAR, DOT, scenario_text, small_preset_text
+from tests.learn.made_experiments import BAR, DOT, scenario_text, small_preset_text
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals for other processes")
 
@@ -186,7 +186,7 @@ def test_killed_in_the_middle_it_goes_on_to_the_same_files(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("whole_group", [True, False], ids=["in a terminal", "to the command alone"])
-def test_ctrl_c_saves_and_says_how_to_go_on(
+def test_ctrl_c_saves_and_says_how_to_resume(
     words: list[str], straight: dict[str, bytes], tmp_path: Path, whole_group: bool
 ) -> None:
     out = tmp_path / "run"

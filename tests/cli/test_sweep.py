@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.cli.app import main
-from tests.learn.experiments import DOT, scenario_text, small_preset_text
+from tests.learn.made_experiments import DOT, scenario_text, small_preset_text
 
 
 def run(*arguments: str | Path) -> int:

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.cli.app import main
-from mc_nested.learn.checkpoint import FILE
+from mc_nested.learn.runs.checkpoint import FILE
 
 TRAIN = ["train", "--episodes", "40", "--trials", "2", "--seed", "3"]
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from mc_nested.learn.dqn.state_space import StateSpace
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import load_preset
-from mc_nested.learn.states import StateSpace
 
 PAPER = load_preset("paper")
 
@@ -16,7 +16,7 @@ def learner(highest: list[list[int]], actions: int = 8) -> Learner:
 
 
 def values(learner: Learner, states: list[list[int]]) -> np.ndarray:
-    return learner.ddqn.q_values(learner.space.number(np.array(states)))
+    return learner.ddqn.q_values(learner.space.index(np.array(states)))
 
 
 def test_a_number_below_epsilon_explores_and_the_second_says_where() -> None:
@@ -32,7 +32,7 @@ def test_a_number_below_epsilon_explores_and_the_second_says_where() -> None:
 def remember(learner: Learner, rows: list[int]) -> None:
     k = len(rows)
     states, ones = np.zeros((k, 3), dtype=np.int64), np.ones(k)
-    learner.remember(np.array(rows), states, np.zeros(k, dtype=np.int64), ones, states, ones > 0)
+    learner.store(np.array(rows), states, np.zeros(k, dtype=np.int64), ones, states, ones > 0)
 
 
 def test_learning_starts_with_the_first_full_batch() -> None:
@@ -53,7 +53,7 @@ def test_a_learner_learns_what_a_terminal_reward_is_worth() -> None:
     state, over = np.array([[3]]), np.array([True])
     for step in range(40):
         action = step % 2
-        one.remember(row, state, np.array([action]), np.array([4.0 if action else -1.0]), state, over)
+        one.store(row, state, np.array([action]), np.array([4.0 if action else -1.0]), state, over)
     for _ in range(1500):
         one.learn(row, random.random((1, 32)))
     assert values(one, [[3]]).tolist()[0] == pytest.approx([-1.0, 4.0], abs=0.1)
@@ -62,7 +62,7 @@ def test_a_learner_learns_what_a_terminal_reward_is_worth() -> None:
 def test_what_follows_counts_by_gamma_unless_the_episode_terminated() -> None:
     one = learner([[14]])
     for over in (False, True):
-        one.remember(np.array([0]), np.array([[3]]), np.array([1]), np.array([1.0]), np.array([[4]]), np.array([over]))
+        one.store(np.array([0]), np.array([[3]]), np.array([1]), np.array([1.0]), np.array([[4]]), np.array([over]))
     kept = one.replay.added_since(np.array([0]))
     assert kept["discounts"].tolist() == [pytest.approx(0.95), 0.0]
     assert kept["states"].tolist() == [[3, 4], [3, 4]]

@@ -6,16 +6,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from gymnasium.wrappers.vector import RecordEpisodeStatistics
 
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.game import Outcome
+from mc_nested.arena.game import Outcome, Resumable
 from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.arena.vector import ArenaVectorEnv, Ints
-from mc_nested.learn.agents import FORMS, Agent, Form, view_of
-from mc_nested.learn.checkpoint import Arrays
+from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.arrays import Arrays, Float32s, Int64s
+from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec, view_of
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import ExcursionRule, Imitation, Preset, Prioritized, load_preset
@@ -24,7 +24,7 @@ from sim.grid import GridGame, GridVectorEnv, arena_env
 
 LINE, DIAMOND = load_scenario("line"), load_scenario("diamond")
 PAPER = load_preset("paper")
-NESTED, HIERARCHICAL, SINGLE = FORMS["nested"], FORMS["hierarchical"], FORMS["single"]
+NESTED, HIERARCHICAL, SINGLE = AGENT_SPECS["nested"], AGENT_SPECS["hierarchical"], AGENT_SPECS["single"]
 SHORT = PAPER.model_copy(
     update={
         "episodes": 20,
@@ -39,10 +39,10 @@ def trainer_of(
     preset: Preset = SHORT,
     seed: int = 0,
     stop_at_optimum: bool = False,
-    form: Form = NESTED,
+    spec: AgentSpec = NESTED,
 ) -> Trainer:
-    agent = Agent(form, scenarios, preset, seed)
-    env = view_of(form, GridVectorEnv(scenarios), scenarios)
+    agent = Agent(spec, scenarios, preset, seed)
+    env = view_of(spec, GridVectorEnv(scenarios), scenarios)
     return Trainer(env, scenarios, agent, preset, seed, stop_at_optimum)
 
 
@@ -53,7 +53,7 @@ def finish(trainer: Trainer) -> Trainer:
 
 
 def _learners(agent: Agent) -> list[Learner]:
-    return [learner for learner in (agent.main, agent.low) if learner is not None]
+    return [learner for learner in (agent.main, agent.low_level) if learner is not None]
 
 
 def main_of(agent: Agent) -> Learner:
@@ -73,7 +73,7 @@ def saved(trainer: Trainer) -> tuple[Arrays, list[Arrays]]:
     return {name: kept.copy() for name, kept in trainer.state().items()}, [trainer.journal(None)]
 
 
-def weights(trainer: Trainer, run: int) -> list[NDArray[np.float32]]:
+def weights(trainer: Trainer, run: int) -> list[Float32s]:
     return [learner.ddqn.online[run] for learner in _learners(trainer.agent)]
 
 
@@ -103,10 +103,10 @@ def test_an_odd_number_of_episodes_ends_with_an_evaluation() -> None:
 def test_the_nested_agent_updates_once_a_step_and_the_main_agent_once_an_episode(three_runs: Trainer) -> None:
     steps = sum(row.steps for row in three_runs.episode_rows)
     assert three_runs.env_steps == steps
-    assert int(three_runs.agent.low.replay.added.sum()) == steps
+    assert int(three_runs.agent.low_level.replay.added.sum()) == steps
     assert main_of(three_runs.agent).replay.added.tolist() == [20] * 3
     # From 16 transitions on: the first 15 steps, and the first 15 episodes, bring none.
-    assert int(three_runs.agent.low.ddqn.updates.sum()) == steps - 3 * 15
+    assert int(three_runs.agent.low_level.ddqn.updates.sum()) == steps - 3 * 15
     assert main_of(three_runs.agent).ddqn.updates.tolist() == [5] * 3
 
 
@@ -117,7 +117,7 @@ def test_evaluations_are_neither_learnt_from_nor_counted_as_training(three_runs:
 def test_the_main_agents_one_transition_is_the_start_its_choice_and_the_score(three_runs: Trainer) -> None:
     kept = kept_by(main_of(three_runs.agent), 1)
     rows = [row for row in three_runs.episode_rows if row.trial == 1]
-    start = main_of(three_runs.agent).space.number(np.array([7, 14, 11]))
+    start = main_of(three_runs.agent).space.index(np.array([7, 14, 11]))
     assert kept["states"][:, 0].tolist() == [start] * 20
     assert kept["actions"].tolist() == [row.material for row in rows]
     assert kept["rewards"].tolist() == [row.score for row in rows]
@@ -125,7 +125,7 @@ def test_the_main_agents_one_transition_is_the_start_its_choice_and_the_score(th
 
 
 def test_the_nested_agents_states_carry_the_main_action(three_runs: Trainer) -> None:
-    kept = kept_by(three_runs.agent.low, 2)
+    kept = kept_by(three_runs.agent.low_level, 2)
     rows = [row for row in three_runs.episode_rows if row.trial == 2]
     carried = np.concatenate([[row.material] * row.steps for row in rows])
     # a_M comes last in a nested state, so it is what is left of its number when divided by the two materials.
@@ -134,7 +134,7 @@ def test_the_nested_agents_states_carry_the_main_action(three_runs: Trainer) -> 
 
 
 def test_truncation_bootstraps_and_termination_does_not(three_runs: Trainer) -> None:
-    kept = kept_by(three_runs.agent.low, 0)
+    kept = kept_by(three_runs.agent.low_level, 0)
     rows = [row for row in three_runs.episode_rows if row.trial == 0]
     ends = np.cumsum([row.steps for row in rows]) - 1
     terminated = kept["discounts"] == 0
@@ -183,7 +183,7 @@ def test_a_saved_training_goes_on_to_the_bit(three_runs: Trainer, ticks: int) ->
 
 def test_a_game_that_can_not_be_saved_half_way_goes_on_with_a_new_episode() -> None:
     def games() -> ArenaVectorEnv:
-        return ArenaVectorEnv([arena_env(LINE)])
+        return ArenaVectorEnv([ArenaEnv(StartsOver(LINE), LINE)])
 
     agent = Agent(NESTED, [LINE], SHORT, 0)
     first = Trainer(games(), [LINE], agent, SHORT, 0)
@@ -202,9 +202,27 @@ def test_single_games_and_arrays_train_the_same(three_runs: Trainer) -> None:
     assert finish(trainer).episode_rows == three_runs.episode_rows
 
 
+def test_single_games_are_resumed_half_way_as_arrays_are(three_runs: Trainer) -> None:
+    def games() -> ArenaVectorEnv:
+        return ArenaVectorEnv([arena_env(LINE) for _ in range(3)])
+
+    first = Trainer(games(), [LINE] * 3, Agent(NESTED, [LINE] * 3, SHORT, 0), SHORT, 0)
+    for _ in range(130):
+        first.tick()
+    resumed = Trainer(games(), [LINE] * 3, Agent(NESTED, [LINE] * 3, SHORT, 0), SHORT, 0)
+    resumed.load(*saved(first))
+    assert finish(resumed).episode_rows == three_runs.episode_rows
+
+
+def test_a_gymnasium_wrapper_trains_the_same(three_runs: Trainer) -> None:
+    env = RecordEpisodeStatistics(GridVectorEnv([LINE] * 3))
+    trainer = Trainer(env, [LINE] * 3, Agent(NESTED, [LINE] * 3, SHORT, 0), SHORT, 0)
+    assert finish(trainer).episode_rows == three_runs.episode_rows
+
+
 def test_designs_train_side_by_side() -> None:
     trainer = finish(trainer_of([LINE, DIAMOND], SHORT.model_copy(update={"episodes": 5})))
-    assert [kept_by(trainer.agent.low, run)["states"][0, 0] // 2 % 17 for run in (0, 1)] == [11, 16]
+    assert [kept_by(trainer.agent.low_level, run)["states"][0, 0] // 2 % 17 for run in (0, 1)] == [11, 16]
 
 
 def test_a_run_that_stops_at_the_optimum_has_its_best_policy() -> None:
@@ -242,29 +260,29 @@ SCOUTING = SHORT.model_copy(
 
 
 @pytest.fixture(scope="module")
-def scouting() -> Trainer:
+def exploring() -> Trainer:
     return finish(trainer_of([LINE, DIAMOND], SCOUTING))
 
 
-def test_excursions_find_more_than_chance_does(scouting: Trainer) -> None:
+def test_excursions_find_more_than_chance_does(exploring: Trainer) -> None:
     by_chance = finish(trainer_of([LINE, DIAMOND], SHORT.model_copy(update={"episodes": 60})))
     for run in (0, 1):
-        best = [max(row.score for row in t.episode_rows if row.trial == run) for t in (scouting, by_chance)]
+        best = [max(row.score for row in t.episode_rows if row.trial == run) for t in (exploring, by_chance)]
         assert best[0] > best[1]
 
 
-def test_a_run_keeps_its_best_policy_where_the_preset_says_so(scouting: Trainer) -> None:
-    scores = [max(row.score for row in scouting.evaluation_rows if row.trial == run) for run in (0, 1)]
-    assert scouting.kept_scores.tolist() == scores
+def test_a_run_keeps_its_best_policy_where_the_preset_says_so(exploring: Trainer) -> None:
+    scores = [max(row.score for row in exploring.evaluation_rows if row.trial == run) for run in (0, 1)]
+    assert exploring.kept_scores.tolist() == scores
     agent = Agent(NESTED, [LINE, DIAMOND], SCOUTING, seed=0)
     for role, online in agent.online().items():
-        online[:] = scouting.state()[f"kept.{role}"]
+        online[:] = exploring.state()[f"kept.{role}"]
     played = play_greedily(GridVectorEnv([LINE, DIAMOND]), [LINE, DIAMOND], agent)
     assert [episode.score for episode in played] == scores
 
 
-def test_a_training_begun_from_a_policy_keeps_it_until_it_has_one_of_its_own(scouting: Trainer) -> None:
-    online = {role: kept[[0]] for role, kept in scouting.agent.online().items()}
+def test_a_training_begun_from_a_policy_keeps_it_until_it_has_one_of_its_own(exploring: Trainer) -> None:
+    online = {role: kept[[0]] for role, kept in exploring.agent.online().items()}
     trainer = trainer_of([LINE, DIAMOND], SCOUTING)
     trainer.begin_from(online)
     for role, taken in online.items():
@@ -274,24 +292,24 @@ def test_a_training_begun_from_a_policy_keeps_it_until_it_has_one_of_its_own(sco
     assert trainer.evaluation_rows[0].episode == 0
 
 
-def test_there_are_as_many_updates_a_step_as_the_preset_says(scouting: Trainer) -> None:
-    steps = sum(row.steps for row in scouting.episode_rows)
-    assert int(scouting.agent.low.ddqn.updates.sum()) == 2 * (steps - 2 * 15)
+def test_there_are_as_many_updates_a_step_as_the_preset_says(exploring: Trainer) -> None:
+    steps = sum(row.steps for row in exploring.episode_rows)
+    assert int(exploring.agent.low_level.ddqn.updates.sum()) == 2 * (steps - 2 * 15)
 
 
-@pytest.mark.parametrize("form", [NESTED, HIERARCHICAL], ids=["nested", "hierarchical"])
-def test_excursions_can_be_saved_resumed_and_taken_out_of_a_batch(form: Form) -> None:
+@pytest.mark.parametrize("spec", [NESTED, HIERARCHICAL], ids=["nested", "hierarchical"])
+def test_excursions_can_be_saved_resumed_and_taken_out_of_a_batch(spec: AgentSpec) -> None:
     preset = SCOUTING.model_copy(update={"episodes": 15})
-    whole, first = finish(trainer_of([LINE] * 2, preset, form=form)), trainer_of([LINE] * 2, preset, form=form)
+    whole, first = finish(trainer_of([LINE] * 2, preset, spec=spec)), trainer_of([LINE] * 2, preset, spec=spec)
     for _ in range(333):
         first.tick()
-    resumed = trainer_of([LINE] * 2, preset, form=form)
+    resumed = trainer_of([LINE] * 2, preset, spec=spec)
     resumed.load(*saved(first))
     finish(resumed)
     assert resumed.episode_rows == whole.episode_rows
     for name, kept in whole.state().items():
         assert np.array_equal(resumed.state()[name], kept), name
-    agent = Agent(form, [LINE], preset, 0, runs=[1])
+    agent = Agent(spec, [LINE], preset, 0, runs=[1])
     alone = finish(Trainer(GridVectorEnv([LINE]), [LINE], agent, preset, 0))
     assert [row[1:] for row in alone.episode_rows] == [row[1:] for row in whole.episode_rows if row.trial == 1]
 
@@ -319,7 +337,7 @@ class Fails(GridVectorEnv):
 
     fails_at = 50
 
-    def step(self, actions: Ints) -> Any:
+    def step(self, actions: Int64s) -> Any:
         self.fails_at -= 1
         if self.fails_at == 0:
             raise ConnectionError("the game is gone")
@@ -334,8 +352,16 @@ def test_after_an_error_of_the_env_training_goes_on_with_a_new_episode() -> None
     assert [row.episode for row in finish(trainer).episode_rows] == list(range(1, 21))
 
 
-class Spoils(GridGame):
-    """A game that can't be saved half-way, and breaks down once."""
+class StartsOver(GridGame):
+    """A game that can't be saved half-way."""
+
+    @property
+    def resumable(self) -> Resumable | None:
+        return None
+
+
+class Spoils(StartsOver):
+    """Breaks down once."""
 
     acts_left = 50
 
@@ -350,12 +376,12 @@ LIVE = load_preset("live").model_copy(update={"episodes": 20})
 
 
 @pytest.mark.parametrize(
-    ("form", "preset"),
+    ("spec", "preset"),
     [(NESTED, SHORT), (HIERARCHICAL, SHORT), (SINGLE, SHORT), (NESTED, LIVE), (HIERARCHICAL, LIVE)],
 )
-def test_an_episode_that_is_spoiled_is_never_learnt_from(form: Form, preset: Preset) -> None:
-    agent = Agent(form, [LINE], preset, 0)
-    trainer = Trainer(view_of(form, ArenaVectorEnv([ArenaEnv(Spoils(LINE), LINE)]), [LINE]), [LINE], agent, preset, 0)
+def test_an_episode_that_is_spoiled_is_never_learnt_from(spec: AgentSpec, preset: Preset) -> None:
+    agent = Agent(spec, [LINE], preset, 0)
+    trainer = Trainer(view_of(spec, ArenaVectorEnv([ArenaEnv(Spoils(LINE), LINE)]), [LINE]), [LINE], agent, preset, 0)
     known: list[tuple[Arrays, Arrays]] = []
     ended = 0
     with suppress(ConnectionError):
@@ -374,7 +400,7 @@ def test_an_episode_that_is_spoiled_is_never_learnt_from(form: Form, preset: Pre
 
 
 @pytest.mark.parametrize(
-    ("form", "networks", "parameters"),
+    ("spec", "networks", "parameters"),
     [
         # Main: 3·32 + 32 + 32·32 + 32 + 32·2 + 2 = 1250; nested: 1480; a low agent without a_M: 1448; single, with two
         # actions more: 1546.
@@ -382,31 +408,31 @@ def test_an_episode_that_is_spoiled_is_never_learnt_from(form: Form, preset: Pre
         (HIERARCHICAL, 3, 1250 + 2 * 1448),
         (SINGLE, 1, 1546),
     ],
-    ids=list(FORMS),
+    ids=list(AGENT_SPECS),
 )
-def test_the_agents_train_2_and_3_and_1_networks(form: Form, networks: int, parameters: int) -> None:
-    agent = Agent(form, [LINE], SHORT, 0)
+def test_the_agents_train_2_and_3_and_1_networks(spec: AgentSpec, networks: int, parameters: int) -> None:
+    agent = Agent(spec, [LINE], SHORT, 0)
     assert (agent.networks, agent.parameters) == (networks, parameters)
 
 
 def test_each_low_agent_of_the_hierarchy_learns_from_its_own_material_alone() -> None:
-    trainer = finish(trainer_of([LINE] * 2, form=HIERARCHICAL))
+    trainer = finish(trainer_of([LINE] * 2, spec=HIERARCHICAL))
     for run in (0, 1):
         for material in (0, 1):
             rows = [row for row in trainer.episode_rows if (row.trial, row.material) == (run, material)]
-            assert trainer.agent.low.replay.added[2 * run + material] == sum(row.steps for row in rows)
-    assert trainer.agent.low.space.inputs == 3, "nothing of the top agent is in the low agents' state"
-    added = trainer.agent.low.replay.added
-    assert trainer.agent.low.ddqn.updates.tolist() == np.maximum(added - 15, 0).tolist()
+            assert trainer.agent.low_level.replay.added[2 * run + material] == sum(row.steps for row in rows)
+    assert trainer.agent.low_level.space.inputs == 3, "nothing of the top agent is in the low agents' state"
+    added = trainer.agent.low_level.replay.added
+    assert trainer.agent.low_level.ddqn.updates.tolist() == np.maximum(added - 15, 0).tolist()
 
 
 def test_the_single_agent_learns_from_its_choice_as_from_any_action() -> None:
-    trainer = finish(trainer_of([LINE] * 2, SHORT.model_copy(update={"episodes": 60}), form=SINGLE))
+    trainer = finish(trainer_of([LINE] * 2, SHORT.model_copy(update={"episodes": 60}), spec=SINGLE))
     for run in (0, 1):
-        kept = kept_by(trainer.agent.low, run)
+        kept = kept_by(trainer.agent.low_level, run)
         rows = [row for row in trainer.episode_rows if row.trial == run]
         begins = np.concatenate(([0], np.cumsum([row.steps for row in rows])[:-1]))
-        unchosen = trainer.agent.low.space.number(np.array([7, 14, 11, 0]))
+        unchosen = trainer.agent.low_level.space.index(np.array([7, 14, 11, 0]))
         assert kept["states"][begins, 0].tolist() == [unchosen] * 60
         choices = kept["actions"][begins].astype(int)
         assert [row.material for row in rows] == np.where(choices < 2, choices, -1).tolist()
@@ -415,26 +441,26 @@ def test_the_single_agent_learns_from_its_choice_as_from_any_action() -> None:
     assert {row.material for row in trainer.episode_rows} == {-1, 0, 1}
 
 
-@pytest.mark.parametrize("form", [HIERARCHICAL, SINGLE], ids=["hierarchical", "single"])
-def test_every_agents_training_can_be_repeated_and_resumed(form: Form) -> None:
-    whole, first = finish(trainer_of([LINE] * 2, form=form)), trainer_of([LINE] * 2, form=form)
+@pytest.mark.parametrize("spec", [HIERARCHICAL, SINGLE], ids=["hierarchical", "single"])
+def test_every_agents_training_can_be_repeated_and_resumed(spec: AgentSpec) -> None:
+    whole, first = finish(trainer_of([LINE] * 2, spec=spec)), trainer_of([LINE] * 2, spec=spec)
     for _ in range(150):
         first.tick()
-    resumed = trainer_of([LINE] * 2, form=form)
+    resumed = trainer_of([LINE] * 2, spec=spec)
     resumed.load(*saved(first))
     finish(resumed)
     assert resumed.episode_rows == whole.episode_rows
     for name, kept in whole.state().items():
         assert np.array_equal(resumed.state()[name], kept), name
-    played = play_greedily(view_of(form, GridVectorEnv([LINE] * 2), [LINE] * 2), [LINE] * 2, whole.agent)
+    played = play_greedily(view_of(spec, GridVectorEnv([LINE] * 2), [LINE] * 2), [LINE] * 2, whole.agent)
     last = {row.trial: row for row in whole.evaluation_rows}
     assert [(episode.score, episode.material) for episode in played] == [
         (last[run].score, last[run].material) for run in (0, 1)
     ]
 
 
-@pytest.mark.parametrize("form", FORMS.values(), ids=list(FORMS))
-def test_a_run_of_a_batch_of_any_agent_is_that_run_alone(form: Form) -> None:
+@pytest.mark.parametrize("spec", AGENT_SPECS.values(), ids=list(AGENT_SPECS))
+def test_a_run_of_a_batch_of_any_agent_is_that_run_alone(spec: AgentSpec) -> None:
     preset = SHORT.model_copy(update={"episodes": 10})
-    beside, alone = finish(trainer_of([LINE] * 3, preset, form=form)), finish(trainer_of([LINE], preset, form=form))
+    beside, alone = finish(trainer_of([LINE] * 3, preset, spec=spec)), finish(trainer_of([LINE], preset, spec=spec))
     assert alone.episode_rows == [row for row in beside.episode_rows if row.trial == 0]

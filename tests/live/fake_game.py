@@ -10,10 +10,13 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from mc_nested.live.devices import Button, Frame, Region
-from mc_nested.live.menu_labels import Button as MenuButton
-from mc_nested.live.profile import Profile
-from mc_nested.live.reading import Block, Reading, Target
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.devices import Button, Devices, Frame, Keyboard, Pointer, Region
+from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.model.reading import Block, Reading, Target
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.game_screen import GameScreen
+from mc_nested.live.vision.menu_labels import MenuButton
 
 TICK = 0.05
 FLOOR = "smooth_stone"
@@ -206,7 +209,7 @@ class FakeGame:
             self.blocks[before] = self.hotbar[self.slot]
 
     def _ray(self) -> tuple[Block | None, Block]:
-        """The block looked at within reach, and the free one before it."""
+        """The target block within reach, and the free one before it."""
         yaw, pitch = math.radians(self.yaw), math.radians(self.pitch)
         way = (-math.sin(yaw) * math.cos(pitch), -math.sin(pitch), math.cos(yaw) * math.cos(pitch))
         eye = (self.xyz[0], self.xyz[1] + 1.62, self.xyz[2])
@@ -241,7 +244,7 @@ class FakeScreen:
     def read(self) -> Reading:
         return self._readings() or self._game.read()
 
-    def read_place(self) -> tuple[float, float, float] | None:
+    def read_position(self) -> tuple[float, float, float] | None:
         return self.read().xyz
 
     def is_chat_open(self) -> bool:
@@ -253,7 +256,7 @@ class FakeScreen:
     def menu(self) -> NoMenu:
         return NoMenu()
 
-    def place_of(self, text: str) -> tuple[int, int] | None:
+    def position_of(self, text: str) -> tuple[int, int] | None:
         raise NotImplementedError(f"the fake game has no menu, nor {text!r} on it")
 
     def scale(self) -> int:
@@ -321,6 +324,32 @@ class FakePointer:
 
     def release(self, button: Button) -> None:
         self._game.send(f"{button} button", is_down=False)
+
+
+class FakeClipboard:
+    """A clipboard that holds what was written."""
+
+    def __init__(self) -> None:
+        self.text = ""
+
+    def read(self) -> str:
+        return self.text
+
+    def write(self, text: str) -> None:
+        self.text = text
+
+
+def devices_of(game: FakeGame, keyboard: Keyboard | None = None, pointer: Pointer | None = None) -> Devices:
+    """The fake game's devices, with another keyboard or pointer if one is given."""
+    return Devices(
+        FakeDisplay(game), keyboard or FakeKeyboard(game), pointer or FakePointer(game), game.clock, FakeClipboard()
+    )
+
+
+def connection_to(game: FakeGame, screen: GameScreen | None = None, fail_after: int = -1) -> GameConnection:
+    """The fake game, read by its own screen unless another is given; its keyboard may fail after some calls."""
+    devices = devices_of(game, FakeKeyboard(game, fail_after))
+    return GameConnection(devices, InputController(devices, game.profile.input), screen or FakeScreen(game))
 
 
 def _block_at(point: tuple[float, float, float]) -> Block:

@@ -1,13 +1,14 @@
 """What playing took, as plain numbers."""
 
 from mc_nested.live.action_log import ActionLog, percentile
-from mc_nested.live.effort import Effort
+from mc_nested.live.motion.effort import Effort
 
 
 def test_percentiles_are_values_that_shares_lie_below() -> None:
     assert percentile([float(value) for value in range(101)], 50) == 50.0
     assert percentile([float(value) for value in range(101)], 95) == 95.0
     assert percentile([0.25], 95) == 0.25
+    assert percentile([0.25, 0.75], 50) == 0.5
     assert percentile([], 50) is None
 
 

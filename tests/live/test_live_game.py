@@ -2,7 +2,9 @@
 
 import contextlib
 import dataclasses
+from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -12,14 +14,17 @@ from mc_nested.arena.builder import build
 from mc_nested.arena.rules import Action, Cell
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.errors import LiveError, NotConfirmedError, NotInFrontError, ProfileError
-from mc_nested.live.commands import reset_commands
-from mc_nested.live.coordinates import Facing
-from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import Arena, GameVersion
+from mc_nested.errors import DesktopError, LiveError, NotConfirmedError, NotInFrontError, ProfileError, StoppedError
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.live_game import RESET_TRIES, LiveGame
+from mc_nested.live.menus.commands import reset_commands
+from mc_nested.live.model.coordinates import Facing
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.tables import GameVersion, Profile
 from tests.arena.game_contract import BUMPS, check_game
-from tests.live.fake_game import FakeDisplay, FakeGame, FakeKeyboard, FakePointer, FakeScreen
+from tests.live.fake_game import FakeDisplay, FakeGame, FakeScreen, connection_to, devices_of
 
 LINE = load_scenario("line")
 STONE = LINE.best_material
@@ -36,11 +41,7 @@ def _play(world: FakeGame, scenario: Scenario = LINE, fail_after: int = -1) -> L
     return LiveGame(
         scenario,
         world.profile,
-        display=FakeDisplay(world),
-        keyboard=FakeKeyboard(world, fail_after),
-        pointer=FakePointer(world),
-        clock=world.clock,
-        screen=FakeScreen(world),
+        connection_to(world, fail_after=fail_after),
     )
 
 
@@ -49,7 +50,7 @@ def _commands(world: FakeGame) -> list[str]:
 
 
 def _cell_of(world: FakeGame) -> Cell:
-    right, forward = world.profile.marked_arena().place_of(world.xyz)
+    right, forward = world.profile.marked_arena().position_of(world.xyz)
     return round(right), round(forward)
 
 
@@ -172,15 +173,96 @@ def test_nothing_is_typed_where_the_chat_does_not_open() -> None:
     game = LiveGame(
         LINE,
         _world().profile,
-        display=FakeDisplay(world),
-        keyboard=FakeKeyboard(world),
-        pointer=FakePointer(world),
-        clock=world.clock,
-        screen=FakeScreen(world),
+        connection_to(world),
     )
     with pytest.raises(NotConfirmedError, match="the chat did not open"):
         game.reset(STONE)
     assert world.leaked == ""
+
+
+def test_a_reset_faces_the_nearest_of_the_leftmost_blocks_and_sees_it_go() -> None:
+    world = _world("south")
+    arena = world.profile.marked_arena()
+    game = _play(world)
+    game.reset(STONE)
+    for action in (Action.BD, Action.BD, Action.RD):
+        game.act(action)
+    assert world.built == {arena.block_of(cell) for cell in ((7, 14), (7, 13), (8, 13))}
+    world.commands.clear()
+    game.reset(STONE)
+    x, _, z = arena.centre_of((7, 12))
+    clear, *others = _commands(world)
+    assert world.commands == [f"/tp @s {x:.1f} 64 {z:.1f} 0 65", clear, *others]
+    assert world.built == set()
+
+
+def test_without_a_placed_block_a_reset_only_clears_and_teleports() -> None:
+    world = _world()
+    game = _play(world)
+    game.reset(STONE)
+    assert world.commands == _commands(world)
+
+
+def test_the_log_counts_actions_failures_and_resets_that_had_to_be_repeated() -> None:
+    world = _world()
+    game = _play(world)
+    game.reset(STONE)
+    began = world.clock.now()
+    game.act(Action.B)
+    assert game.log.seconds == [world.clock.now() - began]
+    assert (game.log.failed_actions, game.log.failed_resets, game.log.recoveries) == (0, 0, 0)
+    world.xyz = world.profile.marked_arena().centre_of((3, 3))
+    with pytest.raises(NotConfirmedError):
+        game.act(Action.B)
+    assert (len(game.log.seconds), game.log.failed_actions) == (1, 1)
+    world.refuse_commands = "/tp"
+    with pytest.raises(NotConfirmedError):
+        game.reset(STONE)
+    assert game.log.failed_resets == RESET_TRIES - 1
+
+
+def test_a_reset_that_fails_for_good_leaves_the_last_frames_and_names_them(tmp_path: Path) -> None:
+    class GreyDisplay(FakeDisplay):
+        """The fake game's window, grey all over."""
+
+        def grab(self, region: Region | None = None) -> Frame:
+            assert region is None
+            return np.full((480, 854, 3), 99, np.uint8)
+
+    world = _world()
+    world.refuse_commands = "/tp"
+    devices = dataclasses.replace(devices_of(world), display=GreyDisplay(world))
+    connection = GameConnection(devices, InputController(devices, world.profile.input), FakeScreen(world))
+    game = LiveGame(LINE, world.profile, connection, evidence=tmp_path)
+    with pytest.raises(NotConfirmedError, match=r"was not seen.*; what was seen last: .*last-3\.png") as caught:
+        game.reset(STONE)
+    assert type(caught.value) is NotConfirmedError
+    assert len(list(tmp_path.glob("*.png"))) == 3
+
+
+def test_a_person_who_stops_the_game_ends_a_reset_at_once() -> None:
+    world = _world()
+    game = _play(world)
+    game.connection.controller.stop("the panic key was pressed")
+    with pytest.raises(StoppedError):
+        game.reset(STONE)
+    assert game.log.failed_resets == 0
+    assert world.presses == []
+
+
+def test_a_game_that_others_may_share_is_not_reset() -> None:
+    class SharedDisplay(FakeDisplay):
+        """The fake game's window in a world that others may join."""
+
+        def title(self) -> str:
+            return "Minecraft 1.20.1 - Multiplayer (LAN)"
+
+    world = _world()
+    devices = dataclasses.replace(devices_of(world), display=SharedDisplay(world))
+    connection = GameConnection(devices, InputController(devices, world.profile.input), FakeScreen(world))
+    with pytest.raises(DesktopError, match="others may be playing there"):
+        LiveGame(LINE, world.profile, connection).reset(STONE)
+    assert world.presses == []
 
 
 def test_a_clearing_that_the_game_refuses_is_seen_by_the_block_that_stays() -> None:
@@ -232,3 +314,10 @@ def test_more_materials_than_the_hotbar_has_slots_are_refused() -> None:
     many = dataclasses.replace(LINE, materials=tuple(Material(f"m{index}", 0.0, "stone") for index in range(10)))
     with pytest.raises(ProfileError, match="10 materials, the hotbar only 9 slots"):
         _play(_world(), many)
+
+
+def test_as_many_materials_as_the_hotbar_has_slots_are_fine() -> None:
+    world = _world()
+    nine = dataclasses.replace(LINE, materials=tuple(Material(f"m{index}", 0.0, "stone") for index in range(9)))
+    _play(world, nine).reset(8)
+    assert world.slot == 8

@@ -1,24 +1,110 @@
-"""Opening a live game: how the profile says the debug screen is drawn. The rest is played in a real window."""
+"""Opening a live game: what can't be played is refused before anything is pressed."""
 
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from pathlib import Path
+
+import cv2
 import pytest
 
-from mc_nested.live.debug_screen import Overlay
-from mc_nested.live.profile import parse_profile
-from mc_nested.live.session import overlay_of
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import FontError, NotInFrontError, ProfileError
+from mc_nested.live.devices import Devices
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.fingerprint import Fingerprint
+from mc_nested.live.profile.store import save_profile
+from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable, WindowTable
+from mc_nested.live.session import fingerprint_of, open_live_game
+from sim.client.client import VirtualClient
+from sim.client.drawing.font import drawn_atlas
+from sim.client.settings import ClientSettings
+
+LINE = load_scenario("line")
+CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
+ARENA = Arena.around((-20, 64, 31), "south")
+OpenDevices = Callable[[str], AbstractContextManager[Devices]]
+
+
+def font_in(folder: Path) -> ScreenTable:
+    font = folder / "ascii.png"
+    font.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
+    return ScreenTable(font=str(font))
+
+
+def saved(profile: Profile, folder: Path) -> str:
+    save_profile(profile, folder / "mine.toml")
+    return str(folder / "mine.toml")
+
+
+def opener(client: VirtualClient, titles: list[str]) -> OpenDevices:
+    """Opens that client's window, and notes the title that was asked for."""
+
+    @contextmanager
+    def opened(title: str) -> Iterator[Devices]:
+        titles.append(title)
+        yield client.devices
+
+    return opened
 
 
 @pytest.mark.parametrize(
-    ("screen", "overlay"),
+    ("settings", "complaint"),
     [
-        ("", None),
-        ("line_pitch = 10\ntext_colour = [255, 255, 255]", None),
-        ("gui_scale = 6", Overlay(scale=6, pitch=9, colour=(224, 224, 224))),
-        (
-            "gui_scale = 3\nline_pitch = 10\ntext_colour = [255, 255, 255]",
-            Overlay(scale=3, pitch=10, colour=(255, 255, 255)),
-        ),
+        (ClientSettings(version="1.19.4"), "this is 1.19.4"),
+        (ClientSettings(size=(1024, 768)), "this one has 1024 x 768"),
+        (ClientSettings(scale=1), "this is 1: set Video Settings"),
     ],
-    ids=["nothing", "no scale", "the scale alone", "everything"],
 )
-def test_a_profile_that_says_the_gui_scale_says_how_the_screen_is_drawn(screen: str, overlay: Overlay | None) -> None:
-    assert overlay_of(parse_profile(f"[screen]\n{screen}\n", "here")) == overlay
+def test_a_game_that_does_not_fit_is_not_opened_and_nothing_is_pressed(
+    settings: ClientSettings, complaint: str, tmp_path: Path
+) -> None:
+    client = VirtualClient(settings)
+    profile = saved(Profile(screen=font_in(tmp_path), arena=ARENA, calibrated=CALIBRATED), tmp_path)
+    with (
+        pytest.raises(ProfileError, match=complaint) as caught,
+        open_live_game(LINE, profile, lambda _: None, open_devices=opener(client, [])),
+    ):
+        pass
+    assert f"mc-nested calibrate all --profile {profile}" in str(caught.value)
+    assert not client.window.down
+    assert not client.window.strays
+    assert not client.built
+
+
+def test_a_profile_that_can_not_be_played_with_opens_no_window(tmp_path: Path) -> None:
+    titles: list[str] = []
+    screen = font_in(tmp_path)
+    unusable: list[tuple[Profile, type[Exception]]] = [
+        (Profile(screen=screen), ProfileError),
+        (Profile(arena=ARENA), ProfileError),
+        (Profile(arena=ARENA, screen=ScreenTable(font=str(tmp_path / "none.png"))), FontError),
+    ]
+    for profile, error in unusable:
+        opened = open_live_game(LINE, saved(profile, tmp_path), print, open_devices=opener(VirtualClient(), titles))
+        with pytest.raises(error), opened:
+            pass
+    assert titles == []
+
+
+@pytest.mark.parametrize("is_in_front", [True, False])
+def test_the_player_is_asked_to_switch_only_where_another_window_is_in_front(is_in_front: bool, tmp_path: Path) -> None:
+    client = VirtualClient(ClientSettings(scale=1))
+    client.set_front(is_in_front=is_in_front)
+    calibrated = CALIBRATED.model_copy(update={"version": None})
+    window = WindowTable(title="Mine")
+    profile = saved(Profile(window=window, screen=font_in(tmp_path), arena=ARENA, calibrated=calibrated), tmp_path)
+    said: list[str] = []
+    titles: list[str] = []
+    error = ProfileError if is_in_front else NotInFrontError
+    with pytest.raises(error), open_live_game(LINE, profile, said.append, open_devices=opener(client, titles)):
+        pass
+    asked = ["Switch to the game now, with the debug screen on (F3). Switching away again stops the agent."]
+    assert said == ([] if is_in_front else asked)
+    assert titles == ["Mine"]
+
+
+def test_a_fingerprint_is_the_window_as_it_is_now() -> None:
+    client = VirtualClient()
+    known = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), 2)
+    assert fingerprint_of(client.display, 2) == known
+    assert fingerprint_of(client.display).gui_scale is None

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mc_nested.arrays import Float64s
 from mc_nested.report.inference import (
     ahead,
     alike,
@@ -15,10 +16,9 @@ from mc_nested.report.inference import (
     mostly,
     share_interval,
 )
-from mc_nested.report.measures import Floats
 
 
-def of(*trials: float) -> Floats:
+def of(*trials: float) -> Float64s:
     return np.array(trials, dtype=np.float64)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from tensorboard.backend.event_processing.event_accumulator import EventAccumulator
 
-from mc_nested.learn.agents import FORMS
+from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.report import tensorboard
 from mc_nested.report.tensorboard import TensorBoard
 from tests.learn.test_trainer import LINE, SHORT, trainer_of
@@ -17,9 +17,9 @@ def read(folder: Path) -> EventAccumulator:
     return found
 
 
-@pytest.mark.parametrize("agent", FORMS)
+@pytest.mark.parametrize("agent", AGENT_SPECS)
 def test_every_run_has_its_scores_epsilon_loss_values_and_rate(tmp_path: Path, agent: str) -> None:
-    trainer = trainer_of([LINE] * 2, SHORT.model_copy(update={"episodes": 40}), form=FORMS[agent])
+    trainer = trainer_of([LINE] * 2, SHORT.model_copy(update={"episodes": 40}), spec=AGENT_SPECS[agent])
     folders = [tmp_path / "a", tmp_path / "b"]
     board = TensorBoard(folders, trainer)
     while not trainer.finished:

@@ -6,15 +6,14 @@ from pathlib import Path
 import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import Walk
-from mc_nested.live.walk import walk_response
-from scripts.bench_calibration import Calibrated, calibrated, clicks_off, report, walk_off
-from scripts.bench_live import Play
+from mc_nested.live.model.kinematics import walk_response
+from mc_nested.live.profile.tables import Profile, WalkTable
+from scripts.bench_calibration import ClientResult, calibrate_and_play, click_errors, report, walk_rms
+from scripts.bench_live import PlayCounts
 from scripts.calibration_clients import NARROWEST, VERSIONS, clients
 from sim.client.client import VirtualClient
-from sim.client.edition import Edition
-from sim.client.f3_text import LAYOUTS
+from sim.client.game.edition import Edition
+from sim.client.game.f3_text import LAYOUTS
 from sim.client.settings import ClientSettings, gui_scale
 
 
@@ -46,10 +45,10 @@ def test_their_windows_are_wide_enough_for_the_debug_screens_two_columns() -> No
 
 
 def test_a_profile_of_the_games_own_walk_is_not_off_it_and_another_one_is() -> None:
-    plain = Profile(walk=Walk(covered=walk_response(8)))
-    assert walk_off(plain, ClientSettings()) == pytest.approx(0, abs=1e-9)
+    plain = Profile(walk=WalkTable(covered=walk_response(8)))
+    assert walk_rms(plain, ClientSettings()) == pytest.approx(0, abs=1e-9)
     # A fifth more speed covers a fifth more: of one tick 0.210 blocks, of two 0.427.
-    longer = walk_off(Profile(walk=Walk(covered=walk_response(4))), ClientSettings(speed=1.2))
+    longer = walk_rms(Profile(walk=WalkTable(covered=walk_response(4))), ClientSettings(speed=1.2))
     assert longer == pytest.approx(0.2 * 0.587, rel=0.02)
 
 
@@ -57,15 +56,19 @@ def test_a_point_is_as_far_off_as_it_is_from_its_buttons_middle() -> None:
     client = VirtualClient(size=(854, 480), scale=2)
     # Back to Game, from 1.19.4 on: its middle is at x = 427 / 2 + 102 - 102, y = (240 - 166) // 4 + 50 + 10 = 78.
     exact = ((213 - 102 + 102) * 2 / 854, 78 * 2 / 480)
-    assert list(clicks_off(Profile(points={"back_to_game": exact}), client)) == [pytest.approx(0, abs=0.51)]
+    assert list(click_errors(Profile(points={"back_to_game": exact}), client)) == [pytest.approx(0, abs=0.51)]
     off = (exact[0], exact[1] + 6 / 480)
-    assert list(clicks_off(Profile(points={"back_to_game": off, "world": (0.5, 0.5)}), client)) == [pytest.approx(3.0)]
+    assert list(click_errors(Profile(points={"back_to_game": off, "world": (0.5, 0.5)}), client)) == [
+        pytest.approx(3.0)
+    ]
 
 
 def test_the_report_counts_what_went_wrong() -> None:
-    good = Calibrated(ClientSettings(), game_s=70.0, walk_rms=0.001, clicks_off=(0.5, 1.5), play=Play(actions=200))
-    worse = Calibrated(ClientSettings(), game_s=90.0, play=Play(actions=200, wrong_cells=1, wrong_blocks=2))
-    failed = Calibrated(ClientSettings(version="26.1"), problem="walk: no", game_s=10.0)
+    good = ClientResult(
+        ClientSettings(), game_s=70.0, walk_rms=0.001, click_errors=(0.5, 1.5), play=PlayCounts(actions=200)
+    )
+    worse = ClientResult(ClientSettings(), game_s=90.0, play=PlayCounts(actions=200, wrong_cells=1, wrong_blocks=2))
+    failed = ClientResult(ClientSettings(version="26.1"), problem="walk: no", game_s=10.0)
     figures = report([good, worse, failed])
     assert (figures["clients"], figures["unattended"], figures["actions"]) == (3, 2, 400)
     assert (figures["wrong_cells"], figures["wrong_blocks"]) == (1, 2)
@@ -81,13 +84,13 @@ def test_clients_as_people_have_them_are_calibrated_without_a_hand_and_played_in
     for number, settings in enumerate(clients(3, 11)):
         folder = tmp_path / str(number)
         folder.mkdir()
-        done = calibrated(settings, folder, 25, load_scenario("diamond"))
+        done = calibrate_and_play(settings, folder, 25, load_scenario("diamond"))
         assert done.problem == ""
-        assert done.passed_over == ()
+        assert done.skipped == ()
         assert done.game_s < 300
         assert done.play.actions == 25
         assert done.wrong == 0
         assert done.play.left_down == 0
         assert done.walk_rms < 0.02
-        assert len(done.clicks_off) == 4
-        assert max(done.clicks_off) <= 2
+        assert len(done.click_errors) == 4
+        assert max(done.click_errors) <= 2

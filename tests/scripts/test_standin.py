@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from mc_nested.live.profile import load_profile
+from mc_nested.live.profile.store import load_profile
 from scripts import standin as script
 from scripts.standin_game import write_profile
 from scripts.standin_parts import NODE_FOLDER
@@ -33,7 +33,7 @@ def test_other_words_are_refused(arguments: list[str], tmp_path: Path) -> None:
     assert refusal.value.code == 2
 
 
-def test_another_system_is_told_in_one_line_what_to_do(
+def test_another_system_is_refused_in_one_line_that_says_what_to_do(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(sys, "platform", "win32")
@@ -42,7 +42,7 @@ def test_another_system_is_told_in_one_line_what_to_do(
     assert "needs Linux" in line
 
 
-def test_a_machine_without_the_programs_is_told_in_one_line_how_to_get_them(
+def test_without_the_programs_one_line_says_how_to_get_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("PATH", str(tmp_path))

@@ -80,7 +80,7 @@ def test_a_pack_that_leads_out_of_its_folder_is_refused(tmp_path: Path) -> None:
     assert not (tmp_path / "outside").exists()
 
 
-def test_npm_that_fails_is_told_in_one_line(tmp_path: Path, programs: Path) -> None:
+def test_npm_that_fails_is_reported_in_one_line(tmp_path: Path, programs: Path) -> None:
     pack = write_pack(tmp_path / "thing.tgz", FILES)
     write_program(programs, "npm", "sys.exit('no network')")
     with pytest.raises(MissingError, match=r"could not fetch thing 1\.0\.0") as failure:
@@ -105,7 +105,7 @@ def test_the_server_is_installed_once_for_a_lock_file(
     assert (tmp_path / "calls").read_text() == "xx"
 
 
-def test_a_user_who_is_not_root_is_told_the_command(
+def test_a_user_who_is_not_root_gets_the_command_to_run(
     tmp_path: Path, programs: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     write_program(programs, "apt-get", "raise SystemExit('must not run')")

@@ -102,11 +102,11 @@ def test_a_snapshot_brings_every_arena_back() -> None:
     envs.reset()
     random = np.random.default_rng(1)
     for _ in range(20):
-        before, *_ = envs.step(random.integers(0, 8, 2))
+        envs.step(random.integers(0, 8, 2))
     kept = envs.snapshot()
     ahead = random.integers(0, 8, (40, 2))
     first = [envs.step(actions)[0].tolist() for actions in ahead]
-    np.testing.assert_array_equal(envs.restore(kept), before)
+    envs.restore(kept)
     assert [envs.step(actions)[0].tolist() for actions in ahead] == first
 
 

@@ -9,20 +9,20 @@ import numpy as np
 from mss.exception import ScreenShotError
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.desktop.screen import Camera
-from mc_nested.live.desktop.window import Place
+from mc_nested.live.desktop.display import Camera
+from mc_nested.live.desktop.window import ClientArea
 from mc_nested.live.devices import Frame
 
 
 @contextmanager
 def open_camera() -> Iterator[Camera]:
-    """A camera over all screens; a picture raises DesktopError where a part of its place is on no screen."""
+    """A camera over all screens; a picture raises DesktopError where a part of its area is on no screen."""
     with mss.MSS() as shots:
 
-        def picture(place: Place) -> Frame:
-            area = {"left": place.left, "top": place.top, "width": place.width, "height": place.height}
+        def picture(area: ClientArea) -> Frame:
+            bounds = {"left": area.left, "top": area.top, "width": area.width, "height": area.height}
             try:
-                shot = shots.grab(area)
+                shot = shots.grab(bounds)
             except ScreenShotError as error:
                 raise DesktopError(
                     "the game's window can't be pictured: move it so that all of it is on the screen"

@@ -4,11 +4,11 @@ import sys
 import time
 
 SPIN_S = 0.016 if sys.platform == "win32" else 0.002
-"""The last part of a wait that is spun: as long as a sleep may overshoot (FACTS: Input and windows)."""
+"""The end of a wait, in seconds, spent in a loop: as long as a sleep may overshoot (FACTS: Input and windows)."""
 
 
 class MonotonicClock:
-    """Seconds since some moment, never going back."""
+    """Seconds on a scale that never goes back."""
 
     def now(self) -> float:
         return time.perf_counter()

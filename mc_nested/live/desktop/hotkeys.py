@@ -1,23 +1,23 @@
-"""Hotkeys: keys that a person presses, heard whichever window is in front."""
+"""Hotkeys: keys that a person presses, noticed whichever window is in front."""
 
 import queue
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager, suppress
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.desktop.keys import WORDS, check_key
+from mc_nested.live.model.key_names import WORDS, check_key
 
 LOOK_S = 0.2
-"""Between two looks at whether the listener still runs; without a limit, Windows would hold back Ctrl+C."""
+"""Seconds between two checks that the listener still runs. A wait without a limit would block Ctrl+C on Windows."""
 
 
 @contextmanager
 def open_hotkeys(names: Collection[str]) -> Iterator[Callable[[], str]]:
-    """Hears these keys while the context lasts; yields a function that waits for a press and returns the key's name.
+    """While the context lasts, listen for these keys; yields a function that waits for a press and returns its key.
 
-    Hearing begins a moment after the context does: too late for a program's keys, but not for a person's. Needs a
+    Listening begins a moment after the context does: too late for a program's keys, but not for a person's. Needs a
     display: open the desktop first. Raises ProfileError for a name that no key has; the function raises DesktopError
-    where the desktop doesn't let anybody listen.
+    where the desktop lets no program listen.
     """
     for name in names:
         check_key(name)
@@ -31,13 +31,13 @@ def open_hotkeys(names: Collection[str]) -> Iterator[Callable[[], str]]:
         name = named.get(key) if isinstance(key, Key) else key.char if key is not None else None
         return name if name is not None and name in names else ""
 
-    def hear_press(key: Key | KeyCode | None) -> None:
-        # A key that is held long is heard as many presses and one release.
+    def on_press(key: Key | KeyCode | None) -> None:
+        # A key that is held long sends many presses and one release.
         if (name := name_of(key)) and name not in down:
             down.add(name)
             pressed.put(name)
 
-    def hear_release(key: Key | KeyCode | None) -> None:
+    def on_release(key: Key | KeyCode | None) -> None:
         down.discard(name_of(key))
 
     def wait() -> str:
@@ -46,6 +46,6 @@ def open_hotkeys(names: Collection[str]) -> Iterator[Callable[[], str]]:
                 return pressed.get(timeout=LOOK_S)
         raise DesktopError("this desktop lets no program listen for keys: allow it, or use another desktop")
 
-    with Listener(on_press=hear_press, on_release=hear_release) as listener:
+    with Listener(on_press=on_press, on_release=on_release) as listener:
         listener.wait()
         yield wait

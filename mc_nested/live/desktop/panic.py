@@ -1,13 +1,14 @@
-"""The real panic switch, through pynput's listeners: threads that hear keys and mouse in any window."""
+"""The real panic switch, through pynput's listeners: threads that notice keys and mouse in any window."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from mc_nested.live.desktop.keys import WORDS, check_key
 from mc_nested.live.desktop.pointer import load_pyautogui
-from mc_nested.live.panic import CORNER_REASON, KEY_REASON, Stop, corners_of
+from mc_nested.live.input.panic import CORNER_REASON, KEY_REASON, Stop, corners_of
+from mc_nested.live.model.key_names import WORDS, check_key
 
-LET_GO_S = 1.0
+CLOSE_S = 1.0
+"""Seconds that a listener gets to close its connection to the display."""
 
 
 @contextmanager
@@ -21,7 +22,7 @@ def open_panic_switch(key: str, stop: Stop) -> Iterator[None]:
 
     corners = corners_of(*load_pyautogui().size())
 
-    def hear_key(pressed: keyboard.Key | keyboard.KeyCode | None) -> None:
+    def on_press(pressed: keyboard.Key | keyboard.KeyCode | None) -> None:
         if isinstance(pressed, keyboard.Key):
             is_it = key in WORDS and pressed is keyboard.Key[WORDS[key]]
         else:
@@ -29,14 +30,14 @@ def open_panic_switch(key: str, stop: Stop) -> Iterator[None]:
         if is_it:
             stop(KEY_REASON)
 
-    def hear_move(x: int, y: int) -> None:
+    def on_move(x: int, y: int) -> None:
         if (x, y) in corners:
             stop(CORNER_REASON)
 
-    with keyboard.Listener(on_press=hear_key) as keys, mouse.Listener(on_move=hear_move) as moves:
+    with keyboard.Listener(on_press=on_press) as keys, mouse.Listener(on_move=on_move) as moves:
         keys.wait()
         moves.wait()
         yield
-    # They let go of the display some time after they are told to.
+    # They close their connection to the display some time after they are stopped.
     for listener in (keys, moves):
-        listener.join(LET_GO_S)
+        listener.join(CLOSE_S)

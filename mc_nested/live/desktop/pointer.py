@@ -6,7 +6,7 @@ from contextlib import suppress
 from typing import Any
 
 from mc_nested.errors import LiveError
-from mc_nested.live.desktop.connection import LOST, told_when_lost
+from mc_nested.live.desktop.lost_display import LOST, raise_when_display_lost
 from mc_nested.live.desktop.window import GameWindow
 from mc_nested.live.devices import Button
 
@@ -20,16 +20,16 @@ class DesktopPointer:
         self._mouse = load_pyautogui()
 
     def position(self) -> tuple[int, int]:
-        place, ratio = self._window.place(), self._ratio()
+        area, ratio = self._window.client_area(), self._ratio()
         x, y = self._mouse.position()
-        return round((x - place.left) * ratio), round((y - place.top) * ratio)
+        return round((x - area.left) * ratio), round((y - area.top) * ratio)
 
     def move(self, x: int, y: int) -> None:
-        place, ratio = self._window.place(), self._ratio()
-        self._mouse.moveTo(place.left + x / ratio, place.top + y / ratio, _pause=False)
+        area, ratio = self._window.client_area(), self._ratio()
+        self._mouse.moveTo(area.left + x / ratio, area.top + y / ratio, _pause=False)
 
     def press(self, button: Button) -> None:
-        with told_when_lost():
+        with raise_when_display_lost():
             if tuple(self._mouse.position()) in self._mouse.FAILSAFE_POINTS:
                 raise LiveError("the mouse is in a corner of the screen, which means stop: nothing was clicked")
             self._mouse.mouseDown(button=button, _pause=False)
@@ -40,9 +40,9 @@ class DesktopPointer:
 
 
 def load_pyautogui() -> Any:
-    """The module pyautogui, without its pauses and its own fail-safe, which would refuse to release a button too."""
-    # mouseinfo ends the whole process where tkinter is missing, and pyscreeze starts programs that this project has no
-    # need of. Named None, their import fails in the one way that pyautogui is prepared for.
+    """The module pyautogui, without its pauses and its own fail-safe, which would also refuse to release a button."""
+    # mouseinfo ends the whole process where tkinter is missing, and pyscreeze starts programs that this project doesn't
+    # need. With None in sys.modules, their import fails in the one way that pyautogui handles.
     blocked = [name for name in ("mouseinfo", "pyscreeze") if name not in sys.modules]
     sys.modules.update(dict.fromkeys(blocked))  # type: ignore[arg-type]  # None is what Python documents for this
     try:

@@ -1,12 +1,13 @@
-"""The game's window on macOS, through Quartz. Places are points; a Retina screen has two pixels to a point."""
+"""The game's window and the clipboard on macOS. Positions are points; a Retina screen has two pixels to a point."""
 
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from mc_nested.errors import DesktopError
-from mc_nested.live.desktop.window import Place, checked, closed, pick
+from mc_nested.errors import ClipboardError, DesktopError
+from mc_nested.live.desktop.clipboard import not_text_error
+from mc_nested.live.desktop.window import ClientArea, check_shown, closed_error, matching_title
 
 if sys.platform == "darwin":
     import AppKit
@@ -29,9 +30,9 @@ def open_window(title: str) -> Iterator["QuartzWindow"]:
     _check_permissions()
     windows = [each for each in _shown_windows() if each.get(Quartz.kCGWindowName)]
     titles = [str(each[Quartz.kCGWindowName]) for each in windows]
-    chosen = pick(title, titles)
+    chosen = matching_title(title, titles)
     window = QuartzWindow(int(windows[chosen][Quartz.kCGWindowNumber]), titles[chosen])
-    window.place()
+    window.client_area()
     yield window
 
 
@@ -39,6 +40,11 @@ def session_kind() -> str:
     """What this session is, in words; DesktopError where a permission is missing."""
     _check_permissions()
     return "a macOS desktop, Screen Recording and Accessibility allowed"
+
+
+def open_clipboard() -> "QuartzClipboard":
+    """The clipboard of macOS, its general pasteboard, not read yet."""
+    return QuartzClipboard()
 
 
 class QuartzWindow:
@@ -52,12 +58,14 @@ class QuartzWindow:
         self._title = str(self._described().get(Quartz.kCGWindowName) or self._title)
         return self._title
 
-    def place(self) -> Place:
+    def client_area(self) -> ClientArea:
         bounds = self._described()[Quartz.kCGWindowBounds]
         left, top = round(bounds["X"]), round(bounds["Y"])
         width, height = round(bounds["Width"]), round(bounds["Height"])
         bar = 0 if _fills_a_screen(left, top, width, height) else _title_bar_height()
-        return checked(Place(left, top + bar, width, height - bar), self._title)
+        area = ClientArea(left, top + bar, width, height - bar)
+        check_shown(area, self._title)
+        return area
 
     def is_in_front(self) -> bool:
         front = next(iter(_shown_windows()), None)
@@ -66,17 +74,34 @@ class QuartzWindow:
     def _described(self) -> Any:
         found = [each for each in _shown_windows() if int(each[Quartz.kCGWindowNumber]) == self._number]
         if not found:
-            raise closed(self._title)
+            raise closed_error(self._title)
         return found[0]
 
 
+class QuartzClipboard:
+    """What Cmd+V would paste."""
+
+    def read(self) -> str:
+        board = AppKit.NSPasteboard.generalPasteboard()
+        text = board.stringForType_(AppKit.NSPasteboardTypeString)
+        if text is None and board.types():
+            raise not_text_error()
+        return str(text or "")
+
+    def write(self, text: str) -> None:
+        board = AppKit.NSPasteboard.generalPasteboard()
+        board.clearContents()
+        if text and not board.setString_forType_(text, AppKit.NSPasteboardTypeString):
+            raise ClipboardError("the clipboard can't be written: close the program that holds it, and start again")
+
+
 def _check_permissions() -> None:
-    # Without these, macOS drops the keys and gives black pictures, and says nothing.
-    place = "allow your terminal in System Settings, Privacy & Security"
+    # Without these, macOS silently drops the keys and gives black pictures.
+    remedy = "allow your terminal in System Settings, Privacy & Security"
     if not Quartz.CGPreflightScreenCaptureAccess():
-        raise DesktopError(f"macOS doesn't let this program see the game: {place}, Screen Recording, and start it anew")
+        raise DesktopError(f"macOS doesn't let this program see the game: {remedy}, Screen Recording, and restart it")
     if not HIServices.AXIsProcessTrusted():
-        raise DesktopError(f"macOS doesn't let this program press keys: {place}, Accessibility, and start it anew")
+        raise DesktopError(f"macOS doesn't let this program press keys: {remedy}, Accessibility, and restart it")
 
 
 def _shown_windows() -> list[Any]:

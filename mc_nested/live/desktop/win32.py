@@ -1,4 +1,4 @@
-"""The game's window on Windows, through user32. Places are physical pixels, since the process says it knows DPI."""
+"""The game's window and the clipboard on Windows, through user32. Positions are physical pixels: it is DPI aware."""
 
 import ctypes
 import sys
@@ -6,7 +6,18 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from ctypes import wintypes
 
-from mc_nested.live.desktop.window import Place, checked, closed, minimised, pick
+from mc_nested.errors import ClipboardError
+from mc_nested.live.desktop.clipboard import not_text_error
+from mc_nested.live.desktop.window import (
+    ClientArea,
+    check_shown,
+    closed_error,
+    matching_title,
+    minimised_error,
+)
+
+if sys.platform == "win32":
+    import pyperclip
 
 assert sys.platform == "win32"  # noqa: S101  mypy learns from it that the rest is for Windows alone
 
@@ -14,7 +25,7 @@ _PER_MONITOR_AWARE_V2 = -4
 """DPI_AWARENESS_CONTEXT_PER_MONITOR_AWARE_V2, a handle (windef.h)."""
 
 _CLOAKED = 14
-"""DWMWA_CLOAKED (dwmapi.h): a window of a suspended store app is there and visible, but never shown."""
+"""DWMWA_CLOAKED (dwmapi.h): the window of a suspended store app exists and counts as visible, but is never shown."""
 
 _user32 = ctypes.WinDLL("user32", use_last_error=True)
 _user32.GetForegroundWindow.restype = wintypes.HWND
@@ -32,14 +43,19 @@ def open_window(title: str) -> Iterator["Win32Window"]:
     _user32.SetProcessDpiAwarenessContext(ctypes.c_void_p(_PER_MONITOR_AWARE_V2))
     windows = [(handle, _title_of(handle)) for handle in _shown_windows()]
     windows = [(handle, name) for handle, name in windows if name]
-    window = Win32Window(*windows[pick(title, [name for _, name in windows])])
-    window.place()
+    window = Win32Window(*windows[matching_title(title, [name for _, name in windows])])
+    window.client_area()
     yield window
 
 
 def session_kind() -> str:
-    """What this session is, in words: windows of a Windows desktop can always be pictured and driven."""
+    """What this session is, in words. Windows of a Windows desktop can always be pictured and driven."""
     return "a Windows desktop"
+
+
+def open_clipboard() -> "Win32Clipboard":
+    """The clipboard of Windows, not read yet."""
+    return Win32Clipboard()
 
 
 class Win32Window:
@@ -53,21 +69,46 @@ class Win32Window:
         self._title = _title_of(self._handle) or self._title
         return self._title
 
-    def place(self) -> Place:
+    def client_area(self) -> ClientArea:
         handle = wintypes.HWND(self._handle)
         if not _user32.IsWindow(handle):
-            raise closed(self._title)
+            raise closed_error(self._title)
         if _user32.IsIconic(handle) or not _user32.IsWindowVisible(handle):
-            raise minimised(self._title)
+            raise minimised_error(self._title)
         inside, corner = wintypes.RECT(), wintypes.POINT(0, 0)
         if not _user32.GetClientRect(handle, ctypes.byref(inside)):
-            raise closed(self._title)
+            raise closed_error(self._title)
         _user32.ClientToScreen(handle, ctypes.byref(corner))
-        return checked(Place(corner.x, corner.y, inside.right, inside.bottom), self._title)
+        area = ClientArea(corner.x, corner.y, inside.right, inside.bottom)
+        check_shown(area, self._title)
+        return area
 
     def is_in_front(self) -> bool:
         front: int | None = _user32.GetForegroundWindow()
         return front == self._handle
+
+
+class Win32Clipboard:
+    """What Ctrl+V would paste, through pyperclip, which waits while another program has the clipboard open."""
+
+    def read(self) -> str:
+        try:
+            text = str(pyperclip.paste())
+        except pyperclip.PyperclipException as error:
+            raise _unreachable(error) from error
+        if not text and _user32.CountClipboardFormats():
+            raise not_text_error()
+        return text
+
+    def write(self, text: str) -> None:
+        try:
+            pyperclip.copy(text)
+        except pyperclip.PyperclipException as error:
+            raise _unreachable(error) from error
+
+
+def _unreachable(error: Exception) -> ClipboardError:
+    return ClipboardError(f"the clipboard can't be reached ({error}): close the program that holds it, and start again")
 
 
 def _shown_windows() -> list[int]:

@@ -1,4 +1,4 @@
-"""The game's window as the operating system tells of it, and which of all windows that is."""
+"""The game's window as the operating system describes it, and which of all windows it is."""
 
 import re
 from collections.abc import Sequence
@@ -8,11 +8,11 @@ from typing import Protocol
 from mc_nested.errors import DesktopError, NoWindowError
 
 SHOWN_TITLES = 8
-"""How many of the titles that exist an error names: enough to find a misspelling, and still one line."""
+"""Titles that an error names at most: enough to find a misspelling, and still one line."""
 
 
 @dataclass(frozen=True)
-class Place:
+class ClientArea:
     """A window's client area on the desktop, in the desktop's points: not always pixels (FACTS: Input and windows)."""
 
     left: int
@@ -26,15 +26,15 @@ class GameWindow(Protocol):
 
     def title(self) -> str: ...
 
-    def place(self) -> Place:
+    def client_area(self) -> ClientArea:
         """Where the client area is now; DesktopError where the window has closed or is minimised."""
 
     def is_in_front(self) -> bool:
         """Whether a key pressed now would reach this window."""
 
 
-def pick(title: str, titles: Sequence[str]) -> int:
-    """Index of the one title in which the regular expression ``title`` is found.
+def matching_title(title: str, titles: Sequence[str]) -> int:
+    """The index of the one title in which the regular expression ``title`` is found.
 
     NoWindowError where there is none, another DesktopError where there are several.
     """
@@ -53,20 +53,19 @@ def pick(title: str, titles: Sequence[str]) -> int:
     )
 
 
-def checked(place: Place, title: str) -> Place:
-    """The place itself; DesktopError where it has no area, as that of a minimised window."""
-    if place.width < 1 or place.height < 1:
-        raise minimised(title)
-    return place
+def check_shown(area: ClientArea, title: str) -> None:
+    """DesktopError where the client area is empty, as a minimised window's is."""
+    if area.width < 1 or area.height < 1:
+        raise minimised_error(title)
 
 
-def minimised(title: str) -> DesktopError:
+def minimised_error(title: str) -> DesktopError:
     """The error for a window that isn't shown."""
     return DesktopError(f"the window {title!r} is minimised or hidden: bring it back onto the screen")
 
 
-def closed(title: str) -> DesktopError:
-    """The error for a window that is no more."""
+def closed_error(title: str) -> DesktopError:
+    """The error for a window that no longer exists."""
     return DesktopError(f"the window {title!r} has closed: start the game again")
 
 

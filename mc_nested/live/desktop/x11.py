@@ -1,4 +1,4 @@
-"""The game's window on an X server, with a window manager or without one."""
+"""The game's window and the clipboard on an X server, with a window manager or without one."""
 
 import os
 from collections.abc import Iterator
@@ -11,7 +11,14 @@ from Xlib.ext import randr
 from Xlib.xobject.drawable import Window
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.desktop.window import Place, checked, closed, minimised, pick
+from mc_nested.live.desktop.window import (
+    ClientArea,
+    check_shown,
+    closed_error,
+    matching_title,
+    minimised_error,
+)
+from mc_nested.live.desktop.x11_clipboard import X11Clipboard
 
 _WAYLAND = (
     "this is a Wayland session, whose windows can be neither pictured nor driven: "
@@ -29,9 +36,9 @@ def open_window(title: str) -> Iterator["X11Window"]:
     display = _connect()
     try:
         windows = _titled_windows(display)
-        chosen = pick(title, [name for _, name in windows])
+        chosen = matching_title(title, [name for _, name in windows])
         window = X11Window(display, *windows[chosen])
-        window.place()
+        window.client_area()
         yield window
     finally:
         with suppress(ConnectionClosedError):  # the X server may have ended first
@@ -44,8 +51,13 @@ def session_kind() -> str:
     return f"X11, display {os.environ['DISPLAY']}"
 
 
+def open_clipboard() -> X11Clipboard:
+    """The X server's clipboard, not read yet."""
+    return X11Clipboard()
+
+
 class X11Window:
-    """A window, asked anew each time; a round trip to the X server takes some tens of microseconds."""
+    """A window, queried each time; a round trip to the X server takes some tens of microseconds."""
 
     def __init__(self, display: Display, window: Window, title: str) -> None:
         self._display = display
@@ -58,17 +70,19 @@ class X11Window:
             self._title = _title_of(self._display, self._window)
         return self._title
 
-    def place(self) -> Place:
+    def client_area(self) -> ClientArea:
         with self._if_open():
             if self._window.get_attributes().map_state != X.IsViewable:
-                raise minimised(self._title)
+                raise minimised_error(self._title)
             size = self._window.get_geometry()
             corner = self._root.translate_coords(self._window, 0, 0)
-        return checked(Place(corner.x, corner.y, size.width, size.height), self._title)
+        area = ClientArea(corner.x, corner.y, size.width, size.height)
+        check_shown(area, self._title)
+        return area
 
     def is_in_front(self) -> bool:
-        # Asked of the X server itself, not of the window manager's _NET_ACTIVE_WINDOW: there may be no window manager,
-        # and while one of its own menus or overviews takes the keys, that property still names the game.
+        # The X server is asked, not the window manager's _NET_ACTIVE_WINDOW: there may be no window manager, and while
+        # one of its own menus or overviews takes the keys, that property still names the game.
         with self._if_open():
             focus = self._display.get_input_focus().focus
             if focus == X.NONE:
@@ -84,7 +98,7 @@ class X11Window:
         try:
             yield
         except (XError, ConnectionClosedError) as error:
-            raise closed(self._title) from error
+            raise closed_error(self._title) from error
 
 
 def _connect() -> Display:
@@ -99,7 +113,7 @@ def _connect() -> Display:
         raise DesktopError(
             f"no display (DISPLAY={name} can't be reached): run this in the desktop session that shows the game"
         ) from error
-    # The session's variables don't decide: an X server of its own may well run inside a Wayland session.
+    # The session's variables alone don't tell: a separate X server may run inside a Wayland session.
     if _is_xwayland(display):
         display.close()
         raise DesktopError(_WAYLAND)

@@ -1,7 +1,7 @@
-"""The clipboard of an X server: there, what was copied lives in the program that copied it (ICCCM, section 2).
+"""The clipboard of an X server, where copied text stays in the program that copied it (ICCCM, section 2).
 
-Reading asks that program. What is written is kept by a small process of its own (x11_keeper.py), which outlives this
-one and ends when something else is copied, so that a text put back stays back.
+Reading asks that program. Written text is kept by a small separate process (x11_keeper.py), which outlives this one and
+ends when something else is copied, so a text that is put back stays.
 """
 
 import select
@@ -19,14 +19,14 @@ from Xlib.error import ConnectionClosedError, DisplayError, XauthError, XError
 from Xlib.protocol.request import SetSelectionOwner
 
 from mc_nested.errors import ClipboardError
-from mc_nested.live.desktop.clipboard import no_text
+from mc_nested.live.desktop.clipboard import not_text_error
 
 if TYPE_CHECKING:
     from Xlib.protocol.rq import Event
     from Xlib.xobject.drawable import Window
 
 MOST_BYTES = 200_000
-"""A longer text comes in pieces, and isn't read; an X request holds 262,140 bytes."""
+"""A longer text would come in pieces, and isn't read; an X request holds 262,140 bytes."""
 
 _PATIENCE_S = 2.0
 _KEEPER = Path(__file__).with_name("x11_keeper.py")
@@ -43,7 +43,7 @@ class X11Clipboard:
             window = display.screen().root.create_window(0, 0, 1, 1, 0, X.CopyFromParent)
             text = _converted(display, window, clipboard)
         if text is None:
-            raise no_text()
+            raise not_text_error()
         return text
 
     def write(self, text: str) -> None:
@@ -56,7 +56,7 @@ class X11Clipboard:
         data = text.encode()
         if len(data) > MOST_BYTES:
             raise _too_long()
-        # Its streams are nobody's: a pipe that it kept open would be waited for.
+        # It gets no pipes: a reader of one would wait for as long as the keeper runs.
         command = [sys.executable, str(_KEEPER)]
         kept = subprocess.run(  # noqa: S603 - our own, with our own Python
             command, input=data, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False
@@ -67,13 +67,13 @@ class X11Clipboard:
 
 def _converted(display: Display, window: "Window", clipboard: int) -> str | None:
     """The clipboard as text; None where its owner has none to give."""
-    place = display.intern_atom("MC_NESTED_CLIPBOARD")
+    prop = display.intern_atom("MC_NESTED_CLIPBOARD")
     for name in ("UTF8_STRING", "STRING"):
-        window.convert_selection(clipboard, display.intern_atom(name), place, X.CurrentTime)
+        window.convert_selection(clipboard, display.intern_atom(name), prop, X.CurrentTime)
         if _answer(display).property == X.NONE:
             continue
-        found = window.get_full_property(place, X.AnyPropertyType)
-        window.delete_property(place)
+        found = window.get_full_property(prop, X.AnyPropertyType)
+        window.delete_property(prop)
         if found is None or found.format != 8:
             raise _too_long()  # INCR: it would come in pieces
         value = found.value if isinstance(found.value, bytes) else str(found.value).encode()
@@ -108,4 +108,4 @@ def _connected() -> Iterator[Display]:
 
 
 def _too_long() -> ClipboardError:
-    return ClipboardError("the clipboard holds too long a text to be put back: copy a shorter one, and start again")
+    return ClipboardError("the clipboard holds a text too long to be put back: copy a shorter one, and start again")

@@ -1,7 +1,8 @@
 """Keeps a text on the clipboard of an X server until something else is copied: python x11_keeper.py < text.
 
-A process of its own, since on an X server a text that was copied is gone with the program that copied it. It returns,
-0 or 1, once the clipboard is its own, and stays behind; it imports nothing of this project, to be there at once.
+A separate process, because on an X server copied text is lost when the program that copied it ends. The command returns
+0 once the clipboard is taken, or 1 where it can't be, and a child stays behind. It imports nothing of this project, so
+that it starts quickly.
 """
 
 import os
@@ -14,7 +15,7 @@ from Xlib.protocol import event
 
 
 def main() -> int:
-    """Take the clipboard, and keep it in the background; 1 where it can't be had."""
+    """Take the clipboard, and keep it in the background; 1 where it can't be taken."""
     text = sys.stdin.buffer.read()
     display = Display()
     window = display.screen().root.create_window(0, 0, 1, 1, 0, X.CopyFromParent)
@@ -24,14 +25,14 @@ def main() -> int:
     if display.get_selection_owner(clipboard) != window:
         return 1
     if os.fork():
-        os._exit(0)  # without a word to the X server, whose connection is the child's now
+        os._exit(0)  # without closing the connection to the X server, which the child now has
     os.setsid()
     keep(display, text)
     return 0
 
 
 def keep(display: Display, text: bytes) -> None:
-    """Answer whoever pastes, until something else is copied or the X server ends."""
+    """Answer programs that paste, until something else is copied or the X server ends."""
     utf8, latin = display.intern_atom("UTF8_STRING"), text.decode(errors="replace").encode("latin-1", "replace")
     kinds = {display.intern_atom(name): (utf8, text) for name in ("UTF8_STRING", "TEXT")}
     plain = display.intern_atom("text/plain;charset=utf-8")
@@ -46,20 +47,20 @@ def keep(display: Display, text: bytes) -> None:
             return
         if request.type != X.SelectionRequest:
             continue
-        place = request.property or request.target  # X.NONE: a client of old
+        prop = request.property or request.target  # old clients send no property
         if request.target == targets:
-            request.requestor.change_property(place, Xatom.ATOM, 32, [targets, *kinds])
+            request.requestor.change_property(prop, Xatom.ATOM, 32, [targets, *kinds])
         elif request.target in kinds:
             kind, data = kinds[request.target]
-            request.requestor.change_property(place, kind, 8, data)
+            request.requestor.change_property(prop, kind, 8, data)
         else:
-            place = X.NONE
+            prop = X.NONE
         answer = event.SelectionNotify(
             time=request.time,
             requestor=request.requestor,
             selection=request.selection,
             target=request.target,
-            property=place,
+            property=prop,
         )
         request.requestor.send_event(answer)
         display.flush()

@@ -7,23 +7,23 @@ import pytest
 
 from calibration.arena import build
 from calibration.arena.build import build_arena, calibrate_built_arena
-from calibration.arena.copy_note import note_path, noted_copy
+from calibration.arena.copy_note import note_path, read_copy_note
 from calibration.arena.plan import box_of
 from calibration.arena.undo import undo_arena, undo_built_arena
-from calibration.step import Found
+from calibration.context import StepResult
 from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, ProfileError, UserError
-from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile import Profile, load_profile, save_profile
-from mc_nested.live.profile_tables import Arena, World
-from sim.client import chat_commands
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.store import load_profile, save_profile
+from mc_nested.live.profile.tables import Profile, WorldTable
 from sim.client.client import VirtualClient
+from sim.client.game.commands import chat_line
 from sim.client.mishaps import Kind
-from tests.calibration.virtual_bench import bench_on, profile_of
+from tests.calibration.virtual_context import context_on, profile_of
 from tests.calibration.walk.test_measure import Cut
-from tests.sim.client.playing import FONT
+from tests.sim.client.playing import connection_to
 
 HERE = Arena.around((7, 64, 0), "south")
 """The arena of a player who stands where virtual clients begin, and looks south."""
@@ -31,15 +31,15 @@ HERE = Arena.around((7, 64, 0), "south")
 LONGEST_S = 60.0
 
 
-def built(client: VirtualClient, folder: Path, questions: list[str] | None = None) -> Found:
+def built(client: VirtualClient, folder: Path, questions: list[str] | None = None) -> StepResult:
     def ask(question: str) -> bool:
         assert client.built == before
         (questions if questions is not None else []).append(question)
         return True
 
     before, began = client.built, client.clock.now()
-    with bench_on(client, ask=ask)(profile_of(client, folder)) as bench:
-        found = build_arena(bench, profile_of(client, folder))
+    with context_on(client, ask=ask)(profile_of(client, folder)) as context:
+        found = build_arena(context, profile_of(client, folder))
     assert client.clock.now() - began < LONGEST_S
     assert client.window.down == set()
     return found
@@ -74,8 +74,8 @@ def test_on_a_free_floor_only_the_border_is_built_and_all_of_it_is_undone(versio
         ["planks" if version == "1.12.2" else "oak_planks", "stone"]
     )
     assert (client.cell(arena), client.realm.player.yaw, client.realm.player.pitch) == ((7, 0), 0.0, 65.0)
-    with bench_on(client)(found.profile) as bench:
-        undone = undo_arena(bench, found.profile)
+    with context_on(client)(found.profile) as context:
+        undone = undo_arena(context, found.profile)
     assert client.built == {}
     assert undone.profile.arena is None
 
@@ -95,8 +95,8 @@ def test_what_stands_there_is_shown_copied_and_put_back(version: str, tmp_path: 
     assert {world.block_at((x, 63, z)) for x in range(-8, 9) for z in range(-1, 16)} == {"obsidian"}
     assert {world.block_at((x, y, z)) for x in range(-7, 8) for y in (64, 65) for z in range(15)} == {"air"}
     assert world.block_at((12, 64, 6)) == "dirt"
-    with bench_on(client)(found.profile) as bench:
-        undo_arena(bench, found.profile)
+    with context_on(client)(found.profile) as context:
+        undo_arena(context, found.profile)
     assert client.built == before
 
 
@@ -109,11 +109,7 @@ def test_what_is_built_can_be_played_in(tmp_path: Path) -> None:
     game = LiveGame(
         line,
         profile,
-        display=client.display,
-        keyboard=client.keyboard,
-        pointer=client.pointer,
-        clock=client.clock,
-        screen=WindowScreen(client.display, FONT),
+        connection_to(client),
     )
     with game:
         assert game.reset(line.best_material) == line.start
@@ -126,17 +122,17 @@ def test_a_game_that_can_neither_compare_nor_copy_says_so_and_asks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for verb in ("execute", "clone", "difficulty"):
-        monkeypatch.delitem(chat_commands._COMMANDS, verb)
+        monkeypatch.delitem(chat_line._COMMANDS, verb)
     client = VirtualClient(version="1.18.2")
     spoil(client)
     questions: list[str] = []
     found = built(client, tmp_path, questions)
     assert "What stands there is not known (minecraft:stone at (3, 64, 6)" in questions[0]
-    assert "may have holes, that can't be told here: it is replaced by obsidian" in questions[0]
+    assert "may have holes, which is unknown here: it is replaced by obsidian" in questions[0]
     assert "this can't be undone" in questions[0]
     assert found.profile.marked_arena() == HERE
-    with bench_on(client)(found.profile) as bench, pytest.raises(UserError, match="no copy is known"):
-        undo_arena(bench, found.profile)
+    with context_on(client)(found.profile) as context, pytest.raises(UserError, match="no copy is known"):
+        undo_arena(context, found.profile)
 
 
 def test_building_again_at_the_same_place_keeps_the_first_copy(tmp_path: Path) -> None:
@@ -144,10 +140,10 @@ def test_building_again_at_the_same_place_keeps_the_first_copy(tmp_path: Path) -
     spoil(client)
     before = client.built
     first = built(client, tmp_path).profile
-    with bench_on(client)(first) as bench:
-        again = build_arena(bench, first, yes=True).profile
+    with context_on(client)(first) as context:
+        again = build_arena(context, first, yes=True).profile
         assert again.arena == first.arena
-        undo_arena(bench, again)
+        undo_arena(context, again)
     assert client.built == before
 
 
@@ -160,8 +156,8 @@ def test_a_sky_that_is_not_free_is_not_built_into(tmp_path: Path) -> None:
 
 
 def declined(client: VirtualClient, profile: Profile) -> None:
-    with bench_on(client, ask=lambda _: False)(profile) as bench:
-        build_arena(bench, profile)
+    with context_on(client, ask=lambda _: False)(profile) as context:
+        build_arena(context, profile)
 
 
 def test_a_no_changes_nothing(tmp_path: Path) -> None:
@@ -183,7 +179,7 @@ def no_cheats(client: VirtualClient) -> None:
 
 
 @pytest.mark.parametrize(
-    ("prepare", "message"), [(far_away, "part of the place isn't loaded"), (no_cheats, "allow cheats")]
+    ("prepare", "message"), [(far_away, "part of the ground isn't loaded"), (no_cheats, "allow cheats")]
 )
 def test_a_place_that_is_not_loaded_or_a_world_without_cheats_is_said_before_anything_is_asked(
     prepare: Callable[[VirtualClient], None], message: str, tmp_path: Path
@@ -200,8 +196,8 @@ def test_a_copy_that_is_gone_is_not_put_back(tmp_path: Path) -> None:
     found = built(client, tmp_path)
     low, high = box_of(HERE)
     client.realm.world.fill((low[0], 127, low[2]), (high[0], 130, high[2]), "air")
-    with bench_on(client)(found.profile) as bench, pytest.raises(NotConfirmedError, match="no copy is at"):
-        undo_arena(bench, found.profile)
+    with context_on(client)(found.profile) as context, pytest.raises(NotConfirmedError, match="no copy is at"):
+        undo_arena(context, found.profile)
     assert client.realm.world.block_at((0, 63, 5)) == "bedrock"
 
 
@@ -209,10 +205,10 @@ def test_the_verbs_write_what_was_built_and_undone(tmp_path: Path) -> None:
     client = VirtualClient()
     file = tmp_path / "mine.toml"
     save_profile(profile_of(client, tmp_path), file)
-    calibrate_built_arena(file, bench_on(client))
+    calibrate_built_arena(file, context_on(client))
     assert load_profile(file).marked_arena().copied_to == (-8, 127, -1)
     assert not note_path(file).exists(), "what the profile knows needs no note"
-    undo_built_arena(file, bench_on(client))
+    undo_built_arena(file, context_on(client))
     assert load_profile(file).arena is None
 
 
@@ -229,10 +225,10 @@ def test_a_build_that_ends_early_is_undone_from_the_note(tmp_path: Path, monkeyp
 
     monkeypatch.setattr(build, "save_profile", refused)
     with pytest.raises(ProfileError, match=f"full; .*--undo --profile {file}$"):
-        calibrate_built_arena(file, bench_on(client, said.append))
+        calibrate_built_arena(file, context_on(client, said.append))
     assert any(f"mc-nested calibrate arena --undo --profile {file}" in line for line in said)
     assert load_profile(file).arena is None
-    undo_built_arena(file, bench_on(client))
+    undo_built_arena(file, context_on(client))
     assert client.built == before
     assert not note_path(file).exists()
 
@@ -245,21 +241,21 @@ def test_the_note_is_written_before_anything_is_built(tmp_path: Path, monkeypatc
     save_profile(profile_of(client, tmp_path), file)
 
     def stopped(*_: object, **__: object) -> None:
-        assert noted_copy(file) is not None
+        assert read_copy_note(file) is not None
         assert {block: name for block, name in client.built.items() if block[1] < 120} == before
         raise KeyboardInterrupt
 
     monkeypatch.setattr(build, "build_commands", stopped)
     with pytest.raises(KeyboardInterrupt):
-        calibrate_built_arena(file, bench_on(client))
-    assert noted_copy(file) is not None
+        calibrate_built_arena(file, context_on(client))
+    assert read_copy_note(file) is not None
 
 
 def left_early(client: VirtualClient, folder: Path) -> tuple[Profile, Path]:
     """A profile without an arena, whose file isn't there, with the note of one that was built."""
     file = folder / "new.toml"
-    with bench_on(client)(profile_of(client, folder)) as bench:
-        build_arena(bench, profile_of(client, folder), path=file)
+    with context_on(client)(profile_of(client, folder)) as context:
+        build_arena(context, profile_of(client, folder), path=file)
     return profile_of(client, folder), file
 
 
@@ -269,11 +265,11 @@ def test_a_copy_that_was_not_undone_is_kept_by_the_next_try_and_no_profile_is_ne
     before = client.built
     profile, file = left_early(client, tmp_path)
     noted = note_path(file).read_bytes()
-    with bench_on(client)(profile) as bench:
-        again = build_arena(bench, profile, path=file)
+    with context_on(client)(profile) as context:
+        again = build_arena(context, profile, path=file)
     assert note_path(file).read_bytes() == noted
     assert again.profile.marked_arena().copied_to == (-8, 127, -1)
-    undo_built_arena(file, bench_on(client))
+    undo_built_arena(file, context_on(client))
     assert client.built == before
     assert [each.name for each in tmp_path.iterdir()] == ["ascii.png"]
 
@@ -282,8 +278,8 @@ def test_an_arena_that_was_left_early_is_not_copied_in_part(tmp_path: Path) -> N
     client = VirtualClient()
     profile, file = left_early(client, tmp_path)
     after = client.built
-    with bench_on(client)(profile) as bench, pytest.raises(UserError, match="--undo --profile"):
-        build_arena(bench, profile, path=file, standing=(6, 0))
+    with context_on(client)(profile) as context, pytest.raises(UserError, match="--undo --profile"):
+        build_arena(context, profile, path=file, standing=(6, 0))
     assert client.built == after
 
 
@@ -292,9 +288,9 @@ def test_in_another_world_the_note_of_a_copy_is_not_believed(tmp_path: Path) -> 
     client = VirtualClient()
     spoil(client)
     before = client.built
-    with bench_on(client)(profile) as bench:
-        build_arena(bench, profile, path=file)
-    undo_built_arena(file, bench_on(client))
+    with context_on(client)(profile) as context:
+        build_arena(context, profile, path=file)
+    undo_built_arena(file, context_on(client))
     assert client.built == before
 
 
@@ -303,7 +299,7 @@ def test_an_earlier_profile_keeps_its_other_arena_when_the_note_is_undone(tmp_pa
     profile, file = left_early(client, tmp_path)
     elsewhere = Arena.around((500, 70, 500), "east")
     save_profile(profile.model_copy(update={"arena": elsewhere}), file)
-    undo_built_arena(file, bench_on(client))
+    undo_built_arena(file, context_on(client))
     assert client.built == {}
     assert load_profile(file).arena == elsewhere
 
@@ -314,11 +310,11 @@ def test_a_copy_with_a_hole_in_its_floor_is_put_back(tmp_path: Path) -> None:
     hole = Arena.around((3, 64, 0), "south").block_of((7, 0))
     client.realm.world.put((hole[0], 63, hole[2]), "air")
     before = client.built
-    with bench_on(client)(profile) as bench:
-        found = build_arena(bench, profile, standing=(3, 0))
+    with context_on(client)(profile) as context:
+        found = build_arena(context, profile, standing=(3, 0))
         assert found.profile.marked_arena().origin == (3, 64, 0)
         assert client.built != before
-        undo_arena(bench, found.profile)
+        undo_arena(context, found.profile)
     assert client.built == before
 
 
@@ -328,7 +324,7 @@ def test_what_can_not_be_kept_for_the_report_is_a_warning(tmp_path: Path) -> Non
     save_profile(profile_of(client, tmp_path), file)
     (tmp_path / "mine-calibration").write_text("no folder", "utf-8")
     said: list[str] = []
-    calibrate_built_arena(file, bench_on(client, said.append))
+    calibrate_built_arena(file, context_on(client, said.append))
     assert load_profile(file).arena is not None
     assert "the profile is written" in said[-1]
     assert said[-1].startswith("warning: ")
@@ -363,11 +359,12 @@ def test_in_a_game_that_others_may_share_nothing_is_undone(tmp_path: Path, monke
     client = VirtualClient()
     profile = built(client, tmp_path).profile
     after, pressed = client.built, shared(client, monkeypatch)
-    with bench_on(client)(profile) as bench:
+    with context_on(client)(profile) as context:
         with pytest.raises(DesktopError, match="--server-allowed"):
-            undo_arena(bench, profile)
+            undo_arena(context, profile)
         assert (client.built, pressed) == (after, [])
-        undo_arena(bench, profile, is_server_allowed=True)
+    with context_on(client, is_server_allowed=True)(profile) as context:
+        undo_arena(context, profile)
     assert client.built == {}
 
 
@@ -382,7 +379,7 @@ def test_ctrl_c_or_a_closed_window_at_any_time_leaves_keys_up_and_the_profile_as
     before = file.read_bytes()
     monkeypatch.setattr(client.display, "is_in_front", Cut(client, after_s, error).is_in_front)
     with pytest.raises(type(error)):
-        calibrate_built_arena(file, bench_on(client))
+        calibrate_built_arena(file, context_on(client))
     assert file.read_bytes() == before
     assert client.window.down == set()
 
@@ -398,7 +395,7 @@ def test_a_hand_in_between_is_one_line_and_the_profile_as_it_was(kind: Kind, aft
         # Nothing of the world happens while the chat is open.
         client.mishaps.plan(kind, after_s + 0.07 * try_s)
     with pytest.raises(McNestedError) as caught:
-        calibrate_built_arena(file, bench_on(client))
+        calibrate_built_arena(file, context_on(client))
     assert "\n" not in str(caught.value)
     assert file.read_bytes() == before
     assert client.window.down == set()
@@ -407,10 +404,10 @@ def test_a_hand_in_between_is_one_line_and_the_profile_as_it_was(kind: Kind, aft
 
 def test_a_world_without_commands_is_told_the_whole_command_that_marks_it(tmp_path: Path) -> None:
     client = VirtualClient()
-    world = World(folder=str(tmp_path / "arena"), template=str(tmp_path / "template"), name="arena")
+    world = WorldTable(folder=str(tmp_path / "arena"), template=str(tmp_path / "template"), name="arena")
     profile = profile_of(client, tmp_path).model_copy(update={"world": world})
     with (
-        bench_on(client)(profile) as bench,
+        context_on(client)(profile) as context,
         pytest.raises(UserError, match=r"mark the arena only, with mc-nested calibrate arena --mark-only$"),
     ):
-        build_arena(bench, profile)
+        build_arena(context, profile)

@@ -11,18 +11,19 @@ from calibration.arena.plan import (
     FLOOR,
     border_block,
     border_of,
+    box_at,
     box_of,
     build_commands,
-    copy_places,
+    copy_positions,
+    do_overlap,
     floor_of,
-    is_fit,
-    moved,
-    rules_of,
+    gamerules,
+    is_good_floor,
     volume,
 )
-from mc_nested.live.coordinates import Facing
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import FILL_LIMIT, Arena, GameVersion
+from mc_nested.live.model.coordinates import Facing
+from mc_nested.live.profile.arena import FILL_LIMIT, Arena
+from mc_nested.live.profile.tables import GameVersion, Profile
 
 FACINGS: list[Facing] = ["north", "south", "west", "east"]
 ORIGINS = st.tuples(st.integers(-999, 999), st.integers(-60, 200), st.integers(-999, 999))
@@ -49,11 +50,42 @@ def test_a_copy_lies_in_the_same_columns_out_of_the_way_and_in_the_world(
 ) -> None:
     box = box_of(Arena.around(origin, facing))
     assert volume(box) == 17 * 17 * 3
-    for place in copy_places(Arena.around(origin, facing), version):
-        low, high = moved(box, place)
+    for place in copy_positions(Arena.around(origin, facing), version):
+        low, high = box_at(box, place)
         assert (low[0], low[2], high[0], high[2]) == (box[0][0], box[0][2], box[1][0], box[1][2])
         assert low[1] > box[1][1] + 4
         assert high[1] <= (319 if version in ("1.18", "26.1") else 255)
+
+
+@pytest.mark.parametrize(
+    ("floor", "version", "heights"),
+    [
+        (249, "1.18", [64, 32, 16]),
+        (250, "1.18", [32, 16]),
+        (281, "26.1", [32, 16]),
+        (282, "26.1", [16]),
+        (297, "1.18", [16]),
+        (298, "1.18", []),
+        (185, "1.17.1", [64, 32, 16]),
+        (186, "1.17.1", [32, 16]),
+    ],
+)
+def test_a_copy_and_the_air_above_it_fit_below_the_top_of_the_world(
+    floor: int, version: str, heights: list[int]
+) -> None:
+    # The box is 3 tall, and the box above the copy is compared with it: floor + height + 6 is at most the top.
+    arena = Arena.around((10, floor + 1, 20), "south")
+    assert copy_positions(arena, version) == [(-5, floor + height, 19) for height in heights]
+
+
+@pytest.mark.parametrize(
+    ("corner", "is_shared"),
+    [((2, 0, 0), True), ((3, 0, 0), False), ((-2, 0, 0), True), ((-3, 0, 0), False), ((0, 3, 0), False)],
+)
+def test_two_boxes_overlap_if_they_share_a_block(corner: tuple[int, int, int], is_shared: bool) -> None:
+    box = ((0, 0, 0), (2, 2, 2))
+    assert do_overlap(box, box_at(box, corner)) is is_shared
+    assert do_overlap(box_at(box, corner), box) is is_shared
 
 
 def test_everything_is_written_out_for_one_arena() -> None:
@@ -94,7 +126,7 @@ def test_a_floor_that_will_do_stays() -> None:
     ],
 )
 def test_rules_go_by_their_names_in_each_version(version: str, rules: tuple[str, ...]) -> None:
-    assert rules_of(version) == rules
+    assert gamerules(version) == rules
 
 
 def test_1_12_gets_its_own_blocks_and_syntax() -> None:
@@ -113,4 +145,4 @@ def test_the_border_is_no_material() -> None:
     ("block", "fit"), [("stone", True), ("grass_block", True), ("packed_ice", False), ("soul_sand", False)]
 )
 def test_a_floor_that_is_slippery_slow_or_falls_is_replaced(block: str, fit: bool) -> None:
-    assert is_fit(block) is fit
+    assert is_good_floor(block) is fit

@@ -11,19 +11,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from calibration.bench import BenchOf
-from calibration.clicks.by_hand import record
+from calibration.clicks.by_hand import record_by_hand
 from calibration.clicks.find import MENU_POINTS, calibrate_clicks
-from calibration.clicks.shown import MARK_COLOUR, TILE_WIDTH, Point, picture_of
-from calibration.step import Bench, Found
+from calibration.clicks.point_drawings import MARK_COLOUR, TILE_WIDTH, picture_of_points
+from calibration.clicks.recorded_point import RecordedPoint
+from calibration.context import CalibrationContext, StepResult
+from calibration.open_context import OpenContext
 from mc_nested.errors import ProfileError, UserError
-from mc_nested.live.desktop import Desktop
+from mc_nested.live.connection import GameConnection
 from mc_nested.live.desktop.clock import MonotonicClock
-from mc_nested.live.devices import Button, Frame, Region
-from mc_nested.live.hands import Hands
-from mc_nested.live.point_pictures import load_click_points
-from mc_nested.live.profile import Profile, load_profile
-from sim.client.devices import VirtualClipboard
+from mc_nested.live.devices import Button, Devices, Frame, Region
+from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.menus.point_pictures import load_click_points
+from mc_nested.live.profile.store import load_profile
+from mc_nested.live.profile.tables import Profile
+from sim.client.desktop.clipboard import VirtualClipboard
 
 SCREEN = np.random.default_rng(0).integers(0, 256, (300, 400, 3), np.uint8)
 SCREEN[150:, 200:] = 40
@@ -92,23 +94,23 @@ class NoKeys:
     release = type = press
 
 
-def recorded(player: Player, names: Iterable[str]) -> dict[str, tuple[float, float]]:
+def record_point(player: Player, names: Iterable[str]) -> dict[str, tuple[float, float]]:
     wanted = {name: f"{name} somewhere" for name in names}
-    points = record(wanted, player, Mouse(player), player.next_key, skip="f9", say=player.say)
+    points = record_by_hand(wanted, player, Mouse(player), player.next_key, skip="f9", say=player.say)
     return {point.name: point.at for point in points}
 
 
 @given(st.integers(0, 3839), st.integers(0, 2159))
 def test_a_recorded_fraction_leads_back_to_within_a_pixel(x: int, y: int) -> None:
     player = Player([("f8", (x, y), True)], window=(3840, 2160))
-    across, down = recorded(player, ["respawn"])["respawn"]
+    across, down = record_point(player, ["respawn"])["respawn"]
     assert abs(across * 3840 - x) < 1
     assert abs(down * 2160 - y) < 1
 
 
 def test_each_name_takes_the_place_that_the_mouse_was_over_at_its_key() -> None:
     player = Player([("f8", (100, 75), True), ("f9", (0, 0), True), ("f8", (200, 30), True)])
-    assert recorded(player, ["singleplayer", "world", "respawn"]) == {
+    assert record_point(player, ["singleplayer", "world", "respawn"]) == {
         "singleplayer": (0.25, 0.25),
         "respawn": (0.5, 0.1),
     }
@@ -127,14 +129,14 @@ def test_a_press_that_means_no_place_in_the_game_is_told_and_waits_for_another(
     place: tuple[int, int], in_front: bool, complaint: str
 ) -> None:
     player = Player([("f8", place, in_front), ("f8", (100, 75), True)])
-    assert recorded(player, ["world"]) == {"world": (0.25, 0.25)}
+    assert record_point(player, ["world"]) == {"world": (0.25, 0.25)}
     assert complaint in player.told[-1]
 
 
 def test_the_picture_shows_every_screen_with_its_mark() -> None:
     frame = np.full((480, 854, 3), 90, np.uint8)
-    points = [Point("singleplayer", (0.5, 0.25), frame), Point("respawn", (0.25, 0.75), frame)]
-    picture = picture_of(points)
+    points = [RecordedPoint("singleplayer", (0.5, 0.25), frame), RecordedPoint("respawn", (0.25, 0.75), frame)]
+    picture = picture_of_points(points)
     height = picture.shape[0] // 2
     assert picture.shape == (2 * height, TILE_WIDTH, 3)
     for index, point in enumerate(points):
@@ -142,12 +144,12 @@ def test_the_picture_shows_every_screen_with_its_mark() -> None:
         assert tuple(picture[y, x]) == MARK_COLOUR
 
 
-def bench_of(player: Player) -> BenchOf:
+def context_of(player: Player) -> OpenContext:
     @contextmanager
-    def opened(profile: Profile) -> Iterator[Bench]:
-        desktop = Desktop(player, NoKeys(), Mouse(player), MonotonicClock(), VirtualClipboard())
-        hands = Hands(player, NoKeys(), Mouse(player), desktop.clock, profile.input)
-        yield Bench(desktop, hands, player.say, lambda _: False)
+    def opened(profile: Profile) -> Iterator[CalibrationContext]:
+        devices = Devices(player, NoKeys(), Mouse(player), MonotonicClock(), VirtualClipboard())
+        connection = GameConnection(devices, InputController(devices, profile.input))
+        yield CalibrationContext(connection, player.say, lambda _: False)
 
     return opened
 
@@ -161,8 +163,8 @@ def heard(player: Player) -> Callable[[Sequence[str]], AbstractContextManager[Ca
     return listen
 
 
-def calibrated(file: Path, player: Player, names: Sequence[str] = tuple(MENU_POINTS)) -> tuple[Found, Path] | None:
-    return calibrate_clicks(file, bench_of(player), names=names, listen=heard(player))
+def calibrated(file: Path, player: Player, names: Sequence[str] = tuple(MENU_POINTS)) -> tuple[StepResult, Path] | None:
+    return calibrate_clicks(file, context_of(player), names=names, listen=heard(player))
 
 
 def test_the_menus_points_are_asked_for_and_written_with_a_picture_beside_the_profile(tmp_path: Path) -> None:
@@ -210,13 +212,13 @@ def test_each_point_leaves_its_own_picture(tmp_path: Path) -> None:
 
 def test_a_place_where_nothing_is_drawn_is_told_and_waits_for_another() -> None:
     player = Player([("f8", (300, 200), True), ("f8", (100, 75), True)])
-    assert recorded(player, ["world"]) == {"world": (0.25, 0.25)}
+    assert record_point(player, ["world"]) == {"world": (0.25, 0.25)}
     assert "nothing is drawn" in player.told[-1]
 
 
 def test_one_key_can_not_both_record_and_skip(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="both record and skip"):
-        calibrate_clicks(tmp_path / "new.toml", bench_of(Player([])), hotkey="f8", skip="f8")
+        calibrate_clicks(tmp_path / "new.toml", context_of(Player([])), hotkey="f8", skip="f8")
 
 
 def test_a_profile_that_can_not_be_used_is_told_before_a_window_is_looked_for(tmp_path: Path) -> None:

@@ -11,20 +11,19 @@ from calibration.clicks.find import (
     QUESTION,
     calibrate_clicks,
     find_clicks,
-    find_some_clicks,
-    shown_clicks,
-    try_clicks,
+    find_clicks_unattended,
 )
-from calibration.clicks.shown import MARK_COLOUR, SEEN_COLOUR, Point, picture_of_screen
+from calibration.clicks.recorded_point import RecordedPoint
 from mc_nested.errors import LiveError, NotConfirmedError, ProfileError
-from mc_nested.live import way_back
-from mc_nested.live.click_points import looks_the_same
-from mc_nested.live.font import decoded
-from mc_nested.live.point_pictures import load_click_points, picture_file
-from mc_nested.live.profile import Profile, load_profile, save_profile
+from mc_nested.live.menus import recovery
+from mc_nested.live.menus.click_points import looks_the_same
+from mc_nested.live.menus.point_pictures import load_click_points
+from mc_nested.live.profile.store import load_profile, save_profile
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.font import decoded
 from sim.client.client import VirtualClient
-from sim.client.screens import MenuState, ScreenName, menu
-from tests.calibration.benches import SPANISH, bench_of, bench_over, profile_in, started
+from sim.client.game.screens import MenuState, ScreenName, menu
+from tests.calibration.contexts import SPANISH, context_of, context_over, profile_in, started
 
 LABELS: dict[str, tuple[ScreenName, str]] = {
     "back_to_game": ("pause", "Back to Game"),
@@ -50,10 +49,10 @@ def true_middle(client: VirtualClient, name: str) -> tuple[float, float]:
 
 def check_all_found(client: VirtualClient, profile: Profile) -> None:
     before = client.realm.player.feet
-    found = find_clicks(bench_over(started(client)), profile)
+    found = find_clicks(context_over(started(client)), profile)
     assert set(found.profile.points) == {*LABELS, "world"}
     for point in found.points:
-        x, y = point.place(client.window.size)
+        x, y = point.position(client.window.size)
         if point.name in LABELS:
             true_x, true_y = true_middle(client, point.name)
             assert max(abs(x - true_x), abs(y - true_y)) <= 2 * client.scale, point.name
@@ -90,7 +89,7 @@ def test_without_a_yes_the_world_is_not_left(tmp_path: Path) -> None:
         questions.append(question)
         return False
 
-    found = find_clicks(bench_over(client, refuse), profile_in(tmp_path))
+    found = find_clicks(context_over(client, refuse), profile_in(tmp_path))
     assert questions == [QUESTION]
     assert set(found.profile.points) == set(PAUSE)
     assert "not visited" in found.lines[-1]
@@ -106,7 +105,7 @@ def test_a_world_that_others_may_share_is_not_left_and_nobody_is_asked(
     def never(question: str) -> bool:
         raise AssertionError(question)
 
-    found = find_clicks(bench_over(client, never), profile_in(tmp_path))
+    found = find_clicks(context_over(client, never), profile_in(tmp_path))
     assert set(found.profile.points) == set(PAUSE)
     assert "may not be a world of your own" in found.lines[-1]
 
@@ -115,7 +114,7 @@ def test_another_programs_menus_are_left_alone(tmp_path: Path, monkeypatch: pyte
     client = started(VirtualClient())
     monkeypatch.setattr(client.display, "title", lambda: "Prismarine Web Client - Chromium")
     monkeypatch.setattr(client.keyboard, "press", None)
-    found = find_clicks(bench_over(client), profile_in(tmp_path))
+    found = find_clicks(context_over(client), profile_in(tmp_path))
     assert found.points == ()
     assert "names no Minecraft" in found.lines[-1]
 
@@ -123,12 +122,12 @@ def test_another_programs_menus_are_left_alone(tmp_path: Path, monkeypatch: pyte
 def test_nor_is_one_without_the_button_that_opens_it_to_others(tmp_path: Path) -> None:
     # 1.12 never says in its title who else may be there (FACTS: Input and windows).
     client = started(VirtualClient(version="1.12.2", words={"Open to LAN": "Player Reporting"}))
-    found = find_clicks(bench_over(client), profile_in(tmp_path))
+    found = find_clicks(context_over(client), profile_in(tmp_path))
     assert set(found.profile.points) == set(PAUSE)
 
 
 def test_the_death_screen_is_reported_as_not_seen_and_never_guessed(tmp_path: Path) -> None:
-    found = find_clicks(bench_over(started(VirtualClient())), profile_in(tmp_path))
+    found = find_clicks(context_over(started(VirtualClient())), profile_in(tmp_path))
     assert "respawn" not in found.profile.points
     assert any(line.startswith("respawn: not seen") for line in found.lines)
     assert found.samples == 5
@@ -139,11 +138,11 @@ def test_in_another_language_nothing_is_guessed_and_the_rest_is_asked_for_by_han
     client = started(VirtualClient(words=SPANISH))
     wanted: list[str] = []
 
-    def by_hand(names: Mapping[str, str]) -> list[Point]:
+    def by_hand(names: Mapping[str, str]) -> list[RecordedPoint]:
         wanted.extend(names)
         return []
 
-    found = find_clicks(bench_over(client), profile_in(tmp_path), by_hand)
+    found = find_clicks(context_over(client), profile_in(tmp_path), by_hand)
     assert found.profile.points == {}
     assert set(wanted) == set(MENU_POINTS) - {"respawn"}
     assert found.lines == (
@@ -156,15 +155,15 @@ def test_without_a_hand_no_button_at_all_is_a_step_that_failed(tmp_path: Path) -
     with pytest.raises(
         NotConfirmedError, match=r"^no button was found; .*no English label.*: record them by hand with"
     ):
-        find_some_clicks(bench_over(started(VirtualClient(words=SPANISH))), profile_in(tmp_path))
+        find_clicks_unattended(context_over(started(VirtualClient(words=SPANISH))), profile_in(tmp_path))
 
 
 def test_a_button_that_a_pack_renames_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(way_back, "PATIENCE_S", 8.0)
+    monkeypatch.setattr(recovery, "PATIENCE_S", 8.0)
     client = started(VirtualClient(words={"Play Selected World": "Upgrade and Play"}))
     profile = profile_in(tmp_path)
     with pytest.raises(LiveError, match="way back into the world was not found"):
-        find_clicks(bench_over(client), profile)
+        find_clicks(context_over(client), profile)
     assert client.window.down == set()
 
 
@@ -181,14 +180,17 @@ def test_coming_back_elsewhere_is_an_error(change: str, tmp_path: Path) -> None:
 
     client.clock.call_at(client.clock.now() + 3.0, move)
     with pytest.raises(LiveError, match="stands elsewhere"):
-        find_clicks(bench_over(client), profile_in(tmp_path))
+        find_clicks(context_over(client), profile_in(tmp_path))
 
 
 def test_the_chat_is_not_in_the_pictures_of_the_game_menu(tmp_path: Path) -> None:
-    def seen(words: str) -> list[Point]:
+    def seen(words: str) -> list[RecordedPoint]:
         client = started(VirtualClient(capture_latency_s=(0.0, 0.0)))
         client.game.chat.say(words, client.game.ticks)
-        return [Point(each.title, (0, 0), each.frame) for each in find_clicks(bench_over(client), profile).pictures]
+        return [
+            RecordedPoint(each.title, (0, 0), each.frame)
+            for each in find_clicks(context_over(client), profile).pictures
+        ]
 
     profile = profile_in(tmp_path)
     one, other = seen("<Ann> my address is"), seen("<Bob> who is that")
@@ -199,7 +201,7 @@ def test_the_profile_its_pictures_and_an_overview_are_written(tmp_path: Path) ->
     file = tmp_path / "mine.toml"
     save_profile(profile_in(tmp_path).model_copy(update={"points": {"other": (0.5, 0.5)}}), file)
     client = started(VirtualClient())
-    written = calibrate_clicks(file, bench_of(client))
+    written = calibrate_clicks(file, context_of(client))
     assert written is not None
     assert written[1] == tmp_path / "mine-clicks.png"
     assert decoded(written[1].read_bytes(), 1) is not None
@@ -216,60 +218,10 @@ def test_the_profile_its_pictures_and_an_overview_are_written(tmp_path: Path) ->
 def test_where_nothing_was_found_nothing_is_written(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     save_profile(profile_in(tmp_path), file)
-    assert calibrate_clicks(file, bench_of(started(VirtualClient(words=SPANISH))), is_by_hand=False) is None
+    assert calibrate_clicks(file, context_of(started(VirtualClient(words=SPANISH))), is_by_hand=False) is None
     assert sorted(each.name for each in tmp_path.iterdir()) == ["ascii.png", "mine.toml"]
 
 
 def test_a_profile_without_a_font_is_told_what_comes_first(tmp_path: Path) -> None:
     with pytest.raises(ProfileError, match="calibrate font first"):
-        calibrate_clicks(tmp_path / "new.toml", bench_of(VirtualClient()))
-
-
-@pytest.fixture
-def recorded(tmp_path: Path) -> Path:
-    file = tmp_path / "mine.toml"
-    save_profile(profile_in(tmp_path), file)
-    calibrate_clicks(file, bench_of(started(VirtualClient())))
-    return file
-
-
-def test_a_dry_run_moves_the_mouse_to_what_is_there_and_presses_nothing(recorded: Path) -> None:
-    client = started(VirtualClient())
-    client.game.open("pause")
-    told = try_clicks(recorded, bench_of(client))
-    assert [line.split(":")[0] for line in told if "mouse over it" in line] == list(PAUSE)
-    assert len(told) == 5
-    x, y = true_middle(client, "save_and_quit_to_title")
-    assert client.pointer.position() == pytest.approx((x, y), abs=2 * client.scale)
-    assert client.game.screen == "pause"
-
-
-def test_a_dry_run_in_the_world_does_not_turn_the_view(recorded: Path) -> None:
-    client = started(VirtualClient())
-    assert all("not on this screen" in line for line in try_clicks(recorded, bench_of(client)))
-    assert (client.realm.player.yaw, client.realm.player.pitch) == (0.0, 0.0)
-
-
-def test_show_marks_what_is_there_green_and_the_rest_red(recorded: Path) -> None:
-    client = started(VirtualClient())
-    client.game.open("title")
-    picture = decoded(shown_clicks(recorded, bench_of(client)).read_bytes(), 1)
-    assert picture is not None
-    points = load_click_points(load_profile(recorded), recorded)
-    for name, point in points.items():
-        x, y = point.place(client.window.size)
-        expected = SEEN_COLOUR if name == "singleplayer" else MARK_COLOUR
-        assert tuple(int(part) for part in picture[y, x]) == expected
-    assert picture.shape[1] == 854
-    assert picture.shape[0] > 480
-    assert picture_file(recorded, "world").is_file()
-
-
-def test_what_was_never_recorded_can_not_be_shown(tmp_path: Path) -> None:
-    with pytest.raises(ProfileError, match="run mc-nested calibrate clicks"):
-        shown_clicks(tmp_path / "new.toml", bench_of(VirtualClient()))
-
-
-def test_a_screen_without_points_stays_as_it_is() -> None:
-    frame = np.zeros((4, 4, 3), np.uint8)
-    assert np.array_equal(picture_of_screen({}, frame), frame)
+        calibrate_clicks(tmp_path / "new.toml", context_of(VirtualClient()))

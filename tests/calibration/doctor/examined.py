@@ -9,16 +9,15 @@ import cv2
 
 from calibration.doctor.check import Check
 from calibration.doctor.examination import Examination, examine
-from calibration.game.folders import System
-from mc_nested.live.desktop import Desktop
-from mc_nested.live.devices import Clipboard
-from mc_nested.live.profile import Profile, save_profile
-from mc_nested.live.profile_tables import Calibrated, Screen
+from calibration.installation.folders import System
+from mc_nested.live.devices import Clipboard, Devices
+from mc_nested.live.profile.store import save_profile
+from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
-from sim.client.font import drawn_atlas
+from sim.client.drawing.font import drawn_atlas
 
 if TYPE_CHECKING:
-    from calibration.game.running import Process
+    from calibration.installation.processes import Process
 
 GOOD = """version:3465
 autoJump:false
@@ -59,7 +58,7 @@ class Computer:
         self.font = home / "ascii.png"
         self.font.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
         self.profile = home / "mine.toml"
-        self.save(Profile(screen=Screen(font=str(self.font)), calibrated=calibrated()))
+        self.save(Profile(screen=ScreenTable(font=str(self.font)), calibrated=calibrated()))
         self.processes: Sequence[Process] | None = []
         self.said: list[str] = []
 
@@ -69,7 +68,7 @@ class Computer:
 
     def examined(
         self,
-        open_devices: Callable[[str], AbstractContextManager[Desktop]],
+        open_devices: Callable[[str], AbstractContextManager[Devices]],
         clipboard: Clipboard | None = None,
         session: Callable[[], str] = lambda: "a virtual desktop",
     ) -> Examination:
@@ -84,18 +83,18 @@ class Computer:
         )
 
 
-def calibrated() -> Calibrated:
+def calibrated() -> CalibratedTable:
     """What a virtual client is unless told otherwise."""
-    return Calibrated(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
+    return CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
 
 
-def opened(client: VirtualClient) -> Callable[[str], AbstractContextManager[Desktop]]:
+def opened(client: VirtualClient) -> Callable[[str], AbstractContextManager[Devices]]:
     """Opens a virtual client's window."""
 
     @contextmanager
-    def open_devices(_title: str) -> Iterator[Desktop]:
+    def open_devices(_title: str) -> Iterator[Devices]:
         size = client.display.size
-        yield Desktop(client.display, client.keyboard, client.pointer, client.clock, client.clipboard, size)
+        yield Devices(client.display, client.keyboard, client.pointer, client.clock, client.clipboard, size)
 
     return open_devices
 

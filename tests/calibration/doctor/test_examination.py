@@ -8,13 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from calibration.doctor.check import NAMES
-from calibration.game.running import Process
+from calibration.doctor.check import CheckName
+from calibration.installation.processes import Process
 from mc_nested.errors import DesktopError, NoWindowError
-from mc_nested.live.desktop import Desktop
-from mc_nested.live.devices import Frame, Region
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import Calibrated, Keys, Screen
+from mc_nested.live.devices import Devices, Frame, Region
+from mc_nested.live.profile.tables import CalibratedTable, KeysTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
 from sim.client.mishaps import Kind
 from sim.client.settings import ClientSettings
@@ -56,11 +54,11 @@ def test_a_game_that_can_be_played_passes_every_row(
     version: str, size: tuple[int, int], scale: int, computer: Computer
 ) -> None:
     client = client_in(as_it_was, ClientSettings(pitch=DOWN, version=version, size=size, scale=scale))
-    calibrated = Calibrated(date="2026-11-21", version=version, window=size, gui_scale=scale)
-    computer.save(Profile(screen=Screen(font=str(computer.font)), calibrated=calibrated))
+    calibrated = CalibratedTable(date="2026-11-21", version=version, window=size, gui_scale=scale)
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font)), calibrated=calibrated))
     computer.options.write_text(GOOD.replace("guiScale:2", f"guiScale:{scale}"), "utf-8")
     found = computer.examined(opened(client), clipboard=client.clipboard)
-    assert statuses(found) == dict.fromkeys(NAMES, "pass")
+    assert statuses(found) == dict.fromkeys(CheckName, "pass")
     assert client.game.has_f3
     assert is_untouched(client)
     assert not computer.said
@@ -129,7 +127,7 @@ def test_each_fault_fails_in_its_own_rows_and_nothing_is_pressed_where_it_could_
     screen, has_f3 = client.game.screen, client.game.has_f3
     found = computer.examined(opened(client), clipboard=client.clipboard)
     seen = statuses(found)
-    assert tuple(seen) == NAMES
+    assert tuple(seen) == tuple(CheckName)
     assert {name for name, status in seen.items() if status == "fail"} == failing
     assert {name for name, status in seen.items() if status == "skip"} >= skipped
     assert (client.game.screen, client.game.has_f3) == (screen, has_f3)
@@ -156,7 +154,7 @@ def test_the_game_that_comes_to_the_front_in_time_is_looked_at(computer: Compute
     )
     client.clock.call_at(client.clock.now() + 12, lambda: client.set_front(is_in_front=True))
     found = computer.examined(opened(client), clipboard=client.clipboard)
-    assert statuses(found) == dict.fromkeys(NAMES, "pass")
+    assert statuses(found) == dict.fromkeys(CheckName, "pass")
     assert len(computer.said) == 1
     assert "Switch to the game" in computer.said[0]
 
@@ -167,11 +165,11 @@ def test_the_game_menu_that_a_person_closes_in_time_is_no_fault(computer: Comput
     assert statuses(computer.examined(opened(client)))["debug screen"] == "pass"
 
 
-def no_window(title: str) -> AbstractContextManager[Desktop]:
+def no_window(title: str) -> AbstractContextManager[Devices]:
     raise NoWindowError(f"no window's title matches {title!r}: start the game")
 
 
-def several(title: str) -> AbstractContextManager[Desktop]:
+def several(title: str) -> AbstractContextManager[Devices]:
     raise DesktopError(f"2 windows' titles match {title!r}: close all but the game's")
 
 
@@ -182,7 +180,7 @@ def no_session() -> str:
 def test_without_a_game_every_row_is_there_and_the_files_are_looked_at(computer: Computer) -> None:
     found = computer.examined(no_window)
     seen = statuses(found)
-    assert tuple(seen) == NAMES
+    assert tuple(seen) == tuple(CheckName)
     assert {name for name, status in seen.items() if status == "fail"} == {"game's window"}
     assert {"profile", "font", "options.txt", "autoJump", "keys"} <= {
         name for name, status in seen.items() if status == "pass"
@@ -201,7 +199,7 @@ def test_without_a_desktop_or_anything_else_every_row_is_there(tmp_path: Path) -
     computer.profile.unlink()
     found = computer.examined(several, session=no_session)
     seen = statuses(found)
-    assert tuple(seen) == NAMES
+    assert tuple(seen) == tuple(CheckName)
     assert seen.pop("session") == "fail"
     assert set(seen.values()) == {"skip"}
     assert found.is_window_closed is None
@@ -220,7 +218,7 @@ def test_a_font_is_found_in_a_launchers_folder_where_the_profile_names_none(comp
 
 
 def test_a_font_that_can_not_be_read_is_a_fault_and_another_one_is_read_with(computer: Computer) -> None:
-    computer.save(Profile(screen=Screen(font=str(computer.system.home / "gone.jar"))))
+    computer.save(Profile(screen=ScreenTable(font=str(computer.system.home / "gone.jar"))))
     jar = computer.options.parent / "versions" / "1.20.1" / "1.20.1.jar"
     jar.parent.mkdir(parents=True)
     jar.write_bytes(computer.font.read_bytes())
@@ -255,7 +253,7 @@ def test_a_profile_that_can_not_be_used_is_a_row_and_the_rest_is_looked_at_witho
 
 
 def test_a_gui_scale_that_the_profile_says_otherwise_is_seen_all_the_same(computer: Computer) -> None:
-    computer.save(Profile(screen=Screen(font=str(computer.font), gui_scale=1)))
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font), gui_scale=1)))
     row = rows(computer.examined(opened(client_in(as_it_was))))["size and GUI scale"]
     assert (row.status, row.detail) == (
         "fail",
@@ -264,7 +262,7 @@ def test_a_gui_scale_that_the_profile_says_otherwise_is_seen_all_the_same(comput
 
 
 def test_a_key_of_the_debug_screen_that_does_nothing_is_a_fault(computer: Computer) -> None:
-    computer.save(Profile(screen=Screen(font=str(computer.font)), keys=Keys(debug="f9")))
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font)), keys=KeysTable(debug="f9")))
     client = client_in(as_it_was)
     row = rows(computer.examined(opened(client)))["input"]
     assert (row.status, row.detail) == ("fail", "f9 was pressed, and the debug screen stayed on")
@@ -295,7 +293,7 @@ def test_whatever_happens_midway_no_key_stays_down_and_none_goes_astray(
     client = client_in(as_it_was)
     client.mishaps.plan(kind, after_s)
     found = computer.examined(opened(client))
-    assert tuple(statuses(found)) == NAMES
+    assert tuple(statuses(found)) == tuple(CheckName)
     assert is_untouched(client)
     assert client.game.chat.typed in (None, "")
     assert client.realm.player.feet == (0.5, 64.0, 0.5)
@@ -355,11 +353,11 @@ class Interrupted:
 
 def interrupted(
     client: VirtualClient, at: int, error: BaseException
-) -> Callable[[str], AbstractContextManager[Desktop]]:
+) -> Callable[[str], AbstractContextManager[Devices]]:
     @contextmanager
-    def open_devices(_title: str) -> Iterator[Desktop]:
+    def open_devices(_title: str) -> Iterator[Devices]:
         interrupted = Interrupted(client, at, error)
-        yield Desktop(interrupted, client.keyboard, client.pointer, client.clock, client.clipboard)
+        yield Devices(interrupted, client.keyboard, client.pointer, client.clock, client.clipboard)
 
     return open_devices
 
@@ -372,7 +370,7 @@ def test_a_window_that_closes_at_any_moment_leaves_every_row_and_no_key_down(
     computer, client = Computer(tmp_path_factory.mktemp("home")), client_in(as_it_was)
     closed = DesktopError("the window 'Minecraft 1.20.1' has closed: start the game again")
     found = computer.examined(interrupted(client, at, closed))
-    assert tuple(statuses(found)) == NAMES
+    assert tuple(statuses(found)) == tuple(CheckName)
     assert not client.window.down
     told = [check for check in found.checks if "has closed" in check.detail]
     assert len(told) == (0 if statuses(found)["input"] == "pass" else 1)

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from calibration.doctor.check import NAMES
-from calibration.doctor.options_rows import ROWS, gui_scale_row, keys_row, option_rows
-from calibration.game.options_txt import parse_options
-from mc_nested.live.profile_tables import Keys
+from calibration.doctor.check import CheckName
+from calibration.doctor.options_rows import OPTION_CHECKS, gui_scale_row, keys_row, option_rows
+from calibration.installation.options_txt import parse_options
+from mc_nested.live.profile.tables import KeysTable
 from tests.calibration.doctor.examined import GOOD
 
 
@@ -23,6 +23,10 @@ from tests.calibration.doctor.examined import GOOD
         ("6", None, "fail", "6: 4 at most"),
         ("6", (2560, 1440), "fail", "6, 6 in this window: 4 at most can be read"),
         ("6", (1280, 720), "pass", "6, 3 in this window"),
+        ("4", (2560, 1440), "pass", "4"),
+        ("5", (2560, 1440), "fail", "5, 5 in this window: 4 at most can be read"),
+        ("4", None, "pass", "4"),
+        ("5", None, "fail", "5: 4 at most"),
         (None, None, "skip", "the file doesn't say"),
         ("large", None, "skip", "the file doesn't say"),
     ],
@@ -35,7 +39,7 @@ def test_a_gui_scale_is_judged_as_the_window_gets_it(
     assert bool(row.fix) == (status in ("warn", "fail"))
 
 
-def bound(change: tuple[str, str], keys: Keys) -> tuple[str, str]:
+def bound(change: tuple[str, str], keys: KeysTable) -> tuple[str, str]:
     row = keys_row(parse_options(GOOD.replace(*change).encode(), Path("options.txt")), keys)
     return row.status, row.detail
 
@@ -43,44 +47,44 @@ def bound(change: tuple[str, str], keys: Keys) -> tuple[str, str]:
 @pytest.mark.parametrize(
     ("change", "keys", "status", "detail"),
     [
-        (("", ""), Keys(), "pass", "9 are as the profile has them"),
-        (("board.t", "board.enter"), Keys(), "fail", "chat: enter for t"),
-        (("board.w", "board.z"), Keys(forward="z"), "pass", "9 are as the profile has them"),
+        (("", ""), KeysTable(), "pass", "9 are as the profile has them"),
+        (("board.t", "board.enter"), KeysTable(), "fail", "chat: enter for t"),
+        (("board.w", "board.z"), KeysTable(forward="z"), "pass", "9 are as the profile has them"),
         # On an AZERTY keyboard the key at that place is printed z: nothing need be wrong.
-        (("", ""), Keys(forward="z"), "warn", "forward: w for z"),
-        (("mouse.right", "mouse.left"), Keys(), "fail", "use: left button for right button"),
-        (("board.left.shift", "board.unknown"), Keys(), "fail", "sneak: no key for left.shift"),
-        (("board.left.shift", "board.keypad.1"), Keys(), "fail", "sneak: another key for left.shift"),
-        (("board.1", "board.2"), Keys(), "warn", "hotbar.1: 2 for 1"),
+        (("", ""), KeysTable(forward="z"), "warn", "forward: w for z"),
+        (("mouse.right", "mouse.left"), KeysTable(), "fail", "use: left button for right button"),
+        (("board.left.shift", "board.unknown"), KeysTable(), "fail", "sneak: no key for left.shift"),
+        (("board.left.shift", "board.keypad.1"), KeysTable(), "fail", "sneak: another key for left.shift"),
+        (("board.1", "board.2"), KeysTable(), "warn", "hotbar.1: 2 for 1"),
     ],
 )
-def test_keys_are_those_of_the_profile(change: tuple[str, str], keys: Keys, status: str, detail: str) -> None:
+def test_keys_are_those_of_the_profile(change: tuple[str, str], keys: KeysTable, status: str, detail: str) -> None:
     assert bound(change, keys) == (status, detail)
 
 
 def test_a_file_without_keys_says_nothing_of_them() -> None:
-    assert keys_row(parse_options(b"lang:en_us\n", Path("options.txt")), Keys()).status == "skip"
+    assert keys_row(parse_options(b"lang:en_us\n", Path("options.txt")), KeysTable()).status == "skip"
 
 
 def test_every_option_has_its_row_whether_there_is_a_file_or_not() -> None:
     for options in (None, parse_options(b"lang:en_us\n", Path("options.txt")), parse_options(GOOD.encode(), Path("o"))):
-        assert {row.name for row in option_rows(options, Keys(), None)} == set(ROWS)
-    assert set(ROWS) < set(NAMES)
+        assert {row.name for row in option_rows(options, KeysTable(), None)} == set(OPTION_CHECKS)
+    assert set(OPTION_CHECKS) < set(CheckName)
 
 
 @pytest.mark.parametrize(
     ("name", "status"),
     [
-        ("pauseOnLostFocus", "warn"),
-        ("autoJump", "fail"),
-        ("forceUnicodeFont", "fail"),
-        ("fullscreen", "warn"),
-        ("toggleCrouch", "fail"),
+        (CheckName.PAUSE_ON_LOST_FOCUS, "warn"),
+        (CheckName.AUTO_JUMP, "fail"),
+        (CheckName.FORCE_UNICODE_FONT, "fail"),
+        (CheckName.FULLSCREEN, "warn"),
+        (CheckName.TOGGLE_CROUCH, "fail"),
     ],
 )
-def test_a_switch_that_should_be_off_says_why_and_how(name: str, status: str) -> None:
+def test_a_switch_that_should_be_off_says_why_and_how(name: CheckName, status: str) -> None:
     text = GOOD.replace(f"{name}:false", f"{name}:true")
-    rows = {row.name: row for row in option_rows(parse_options(text.encode(), Path("o")), Keys(), None)}
+    rows = {row.name: row for row in option_rows(parse_options(text.encode(), Path("o")), KeysTable(), None)}
     assert rows[name].status == status
     assert rows[name].detail.startswith("true: ")
     assert "mc-nested doctor --fix" in rows[name].fix
@@ -92,5 +96,5 @@ def test_a_switch_that_should_be_off_says_why_and_how(name: str, status: str) ->
 )
 def test_menus_are_known_in_english(value: str, status: str) -> None:
     text = GOOD.replace("lang:en_us", f"lang:{value}")
-    rows = {row.name: row for row in option_rows(parse_options(text.encode(), Path("o")), Keys(), None)}
-    assert rows["language"].status == status
+    rows = {row.name: row for row in option_rows(parse_options(text.encode(), Path("o")), KeysTable(), None)}
+    assert rows[CheckName.LANGUAGE].status == status

@@ -5,11 +5,10 @@ from pathlib import Path
 import pytest
 
 from calibration.doctor.examination import Examination
-from calibration.doctor.repair import repaired
-from calibration.game.running import Process
+from calibration.doctor.repair import repair
+from calibration.installation.processes import Process
 from mc_nested.errors import ProfileError
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import Screen
+from mc_nested.live.profile.tables import Profile, ScreenTable
 from sim.client.client import VirtualClient
 from tests.calibration.doctor.examined import GOOD, Computer, opened, statuses
 from tests.calibration.doctor.test_examination import no_session, no_window, several
@@ -32,8 +31,8 @@ def computer(tmp_path: Path) -> Computer:
 
 
 def repaired_in(computer: Computer, found: Examination) -> tuple[bool, str]:
-    """Whether it was repaired, and the last thing that was said."""
-    is_done = repaired(found, computer.said.append)
+    """Whether it was repair, and the last thing that was said."""
+    is_done = repair(found, computer.said.append)
     return is_done, computer.said[-1]
 
 
@@ -42,7 +41,7 @@ def files_beside(computer: Computer) -> list[str]:
 
 
 def test_safe_values_are_written_and_the_file_as_it_was_stays_beside_it(computer: Computer) -> None:
-    computer.save(Profile(screen=Screen(font=str(computer.font))))
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font))))
     found = computer.examined(no_window)
     seen = statuses(found)
     assert [seen[name] for name in ("autoJump", "pauseOnLostFocus", "guiScale", "language")] == [
@@ -65,7 +64,7 @@ def test_the_options_of_1_12_are_repaired_in_their_own_form(computer: Computer) 
 
 
 def test_the_gui_scale_is_that_of_the_profile(computer: Computer) -> None:
-    computer.save(Profile(screen=Screen(font=str(computer.font), gui_scale=3)))
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font), gui_scale=3)))
     repaired_in(computer, computer.examined(no_window))
     assert "guiScale:3\n" in computer.options.read_text("utf-8")
 
@@ -142,7 +141,7 @@ def test_a_file_that_the_game_has_written_meanwhile_is_left_alone(computer: Comp
     found = computer.examined(no_window)
     computer.options.write_text(GOOD, "utf-8")
     with pytest.raises(ProfileError, match="has changed meanwhile"):
-        repaired(found, computer.said.append)
+        repair(found, computer.said.append)
     assert files_beside(computer) == ["options.txt"]
 
 
@@ -159,6 +158,6 @@ def test_a_repair_that_breaks_off_leaves_the_file_as_it_was(
 
     monkeypatch.setattr(Path, "replace", break_off)
     with pytest.raises(told):
-        repaired(found, computer.said.append)
+        repair(found, computer.said.append)
     assert computer.options.read_text("utf-8") == BAD
     assert not [name for name in files_beside(computer) if name.endswith(".part")]

@@ -10,10 +10,11 @@ import pytest
 from calibration.font.find import calibrate_font, find_font
 from calibration.font.sources import FontSources
 from mc_nested.errors import ClipboardError, FontError, LiveError, NotInFrontError, UnreadableError
-from mc_nested.live.font import ENTRY, Font, decoded
-from mc_nested.live.profile import Profile, load_profile
+from mc_nested.live.profile.store import load_profile
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.font import ENTRY, Font, decoded
 from sim.client.client import VirtualClient
-from tests.calibration.benches import SPANISH, bench_of, bench_over, font_file_in, started
+from tests.calibration.contexts import SPANISH, context_of, context_over, font_file_in, started
 from tests.sim.client.playing import FONT
 
 
@@ -47,7 +48,7 @@ def test_scale_colour_and_phase_are_found_and_every_line_is_read_back(
     version: str, scale: int, size: tuple[int, int], tmp_path: Path
 ) -> None:
     client = started(VirtualClient(version=version, scale=scale, size=size, pitch=65.0))
-    found = find_font(bench_over(client), Profile(), sources_in(tmp_path))
+    found = find_font(context_over(client), Profile(), sources_in(tmp_path))
     assert found.profile.screen.font == str(tmp_path / "ascii.png")
     assert f"GUI scale {scale}, text (224, 224, 224), a line every 9 dots, dots from the corner on" in found.lines
     assert f"read back: {found.samples} of {found.samples} lines without an unknown glyph" in found.lines
@@ -59,7 +60,7 @@ def test_scale_colour_and_phase_are_found_and_every_line_is_read_back(
 def test_it_is_checked_with_f3_and_c_where_the_version_has_that(version: str, line: str, tmp_path: Path) -> None:
     client = started(VirtualClient(version=version))
     client.clipboard.write("mine")
-    assert line in find_font(bench_over(client), Profile(), sources_in(tmp_path)).lines[-1]
+    assert line in find_font(context_over(client), Profile(), sources_in(tmp_path)).lines[-1]
     assert client.clipboard.read() == "mine"
 
 
@@ -68,7 +69,7 @@ def test_the_font_is_found_among_jars_of_other_versions_and_broken_ones(tmp_path
     broken = tmp_path / "broken.jar"
     broken.write_bytes(b"PK\3\4 and no more")
     paths = (broken, jar(tmp_path / "empty.jar", None), jar(tmp_path / "1.20.1.jar", own), own)
-    found = find_font(bench_over(started(VirtualClient())), Profile(), FontSources(paths))
+    found = find_font(context_over(started(VirtualClient())), Profile(), FontSources(paths))
     assert found.profile.screen.font == str(tmp_path / "1.20.1.jar")
     assert [line for line in found.lines if line.startswith("not used:")] == [
         line for line in found.lines if "broken.jar" in line or "empty.jar" in line
@@ -79,7 +80,7 @@ def test_letters_that_fit_no_jar_are_told_with_the_jars_that_were_tried(tmp_path
     client = started(VirtualClient(font=flipped()))
     one = jar(tmp_path / "1.20.1.jar", font_file_in(tmp_path))
     with pytest.raises(FontError, match=r"fit none of these fonts: \S*1\.20\.1\.jar: .* Force Unicode Font off$"):
-        find_font(bench_over(client), Profile(), FontSources((one,)))
+        find_font(context_over(client), Profile(), FontSources((one,)))
     client.clock.sleep(0.3)
     assert client.game.has_f3, "the debug screen that was on is on again"
     assert client.window.down == set()
@@ -89,21 +90,21 @@ def test_another_language_is_named_where_it_is_known(tmp_path: Path) -> None:
     client = started(VirtualClient(font=flipped()))
     sources = dataclasses.replace(sources_in(tmp_path), options={"lang": "ja_jp"})
     with pytest.raises(FontError, match=r"set the language to English \(it is ja_jp\)"):
-        find_font(bench_over(client), Profile(), sources)
+        find_font(context_over(client), Profile(), sources)
 
 
 def test_force_unicode_is_named_where_it_is_known(tmp_path: Path) -> None:
     client = started(VirtualClient(font=flipped()))
     sources = dataclasses.replace(sources_in(tmp_path), options={"forceUnicodeFont": "true"})
     with pytest.raises(FontError, match="Force Unicode Font is on"):
-        find_font(bench_over(client), Profile(), sources)
+        find_font(context_over(client), Profile(), sources)
 
 
 @pytest.mark.slow
 def test_a_gui_scale_that_is_too_large_is_named(tmp_path: Path) -> None:
     client = started(VirtualClient(size=(1600, 1200), scale=5))
     with pytest.raises(UnreadableError, match="the GUI scale is 5: choose 1, 2, 3 or 4"):
-        find_font(bench_over(client), Profile(), sources_in(tmp_path))
+        find_font(context_over(client), Profile(), sources_in(tmp_path))
 
 
 @pytest.mark.parametrize("screen", ["pause", "chat", "inventory", "death", "title", "worlds"])
@@ -114,13 +115,13 @@ def test_a_menu_that_is_open_is_left_first(screen: str, tmp_path: Path) -> None:
     else:
         client.game.open(screen)  # type: ignore[arg-type]  # these are names of screens
     client.clock.sleep(0.3)
-    assert find_font(bench_over(client), Profile(), sources_in(tmp_path)).profile.screen.font
+    assert find_font(context_over(client), Profile(), sources_in(tmp_path)).profile.screen.font
     assert client.game.screen == "world"
 
 
 def test_a_debug_screen_that_is_off_is_switched_on(tmp_path: Path) -> None:
     client = started(VirtualClient(has_f3=False))
-    assert find_font(bench_over(client), Profile(), sources_in(tmp_path)).samples > 10
+    assert find_font(context_over(client), Profile(), sources_in(tmp_path)).samples > 10
     assert client.game.has_f3
 
 
@@ -128,7 +129,7 @@ def test_without_any_debug_screen_that_is_told_and_nothing_stays_pressed(tmp_pat
     client = started(VirtualClient(has_f3=False, words=SPANISH))
     client.game.hides_hud = True
     with pytest.raises(UnreadableError, match="no debug screen is to be seen, even after its key was pressed"):
-        find_font(bench_over(client), Profile(), sources_in(tmp_path))
+        find_font(context_over(client), Profile(), sources_in(tmp_path))
     client.clock.sleep(0.3)
     assert not client.game.has_f3
     assert client.game.screen == "world"
@@ -139,14 +140,14 @@ def test_a_reduced_debug_screen_is_told(tmp_path: Path) -> None:
     client = started(VirtualClient())
     client.realm.rules["reducedDebugInfo"] = "true"
     with pytest.raises(UnreadableError, match="Reduced Debug Info"):
-        find_font(bench_over(client), Profile(), sources_in(tmp_path))
+        find_font(context_over(client), Profile(), sources_in(tmp_path))
 
 
 def test_a_game_that_stays_behind_another_window_is_told(tmp_path: Path) -> None:
     client = started(VirtualClient())
     client.set_front(is_in_front=False)
     with pytest.raises(NotInFrontError, match="didn't come to the front"):
-        find_font(bench_over(client), Profile(), sources_in(tmp_path))
+        find_font(context_over(client), Profile(), sources_in(tmp_path))
     assert client.window.strays == []
 
 
@@ -154,7 +155,7 @@ def test_without_any_font_nothing_is_pressed(tmp_path: Path) -> None:
     client = VirtualClient()
     missing = tmp_path / "gone.jar"
     with pytest.raises(FontError, match=r"name it with --font .*gone\.jar"):
-        find_font(bench_over(client), Profile(), FontSources((missing,)))
+        find_font(context_over(client), Profile(), FontSources((missing,)))
     assert client.game.ticks == 0
 
 
@@ -165,7 +166,7 @@ def test_profile_and_picture_are_written_and_the_version_of_the_title_asked_for(
         asked.append(version)
         return sources_in(tmp_path)
 
-    found, picture = calibrate_font(file, bench_of(started(VirtualClient(version="1.21.11"))), sources=sources)
+    found, picture = calibrate_font(file, context_of(started(VirtualClient(version="1.21.11"))), sources=sources)
     assert asked == ["1.21.11"]
     assert load_profile(file) == found.profile
     drawn = decoded(picture.read_bytes(), 1)
@@ -181,7 +182,7 @@ def test_a_clipboard_that_can_not_be_used_leaves_only_the_comparison_out(tmp_pat
         raise ClipboardError("the clipboard holds something else than text")
 
     client.clipboard.read = refuse  # type: ignore[method-assign]
-    found = find_font(bench_over(client), Profile(), sources_in(tmp_path))
+    found = find_font(context_over(client), Profile(), sources_in(tmp_path))
     assert found.lines[-1] == "not compared with F3+C: the clipboard holds something else than text"
 
 
@@ -190,7 +191,7 @@ def test_a_jar_that_is_named_is_the_only_one_tried(tmp_path: Path) -> None:
         raise AssertionError
 
     client = started(VirtualClient())
-    found, _ = calibrate_font(tmp_path / "mine.toml", bench_of(client), font_file_in(tmp_path), never)
+    found, _ = calibrate_font(tmp_path / "mine.toml", context_of(client), font_file_in(tmp_path), never)
     assert found.profile.screen.font == str(tmp_path / "ascii.png")
 
 
@@ -211,6 +212,6 @@ def test_what_goes_wrong_leaves_the_old_profile_to_the_byte(tmp_path: Path) -> N
     file.write_text("# mine\n[keys]\nleft = 'd'\n", "utf-8")
     client = started(VirtualClient(font=flipped()))
     with pytest.raises((FontError, LiveError)):
-        calibrate_font(file, bench_of(client), font_file_in(tmp_path))
+        calibrate_font(file, context_of(client), font_file_in(tmp_path))
     assert file.read_text("utf-8") == "# mine\n[keys]\nleft = 'd'\n"
     assert not (tmp_path / "mine-font.png").exists()

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from calibration.font.read_back import ReadLine, phase_of, read_back, side_by_side
-from mc_nested.live.text_lines import UNKNOWN
+from mc_nested.live.vision.text_lines import UNKNOWN
 from sim.client.client import VirtualClient
-from tests.calibration.benches import started
+from tests.calibration.contexts import started
 from tests.sim.client.playing import FONT
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from calibration.font.sources import font_sources
-from calibration.game.folders import System
+from calibration.installation.folders import System
 
 
 @pytest.fixture

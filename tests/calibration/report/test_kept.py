@@ -1,30 +1,30 @@
-"""What lies beside a profile: it comes back as it was, the newest of each step, and nothing that nobody names."""
+"""What is kept beside a profile: read back as it was, the newest of each step, without files that no entry names."""
 
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from calibration.doctor.check import Check
-from calibration.report.kept import Kept, KeptStep, keep, kept_folder, load_kept
-from calibration.step import Found, Picture
+from calibration.context import ReportPicture, StepResult
+from calibration.doctor.check import Check, CheckName
+from calibration.report.kept import Kept, KeptCheck, KeptStep, keep, kept_folder, load_kept
 from mc_nested.errors import ProfileError
-from mc_nested.live.profile import Profile
+from mc_nested.live.profile.tables import Profile
 
 GREY = np.full((3, 4, 3), 99, np.uint8)
 RED = np.full((2, 2, 3), (0, 0, 255), np.uint8)
 
 
-def found(step: str, *lines: str, pictures: tuple[Picture, ...] = ()) -> Found:
-    return Found(step, Profile(), lines, len(lines), pictures)
+def found(step: str, *lines: str, pictures: tuple[ReportPicture, ...] = ()) -> StepResult:
+    return StepResult(step, Profile(), lines, len(lines), pictures)
 
 
 def test_what_is_kept_comes_back(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
-    font = found("font", "scale 2", pictures=(Picture("grey", GREY, "all over"), Picture("red", RED)))
-    keep(profile, [font, found("cross-check")], [Check("clipboard", "skip", "none")], "2026-11-21")
+    font = found("font", "scale 2", pictures=(ReportPicture("grey", GREY, "all over"), ReportPicture("red", RED)))
+    keep(profile, [font, found("cross-check")], [Check(CheckName.CLIPBOARD, "skip", "none")], "2026-11-21")
     kept = load_kept(profile)
-    assert kept.checks == (Check("clipboard", "skip", "none", ""),)
+    assert kept.checks == (KeptCheck("clipboard", "skip", "none", ""),)
     assert kept.checked == "2026-11-21"
     assert [(step.step, step.date, step.lines, step.samples) for step in kept.steps] == [
         ("font", "2026-11-21", ("scale 2",), 1),
@@ -38,9 +38,9 @@ def test_what_is_kept_comes_back(tmp_path: Path) -> None:
 
 def test_a_step_done_again_takes_the_place_of_the_old_one_and_of_its_pictures(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
-    two = (Picture("one", GREY), Picture("two", GREY))
+    two = (ReportPicture("one", GREY), ReportPicture("two", GREY))
     keep(profile, [found("font", "old", pictures=two), found("walk", "slow", pictures=two[:1])], today="2026-11-20")
-    keep(profile, [found("font", "new", pictures=(Picture("red", RED),))], today="2026-11-21")
+    keep(profile, [found("font", "new", pictures=(ReportPicture("red", RED),))], today="2026-11-21")
     font, walk = load_kept(profile).steps
     assert (font.lines, font.date, walk.lines, walk.date) == (("new",), "2026-11-21", ("slow",), "2026-11-20")
     assert np.array_equal(font.pictures[0].frame, RED)
@@ -50,7 +50,7 @@ def test_a_step_done_again_takes_the_place_of_the_old_one_and_of_its_pictures(tm
 
 def test_the_doctors_table_stays_until_there_is_a_new_one(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
-    keep(profile, [], [Check("window", "fail", "none", "start the game")], "2026-11-20")
+    keep(profile, [], [Check(CheckName.WINDOW, "fail", "none", "start the game")], "2026-11-20")
     keep(profile, [found("font")], today="2026-11-21")
     kept = load_kept(profile)
     assert (kept.checked, [check.status for check in kept.checks]) == ("2026-11-20", ["fail"])
@@ -62,7 +62,7 @@ def test_beside_a_profile_that_was_never_calibrated_lies_nothing(tmp_path: Path)
 
 def test_a_picture_that_is_gone_is_left_out(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
-    keep(profile, [found("font", "a line", pictures=(Picture("grey", GREY),))], today="2026-11-21")
+    keep(profile, [found("font", "a line", pictures=(ReportPicture("grey", GREY),))], today="2026-11-21")
     (kept_folder(profile) / "font-1.png").unlink()
     assert load_kept(profile).steps == (KeptStep("font", "2026-11-21", ("a line",), 1, ()),)
 
@@ -80,7 +80,7 @@ def test_a_damaged_list_is_one_line_that_says_what_to_do(tmp_path: Path, text: s
 
 def test_a_list_never_names_a_file_outside_its_folder(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
-    keep(profile, [found("font", pictures=(Picture("grey", GREY),))], today="2026-11-21")
+    keep(profile, [found("font", pictures=(ReportPicture("grey", GREY),))], today="2026-11-21")
     path = kept_folder(profile) / "found.json"
     path.write_text(path.read_text().replace("font-1.png", "../font-1.png"))
     with pytest.raises(ProfileError):

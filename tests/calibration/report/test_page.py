@@ -11,26 +11,28 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from calibration.doctor.check import Check
-from calibration.report.kept import Kept, KeptStep
-from calibration.report.page import SMALL_BYTES, Report, contents, data_uri, report_html
+from calibration.context import ReportPicture
+from calibration.report.kept import Kept, KeptCheck, KeptStep
+from calibration.report.page import SMALL_BYTES, CalibrationReport, contents, data_uri, report_html
 from calibration.report.privacy import Names
-from calibration.step import Picture
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import Calibrated
+from mc_nested.live.profile.tables import CalibratedTable, Profile
 
 NOBODY = Names("/nowhere/at/all", ())
 GREY = np.full((3, 4, 3), 99, np.uint8)
-FONT = KeptStep("font", "2026-11-21", ("GUI scale 2", "13 lines read"), 12, (Picture("The debug screen", GREY, "F3"),))
-WALK = KeptStep("walk", "2026-11-21", ("0.216 blocks a tick",), 96, (Picture("The curve", GREY),))
-CHECKS = (
-    Check("session", "pass", "X11"),
-    Check("window", "fail", "not found", "start the game"),
+FONT = KeptStep(
+    "font", "2026-11-21", ("GUI scale 2", "13 lines read"), 12, (ReportPicture("The debug screen", GREY, "F3"),)
 )
-MADE = Report(
+WALK = KeptStep("walk", "2026-11-21", ("0.216 blocks a tick",), 96, (ReportPicture("The curve", GREY),))
+CHECKS = (
+    KeptCheck("session", "pass", "X11"),
+    KeptCheck("window", "fail", "not found", "start the game"),
+)
+MADE = CalibrationReport(
     "mine",
     Profile(
-        calibrated=Calibrated(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2, samples={"font": 12})
+        calibrated=CalibratedTable(
+            date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2, samples={"font": 12}
+        )
     ),
     "[window]\n",
     Kept((WALK, FONT), CHECKS, "2026-11-21"),
@@ -66,7 +68,7 @@ class Page(HTMLParser):
         return [attributes for name, attributes in self.tags if name == tag]
 
 
-def page(report: Report, names: Names = NOBODY) -> Page:
+def page(report: CalibrationReport, names: Names = NOBODY) -> Page:
     return Page(report_html(report, names))
 
 
@@ -98,7 +100,7 @@ def test_it_shows_the_fingerprint_the_checks_and_the_steps_in_the_order_of_the_r
 
 
 def test_a_fix_is_shown_only_where_something_has_to_be_done() -> None:
-    done = Check("game", "pass", "found", "not needed")
+    done = KeptCheck("game", "pass", "found", "not needed")
     assert "not needed" not in page(dataclasses.replace(MADE, kept=Kept((), (done,)))).texts
 
 
@@ -112,7 +114,7 @@ def test_its_list_of_contents_is_on_top_of_it_word_for_word() -> None:
 
 def test_each_picture_comes_back_as_it_was_kept() -> None:
     noise = np.random.default_rng(0).integers(0, 256, (20, 30, 3), np.uint8)
-    step = dataclasses.replace(FONT, pictures=(Picture("noise", noise),))
+    step = dataclasses.replace(FONT, pictures=(ReportPicture("noise", noise),))
     (image,) = page(dataclasses.replace(MADE, kept=Kept((step,)))).of("img")
     kind, data = (image["src"] or "").split(",")
     assert kind == "data:image/png;base64"
@@ -148,10 +150,10 @@ HTML = st.text(st.sampled_from("<>&\"'/={}%abim sx"), max_size=30)
 
 @given(HTML)
 def test_whatever_a_text_holds_it_is_text(text: str) -> None:
-    step = KeptStep(text, text, (text,), 1, (Picture(text, GREY, text),))
-    check = Check(text, "warn", text, text)
+    step = KeptStep(text, text, (text,), 1, (ReportPicture(text, GREY, text),))
+    check = KeptCheck(text, "warn", text, text)
     plain = page(MADE)
-    seen = page(Report(text, MADE.profile, text, Kept((FONT, step), (*CHECKS, check), text), text))
+    seen = page(CalibrationReport(text, MADE.profile, text, Kept((FONT, step), (*CHECKS, check), text), text))
     assert seen.open == []
     assert {name for name, _ in seen.tags} == {name for name, _ in plain.tags}
     if text.strip():
@@ -162,8 +164,8 @@ def test_whatever_a_text_holds_it_is_text(text: str) -> None:
 def test_it_names_nobody(name: str, around: str) -> None:
     names = Names(f"/home/{name}", (name,))
     text = f"{around}{name}{around} in /home/{name}/x, C:\\Users\\{name}\\x"
-    step = KeptStep("font", text, (text,), 1, (Picture(text, GREY, text),))
-    made = Report(text, MADE.profile, text, Kept((step,), (Check(text, "warn", text, text),)), "")
+    step = KeptStep("font", text, (text,), 1, (ReportPicture(text, GREY, text),))
+    made = CalibrationReport(text, MADE.profile, text, Kept((step,), (KeptCheck(text, "warn", text, text),)), "")
     html = report_html(made, names)
     left = re.sub(r"data:image/\w+;base64,[^\"]*", "", html[html.index("</style>") :])
     assert name not in left

@@ -6,16 +6,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibration.step import Found
-from calibration.walk.fit import rms
+from calibration.context import StepResult
+from calibration.walk.gait_fit import rms
 from calibration.walk.measure import calibrate_walk, walk
 from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, NotInFrontError, UserError
-from mc_nested.live.profile import Profile, load_profile, save_profile
-from mc_nested.live.profile_tables import Arena, Keys
-from mc_nested.live.walk import TICK_S
+from mc_nested.live.model.kinematics import TICK_S
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.store import load_profile, save_profile
+from mc_nested.live.profile.tables import KeysTable, Profile
 from sim.client.client import VirtualClient
 from sim.client.mishaps import Kind
-from tests.calibration.virtual_bench import bench_on, profile_of
+from tests.calibration.virtual_context import context_on, profile_of
 
 LONGEST_S = 90.0
 
@@ -23,19 +24,19 @@ LATER = [pytest.param(after_s, marks=pytest.mark.slow) for after_s in (15.0, 40.
 """Seconds after which somebody interferes: while it sneaks out, and while it walks."""
 
 
-def measured(client: VirtualClient, folder: Path, profile: Profile | None = None) -> Found:
+def measured(client: VirtualClient, folder: Path, profile: Profile | None = None) -> StepResult:
     """What is found, in less than 90 seconds of game time, with no key left down and none to another window."""
     profile = profile or profile_of(client, folder)
     began = client.clock.now()
-    with bench_on(client)(profile) as bench:
-        found = walk(bench, profile)
+    with context_on(client)(profile) as context:
+        found = walk(context, profile)
     assert client.clock.now() - began < LONGEST_S
     assert client.window.down == set()
     assert client.window.strays == []
     return found
 
 
-def off_held_out(client: VirtualClient, found: Found, patch: pytest.MonkeyPatch) -> float:
+def off_held_out(client: VirtualClient, found: StepResult, patch: pytest.MonkeyPatch) -> float:
     """How far off new holds end that the profile predicts by the ticks that truly felt them: RMS, in blocks."""
     felt: list[bool] = []
     tick = client.game.tick
@@ -66,7 +67,7 @@ def test_walking_is_measured_where_the_player_stands_and_ends_there(
 ) -> None:
     client = VirtualClient(pitch=65.0)
     found = measured(client, tmp_path)
-    assert found.profile.keys == Keys()
+    assert found.profile.keys == KeysTable()
     assert found.profile.walk.inertia == pytest.approx(0.546, abs=0.002)
     assert found.profile.walk.sneaking == pytest.approx(0.3, abs=0.002)
     assert found.samples > 40
@@ -113,7 +114,7 @@ def test_other_frame_rates_and_latencies_give_the_same_walk_and_their_own_round_
 ) -> None:
     client = VirtualClient(seed=3, pitch=65.0, fps=fps, input_latency_s=into_s, capture_latency_s=out_s)
     found = measured(client, tmp_path)
-    trip = found.profile.walk.felt_after_s + found.profile.walk.seen_after_s
+    trip = found.profile.walk.input_latency_s + found.profile.walk.capture_latency_s
     # Frames fall at the same time after each tick, or nearly: half a frame is what that can be off the mean.
     assert trip == pytest.approx(sum(into_s) / 2 + sum(out_s) / 2 + 0.5 / fps, abs=0.5 / fps + 0.006)
     assert off_held_out(client, found, monkeypatch) < 0.02
@@ -173,7 +174,7 @@ def test_a_block_or_an_edge_in_the_way_is_found_sneaking(
 
 def test_wrong_keys_are_told_from_a_floor_that_is_not_free(tmp_path: Path) -> None:
     client = VirtualClient(pitch=65.0)
-    profile = profile_of(client, tmp_path).model_copy(update={"keys": Keys(left="j")})
+    profile = profile_of(client, tmp_path).model_copy(update={"keys": KeysTable(left="j")})
     with pytest.raises(UserError, match="the key j moves nobody left"):
         measured(client, tmp_path, profile)
 
@@ -181,7 +182,7 @@ def test_wrong_keys_are_told_from_a_floor_that_is_not_free(tmp_path: Path) -> No
 @pytest.mark.slow
 def test_a_sneaking_key_that_does_nothing_is_noticed(tmp_path: Path) -> None:
     client = VirtualClient(pitch=65.0)
-    profile = profile_of(client, tmp_path).model_copy(update={"keys": Keys(sneak="k")})
+    profile = profile_of(client, tmp_path).model_copy(update={"keys": KeysTable(sneak="k")})
     with pytest.raises(NotConfirmedError, match="sneaking is no slower than walking"):
         measured(client, tmp_path, profile)
 
@@ -208,7 +209,7 @@ def kept(tmp_path: Path) -> Path:
 
 @pytest.mark.slow
 def test_what_was_found_is_written_with_its_picture(kept: Path) -> None:
-    found, picture = calibrate_walk(kept, bench_on(VirtualClient(pitch=65.0)))
+    found, picture = calibrate_walk(kept, context_on(VirtualClient(pitch=65.0)))
     assert load_profile(kept) == found.profile
     assert picture == kept.with_name("mine-walk.png")
     assert picture.read_bytes().startswith(b"\x89PNG")
@@ -232,7 +233,7 @@ def test_a_hand_in_between_is_one_line_and_the_profile_as_it_was(
     client = VirtualClient(pitch=65.0, pauses_unfocused=False)
     client.mishaps.plan(kind, after_s)
     with pytest.raises(error) as caught:
-        calibrate_walk(kept, bench_on(client))
+        calibrate_walk(kept, context_on(client))
     assert "\n" not in str(caught.value)
     assert kept.read_bytes() == before
     assert client.window.down == set()
@@ -271,7 +272,7 @@ def test_ctrl_c_or_a_closed_window_at_any_time_leaves_keys_up_and_the_profile_as
     client = VirtualClient(pitch=65.0)
     monkeypatch.setattr(client.display, "is_in_front", Cut(client, after_s, error).is_in_front)
     with pytest.raises(type(error)):
-        calibrate_walk(kept, bench_on(client))
+        calibrate_walk(kept, context_on(client))
     assert kept.read_bytes() == before
     assert client.window.down == set()
     assert list(kept.parent.glob("*.part")) == []

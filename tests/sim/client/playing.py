@@ -1,16 +1,19 @@
 """The unchanged live path on a virtual client: what session.py wires to a desktop, wired to the client."""
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.live.coordinates import Facing
-from mc_nested.live.debug_screen import Overlay, read_debug_screen
-from mc_nested.live.font import font_of
-from mc_nested.live.game_screen import WindowScreen
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import Arena, GameVersion
-from mc_nested.live.reading import Reading
+from mc_nested.live.model.coordinates import Facing
+from mc_nested.live.model.reading import Reading
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.tables import GameVersion, InputTable, Profile
+from mc_nested.live.vision.debug_screen import read_debug_screen
+from mc_nested.live.vision.font import font_of
+from mc_nested.live.vision.game_screen import WindowScreen
+from mc_nested.live.vision.layout import VANILLA, Overlay
 from sim.client.client import VirtualClient
-from sim.client.font import drawn_atlas
+from sim.client.drawing.font import drawn_atlas
 
 FONT = font_of(drawn_atlas())
 TAP_S, SOON_S = 0.05, 0.3
@@ -22,7 +25,14 @@ def arena_of(client: VirtualClient, facing: Facing = "south") -> Arena:
 
 
 def read(client: VirtualClient) -> Reading:
-    return read_debug_screen(client.display.grab(), FONT, Overlay(client.scale, 9, (224, 224, 224)))
+    return read_debug_screen(client.display.grab(), FONT, Overlay(client.scale, VANILLA, (224, 224, 224)))
+
+
+def connection_to(client: VirtualClient, *, is_server_allowed: bool = False) -> GameConnection:
+    """The client, read with its own font."""
+    controller = InputController(client.devices, InputTable())
+    screen = WindowScreen(client.display, FONT)
+    return GameConnection(client.devices, controller, screen, is_server_allowed=is_server_allowed)
 
 
 def play(client: VirtualClient, scenario: Scenario, facing: Facing = "south") -> LiveGame:
@@ -30,11 +40,7 @@ def play(client: VirtualClient, scenario: Scenario, facing: Facing = "south") ->
     return LiveGame(
         scenario,
         profile,
-        display=client.display,
-        keyboard=client.keyboard,
-        pointer=client.pointer,
-        clock=client.clock,
-        screen=WindowScreen(client.display, FONT),
+        connection_to(client),
     )
 
 

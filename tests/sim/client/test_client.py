@@ -7,11 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mc_nested.live.devices import Clipboard, Clock, Display, Keyboard, Pointer, Region
-from mc_nested.live.reading import Reading
+from mc_nested.live.model.reading import Reading
 from sim.client.client import VirtualClient
-from sim.client.physics import displacement
-from sim.client.realm import Stack
-from sim.client.screens import MenuState, menu
+from sim.client.game.physics import displacement
+from sim.client.game.realm import Stack
+from sim.client.game.screens import MenuState, menu
 from sim.client.settings import gui_scale
 from tests.sim.client.playing import TAP_S, arena_of, click, command, read, tap
 

@@ -8,16 +8,17 @@ import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, NotConfirmedError
-from mc_nested.live import way_back
-from mc_nested.live.chat import Chat
-from mc_nested.live.game_screen import WindowScreen
-from mc_nested.live.hands import Hands
-from mc_nested.live.last_frames import LastFrames, without_chat
+from mc_nested.live.connection import GameConnection
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile import Profile
-from mc_nested.live.way_back import ScreenName, WayBack
+from mc_nested.live.menus import recovery, screens
+from mc_nested.live.menus.chat import Chat
+from mc_nested.live.menus.recovery import Recovery
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.chat_region import OPEN_LINES, without_chat
+from mc_nested.live.vision.game_screen import WindowScreen
+from mc_nested.live.vision.last_frames import LastFrames
 from sim.client.client import VirtualClient
-from tests.sim.client.playing import FONT, arena_of, command, play
+from tests.sim.client.playing import FONT, arena_of, command, connection_to, play
 
 LINE = load_scenario("line")
 
@@ -27,8 +28,9 @@ def _screen(client: VirtualClient) -> WindowScreen:
     return WindowScreen(client.display, FONT)
 
 
-def _hands(client: VirtualClient) -> Hands:
-    return Hands(client.display, client.keyboard, client.pointer, client.clock, Profile().input)
+def _connection(client: VirtualClient) -> GameConnection:
+    client.clock.sleep(0.2)
+    return connection_to(client)
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
@@ -94,11 +96,11 @@ def test_no_world_is_taken_for_an_open_chat(world: str) -> None:
 
 def test_a_letter_that_is_lost_keeps_the_line_from_being_sent() -> None:
     client = VirtualClient()
-    screen, hands = _screen(client), _hands(client)
-    hands.saw("world")
+    connection = _connection(client)
+    connection.controller.confirm_screen("world")
     client.clock.call_at(client.clock.now() + 0.06, lambda: setattr(client.window, "to_drop", 3))
     with pytest.raises(NotConfirmedError, match=r"not seen in the chat|did not open"):
-        Chat(Profile(), hands, screen, client.clock).send("/time set 1")
+        Chat(Profile(), connection).send("/time set 1")
     assert client.realm.day_time == 6000
 
 
@@ -106,7 +108,7 @@ def test_a_letter_that_is_lost_keeps_the_line_from_being_sent() -> None:
 @pytest.mark.parametrize("name", ["chat", "pause", "death", "disconnected", "title", "worlds", "inventory"])
 def test_every_screen_leads_back_into_the_world(version: str, name: str) -> None:
     client = VirtualClient(version=version)
-    screen = _screen(client)
+    connection = _connection(client)
     if name == "disconnected":
         client.game.disconnect("Timed out")
     elif name == "death":
@@ -118,24 +120,24 @@ def test_every_screen_leads_back_into_the_world(version: str, name: str) -> None
     else:
         client.game.open("chat" if name == "chat" else "pause" if name == "pause" else "inventory")
     client.clock.sleep(0.2)
-    way = WayBack(Profile(), _hands(client), screen, client.display, client.clock)
-    shown: ScreenName = "unknown" if name == "inventory" else name  # type: ignore[assignment]  # the rest are names
-    assert way.name() == shown
-    assert way.find().screens[0] == shown
+    way = Recovery(Profile(), connection)
+    shown: screens.ScreenName = "unknown" if name == "inventory" else name  # type: ignore[assignment]  # the rest are names
+    assert way.screen_name() == shown
+    assert way.recover()[0] == shown
     assert client.game.screen == "world"
     assert client.window.down == set()
 
 
 def test_a_debug_screen_that_was_off_is_on_again() -> None:
     client = VirtualClient(has_f3=False)
-    WayBack(Profile(), _hands(client), _screen(client), client.display, client.clock).find()
+    Recovery(Profile(), _connection(client)).recover()
     assert client.game.has_f3
 
 
 def test_it_gives_up_in_bounded_time_and_leaves_the_last_frames(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(way_back, "PATIENCE_S", 3.0)
+    monkeypatch.setattr(recovery, "PATIENCE_S", 3.0)
     client = VirtualClient()
     client.clock.sleep(0.2)
     client.blacken(1000.0)
@@ -143,11 +145,7 @@ def test_it_gives_up_in_bounded_time_and_leaves_the_last_frames(
     game = LiveGame(
         LINE,
         Profile(arena=arena),
-        display=client.display,
-        keyboard=client.keyboard,
-        pointer=client.pointer,
-        clock=client.clock,
-        screen=WindowScreen(client.display, FONT),
+        connection_to(client),
         evidence=tmp_path / "evidence",
     )
     began = client.clock.now()
@@ -165,8 +163,7 @@ def test_the_chat_is_blanked_on_a_saved_frame(tmp_path: Path) -> None:
     (path,) = last.save()
     saved = cv2.imread(str(path))
     assert saved is not None
-    assert not saved[-200 * client.scale :, : 320 * client.scale].any()
-    np.testing.assert_array_equal(saved, without_chat(client.grab(), client.scale))
+    np.testing.assert_array_equal(saved, without_chat(client.display.grab(), client.scale, lines=OPEN_LINES))
 
 
 def test_another_window_is_never_pictured(tmp_path: Path) -> None:

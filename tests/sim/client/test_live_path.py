@@ -8,9 +8,9 @@ from mc_nested.arena.builder import build
 from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError
-from mc_nested.live.coordinates import Facing
-from mc_nested.live.debug_screen import read_debug_screen
-from mc_nested.live.reading import Target
+from mc_nested.live.model.coordinates import Facing
+from mc_nested.live.model.reading import Target
+from mc_nested.live.vision.debug_screen import read_debug_screen
 from sim.client.client import VirtualClient
 from sim.client.mishaps import KINDS
 from tests.arena.game_contract import BUMPS, check_game

@@ -2,9 +2,14 @@ import numpy as np
 import pytest
 
 from sim.client.client import VirtualClient
-from sim.client.mishaps import KINDS, Kind
-from sim.client.physics import displacement
-from sim.client.realm import Stack
+from sim.client.desktop.clock import VirtualClock
+from sim.client.desktop.window import VirtualWindow
+from sim.client.game.edition import Edition
+from sim.client.game.game import VirtualGame
+from sim.client.game.physics import displacement
+from sim.client.game.realm import Player, Realm, Stack
+from sim.client.game.world import VirtualWorld
+from sim.client.mishaps import DRAWN, KINDS, SIZES, Kind, Mishap, Mishaps
 from tests.sim.client.playing import read, tap
 
 
@@ -165,3 +170,121 @@ def test_mishaps_come_at_their_rate() -> None:
     client.mishaps.every(2.0, ("black_frame",))
     client.clock.sleep(100.0)
     assert 150 < len(client.mishaps.happened) < 250
+
+
+class Target:
+    """A client that only notes what happens to it."""
+
+    def __init__(self) -> None:
+        self.clock = VirtualClock(0.0)
+        self.game = VirtualGame(Realm(Edition("1.20.1"), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5))))
+        self.window = VirtualWindow(self.clock, np.random.default_rng(0), SIZES[0], (0.0, 0.0))
+        self.noted: list[tuple[str, float]] = []
+        self.fronts: list[tuple[bool, float]] = []
+        self.sizes: list[tuple[int, int]] = []
+        self.shifts: list[tuple[int, int]] = []
+
+    def set_front(self, *, is_in_front: bool) -> None:
+        self.fronts.append((is_in_front, self.clock.now()))
+
+    def stall(self, seconds: float) -> None:
+        self.noted.append(("stall", seconds))
+
+    def freeze(self, seconds: float) -> None:
+        self.noted.append(("freeze", seconds))
+
+    def blacken(self, seconds: float) -> None:
+        self.noted.append(("blacken", seconds))
+
+    def resize(self, size: tuple[int, int]) -> None:
+        self.sizes.append(size)
+
+    def shift_window(self, right: int, down: int) -> None:
+        self.shifts.append((right, down))
+
+
+def target_of(kind: Kind, count: int = 200) -> Target:
+    """A client to which one kind of mishap happened ``count`` times."""
+    target = Target()
+    mishaps = Mishaps(target, np.random.default_rng(1))
+    for _ in range(count):
+        mishaps.plan(kind)
+    target.clock.sleep(0.0)
+    assert mishaps.happened == [Mishap(kind, 0.0)] * count
+    return target
+
+
+@pytest.mark.parametrize(
+    ("kind", "what", "least", "most"),
+    [("frozen_frame", "freeze", 0.1, 1.0), ("black_frame", "blacken", 0.05, 0.5), ("lag", "stall", 0.1, 1.0)],
+)
+def test_pictures_and_ticks_stop_for_a_time_within_bounds(kind: Kind, what: str, least: float, most: float) -> None:
+    noted = target_of(kind).noted
+    assert {name for name, _ in noted} == {what}
+    seconds = sorted(duration for _, duration in noted)
+    assert least <= seconds[0] < least + 0.1
+    assert most - 0.1 < seconds[-1] <= most
+
+
+def test_the_focus_comes_back_within_two_seconds() -> None:
+    target = target_of("lost_focus", 1)
+    assert target.fronts == [(False, 0.0)]
+    target.clock.sleep(2.0)
+    (is_in_front, seconds) = target.fronts[1]
+    assert is_in_front
+    assert 0.2 <= seconds <= 2.0
+
+
+def test_a_window_gets_another_of_the_sizes() -> None:
+    assert set(target_of("resized_window").sizes) == set(SIZES[1:])
+
+
+def test_a_window_is_moved_by_up_to_200_pixels_either_way() -> None:
+    shifts = np.array(target_of("moved_window").shifts)
+    assert (shifts.min(0) < -150).all()
+    assert (shifts.max(0) > 150).all()
+    assert np.abs(shifts).max() <= 200
+
+
+def test_a_knock_has_one_strength_in_any_direction() -> None:
+    velocity = target_of("knocked_away", 1).game.realm.player.velocity
+    assert np.hypot(velocity[0], velocity[2]) == pytest.approx(0.4)
+    assert velocity[1] == pytest.approx(0.36 - 0.0784)
+
+
+def test_keys_are_dropped_one_by_one() -> None:
+    assert target_of("dropped_key", 3).window.to_drop == 3
+
+
+def test_with_a_rate_of_one_a_mishap_is_planned_within_the_time() -> None:
+    target = Target()
+    mishaps = Mishaps(target, np.random.default_rng(0))
+    planned = [mishaps.maybe(1.0, 0.5, ("lag", "f3_off")) for _ in range(50)]
+    assert all(planned)
+    assert mishaps.happened == []
+    target.clock.sleep(0.5)
+    assert len(mishaps.happened) == 50
+    assert {mishap.kind for mishap in mishaps.happened} == {"lag", "f3_off"}
+    assert max(mishap.at for mishap in mishaps.happened) > 0.4
+
+
+def test_with_a_rate_of_zero_none_is() -> None:
+    target = Target()
+    mishaps = Mishaps(target, np.random.default_rng(0))
+    assert not any(mishaps.maybe(0.0, 0.5) for _ in range(50))
+    target.clock.sleep(1.0)
+    assert mishaps.happened == []
+
+
+def test_ghost_blocks_come_only_where_they_are_asked_for() -> None:
+    assert set(KINDS) - set(DRAWN) == {"ghost_block"}
+
+
+def test_the_first_of_many_mishaps_waits_for_its_time_too() -> None:
+    target = Target()
+    mishaps = Mishaps(target, np.random.default_rng(0))
+    mishaps.every(0.01, ("lag",))
+    target.clock.sleep(0.0)
+    assert mishaps.happened == []
+    target.clock.sleep(2000.0)
+    assert 5 <= len(mishaps.happened) <= 40

@@ -6,17 +6,16 @@ import pytest
 
 from calibration.clicks.find import calibrate_clicks
 from mc_nested.errors import LiveError
-from mc_nested.live import way_back
-from mc_nested.live.click_points import ClickPoints, recorded
-from mc_nested.live.game_screen import WindowScreen
-from mc_nested.live.hands import Hands
-from mc_nested.live.point_pictures import load_click_points
-from mc_nested.live.profile import Profile, load_profile, save_profile
-from mc_nested.live.way_back import WayBack
+from mc_nested.live.menus import recovery
+from mc_nested.live.menus.click_points import ClickPoints, record_point
+from mc_nested.live.menus.point_pictures import load_click_points
+from mc_nested.live.menus.recovery import Recovery
+from mc_nested.live.profile.store import load_profile, save_profile
+from mc_nested.live.profile.tables import Profile
 from sim.client.client import VirtualClient
-from sim.client.screens import MenuState, ScreenName, menu
-from tests.calibration.benches import SPANISH, bench_of, profile_in, started
-from tests.sim.client.playing import FONT
+from sim.client.game.screens import MenuState, ScreenName, menu
+from tests.calibration.contexts import SPANISH, context_of, profile_in, started
+from tests.sim.client.playing import connection_to
 
 RECORDED: dict[str, tuple[ScreenName, str]] = {
     "back_to_game": ("pause", "Back to Game"),
@@ -46,15 +45,14 @@ def points_of(client: VirtualClient) -> ClickPoints:
         x, y = round(middle[0] * client.scale), round(middle[1] * client.scale)
         client.pointer.move(x, y)
         client.clock.sleep(1.5)
-        points[name] = recorded(name, client.display.grab(), (x, y), client.scale)
+        points[name] = record_point(name, client.display.grab(), (x, y), client.scale)
     client.game.open("world")
     client.clock.sleep(0.3)
     return points
 
 
-def way_of(client: VirtualClient, points: ClickPoints) -> WayBack:
-    hands = Hands(client.display, client.keyboard, client.pointer, client.clock, Profile().input)
-    return WayBack(Profile(), hands, WindowScreen(client.display, FONT), client.display, client.clock, points)
+def way_of(client: VirtualClient, points: ClickPoints) -> Recovery:
+    return Recovery(Profile(), connection_to(client), points)
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.9"])
@@ -67,8 +65,8 @@ def test_every_screen_that_was_recorded_leads_back(version: str, name: ScreenNam
     else:
         client.game.open(name)
     client.clock.sleep(1.5)
-    assert way.name() == name
-    assert way.find().screens[0] == name
+    assert way.screen_name() == name
+    assert way.recover()[0] == name
     assert client.game.screen == "world"
     assert (client.window.down, client.window.strays) == (set(), [])
 
@@ -77,43 +75,43 @@ def test_the_world_is_left_by_points_too() -> None:
     client = VirtualClient(words=SPANISH)
     way = way_of(client, points_of(client))
     way.leave_world()
-    assert way.name() == "title"
-    assert way.find().screens[0] == "title"
-    assert way.name() == "world"
+    assert way.screen_name() == "title"
+    assert way.recover()[0] == "title"
+    assert way.screen_name() == "world"
 
 
 def test_without_points_the_title_is_unknown_and_nothing_on_it_is_clicked(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(way_back, "PATIENCE_S", 8.0)
+    monkeypatch.setattr(recovery, "PATIENCE_S", 8.0)
     client = VirtualClient(words=SPANISH)
     client.game.open("title")
     client.clock.sleep(0.3)
     with pytest.raises(LiveError, match="way back into the world was not found"):
-        way_of(client, {}).find()
+        way_of(client, {}).recover()
     assert client.game.screen == "title"
 
 
 def test_points_of_another_window_size_are_not_clicked(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(way_back, "PATIENCE_S", 8.0)
+    monkeypatch.setattr(recovery, "PATIENCE_S", 8.0)
     client = VirtualClient(words=SPANISH)
     points = points_of(client)
     client.resize((1024, 768))
     client.game.open("title")
     client.clock.sleep(0.3)
     with pytest.raises(LiveError, match="the screen is unknown"):
-        way_of(client, points).find()
+        way_of(client, points).recover()
     assert client.game.screen == "title"
 
 
 def test_what_was_recorded_in_english_does_not_fit_another_language(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(way_back, "PATIENCE_S", 8.0)
+    monkeypatch.setattr(recovery, "PATIENCE_S", 8.0)
     file = tmp_path / "mine.toml"
     save_profile(profile_in(tmp_path), file)
-    calibrate_clicks(file, bench_of(started(VirtualClient())))
+    calibrate_clicks(file, context_of(started(VirtualClient())))
     client = VirtualClient(words=SPANISH)
     client.game.open("title")
     client.clock.sleep(0.3)
     with pytest.raises(LiveError, match="the screen is unknown"):
-        way_of(client, load_click_points(load_profile(file), file)).find()
+        way_of(client, load_click_points(load_profile(file), file)).recover()
     assert client.game.screen == "title"

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, StoppedError
-from mc_nested.live.panic import CORNER_REASON, KEY_REASON, corners_of
+from mc_nested.live.input.panic import CORNER_REASON, KEY_REASON, corners_of
 from sim.client.client import VirtualClient
 from sim.client.mishaps import KINDS, Kind
 from tests.sim.client.playing import arena_of, play
@@ -43,7 +43,7 @@ def test_no_key_is_left_down_and_none_goes_to_another_window(
     with contextlib.suppress(LiveError, WayOutError, KeyboardInterrupt), play(client, LINE) as game:
         client.clock.call_at(out_at, leave)
         if way_out == "stop":
-            client.clock.call_at(out_at, lambda: game.hands.stop(KEY_REASON))
+            client.clock.call_at(out_at, lambda: game.connection.controller.stop(KEY_REASON))
         for kind, in_s in planned:
             client.mishaps.plan(kind, in_s)
         game.reset(LINE.best_material)
@@ -81,7 +81,7 @@ def test_the_panic_key_stops_everything_within_a_tenth_of_a_second(in_s: float) 
     with play(client, LINE) as game:
         game.reset(LINE.best_material)
         stopped_at = client.clock.now() + in_s
-        client.clock.call_at(stopped_at, lambda: game.hands.stop(KEY_REASON))
+        client.clock.call_at(stopped_at, lambda: game.connection.controller.stop(KEY_REASON))
         with pytest.raises(StoppedError, match="panic key"):
             [game.act(action) for action in (Action.BD, Action.BD)]
         assert client.clock.now() - stopped_at <= 0.1

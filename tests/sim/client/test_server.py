@@ -4,22 +4,18 @@ import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError
-from mc_nested.live.game_screen import WindowScreen
-from mc_nested.live.hands import Hands
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import GameVersion
-from mc_nested.live.way_back import WayBack
+from mc_nested.live.menus.recovery import Recovery
+from mc_nested.live.profile.tables import GameVersion, Profile
 from sim.client.client import VirtualClient
-from sim.client.screens import ScreenName
-from tests.sim.client.playing import FONT, arena_of
+from sim.client.game.screens import ScreenName
+from tests.sim.client.playing import arena_of, connection_to
 
 SERVER, OWN = "Minecraft 1.20.1 - Multiplayer (3rd-party Server)", "Minecraft 1.20.1 - Singleplayer"
 
 
-def way_of(client: VirtualClient) -> WayBack:
-    hands = Hands(client.display, client.keyboard, client.pointer, client.clock, Profile().input)
-    return WayBack(Profile(), hands, WindowScreen(client.display, FONT), client.display, client.clock)
+def way_of(client: VirtualClient) -> Recovery:
+    return Recovery(Profile(), connection_to(client))
 
 
 def titled(client: VirtualClient, monkeypatch: pytest.MonkeyPatch, title: str) -> None:
@@ -45,7 +41,7 @@ def test_from_a_server_these_screens_lead_nowhere_and_nothing_on_them_is_clicked
     client.clock.sleep(0.3)
     monkeypatch.setattr(client.pointer, "press", None)
     with pytest.raises(LiveError, match=f"the server was left, the screen is {screen}: join the server again"):
-        way.find()
+        way.recover()
     assert client.game.screen == screen
 
 
@@ -61,7 +57,7 @@ def test_on_a_server_the_way_back_from_other_screens_is_the_same(
     else:
         client.game.open(screen)
     client.clock.sleep(1.5)
-    assert way.find().screens[0] == screen
+    assert way.recover()[0] == screen
     assert client.game.screen == "world"
 
 
@@ -74,10 +70,10 @@ def test_a_world_of_another_kind_than_before_is_not_the_one_that_was_left(
     client = VirtualClient()
     titled(client, monkeypatch, before)
     way = way_of(client)
-    way.find()
+    way.recover()
     titled(client, monkeypatch, after)
     with pytest.raises(LiveError, match=said):
-        way.find()
+        way.recover()
 
 
 def test_a_servers_world_is_never_left(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -95,12 +91,7 @@ def test_after_a_disconnect_from_a_server_no_command_is_sent_anywhere(monkeypatc
     with LiveGame(
         load_scenario("line"),
         profile,
-        display=client.display,
-        keyboard=client.keyboard,
-        pointer=client.pointer,
-        clock=client.clock,
-        screen=WindowScreen(client.display, FONT),
-        is_server_allowed=True,
+        connection_to(client, is_server_allowed=True),
     ) as game:
         game.reset(1)
         client.mishaps.plan("disconnect", 0.1)

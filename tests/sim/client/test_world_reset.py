@@ -8,15 +8,13 @@ import pytest
 from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, RunError
-from mc_nested.live.game_screen import WindowScreen
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile import Profile
-from mc_nested.live.profile_tables import GameVersion, World
-from mc_nested.live.world_folder import MARKER
+from mc_nested.live.menus.world_folder import MARKER
+from mc_nested.live.profile.tables import GameVersion, Profile, WorldTable
 from sim.client.client import VirtualClient
-from sim.client.realm import Stack
-from sim.client.save import write_world
-from tests.sim.client.playing import FONT, arena_of, play
+from sim.client.game.realm import Stack
+from sim.client.game.world_folder import write_world
+from tests.sim.client.playing import arena_of, connection_to, play
 
 LINE = load_scenario("line")
 
@@ -33,15 +31,11 @@ def _game(client: VirtualClient, folder: Path) -> LiveGame:
     write_world(client.realm, folder)
     (folder / MARKER).touch()
     shutil.copytree(folder, folder.parent.parent / "template", dirs_exist_ok=True)
-    world = World(folder=str(folder), template=str(folder.parent.parent / "template"), name="New World")
+    world = WorldTable(folder=str(folder), template=str(folder.parent.parent / "template"), name="New World")
     return LiveGame(
         LINE,
         Profile(game=GameVersion(version=client.settings.version), arena=arena, world=world),
-        display=client.display,
-        keyboard=client.keyboard,
-        pointer=client.pointer,
-        clock=client.clock,
-        screen=WindowScreen(client.display, FONT),
+        connection_to(client),
     )
 
 

@@ -1,0 +1,95 @@
+"""Sends commands through the chat of the visible world, and watches the debug screen for their effect on the player."""
+
+from collections.abc import Callable
+
+from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.deadline import Deadline
+from mc_nested.live.menus.chat import Chat
+from mc_nested.live.model.kinematics import TICK_S
+from mc_nested.live.model.reading import Reading
+from mc_nested.live.profile.tables import Profile
+
+COMMANDS_PER_CLEAR = 5
+"""Commands after which the chat is cleared: ten answers would cover lines of the debug screen (FACTS: Answers)."""
+
+TRIES = 4
+"""How often a line is begun: on a busy machine its letters may come so late that the rest isn't typed."""
+
+POLL_S = 0.02
+
+CLEAR = "d"
+"""With the debug screen's key it clears the chat (FACTS: Keys)."""
+
+
+class CommandConsole:
+    """Sends commands, and watches the debug screen for their effect.
+
+    Raises (all methods): UnreadableError if the debug screen can't be read within the profile's patience;
+    NotConfirmedError if the chat is open, or isn't seen as it should be; errors of the input controller.
+    """
+
+    def __init__(self, connection: GameConnection, profile: Profile) -> None:
+        self._controller, self._clock = connection.controller, connection.devices.clock
+        self._chat = Chat(profile, connection)
+        self._profile, self._screen = profile, connection.screen
+        self._commands_sent = 0
+
+    def send(self, command: str) -> None:
+        """Send a command."""
+        self._check_in_world()
+        reads_chat = self._profile.input.reads_chat
+        if reads_chat and self._commands_sent and self._commands_sent % COMMANDS_PER_CLEAR == 0:
+            self.clear()
+        for tries_left in reversed(range(TRIES)):
+            try:
+                self._chat.send(command)
+                break
+            except WrongScreenError:
+                if not tries_left or not reads_chat:
+                    raise
+                self._leave_chat()
+        self._commands_sent += 1
+
+    def read(self) -> Reading:
+        """Read the debug screen; wait while it can't be read."""
+        deadline = Deadline(self._clock, self._profile.body.patience_s)
+        while (reading := self._screen.read()).xyz is None:
+            self._controller.check_front()
+            if deadline.has_passed:
+                raise UnreadableError(f"the debug screen was unreadable for too long: {reading.problem}")
+            self._controller.wait(POLL_S)
+        return reading
+
+    def watch(self, is_so: Callable[[Reading], bool], seconds: float) -> Reading | None:
+        """The first reading within so many seconds for which ``is_so`` holds, or None."""
+        deadline = Deadline(self._clock, seconds)
+        while not is_so(reading := self.read()):
+            if deadline.has_passed:
+                return None
+            self._controller.wait(POLL_S)
+        return reading
+
+    def clear(self) -> None:
+        """Clear the chat."""
+        self._check_in_world()
+        now = self._clock.now()
+        self._controller.press(now + 4 * TICK_S, self._profile.keys.debug)
+        self._controller.wait_until(now + TICK_S)
+        self._controller.press(now + 2 * TICK_S, CLEAR)
+        self._controller.wait_until(now + 4 * TICK_S)
+        self._check_in_world()
+
+    def _leave_chat(self) -> None:
+        """Close the chat, which holds a half-typed line, and check that the world is visible again."""
+        if self._screen.is_chat_open():
+            self._controller.confirm_screen("chat")
+            self._controller.tap("esc", on="chat")
+            self._controller.wait(self._profile.input.chat_close_s)
+        self._check_in_world()
+
+    def _check_in_world(self) -> None:
+        self.read()
+        if self._screen.is_chat_open():
+            raise NotConfirmedError("the chat is open: leave mouse and keys alone, and start again")
+        self._controller.confirm_screen("world")

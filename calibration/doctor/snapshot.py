@@ -1,0 +1,120 @@
+"""A snapshot of the game's window: its title and size, the screen that it shows, and the debug screen's reading."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from mc_nested.live.deadline import Deadline
+from mc_nested.live.devices import Devices, Frame
+from mc_nested.live.menus.screens import LABELS, ScreenName
+from mc_nested.live.model.reading import Reading
+from mc_nested.live.profile.fingerprint import Fingerprint
+from mc_nested.live.vision.debug_screen import nothing_seen, read_found
+from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.game_screen import WORLDS_TITLE, WindowScreen
+from mc_nested.live.vision.layout import Overlay
+from mc_nested.live.vision.menu_labels import MenuLabels
+from mc_nested.live.vision.overlay import SCALES, find_debug_screen
+
+FRONT_S = 30.0
+"""Time for a person to switch to the game: less than elsewhere, since the doctor also runs unattended."""
+
+READABLE_S = 5.0
+"""Time to then close the menu that the game opened meanwhile."""
+
+POLL_S = 0.25
+
+
+@dataclass(frozen=True)
+class ScreenContents:
+    """What a frame shows: the screen; the beginning of the line that the debug screen was recognized by, if it is on.
+
+    ``scale`` is the GUI scale of any text of the game's that was found.
+    """
+
+    screen: ScreenName
+    line: str | None
+    scale: int | None
+    reading: Reading
+
+
+@dataclass(frozen=True)
+class WindowSnapshot:
+    """A snapshot; ``picture_size`` is in pixels, ``points`` the window's size in points of the desktop, if known.
+
+    ``contents`` is None if another window is in front, since the picture may be of that, or if there is no font.
+    """
+
+    window: Fingerprint
+    picture_size: tuple[int, int]
+    points: tuple[int, int] | None
+    is_in_front: bool
+    contents: ScreenContents | None
+
+    @property
+    def is_world(self) -> bool:
+        """Whether the world is visible with nothing over it, and the debug screen is read."""
+        return self.contents is not None and self.contents.screen == "world"
+
+
+def take_snapshot(devices: Devices, font: Font | None, overlay: Overlay | None = None) -> WindowSnapshot:
+    """Take a snapshot; ``overlay`` is the debug screen's layout in the profile. DesktopError without a window."""
+    display = devices.display
+    is_in_front, frame = display.is_in_front(), display.grab()
+    contents = None
+    if is_in_front and font is not None:
+        contents = contents_of(frame, font, overlay, WindowScreen(display, font, overlay).is_chat_open)
+    window = Fingerprint(display.title(), display.size(), contents.scale if contents else None)
+    points = devices.points() if devices.points else None
+    return WindowSnapshot(window, (frame.shape[1], frame.shape[0]), points, is_in_front, contents)
+
+
+def contents_of(frame: Frame, font: Font, overlay: Overlay | None, is_chat_open: Callable[[], bool]) -> ScreenContents:
+    """What a frame of the game shows. A debug screen whose layout differs from the profile's is found, too."""
+    found = find_debug_screen(frame, font, overlay) or (find_debug_screen(frame, font) if overlay else None)
+    reading = read_found(found, font) if found else nothing_seen(overlay)
+    line, scale = (found.label, found.overlay.scale) if found else (None, None)
+    if reading.problem is None:
+        return ScreenContents("chat" if is_chat_open() else "world", line, scale, reading)
+    name, menu_scale = _menu_in(frame, font)
+    if name != "unknown":
+        # The version in the title screen's corner begins like a line of the debug screen.
+        return ScreenContents(name, None, menu_scale, reading)
+    return ScreenContents("chat" if is_chat_open() else "unknown", line, scale, reading)
+
+
+def wait_until_readable(
+    devices: Devices, font: Font | None, overlay: Overlay | None, say: Callable[[str], None]
+) -> WindowSnapshot:
+    """The first snapshot with the game in front and the debug screen readable; at the deadline, the last snapshot."""
+    clock = devices.clock
+    deadline, has_arrived = Deadline(clock, FRONT_S), False
+    snapshot = take_snapshot(devices, font, overlay)
+    if not _is_readable(snapshot):
+        say(
+            "Switch to the game now, close its menus, and turn the debug screen on (F3): "
+            f"the doctor looks for {READABLE_S if snapshot.is_in_front else FRONT_S:.0f} s."
+        )
+    while not _is_readable(snapshot):
+        if snapshot.is_in_front and not has_arrived:
+            has_arrived, deadline = True, Deadline(clock, READABLE_S)
+        if deadline.has_passed:
+            break
+        clock.sleep_until(clock.now() + POLL_S)
+        snapshot = take_snapshot(devices, font, overlay)
+    return snapshot
+
+
+def _is_readable(snapshot: WindowSnapshot) -> bool:
+    return snapshot.is_in_front and (snapshot.contents is None or snapshot.is_world)
+
+
+def _menu_in(frame: Frame, font: Font) -> tuple[ScreenName, int | None]:
+    """The menu in a frame and its GUI scale, or "unknown"."""
+    for scale in SCALES:
+        menu = MenuLabels(frame, font, scale)
+        for name, labels in LABELS.items():
+            if any(menu.button(label).middle for label in labels):
+                return name, scale
+        if menu.shows(WORLDS_TITLE):
+            return "worlds", scale
+    return "unknown", None

@@ -1,0 +1,161 @@
+"""Reads and patches the game's ``options.txt``; every other line stays the same, to the byte.
+
+A line is ``name:value``. A key is a word from 1.13 on (``key.keyboard.left.shift``) and a number of LWJGL 2 before
+(42); both become the profile's key names (FACTS: options.txt).
+"""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from mc_nested.errors import ProfileError
+from mc_nested.live.model.key_names import WORDS
+
+SAFE: Mapping[str, str] = {
+    "pauseOnLostFocus": "false",
+    "autoJump": "false",
+    "fullscreen": "false",
+    "forceUnicodeFont": "false",
+    "reducedDebugInfo": "false",
+    "toggleCrouch": "false",
+    "lang": "en_us",
+}
+"""Safe values, whatever the window's size and the player's keys."""
+
+ACTIONS: Mapping[str, str] = {
+    "forward": "forward",
+    "back": "back",
+    "left": "left",
+    "right": "right",
+    "sneak": "sneak",
+    "chat": "chat",
+    "debug": "debug.overlay",
+}
+"""Each key of the profile, and the game's name of its action; the hotbar's are ``hotbar.1`` to ``hotbar.9``."""
+
+MOUSE = {"attack": "left button", "use": "right button"}
+"""The actions of the mouse's buttons, by the game's names."""
+
+_MARKS = {
+    "apostrophe": "'",
+    "backslash": "\\",
+    "comma": ",",
+    "equal": "=",
+    "grave.accent": "`",
+    "left.bracket": "[",
+    "right.bracket": "]",
+    "minus": "-",
+    "period": ".",
+    "semicolon": ";",
+    "slash": "/",
+}
+
+_ROWS = ((2, "1234567890-="), (16, "qwertyuiop[]"), (30, "asdfghjkl;'`"), (43, "\\zxcvbnm,./"))
+_NAMED = (
+    "esc=1 backspace=14 tab=15 enter=28 left.control=29 left.shift=42 right.shift=54 left.alt=56 space=57 caps.lock=58 "
+    "f11=87 f12=88 f13=100 f14=101 f15=102 right.control=157 right.alt=184 home=199 up=200 page.up=201 left=203 "
+    "right=205 end=207 down=208 page.down=209 insert=210 delete=211 left.win=219 right.win=220"
+)
+_NUMBERS = {
+    **{first + index: char for first, row in _ROWS for index, char in enumerate(row)},
+    **{int(number): name for name, number in (pair.split("=") for pair in _NAMED.split())},
+    **{58 + number: f"f{number}" for number in range(1, 11)},
+    **{index - 100: f"{name} button" for index, name in enumerate(("left", "right", "middle"))},
+}
+"""LWJGL 2's key numbers; the mouse's buttons are their own numbers minus 100."""
+
+_OPTION = re.compile(rb"[A-Za-z][\w. -]*:")
+
+_BUTTONS = {f"key.mouse.{name}": f"{name} button" for name in ("left", "right", "middle")}
+_KEYBOARD = "key.keyboard."
+
+
+@dataclass(frozen=True)
+class OptionsTxt:
+    """The lines of an options.txt, with their line ends; ``path`` is for error messages."""
+
+    path: Path
+    lines: tuple[bytes, ...]
+
+    @property
+    def values(self) -> dict[str, str]:
+        """Each option's value; of a repeated option the last one, as in the game."""
+        pairs = (_text(line).partition(":") for line in self.lines)
+        return {name: value for name, colon, value in pairs if colon}
+
+    def key(self, action: str) -> str | None:
+        """What the action is bound to: a profile's key name, "left button" or the like, or "" for nothing.
+
+        None if the file doesn't say, or names a key that profiles have no name for.
+        """
+        value = self.values.get(f"key_key.{action}")
+        return None if value is None else key_name(value)
+
+    def with_values(self, values: Mapping[str, str]) -> "OptionsTxt":
+        """The options with these values. A missing option stays missing: this version doesn't know it."""
+        return OptionsTxt(self.path, tuple(_with_value(line, values) for line in self.lines))
+
+    def changes(self, values: Mapping[str, str]) -> dict[str, tuple[str, str]]:
+        """The options that ``with_values`` would change, with their values before and after."""
+        before = self.values
+        return {name: (before[name], value) for name, value in values.items() if before.get(name, value) != value}
+
+
+def parse_options(data: bytes, path: Path) -> OptionsTxt:
+    """The options in the file's bytes; ProfileError if most of its lines are something else."""
+    lines = data.splitlines(keepends=True)
+    filled = [line for line in lines if line.strip()]
+    if 2 * sum(bool(_OPTION.match(line)) for line in filled) <= len(filled):
+        raise ProfileError(
+            f"{path}: doesn't hold the game's options: move it away, start the game once and close it, then run this "
+            "again"
+        )
+    return OptionsTxt(path, tuple(lines))
+
+
+def load_options(path: Path) -> OptionsTxt:
+    """The options in a file; ProfileError if it can't be read, or holds none."""
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise ProfileError(f"{path}: can't be read ({error.strerror or error}): mend its permissions") from error
+    return parse_options(data, path)
+
+
+def key_name(value: str) -> str | None:
+    """The profile's name of a key in options.txt; "" for no key, None for a key that profiles have no name for.
+
+    With a modifier that Forge writes behind it, such as ``:CONTROL``, it is a different key; ``:NONE`` is no modifier.
+    """
+    name, _, modifier = value.partition(":")
+    if modifier not in ("", "NONE"):
+        return None
+    if name in ("key.keyboard.unknown", "0"):
+        return ""
+    if name.lstrip("-").isdecimal():
+        return _NUMBERS.get(int(name))
+    if name in _BUTTONS:
+        return _BUTTONS[name]
+    word = name.removeprefix(_KEYBOARD)
+    if word == name:
+        return None
+    known = _MARKS.get(word, word)
+    return known if len(known) == 1 or known in WORDS else None
+
+
+def is_same_key(one: str, other: str) -> bool:
+    """Whether two names mean the same key, as ``esc`` and ``escape``, ``w`` and ``W`` do."""
+    return WORDS.get(one, one.lower()) == WORDS.get(other, other.lower())
+
+
+def _text(line: bytes) -> str:
+    return line.decode("utf-8", "surrogateescape").rstrip("\r\n")
+
+
+def _with_value(line: bytes, values: Mapping[str, str]) -> bytes:
+    name, colon, value = _text(line).partition(":")
+    if not colon or values.get(name, value) == value:
+        return line
+    end = line[len(line.rstrip(b"\r\n")) :]
+    return f"{name}:{values[name]}".encode("utf-8", "surrogateescape") + end

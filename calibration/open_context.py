@@ -1,0 +1,51 @@
+"""Opens a CalibrationContext on a game's window. A watchdog, the panic key and screen corners can stop its input."""
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+
+from calibration.context import CalibrationContext
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.desktop import open_desktop
+from mc_nested.live.devices import Devices
+from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.input.watchdog import watched
+from mc_nested.live.menus.wait_for_player import wait_for_front
+from mc_nested.live.profile.tables import Profile
+
+OpenContext = Callable[[Profile], AbstractContextManager[CalibrationContext]]
+"""Opens the context of a profile's window. When it ends, every key is released."""
+
+
+def context_opener(
+    say: Callable[[str], None], ask: Callable[[str], bool], *, is_server_allowed: bool = False
+) -> OpenContext:
+    """Opens contexts on this desktop that speak to the person through ``say`` and ``ask``. DesktopError if no window.
+
+    After a yes, the game is in front again. If the person doesn't return to it in time, asking raises NotInFrontError.
+    """
+
+    @contextmanager
+    def opened(profile: Profile) -> Iterator[CalibrationContext]:
+        with open_desktop(profile.window.title) as devices:
+            # Imported here, since it needs the display that is open only now.
+            from mc_nested.live.desktop.panic import open_panic_switch
+
+            controller = InputController(devices, profile.input)
+            connection = GameConnection(devices, controller, is_server_allowed=is_server_allowed)
+            with connection, watched(controller), open_panic_switch(profile.keys.panic, controller.stop):
+                yield CalibrationContext(connection, say, ask_in_terminal(ask, say, devices))
+
+    return opened
+
+
+def ask_in_terminal(ask: Callable[[str], bool], say: Callable[[str], None], devices: Devices) -> Callable[[str], bool]:
+    """Asks a question outside the game. After a yes, waits until the person has switched back to the game."""
+
+    def ask_and_return(question: str) -> bool:
+        is_yes = ask(question)
+        if is_yes and not devices.display.is_in_front():
+            say("Switch back to the game.")
+            wait_for_front(devices)
+        return is_yes
+
+    return ask_and_return

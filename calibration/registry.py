@@ -1,0 +1,45 @@
+"""The calibration steps, registered in the order in which ``mc-nested calibrate all`` runs them."""
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from calibration.acceptance_test import run_acceptance_test
+from calibration.arena.build import build_arena
+from calibration.arena.mark import NEAR_MIDDLE, check_standing
+from calibration.clicks.find import find_clicks_unattended
+from calibration.context import CalibrationContext, StepResult
+from calibration.cross_check import cross_check
+from calibration.font.find import find_font, sources_for, sources_here
+from calibration.font.sources import FontSources
+from calibration.runner import CalibrationStep
+from calibration.walk.measure import walk
+from mc_nested.arena.rules import Cell
+from mc_nested.live.profile.tables import Profile
+
+
+def registered_steps(
+    font: Path | None = None,
+    sources: Callable[[str | None], FontSources] = sources_here,
+    *,
+    standing: Cell = NEAR_MIDDLE,
+    path: Path | None = None,
+) -> list[CalibrationStep]:
+    """All steps. Missing buttons and an unreachable clipboard don't end the run.
+
+    ``font`` and ``sources`` are as in ``font.sources_for``. ``standing`` is the cell that the player stands on.
+    ``path`` is the profile's file, as in ``build_arena``. UserError for a cell outside the arena.
+    """
+    check_standing(standing)
+
+    def find_font_step(context: CalibrationContext, profile: Profile) -> StepResult:
+        return find_font(context, profile, sources_for(context, profile, font, sources))
+
+    return [
+        CalibrationStep("font", find_font_step),
+        CalibrationStep("arena", partial(build_arena, path=path, standing=standing)),
+        CalibrationStep("walk", walk),
+        CalibrationStep("clicks", find_clicks_unattended, is_needed=False),
+        CalibrationStep("cross-check", cross_check, is_needed=False),
+        CalibrationStep("proof", run_acceptance_test),
+    ]

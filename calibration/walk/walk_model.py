@@ -1,0 +1,145 @@
+"""WalkModel: both gaits and the latencies, fitted to the holds of a walk's calibration, and how well all of it fits."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from calibration.walk.gait_fit import GaitModel, HoldTrace, MatchedHold, fit_gait, match_hold, rms
+from calibration.walk.round_trip import HoldTiming, latencies, round_trip_of
+from calibration.walk.survey import SurveyHold
+from mc_nested.errors import NotConfirmedError
+from mc_nested.live.model.kinematics import INERTIA, TICK_S, displacement
+from mc_nested.live.profile.tables import WalkTable
+
+TICKS = 12
+"""Ticks up to which a profile says how far a hold leads."""
+
+HELD_OUT = 4
+"""Every fourth hold is held out to validate the fit."""
+
+MAX_ASIDE = 0.05
+"""Blocks that a hold may lead sideways."""
+
+MAX_ERROR = 0.02
+"""Blocks (RMS) that predictions may be off; beyond that the profile is left as it was."""
+
+PLAIN_SPEED = displacement(200) / 200 / TICK_S
+"""Blocks a second of a plain walker on most blocks: 4.317 (FACTS: Walking)."""
+
+OTHER_SPEED, OTHER_INERTIA = 0.015, 0.01
+"""How far speed (relative) and inertia (absolute) may be off the plain walker's before a warning says so."""
+
+LAGGING = 0.1
+"""The share of all holds that lag may spoil or delay before a warning says so."""
+
+
+@dataclass(frozen=True)
+class WalkModel:
+    """How the player of this game walks, and the evidence for it.
+
+    Attributes:
+        walking, sneaking: the models of the two gaits.
+        round_trip_s: seconds from a press to its step on the screen, without the wait for a tick.
+        good: the holds that it rests on, in order, each with its path.
+        outliers: how many holds were not of whole ticks.
+        late: how many holds had ticks that came late.
+        held_out_rms: root of the mean square, in blocks, of the end errors of held-out holds.
+        tick_phase: a time, in seconds of the clock, at which a tick's step was seen: others are whole ticks from there.
+    """
+
+    walking: GaitModel
+    sneaking: GaitModel
+    round_trip_s: float
+    good: tuple[MatchedHold, ...]
+    outliers: int
+    late: int
+    held_out_rms: float
+    tick_phase: float
+
+    @property
+    def fit_rms(self) -> float:
+        """The root of the mean square, in blocks, of the end errors of the good holds."""
+        return rms([hold.end_error for hold in self.good])
+
+    @property
+    def speed(self) -> float:
+        """Blocks a second of steady walking."""
+        return self.walking.steady / TICK_S
+
+    @property
+    def table(self) -> WalkTable:
+        """The profile's table."""
+        input_latency_s, capture_latency_s = latencies(self.round_trip_s)
+        return WalkTable(
+            covered=tuple(round(self.walking.covered(ticks), 4) for ticks in range(1, TICKS + 1)),
+            inertia=round(self.walking.inertia, 4),
+            sneaking=round(self.sneaking.push / self.walking.push, 4),
+            input_latency_s=round(input_latency_s, 4),
+            capture_latency_s=round(capture_latency_s, 4),
+        )
+
+    @property
+    def is_lagging(self) -> bool:
+        """Whether so many holds were outliers or late that a warning is due."""
+        return self.outliers + self.late > LAGGING * (len(self.good) + self.outliers)
+
+    @property
+    def is_plain(self) -> bool:
+        """Whether this is how a player walks on most blocks, without an effect."""
+        return abs(self.speed / PLAIN_SPEED - 1) <= OTHER_SPEED and abs(self.walking.inertia - INERTIA) <= OTHER_INERTIA
+
+
+def fit_walk_model(holds: Sequence[SurveyHold]) -> WalkModel:
+    """The model that fits the holds.
+
+    Raises:
+        NotConfirmedError: too few of them could be followed, or they don't agree, or sneaking isn't slower.
+    """
+    straight = [hold for hold in holds if hold.trace is not None and hold.aside <= MAX_ASIDE]
+    walked = [hold.trace for hold in straight if hold.trace and hold.gait == "walk"]
+    sneaked = [hold.trace for hold in straight if hold.trace and hold.gait == "sneak"]
+    walking = fit_gait(walked)
+    sneaking = fit_gait(sneaked, walking.inertia)
+    if sneaking.push > 0.95 * walking.push:
+        raise NotConfirmedError(
+            "sneaking is no slower than walking: set keys.sneak in the profile to the game's own key, Sneak to Hold in "
+            "its controls, and stand on the ground"
+        )
+    good: list[MatchedHold] = []
+    timings: list[HoldTiming] = []
+    for hold in straight:
+        trace = hold.trace
+        if trace is None:
+            continue
+        matched = match_hold(trace, walking if hold.gait == "walk" else sneaking)
+        if matched.is_outlier:
+            continue
+        good.append(matched)
+        timings.append(hold.timing(matched.at_tick, matched.ticks))
+    timely = [timing for timing in timings if not timing.late_steps]
+    if not timely:
+        raise NotConfirmedError("every hold's ticks came late: close other programs, and calibrate again")
+    walk_model = WalkModel(
+        walking,
+        sneaking,
+        round_trip_of(timely),
+        tuple(good),
+        outliers=sum(hold.trace is not None for hold in holds) - len(good),
+        late=len(timings) - len(timely),
+        held_out_rms=_held_out_rms(walked),
+        tick_phase=timely[-1].first_seen,
+    )
+    error = max(walk_model.fit_rms, walk_model.held_out_rms)
+    if error > MAX_ERROR:
+        raise NotConfirmedError(
+            f"predictions and measurements are {error:.3f} blocks apart, more than {MAX_ERROR}: close other programs, "
+            "stand on a floor of one block, and calibrate again"
+        )
+    return walk_model
+
+
+def _held_out_rms(traces: Sequence[HoldTrace]) -> float:
+    """The end errors of held-out traces, predicted by a fit of the others: root of the mean square, in blocks."""
+    others = [trace for index, trace in enumerate(traces) if index % HELD_OUT]
+    model = fit_gait(others)
+    held_out = [match_hold(trace, model) for index, trace in enumerate(traces) if not index % HELD_OUT]
+    return rms([hold.end_error for hold in held_out if not hold.is_outlier])

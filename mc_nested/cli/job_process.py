@@ -1,0 +1,123 @@
+"""A process that trains an experiment's jobs, one after the other, until it has to stop.
+
+It talks to its parent through a pipe. The parent sends jobs; any message while a job trains, and the pipe's end, mean:
+save and stop. The process sends JobReports, and one JobEnded for each job.
+"""
+
+import re
+import signal
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from pathlib import Path
+from types import FrameType
+
+from mc_nested.errors import UserError
+from mc_nested.learn.experiments.job_training import JobTraining
+from mc_nested.learn.experiments.jobs import Job
+from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
+from sim.grid import GridVectorEnv
+
+REPORT_EVERY_S = 0.25
+"""Seconds between two reports, and between two looks whether to stop."""
+
+
+@dataclass(frozen=True)
+class JobReport:
+    """How far a job has got: training episodes and last greedy score of each run, None before the first; updates."""
+
+    job: str
+    episodes: Sequence[int]
+    scores: Sequence[float | None]
+    updates: int
+
+
+@dataclass(frozen=True)
+class JobEnded:
+    """A job is finished, or was saved unfinished because it had to stop, or ``failed`` says why it failed."""
+
+    job: str
+    finished: bool
+    failed: str = ""
+
+
+def train_jobs(pipe: Connection) -> None:
+    """The process's main function: receives jobs and their folders, one by one, until None or the pipe's end."""
+    stop = _StopSignal()
+    try:
+        while (task := pipe.recv()) is not None and not stop.came:
+            job, folder = task
+            pipe.send(_train(pipe, job, folder, stop))
+    except (EOFError, ConnectionError):
+        return  # the parent was killed; the job is saved
+
+
+class _StopSignal:
+    """Ctrl+C reaches every process of a terminal and is left to the parent; SIGTERM is meant for this process."""
+
+    def __init__(self) -> None:
+        self.came = False
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.signal(signal.SIGTERM, self._take_note)
+
+    def _take_note(self, _number: int, _frame: FrameType | None) -> None:
+        self.came = True
+
+
+def _train(pipe: Connection, job: Job, folder: Path, stop: _StopSignal) -> JobEnded:
+    try:
+        training = JobTraining(job, folder, GridVectorEnv(job.scenarios))
+        _tick_until_done(pipe, training, folder, stop)
+        if training.trainer.finished:
+            training.finish()
+        else:
+            training.save()
+    except UserError as error:
+        return JobEnded(job.name, finished=False, failed=str(error))
+    except MemoryError:
+        return JobEnded(job.name, finished=False, failed="not enough memory: fewer --trials, or a smaller preset")
+    return JobEnded(job.name, finished=training.trainer.finished)
+
+
+def _events(training: JobTraining, folder: Path) -> TensorBoard | None:
+    if not is_installed():
+        return None
+    job = training.job
+    names = (
+        re.sub(r"[^\w.-]+", "-", f"{group}-{scenario.name}-{trial}")
+        for group, scenario, trial in zip(job.groups, job.scenarios, job.trials, strict=True)
+    )
+    with training.writing():
+        return TensorBoard([folder.parent.parent / FOLDER / name for name in names], training.trainer)
+
+
+def _tick_until_done(pipe: Connection, training: JobTraining, folder: Path, stop: _StopSignal) -> None:
+    report_at = time.monotonic()
+    events = _events(training, folder)
+    scores: list[float | None] = [None] * len(training.job.trials)
+    seen = 0
+    while not (training.trainer.finished or stop.came):
+        training.tick()
+        if events:
+            with training.writing():
+                events.write()
+        if time.monotonic() < report_at:
+            continue
+        report_at = time.monotonic() + REPORT_EVERY_S
+        rows = training.trainer.evaluation_rows
+        for row in rows[seen:]:
+            scores[row.trial] = row.score
+        seen = len(rows)
+        episodes = training.trainer.episodes_done.tolist()
+        if not _report(pipe, JobReport(training.job.name, episodes, tuple(scores), training.trainer.agent.updates)):
+            return
+
+
+def _report(pipe: Connection, report: JobReport) -> bool:
+    """Send the report; return whether to go on."""
+    try:
+        pipe.send(report)
+        return not pipe.poll()
+    except (EOFError, ConnectionError):
+        return False

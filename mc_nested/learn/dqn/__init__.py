@@ -1,0 +1,1 @@
+"""Double deep Q-learning over numbered states: the networks, the update, the replay."""

@@ -1,0 +1,267 @@
+"""Double deep Q-learning (paper, section 2.4) for many independent networks, compiled.
+
+A row is one learner: an online and a target network, its optimiser's moments and its count of updates. Rows are
+independent: an update handles one row after the other, so that its parameters and batch stay in the processor's nearest
+cache, and the result is the same to the bit whatever other rows there are.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from mc_nested.arrays import Bools, Float32s, Int64s, Integers
+from mc_nested.learn.dqn.adam import adam_step
+from mc_nested.learn.dqn.networks import Sizes, backward, forward, hidden_for, parameter_count
+from mc_nested.learn.dqn.self_imitation import rival
+from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.target_values import TargetValues
+
+
+class UpdateRule(NamedTuple):
+    """What an update does (README: the task): batch size, Adam's rate, the target's period and Huber's δ.
+
+    ``margin`` is that of imitated actions (self_imitation.py).
+    """
+
+    batch: int
+    learning_rate: float
+    target_period: int
+    huber_delta: float
+    margin: float = 0.0
+
+
+class Batch(NamedTuple):
+    """Transitions for k rows: states (2, k, batch), actions, rewards and discounts (k, batch).
+
+    ``states`` holds the index of every s, and of every s'; ``discounts`` is the factor of the value of s': γ, or 0
+    where the episode terminated. ``imitated`` (k, batch) marks the actions that should become greedy;
+    ``weights`` (k, batch) scale the errors.
+    """
+
+    states: Integers
+    actions: Integers
+    rewards: Float32s
+    discounts: Float32s
+    imitated: Bools
+    weights: Float32s
+
+
+class _Networks(NamedTuple):
+    """What an update changes, (rows, parameters): the online networks and Adam's moments; ``updates`` is (rows,)."""
+
+    online: Float32s
+    first_moment: Float32s
+    second_moment: Float32s
+    updates: Int64s
+
+
+class _StateTable(NamedTuple):
+    """What is known of every state: the features, where each named row's begin (k,), and the target's values."""
+
+    features: Float32s
+    first: Int64s
+    target_values: Float32s
+
+
+class _Workspace(NamedTuple):
+    """Arrays that one network's passes over one batch reuse."""
+
+    inputs: Float32s
+    next_inputs: Float32s
+    hidden: tuple[Float32s, ...]
+    next_hidden: tuple[Float32s, ...]
+    scratch: tuple[Float32s, ...]
+    slope: Float32s
+    gradient: Float32s
+
+
+class _Estimates(NamedTuple):
+    """What an update writes down of its batch, (k, batch): Q(s, a) before it, and the TD errors."""
+
+    values: Float32s
+    errors: Float32s
+
+
+class DDQN:
+    """Rows of Q-networks with their targets and optimisers.
+
+    Args:
+        space: the states and actions.
+        sizes: widths of every network.
+        rule: what an update does.
+        online: initial parameters, (rows, parameters).
+    """
+
+    def __init__(self, space: StateSpace, sizes: Sizes, rule: UpdateRule, online: Float32s) -> None:
+        self.space = space
+        self.sizes = sizes
+        self.rule = rule
+        self.online = online
+        self.target = online.copy()
+        self.updates: Int64s = np.zeros(len(online), dtype=np.int64)
+        self._first_moment, self._second_moment = np.zeros_like(online), np.zeros_like(online)
+        self._target_values = TargetValues(space, sizes, self.target)
+        self._last_values = np.full((len(online), rule.batch), np.nan, np.float32)
+        self._last_errors = np.full((len(online), rule.batch), np.nan, np.float32)
+        self._every_row = np.arange(len(online))
+        self._widths = np.array(sizes, dtype=np.int64)
+        self._acting = _workspace(sizes, 1)
+        self._learning = _workspace(sizes, rule.batch)
+
+    def load_online(self, online: Float32s) -> None:
+        """Continue with other networks (rows, parameters), the targets too; ValueError if their shape differs."""
+        if online.shape != self.online.shape:
+            raise ValueError(f"networks of {online.shape}, not {self.online.shape}")
+        self.online[:] = self.target[:] = online
+        self._target_values.renew(self._every_row, self.target)
+
+    def q_values(self, states: Int64s, rows: Int64s | None = None) -> Float32s:
+        """The online networks' values (k, actions) of one state index per row (k,); of all rows unless named."""
+        named = self._every_row if rows is None else rows
+        values = np.empty((len(named), self.space.actions), np.float32)
+        work = self._acting
+        firsts = self.space.first_of(named)
+        _value(named, states + firsts, self.online, self._widths, self.space.table, work.inputs, work.hidden, values)
+        return values
+
+    def update(self, rows: Int64s, batch: Batch) -> Float32s:
+        """One update of each of the named rows (k,), each on its own part of the batch; the TD errors, (k, batch).
+
+        By the gradient of the mean Huber loss, and of the mean large-margin loss of what is imitated.
+        """
+        self.updates[rows] += 1
+        estimates = _Estimates(np.empty_like(batch.rewards), np.empty_like(batch.rewards))
+        _update(
+            rows,
+            _Networks(self.online, self._first_moment, self._second_moment, self.updates),
+            batch,
+            _StateTable(self.space.table, self.space.first_of(rows), self._target_values.values),
+            self._widths,
+            self.rule,
+            self._learning,
+            estimates,
+        )
+        self._last_values[rows], self._last_errors[rows] = estimates
+        due = rows[self.updates[rows] % self.rule.target_period == 0]
+        if len(due):
+            self.target[due] = self.online[due]
+            self._target_values.renew(due, self.target[due])
+        return estimates.errors
+
+    def last_loss(self) -> Float32s:
+        """The mean Huber loss of each row's last update, (rows,); nan before the first."""
+        size, delta = np.abs(self._last_errors), np.float32(self.rule.huber_delta)
+        losses = np.where(size <= delta, size**2 / 2, delta * (size - delta / 2))
+        mean: Float32s = losses.mean(axis=1)
+        return mean
+
+    def last_q(self) -> Float32s:
+        """The mean value, Q(s, a), of the transitions of each row's last update, (rows,); nan before the first."""
+        mean: Float32s = self._last_values.mean(axis=1)
+        return mean
+
+    def state(self) -> dict[str, NDArray[Any]]:
+        """What the next update depends on, by name."""
+        return {
+            "online": self.online,
+            "target": self.target,
+            "first_moment": self._first_moment,
+            "second_moment": self._second_moment,
+            "updates": self.updates,
+        }
+
+    def load(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Continue from what ``state`` returned; KeyError or ValueError if the shape differs."""
+        for name, own in self.state().items():
+            own[:] = state[name]
+        self._target_values.renew(self._every_row, self.target)
+
+
+def _workspace(sizes: Sizes, batch: int) -> _Workspace:
+    return _Workspace(
+        inputs=np.empty((sizes[0] + 1, batch), np.float32),
+        next_inputs=np.empty((sizes[0] + 1, batch), np.float32),
+        hidden=hidden_for(sizes, batch),
+        next_hidden=hidden_for(sizes, batch),
+        scratch=hidden_for(sizes, batch),
+        slope=np.empty((sizes[-1], batch), np.float32),
+        gradient=np.empty(parameter_count(sizes), np.float32),
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def td_target(reward: float, discount: float, next_online: Float32s, next_target: Float32s) -> float:
+    """Y = r + γ Q(s', argmax Q(s'; θ); θ⁻), the bootstrap dropped where the episode terminated (paper, equation 4).
+
+    ``next_online`` and ``next_target`` are the two networks' values of s', (actions,).
+    """
+    target: float = reward + discount * next_target[np.argmax(next_online)]
+    return target
+
+
+@njit(cache=True, error_model="numpy")
+def _look_up(states: Int64s, table: Float32s, inputs: Float32s) -> None:
+    for column in range(len(states)):
+        for feature in range(inputs.shape[0]):
+            inputs[feature, column] = table[states[column], feature]
+
+
+@njit(cache=True, error_model="numpy")
+def _value(
+    rows: Int64s,
+    states: Int64s,
+    online: Float32s,
+    sizes: Int64s,
+    table: Float32s,
+    inputs: Float32s,
+    hidden: Sequence[Float32s],
+    values: Float32s,
+) -> None:
+    for at in range(len(rows)):
+        _look_up(states[at : at + 1], table, inputs)
+        forward(online[rows[at]], sizes, inputs, hidden, values[at].reshape(-1, 1))
+
+
+@njit(cache=True, error_model="numpy")
+def _update(
+    rows: Int64s,
+    networks: _Networks,
+    batch: Batch,
+    states: _StateTable,
+    sizes: Int64s,
+    rule: UpdateRule,
+    work: _Workspace,
+    estimates: _Estimates,
+) -> None:
+    """``DDQN.update``, row by row."""
+    count = batch.actions.shape[1]
+    slope = work.slope
+    next_values, values = np.empty_like(slope), np.empty_like(slope)
+    for at in range(len(rows)):
+        row = rows[at]
+        online = networks.online[row]
+        _look_up(batch.states[0, at] + states.first[at], states.features, work.inputs)
+        _look_up(batch.states[1, at] + states.first[at], states.features, work.next_inputs)
+        forward(online, sizes, work.next_inputs, work.next_hidden, next_values)
+        forward(online, sizes, work.inputs, work.hidden, values)
+        slope[:] = np.float32(0)
+        for column in range(count):
+            action = batch.actions[at, column]
+            next_target = states.target_values[row, batch.states[1, at, column]]
+            discount = batch.discounts[at, column]
+            target = td_target(batch.rewards[at, column], discount, next_values[:, column], next_target)
+            error = values[action, column] - target
+            estimates.values[at, column], estimates.errors[at, column] = values[action, column], error
+            clipped = min(max(error, -rule.huber_delta), rule.huber_delta)
+            slope[action, column] = clipped * batch.weights[at, column] / count
+            if batch.imitated[at, column]:
+                other = rival(values[:, column], action, rule.margin)
+                if other != action:
+                    slope[other, column] += np.float32(1 / count)
+                    slope[action, column] -= np.float32(1 / count)
+        backward(online, sizes, work.inputs, work.hidden, slope, work.gradient, work.scratch)
+        moments = networks.first_moment[row], networks.second_moment[row]
+        adam_step(online, *moments, work.gradient, networks.updates[row], rule.learning_rate)

@@ -1,0 +1,187 @@
+"""Training one job: tick by tick, saved once every evaluation interval; at the end its outcome is written."""
+
+import shutil
+import time
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from gymnasium.vector import VectorEnv
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from mc_nested.arrays import Arrays, Int64s
+from mc_nested.atomic_file import atomic_write
+from mc_nested.errors import RunError
+from mc_nested.learn.agents import Agent, view_of
+from mc_nested.learn.evaluation import GreedyEpisode
+from mc_nested.learn.experiments.jobs import Job
+from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
+from mc_nested.learn.trainer import Trainer
+
+OUTCOME = "outcome.json"
+
+
+class Evaluated(BaseModel):
+    """One greedy episode after ``episode`` training episodes; ``score`` is r_M."""
+
+    model_config = ConfigDict(frozen=True)
+
+    episode: int
+    score: float
+    material: str
+    steps: int
+
+
+class RunOutcome(BaseModel):
+    """The outcome of one run: its evaluations in order, the score of the policy it keeps, its updates and steps."""
+
+    model_config = ConfigDict(frozen=True)
+
+    evaluations: list[Evaluated]
+    score: float
+    updates: int
+    env_steps: int
+
+
+class JobOutcome(BaseModel):
+    """The outcome of a job; ``networks`` and ``parameters`` are per run, ``seconds`` of computing are of all runs."""
+
+    model_config = ConfigDict(frozen=True)
+
+    identity: str
+    networks: int
+    parameters: int
+    seconds: float
+    runs: list[RunOutcome]
+
+
+class JobTraining:
+    """Trains a job in its folder, from where it was last saved.
+
+    Args:
+        job: what is trained.
+        folder: the job's own; made at the first save.
+        env: an arena for each of its runs, as the simulator makes them.
+    """
+
+    def __init__(self, job: Job, folder: Path, env: VectorEnv[Int64s, Int64s, Any]) -> None:
+        self.job = job
+        agent = Agent(job.spec, job.scenarios, job.preset, job.seed, job.trials)
+        view = view_of(job.spec, env, job.scenarios)
+        self.trainer = Trainer(view, job.scenarios, agent, job.preset, job.seed)
+        self._folder = folder
+        self._checkpoint = Checkpoint(folder / "checkpoint", job.identity())
+        self._seconds_before = 0.0
+        self._began = time.process_time()
+        if self._checkpoint.exists:
+            self._checkpoint.load_into(self)
+        self._saved_at = self.trainer.episodes_done.copy()
+
+    def tick(self) -> None:
+        """One step of every run; saved if a run has trained for an evaluation interval since the last save.
+
+        RunError if the disk refuses; the last save is intact then.
+        """
+        self.trainer.tick()
+        if (self.trainer.episodes_done - self._saved_at).max() >= self.job.preset.evaluate_every:
+            self.save()
+
+    def save(self) -> None:
+        """Save it as it is now; RunError as for ``tick``."""
+        with self.writing():
+            self._checkpoint.save(self)
+        self._saved_at = self.trainer.episodes_done.copy()
+
+    def finish(self) -> None:
+        """Write the outcome and delete the checkpoint, which is mostly replays that nobody needs any more.
+
+        RunError if the disk refuses.
+        """
+        with self.writing():
+            self._folder.mkdir(parents=True, exist_ok=True)
+            with atomic_write(self._folder / OUTCOME) as unfinished:
+                unfinished.write_text(self._outcome().model_dump_json(), encoding="utf-8")
+        shutil.rmtree(self._folder / "checkpoint", ignore_errors=True)
+
+    def state(self) -> Arrays:
+        """For the checkpoint: the trainer's, and the seconds so far."""
+        return {**self.trainer.state(), "unit.seconds": np.array([self._seconds()])}
+
+    def marks(self) -> Arrays:
+        """For the checkpoint."""
+        return self.trainer.marks()
+
+    def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
+        """For the checkpoint."""
+        return self.trainer.journal(since)
+
+    def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None:
+        """For the checkpoint."""
+        self.trainer.load(state, journals)
+        self._seconds_before = float(state["unit.seconds"][0])
+
+    @contextmanager
+    def writing(self) -> Iterator[None]:
+        """While something is written in the experiment's folder: RunError, one line if the disk refuses."""
+        try:
+            yield
+        except (OSError, RuntimeError) as error:  # torch raises a RuntimeError if it can't write
+            raise RunError(f"{self._folder}: can't be written ({error}): make room") from error
+
+    def _seconds(self) -> float:
+        return self._seconds_before + time.process_time() - self._began
+
+    def _outcome(self) -> JobOutcome:
+        agent, runs = self.trainer.agent, len(self.job.trials)
+        evaluations: list[list[Evaluated]] = [[] for _ in range(runs)]
+        for row in self.trainer.evaluation_rows:
+            material = GreedyEpisode(row.material).material_name(self.job.scenarios[row.trial])
+            evaluations[row.trial].append(
+                Evaluated(episode=row.episode, score=row.score, material=material, steps=row.steps)
+            )
+        steps = np.zeros(runs, dtype=np.int64)
+        for trained in self.trainer.episode_rows:
+            steps[trained.trial] += trained.steps
+        updates = updates_by_run(agent)
+        return JobOutcome(
+            identity=fingerprint(self.job.identity()),
+            networks=agent.networks,
+            parameters=agent.parameters,
+            seconds=round(self._seconds(), 3),
+            runs=[
+                RunOutcome(
+                    evaluations=evaluations[run],
+                    score=float(self.trainer.kept_scores[run]),
+                    updates=int(updates[run]),
+                    env_steps=int(steps[run]),
+                )
+                for run in range(runs)
+            ],
+        )
+
+
+def updates_by_run(agent: Agent) -> Int64s:
+    """Updates of all of a run's networks, (runs,)."""
+    runs = len(agent.runs)
+    updates: Int64s = agent.low_level.ddqn.updates.reshape(runs, -1).sum(axis=1)
+    return updates + (agent.main.ddqn.updates if agent.main else 0)
+
+
+def outcome_of(job: Job, folder: Path) -> JobOutcome | None:
+    """The outcome of the job in that folder; None if it isn't finished.
+
+    RunError if the file can't be read, or is another job's.
+    """
+    path = folder / OUTCOME
+    if not path.exists():
+        return None
+    try:
+        outcome = JobOutcome.model_validate_json(path.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError, ValidationError) as error:
+        raise RunError(f"{path}: can't be read as the outcome of a training: remove it to train that again") from error
+    if outcome.identity != fingerprint(job.identity()):
+        raise RunError(f"{path}: belongs to another experiment: put back the file that was there")
+    return outcome

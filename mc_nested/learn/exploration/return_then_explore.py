@@ -1,0 +1,170 @@
+"""Directed exploration: repeat the run's own best episode up to some step, explore from there, and rejoin its path.
+
+After Go-Explore (Ecoffet et al., "First return, then explore", Nature 590, 2021): first return to a known state, then
+explore. It differs in what it keeps and how it returns. There is no archive of cells, only the best episode of the run,
+and a record of what each action did in each cell of the arena. It returns by repeating that episode's actions from the
+start, never by restoring a simulator's state. Exploration is random, but avoids what wasted a block in that cell
+before. Where it meets a later cell of the best episode, it may follow that episode again; a block that had been skipped
+is then one more.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mc_nested.arena.rules import SIZE
+from mc_nested.arrays import Arrays, Float64s
+from mc_nested.learn.preset import ExcursionRule
+
+PLAN_NUMBERS, STEP_NUMBERS = 3, 3
+"""Random numbers in [0, 1) needed to plan an excursion, and for each of its steps."""
+
+UNKNOWN, WASTED, ON_DESIGN, NO_BLOCK = 0, 1, 2, 3
+"""What an action did when it was last tried in a cell."""
+
+
+class EpisodeStep(NamedTuple):
+    """One step as the low-level agent saw it: cell, states as indices, and whether a block was used up."""
+
+    x: int
+    y: int
+    state: int
+    action: int
+    reward: float
+    next_state: int
+    terminated: bool
+    used_block: bool
+
+
+class ReturnThenExplore:
+    """The exploration of one run.
+
+    Args:
+        rule: how often and how far an excursion leaves the best episode.
+        actions: how many actions the agent has.
+    """
+
+    def __init__(self, rule: ExcursionRule, actions: int) -> None:
+        self.best: list[EpisodeStep] = []
+        self.best_row = 0
+        self._rule = rule
+        self._effects = np.zeros((SIZE, SIZE, actions), dtype=np.int8)
+        self._walk: list[EpisodeStep] = []
+        self._clean = True
+        self._leave_at = self._wander_until = 0
+        self._following: int | None = None
+
+    def begin(self, numbers: Float64s) -> None:
+        """Plan an excursion from 3 random numbers."""
+        at_its_end, where, how_far = numbers
+        length = len(self.best)
+        self._leave_at = length if at_its_end < self._rule.at_end else int(where * (length + 1))
+        self._wander_until = self._leave_at + 1 + int(how_far * self._rule.wander)
+        self._following = 0 if self._leave_at else None
+        self._walk, self._clean = [], True
+
+    def next_action(self, x: int, y: int, numbers: Float64s) -> int:
+        """What to do next at x and y, from 3 random numbers."""
+        rejoins, repeats, which = numbers
+        effects = self._effects[x, y]
+        done = len(self._walk)
+        if self._may_rejoin(done):
+            here = [i for i in range(self._leave_at, len(self.best)) if (self.best[i].x, self.best[i].y) == (x, y)]
+            if here and rejoins < self._rule.rejoin:
+                self._following = here[int(which * len(here))]
+        if self._following is not None:
+            action = self._follow(self._following, done)
+            if effects[action] != WASTED or done < self._leave_at:
+                return action
+            self._following = None
+        on_design = np.flatnonzero(effects == ON_DESIGN)
+        if len(on_design) and repeats < self._rule.repeat:
+            return int(on_design[int(which * len(on_design))])
+        not_wasted = np.flatnonzero(effects != WASTED)
+        return int(not_wasted[int(which * len(not_wasted))]) if len(not_wasted) else int(which * len(effects))
+
+    def observe(self, step: EpisodeStep) -> None:
+        """Record what the last action did."""
+        known = self._effects[step.x, step.y, step.action]
+        if step.used_block:
+            self._effects[step.x, step.y, step.action] = ON_DESIGN if step.reward > 0 else WASTED
+        elif known == UNKNOWN:  # otherwise the cell in front was taken already, which says nothing new
+            self._effects[step.x, step.y, step.action] = NO_BLOCK
+        if step.used_block and step.reward <= 0:
+            self._clean, self._following = False, None
+        if self._clean:
+            self._walk.append(step)
+
+    def end(self, row: int) -> bool:
+        """End the episode, an excursion or a greedy one; return whether it is the best so far, or as good.
+
+        ``row`` is the learner's row that acted. More blocks on the design before the first wasted block are better,
+        then fewer steps.
+        """
+        built = [i for i, step in enumerate(self._walk) if step.used_block]
+        walk = without_loops(self._walk[: built[-1] + 1]) if built else []
+        if (blocks_in(walk), -len(walk)) < (blocks_in(self.best), -len(self.best)):
+            return False
+        self.best, self.best_row = walk, row
+        return True
+
+    def state(self) -> Arrays:
+        """Everything that later steps depend on, by name."""
+        following = -1 if self._following is None else self._following
+        plan = [self.best_row, self._clean, self._leave_at, self._wander_until, following]
+        return {
+            "came_to": self._effects,
+            "plan": np.array(plan, dtype=np.int64),
+            "best": _table(self.best),
+            "walk": _table(self._walk),
+        }
+
+    def load(self, state: Arrays) -> None:
+        """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
+        self._effects[:] = state["came_to"]
+        self.best_row, clean, self._leave_at, self._wander_until, following = (int(value) for value in state["plan"])
+        self._clean, self._following = bool(clean), None if following < 0 else following
+        self.best, self._walk = _steps(state["best"]), _steps(state["walk"])
+
+    def _may_rejoin(self, done: int) -> bool:
+        return self._following is None and self._clean and self._leave_at < done <= self._wander_until
+
+    def _follow(self, index: int, done: int) -> int:
+        """The best episode's action at that index; the next step follows it too, up to where it is left."""
+        following = index + 1
+        stop = self._leave_at if done < self._leave_at else len(self.best)
+        self._following = None if following == stop else following
+        return self.best[index].action
+
+
+def blocks_in(walk: list[EpisodeStep]) -> int:
+    """Blocks that the walk used."""
+    return sum(step.used_block for step in walk)
+
+
+def without_loops(walk: list[EpisodeStep]) -> list[EpisodeStep]:
+    """The walk without what lies between two visits of one state: no block was placed there, so nothing changed."""
+    kept: list[EpisodeStep] = []
+    at: dict[int, int] = {}
+    for step in walk:
+        if step.state in at:
+            for undone in kept[at[step.state] :]:
+                del at[undone.state]
+            del kept[len(at) :]
+        at[step.state] = len(kept)
+        kept.append(step)
+    return kept
+
+
+def _table(steps: list[EpisodeStep]) -> Float64s:
+    return np.array(steps, dtype=np.float64).reshape(len(steps), len(EpisodeStep._fields))
+
+
+def _steps(table: NDArray[Any]) -> list[EpisodeStep]:
+    return [
+        EpisodeStep(
+            int(x), int(y), int(state), int(action), float(reward), int(following), bool(terminated), bool(used)
+        )
+        for x, y, state, action, reward, following, terminated, used in table.tolist()
+    ]

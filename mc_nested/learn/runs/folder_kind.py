@@ -1,0 +1,40 @@
+"""Which command a folder belongs to, if any; a key of its config.toml that only that command writes says which."""
+
+from pathlib import Path
+
+from mc_nested.atomic_file import is_leftover
+from mc_nested.errors import RunError
+from mc_nested.toml_file import parse_document
+
+VERB_OF_KEY = {"agent": "train", "agents": "reproduce", "variants": "sweep"}
+
+
+FORMAT = 1
+"""Version of config.toml; a file without one is of this version."""
+
+
+def check_config(text: str, folder: Path, verb: str) -> None:
+    """RunError if the text of config.toml is of a newer version, or that of another command's folder."""
+    document = parse_document(text, str(folder / "config.toml"), RunError)
+    written = document.get("format")
+    if isinstance(written, int) and written > FORMAT:
+        raise RunError(f"{folder}: written by a newer mc-nested: update mc-nested to open it")
+    found = [other for key, other in VERB_OF_KEY.items() if key in document]
+    if found and verb not in found:
+        raise RunError(
+            f"{folder}: the folder of mc-nested {found[0]}, not of {verb}: name another, or go on with it by "
+            f"mc-nested {found[0]} --resume {folder}"
+        )
+
+
+def check_free(path: Path) -> None:
+    """RunError if the path can't become a new folder: it holds something already, or the system refuses.
+
+    What a killed process left half-written doesn't count.
+    """
+    try:
+        taken = path.exists() and (not path.is_dir() or any(not is_leftover(entry) for entry in path.iterdir()))
+    except OSError as error:
+        raise RunError(f"{path}: can't be used, {error.strerror}: name another folder") from error
+    if taken:
+        raise RunError(f"{path}: exists and is not empty: name a new folder, nothing was overwritten")

@@ -1,0 +1,197 @@
+"""A training's folder: config.toml, episodes.csv, evaluations.csv, summary.json and checkpoint/."""
+
+import csv
+import json
+import shutil
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import tomlkit
+from pydantic import BaseModel, ConfigDict, Field
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
+from mc_nested.atomic_file import atomic_write
+from mc_nested.errors import RunError, ScenarioError
+from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentName
+from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.learn.preset import Preset
+from mc_nested.learn.runs.checkpoint import Checkpoint
+from mc_nested.learn.runs.folder_kind import FORMAT, check_config, check_free
+from mc_nested.learn.trainer import Trainer
+from mc_nested.toml_file import parse_toml, read_toml_text
+
+
+class RunConfig(BaseModel):
+    """Everything needed to repeat a training; scenario and preset are complete, no other file is needed."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    format: Annotated[int, Field(ge=1)] = FORMAT
+    agent: AgentName
+    backend: Literal["sim", "live"]
+    profile: str | None = None
+    trials: Annotated[int, Field(ge=1)]
+    seed: Annotated[int, Field(ge=0)]
+    stop_at_optimum: bool
+    preset_name: str
+    preset: Preset
+    scenario: ScenarioTable
+
+    def identity(self) -> dict[str, Any]:
+        """What is trained: a checkpoint fits only the same. Without the profile, which may be moved or renamed."""
+        return self.model_dump(exclude={"format", "profile"})
+
+
+class RunFolder:
+    """The folder of one training.
+
+    Args:
+        path: its path.
+        config: what is trained there.
+    """
+
+    def __init__(self, path: Path, config: RunConfig) -> None:
+        self.path = path
+        self.config = config
+        self.scenario: Scenario = scenario_of(config.scenario, str(path / "config.toml"))
+        self.checkpoint = Checkpoint(path / "checkpoint", config.identity())
+
+    @classmethod
+    def new(cls, path: Path, config: RunConfig) -> "RunFolder":
+        """A folder for a new training; RunError if the path holds anything already. Nothing is written yet."""
+        check_free(path)
+        return cls(path, config)
+
+    @classmethod
+    def open(cls, path: Path) -> "RunFolder":
+        """The folder of an earlier training; RunError if it isn't one."""
+        if not (path / "config.toml").is_file():
+            raise RunError(f"{path}: no config.toml there: name the folder of a training (its --out)")
+        text = read_toml_text(path / "config.toml", RunError)
+        check_config(text, path, "train")
+        try:
+            return cls(path, parse_toml(RunConfig, text, str(path / "config.toml"), RunError))
+        except ScenarioError as error:
+            raise RunError(str(error)) from error
+
+    def new_agent(self, runs: int) -> Agent:
+        """An untrained agent as this training's, with that many runs."""
+        return Agent(AGENT_SPECS[self.config.agent], [self.scenario] * runs, self.config.preset, self.config.seed)
+
+    @property
+    def scenarios(self) -> list[Scenario]:
+        """Each trial's scenario."""
+        return [self.scenario] * self.config.trials
+
+    def save_before_all(self, trainer: Trainer) -> None:
+        """Save what a training begins with, before config.toml is written; RunError, and nothing is left.
+
+        So a training that is killed here can't be resumed without its start.
+        """
+        try:
+            self.checkpoint.save(trainer)
+        except (OSError, RuntimeError) as error:  # torch raises a RuntimeError if it can't write
+            shutil.rmtree(self.path / "checkpoint", ignore_errors=True)
+            raise RunError(f"{self.path}: can't be written ({error}): make room and begin again") from error
+
+    def begin(self) -> None:
+        """Make the folder and write config.toml; RunError if the disk refuses."""
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            _write_text(self.path / "config.toml", tomlkit.dumps(self.config.model_dump(exclude_none=True)))
+        except OSError as error:
+            raise RunError(f"{self.path}: can't be written, {error.strerror}: name another folder") from error
+
+    @contextmanager
+    def writing(self) -> Iterator[None]:
+        """Around writing here: RunError, one line that says how to resume, if the disk refuses."""
+        try:
+            yield
+        except (OSError, RuntimeError) as error:  # torch raises a RuntimeError if it can't write
+            raise RunError(
+                f"{self.path}: can't be written ({error}): make room, then mc-nested train --resume {self.path} "
+                f"goes on from the last checkpoint"
+            ) from error
+
+    def save(self, trainer: Trainer, wall_s: float, beside: Mapping[str, Any] | None = None) -> dict[str, Any]:
+        """Write the checkpoint, the tables and the summary as they are now, and return the summary.
+
+        ``beside`` is added to the summary. RunError if the disk refuses. The same training writes the same bytes,
+        except for ``beside`` and the summary's ``wall_s``.
+        """
+        summary = {**summarise(self.config, self.scenario, trainer, wall_s), **(beside or {})}
+        with self.writing():
+            self.checkpoint.save(trainer, finished=trainer.finished)
+            _write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)
+            _write_table(self.path / "evaluations.csv", EvaluationRow._fields, trainer.evaluation_rows)
+            _write_text(self.path / "summary.json", json.dumps(summary, indent=2) + "\n")
+        return summary
+
+    @property
+    def only_begun(self) -> bool:
+        """Whether nothing was ever saved here: the training was killed before its first checkpoint."""
+        return not self.checkpoint.exists and not (self.path / "episodes.csv").exists()
+
+    def wall_s_so_far(self) -> float:
+        """Seconds that the training took until its last save; 0 if the summary doesn't say."""
+        try:
+            return float(json.loads((self.path / "summary.json").read_text("utf-8"))["wall_s"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return 0.0
+
+
+def summarise(config: RunConfig, scenario: Scenario, trainer: Trainer, wall_s: float) -> dict[str, Any]:
+    """The results of a training so far, for summary.json; scores are r_M, one per trial, of the policy it keeps.
+
+    An unfinished trial has no final score: it has learned since its last greedy evaluation. ``played_to_optimum``
+    includes the greedy episodes: in a live game they take as long as any other.
+    """
+    evaluations = [[row for row in trainer.evaluation_rows if row.trial == trial] for trial in range(config.trials)]
+    firsts = [next((row.episode for row in rows if row.score >= scenario.optimum), None) for rows in evaluations]
+    return {
+        "scenario": scenario.name,
+        "agent": config.agent,
+        "preset": config.preset_name,
+        "backend": config.backend,
+        "trials": config.trials,
+        "seed": config.seed,
+        "episodes": config.preset.episodes,
+        "optimum": scenario.optimum,
+        "final_scores": [
+            float(score) if finished else None
+            for score, finished in zip(trainer.kept_scores, trainer.runs_finished, strict=True)
+        ],
+        "episodes_to_optimum": firsts,
+        "played_to_optimum": [_played_until(trainer, trial, first) for trial, first in enumerate(firsts)],
+        "episodes_done": [int(done) for done in trainer.episodes_done],
+        "env_steps": trainer.env_steps,
+        "evaluation_steps": trainer.evaluation_steps,
+        "updates": trainer.agent.updates,
+        "wall_s": round(wall_s, 3),
+        "networks": trainer.agent.networks,
+        "parameters": trainer.agent.parameters,
+    }
+
+
+def _played_until(trainer: Trainer, trial: int, episode: int | None) -> dict[str, int] | None:
+    if episode is None:
+        return None
+    played = [row for row in trainer.episode_rows if row.trial == trial and row.episode <= episode]
+    greedy = [row for row in trainer.evaluation_rows if row.trial == trial and row.episode <= episode]
+    steps = sum(row.steps for row in played) + sum(row.steps for row in greedy)
+    return {"episodes": len(played) + len(greedy), "steps": steps}
+
+
+def _write_text(path: Path, text: str) -> None:
+    with atomic_write(path) as unfinished:
+        unfinished.write_text(text, encoding="utf-8")
+
+
+def _write_table(path: Path, header: Sequence[str], rows: Sequence[EpisodeRow | EvaluationRow]) -> None:
+    with atomic_write(path) as unfinished, unfinished.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(header)
+        writer.writerows(rows)

@@ -1,0 +1,81 @@
+"""GameConnection: one running game: its window's devices, the one owner of held keys, and the screen reader."""
+
+from types import TracebackType
+
+from mc_nested.errors import ProfileError
+from mc_nested.live.devices import Devices
+from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.profile.fingerprint import check_single_player
+from mc_nested.live.profile.overlay import overlay_of
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.font import load_font
+from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
+
+
+class GameConnection:
+    """What everything that plays, types or reads works with. As a context manager it releases every key at the end.
+
+    Args:
+        devices: the game window's display, keyboard, pointer, clock and clipboard.
+        controller: presses keys and buttons, and releases them.
+        screen: reads the window; None while the game's font is not known.
+        is_server_allowed: whether to play in a game that others may share.
+    """
+
+    def __init__(
+        self,
+        devices: Devices,
+        controller: InputController,
+        screen: GameScreen | None = None,
+        *,
+        is_server_allowed: bool = False,
+    ) -> None:
+        self.devices = devices
+        self.controller = controller
+        self.is_server_allowed = is_server_allowed
+        self._screen = screen
+
+    def __enter__(self) -> "GameConnection":
+        self.controller.__enter__()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.controller.__exit__(kind, error, traceback)
+
+    @property
+    def screen(self) -> GameScreen:
+        """What reads the window; ProfileError while the game's font is not known."""
+        if self._screen is None:
+            raise ProfileError("the game's font is not known yet: run mc-nested calibrate font first")
+        return self._screen
+
+    def for_profile(self, profile: Profile) -> "GameConnection":
+        """The same game, read with that profile's font and layout.
+
+        Raises ProfileError or FontError where the profile names no font that can be used.
+        """
+        return self.with_screen(screen_for(profile, self.devices))
+
+    def with_screen(self, screen: GameScreen) -> "GameConnection":
+        """The same game, read by that screen."""
+        return GameConnection(self.devices, self.controller, screen, is_server_allowed=self.is_server_allowed)
+
+    def check_single_player(self) -> None:
+        """DesktopError if the window's title says that others may play there, unless that is allowed."""
+        check_single_player(self.devices.display.title(), is_server_allowed=self.is_server_allowed)
+
+
+def connect(profile: Profile, devices: Devices, *, is_server_allowed: bool = False) -> GameConnection:
+    """A connection to the game in that window, read with the profile's font and layout.
+
+    Raises ProfileError or FontError where the profile names no font that can be used.
+    """
+    controller = InputController(devices, profile.input)
+    return GameConnection(devices, controller, screen_for(profile, devices), is_server_allowed=is_server_allowed)
+
+
+def screen_for(profile: Profile, devices: Devices) -> WindowScreen:
+    """What reads the window with the profile's font and layout; ProfileError or FontError without a usable font."""
+    return WindowScreen(devices.display, load_font(profile.screen.font_path()), overlay_of(profile))

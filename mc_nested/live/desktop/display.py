@@ -1,0 +1,62 @@
+"""Pictures of the game's window alone, wherever it has moved to."""
+
+from collections.abc import Callable
+
+from mc_nested.errors import DesktopError
+from mc_nested.live.desktop.window import ClientArea, GameWindow
+from mc_nested.live.devices import Frame, Region
+
+Camera = Callable[[ClientArea], Frame]
+"""Takes a picture of an area of the desktop, at as many pixels to a point as the screen there has."""
+
+
+class WindowDisplay:
+    """The Display of a window: each picture is taken where the window is now."""
+
+    def __init__(self, window: GameWindow, camera: Camera) -> None:
+        self._window = window
+        self._camera = camera
+        self._ratio = 1.0
+        self.grab()
+
+    def ratio(self) -> float:
+        """Framebuffer pixels to a point of the desktop, as the last whole picture measured it."""
+        return self._ratio
+
+    def points(self) -> tuple[int, int]:
+        """Width and height of the client area in points of the desktop."""
+        area = self._window.client_area()
+        return area.width, area.height
+
+    def size(self) -> tuple[int, int]:
+        area = self._window.client_area()
+        return round(area.width * self._ratio), round(area.height * self._ratio)
+
+    def title(self) -> str:
+        return self._window.title()
+
+    def is_in_front(self) -> bool:
+        return self._window.is_in_front()
+
+    def grab(self, region: Region | None = None) -> Frame:
+        area = self._window.client_area()
+        if region is not None and self._ratio == 1.0:
+            part = _part_of(area, region)
+            picture = self._camera(part)
+            if picture.shape[:2] == (part.height, part.width):
+                return picture
+        picture = self._camera(area)
+        self._ratio = picture.shape[1] / area.width
+        if region is None:
+            return picture
+        inside = _part_of(ClientArea(0, 0, picture.shape[1], picture.shape[0]), region)
+        return picture[inside.top : inside.top + inside.height, inside.left : inside.left + inside.width]
+
+
+def _part_of(area: ClientArea, region: Region) -> ClientArea:
+    """The part of the client area that the region covers: nothing outside the window is ever pictured."""
+    left, top = max(region.left, 0), max(region.top, 0)
+    right, bottom = min(region.left + region.width, area.width), min(region.top + region.height, area.height)
+    if right <= left or bottom <= top:
+        raise DesktopError(f"the game's window has shrunk to {area.width} x {area.height}: make it as large as it was")
+    return ClientArea(area.left + left, area.top + top, right - left, bottom - top)

@@ -1,0 +1,45 @@
+"""Windows, macOS or X11: what differs between the systems, one module for each."""
+
+import sys
+from contextlib import AbstractContextManager
+from typing import Protocol
+
+from mc_nested.live.desktop.window import GameWindow
+from mc_nested.live.devices import Clipboard
+
+
+class DesktopSystem(Protocol):
+    """What win32.py, quartz.py and x11.py each offer."""
+
+    def open_window(self, title: str) -> AbstractContextManager[GameWindow]:
+        """The one window whose title matches the regular expression ``title``, while the context lasts.
+
+        Raises:
+            DesktopError: no display, a session that can't be driven, a missing permission, no window of that title or
+                several of them, or one that is minimised.
+        """
+
+    def session_kind(self) -> str:
+        """What kind of session this is, in words; DesktopError where its windows can't be pictured and driven."""
+
+    def open_clipboard(self) -> Clipboard:
+        """The clipboard, which is not read yet.
+
+        Both its methods raise ClipboardError where the clipboard can't be reached, or holds something other than text,
+        which could not be put back.
+        """
+
+
+def this_system() -> DesktopSystem:
+    """The module of the system that this process runs on; without a display, this works too."""
+    if sys.platform == "win32":
+        from mc_nested.live.desktop import win32
+
+        return win32
+    if sys.platform == "darwin":
+        from mc_nested.live.desktop import quartz
+
+        return quartz
+    from mc_nested.live.desktop import x11
+
+    return x11

@@ -1,0 +1,1 @@
+"""Pressing keys and buttons, and releasing every one of them on every way out."""

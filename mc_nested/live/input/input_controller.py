@@ -1,0 +1,240 @@
+"""The one owner of held keys and buttons. A press needs the game's window and the right screen, a release neither.
+
+Every press has an absolute release time, so late wake-ups never add up and no key stays down without an end:
+
+    press |---- tick ----|---- tick ----| release
+          meanwhile everything waits through the controller, which checks each tick that the window is still in front
+"""
+
+import atexit
+import threading
+from collections.abc import Callable, Iterable
+from contextlib import ExitStack
+from dataclasses import dataclass
+from functools import partial
+from types import TracebackType
+from typing import Literal
+
+from mc_nested.errors import NotInFrontError, StoppedError, WrongScreenError
+from mc_nested.live.devices import Button, Devices
+from mc_nested.live.input.signals import signals_as_exit
+from mc_nested.live.model.kinematics import TICK_S
+from mc_nested.live.profile.tables import InputTable
+
+PressTarget = Literal["world", "chat", "menu"]
+"""What a press is meant for: the game's world, the chat's line, or a menu (also to open and close it)."""
+
+FRESH_S = 0.25
+"""Seconds for which a look at the screen permits presses."""
+
+LONGEST_S = 3.0
+"""The longest that anything is ever held, in seconds."""
+
+OVERDUE_S = 0.25
+"""Seconds past its release time after which the watchdog releases a key."""
+
+NEAR_PX = 3
+"""How far the mouse may be from where it was moved to: a point of the desktop may be two pixels."""
+
+
+@dataclass(frozen=True)
+class _Held:
+    release: Callable[[], None]
+    due: float
+
+
+class InputController:
+    """Presses keys and buttons for a time, and never leaves one down: not on return, on an exception or on a signal.
+
+    As a context manager it also releases when the block, or the process, ends.
+
+    Raises (every press and every wait): NotInFrontError if another window is in front, or comes to the front;
+    StoppedError once it was stopped. A press also: WrongScreenError if the screen that it is meant for was not just
+    confirmed. Everything held is released then.
+    """
+
+    def __init__(self, devices: Devices, timing: InputTable) -> None:
+        self._display = devices.display
+        self._keyboard = devices.keyboard
+        self._pointer = devices.pointer
+        self._clock = devices.clock
+        self._timing = timing
+        self._held: dict[str, _Held] = {}
+        self._pressed: dict[str, Callable[[], None]] = {}
+        self._lock = threading.RLock()
+        self._confirmed: tuple[PressTarget, float] | None = None
+        self._stop_reason: str | None = None
+        self._exits = ExitStack()
+
+    def __enter__(self) -> "InputController":
+        self._exits.enter_context(signals_as_exit())
+        atexit.register(self.release_all)
+        return self
+
+    def __exit__(
+        self, _kind: type[BaseException] | None, _error: BaseException | None, _traceback: TracebackType | None
+    ) -> None:
+        with self._exits, ExitStack() as releases:
+            # Twice: a release that fails may work a moment later.
+            releases.callback(self.release_all)
+            releases.callback(self.release_all)
+        atexit.unregister(self.release_all)
+
+    def confirm_screen(self, screen: PressTarget) -> None:
+        """Say which screen was just seen: presses meant for it are permitted for FRESH_S, and no others."""
+        self._confirmed = screen, self._clock.now()
+
+    def hold(self, key: str, ticks: int, *others: str) -> None:
+        """Hold one or more keys for a number of ticks (FACTS: Walking; 100, 150 and 200 ms gave 2, 3 and 4)."""
+        until = self._clock.now() + ticks * TICK_S
+        self.press(until, *others, key)
+        self.wait_until(until)
+
+    def press(self, until: float, *keys: str) -> None:
+        """Press keys in the world and return; they are released at ``until``, during a later wait."""
+        for key in keys:
+            self._press_key(key, until, "world")
+
+    def keep_until(self, until: float, *keys: str) -> None:
+        """Change the release time of keys that are down."""
+        for key in keys:
+            if held := self._held.get(f"key {key}"):
+                self._held[f"key {key}"] = _Held(held.release, min(until, self._clock.now() + LONGEST_S))
+
+    def tap(self, key: str, on: PressTarget = "world") -> None:
+        """Press and release a key that acts once per press, however long it is held."""
+        until = self._clock.now() + TICK_S
+        self._press_key(key, until, on)
+        self.wait_until(until)
+
+    def click(self, button: Button) -> None:
+        """Press a button in the world. It is released after the profile's ``click_s``, during a later wait."""
+        self._press_button(button, "world")
+
+    def hover(self, x: int, y: int) -> None:
+        """Move the mouse over a menu, to a position in framebuffer pixels, and press nothing."""
+        self._check_press("menu")
+        self._pointer.move(x, y)
+        self.wait(TICK_S)
+
+    def click_at(self, x: int, y: int) -> None:
+        """Click on a menu, at a position in framebuffer pixels.
+
+        WrongScreenError if the mouse isn't there any more: the window, or somebody else, has moved it.
+        """
+        self.hover(x, y)
+        across, down = self._pointer.position()
+        if max(abs(across - x), abs(down - y)) > NEAR_PX:
+            raise WrongScreenError("the mouse was moved, or the window was, so nothing is clicked: leave both alone")
+        self._press_button("left", "menu")
+        self.wait(self._timing.click_s)
+
+    def type_line(self, text: str) -> None:
+        """Type a line into the open chat, without sending it."""
+        for letter in text:
+            self._type(letter)
+
+    def wait(self, seconds: float) -> None:
+        """Let that many seconds pass, and release what is due."""
+        self.wait_until(self._clock.now() + seconds)
+
+    def wait_until(self, at: float) -> None:
+        """Let time pass until ``at``, and release what is due at its time."""
+        try:
+            while True:
+                now = self._clock.now()
+                soonest = min([now + TICK_S, *(held.due for held in list(self._held.values()))])
+                self._clock.sleep_until(min(soonest, at))
+                now = self._clock.now()
+                self._release([name for name, held in list(self._held.items()) if held.due <= now])
+                if now >= at:
+                    return
+                self._check_running()
+        except BaseException:
+            self.release_all()
+            raise
+
+    def release_all(self) -> None:
+        """Release everything that is held, in front or not; every key is tried before a failure is raised."""
+        self._release(list(self._held))
+
+    def release_again(self) -> None:
+        """Release everything that was ever pressed in the world: the game may have missed a release."""
+        with self._lock, ExitStack() as releases:
+            for release in self._pressed.values():
+                releases.callback(release)
+
+    def release_overdue(self) -> None:
+        """Release everything that is held OVERDUE_S longer than it should be; the watchdog calls this."""
+        overdue = self._clock.now() - OVERDUE_S
+        self._release([name for name, held in list(self._held.items()) if held.due <= overdue])
+
+    def stop(self, reason: str) -> None:
+        """Release everything now, and press nothing from then on. Any thread may call this."""
+        self._stop_reason = reason
+        self.release_all()
+
+    def check_front(self) -> None:
+        """NotInFrontError unless a key pressed now would reach the game."""
+        if not self._display.is_in_front():
+            raise NotInFrontError(
+                "the game's window is not in front, so no key is pressed: click on it, then start again"
+            )
+
+    def _check_running(self) -> None:
+        if self._stop_reason is not None:
+            raise StoppedError(f"{self._stop_reason}: every key is up, start again when you like")
+        self.check_front()
+
+    def _check_press(self, screen: PressTarget) -> None:
+        self._check_running()
+        confirmed, at = self._confirmed or ("nothing", self._clock.now())
+        if confirmed != screen or self._clock.now() - at > FRESH_S:
+            raise WrongScreenError(f"the {screen} was not just seen on the screen, so nothing is pressed: look first")
+
+    def _type(self, letter: str) -> None:
+        name = f"letter {letter}"
+        with self._lock:
+            self._check_press("chat")
+            self._held[name] = _Held(partial(self._keyboard.release, letter), self._clock.now())
+            try:
+                self._keyboard.type(letter)
+            except BaseException:
+                # It may have been interrupted between the letter's press and its release.
+                self._release([name])
+                raise
+            del self._held[name]
+
+    def _press_key(self, key: str, until: float, on: PressTarget) -> None:
+        self._press(f"key {key}", partial(self._keyboard.press, key), partial(self._keyboard.release, key), until, on)
+
+    def _press_button(self, button: Button, on: PressTarget) -> None:
+        until = self._clock.now() + self._timing.click_s
+        press, release = partial(self._pointer.press, button), partial(self._pointer.release, button)
+        self._press(f"{button} button", press, release, until, on)
+
+    def _press(
+        self, name: str, press: Callable[[], None], release: Callable[[], None], until: float, on: PressTarget
+    ) -> None:
+        try:
+            with self._lock:
+                self._check_press(on)
+                # Noted before it is pressed: an interrupt between the two would leave it down otherwise.
+                self._held[name] = _Held(release, min(until, self._clock.now() + LONGEST_S))
+                if on == "world":
+                    self._pressed[name] = release
+                press()
+        except BaseException:
+            self.release_all()
+            raise
+
+    def _release(self, names: Iterable[str]) -> None:
+        # An exit stack runs every callback, whatever the others raise.
+        with self._lock, ExitStack() as releases:
+            for name in names:
+                releases.callback(self._release_one, name)
+
+    def _release_one(self, name: str) -> None:
+        if held := self._held.get(name):
+            held.release()
+            self._held.pop(name, None)

@@ -1,0 +1,1 @@
+"""Everything outside the game's world: chat, commands, menus, world folders, and waiting for the player."""

@@ -1,0 +1,72 @@
+"""Typing commands into the chat; each line is read back before it is sent.
+
+chat key -> the line is seen, empty -> letters -> the line is seen to hold all of them -> Enter -> the line is gone
+"""
+
+from collections.abc import Callable
+
+from mc_nested.errors import NotConfirmedError
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.deadline import Deadline
+from mc_nested.live.profile.tables import Profile
+
+PATIENCE_S = 1.5
+"""How long the chat's line may take to look as it should."""
+
+LOOK_S = 0.02
+
+LETTERS_PER_LOOK = 8
+"""Letters typed between two looks."""
+
+
+class Chat:
+    """Sends lines. The caller has just seen that the world is on the screen, and nothing over it.
+
+    Raises (everything): NotConfirmedError where the chat's line doesn't look as it should; nothing is sent then.
+    """
+
+    def __init__(self, profile: Profile, connection: GameConnection) -> None:
+        self._key = profile.keys.chat
+        self._timing = profile.input
+        self._controller = connection.controller
+        self._screen = connection.screen
+        self._clock = connection.devices.clock
+
+    def send(self, line: str) -> None:
+        """Open the chat, type one line, send it, and wait until the game takes keys again."""
+        self._open()
+        self._type(line)
+        self._controller.confirm_screen("chat")
+        self._controller.tap("enter", on="chat")
+        if self._timing.reads_chat:
+            self._wait_until(lambda: not self._screen.is_chat_open(), "the chat did not close")
+        else:
+            self._controller.wait(self._timing.chat_close_s)
+
+    def _open(self) -> None:
+        self._controller.tap(self._key)
+        if self._timing.reads_chat:
+            self._wait_until(
+                lambda: self._screen.is_typed("") and self._screen.is_chat_open(), "the chat did not open, empty"
+            )
+        else:
+            self._controller.wait(self._timing.chat_open_s)
+
+    def _type(self, line: str) -> None:
+        # A chat that can't be read gets single letters: one that comes late must not end the line.
+        letters = LETTERS_PER_LOOK if self._timing.reads_chat else 1
+        for first in range(0, len(line), letters):
+            # Looked at again and again: on a busy machine a line takes a while, and the chat may close.
+            if self._timing.reads_chat:
+                self._wait_until(self._screen.is_chat_open, "the chat did not stay open")
+            self._controller.confirm_screen("chat")
+            self._controller.type_line(line[first : first + letters])
+        if self._timing.reads_chat:
+            self._wait_until(lambda: self._screen.is_typed(line), f"{line!r} was not seen in the chat")
+
+    def _wait_until(self, is_so: Callable[[], bool], problem: str) -> None:
+        deadline = Deadline(self._clock, PATIENCE_S)
+        while not is_so():
+            if deadline.has_passed:
+                raise NotConfirmedError(f"{problem}: leave mouse and keys alone, and look whether the game allows chat")
+            self._controller.wait(LOOK_S)

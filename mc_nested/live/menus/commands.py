@@ -1,0 +1,49 @@
+"""The chat commands of a reset, in the syntax of the game's version (FACTS: Commands)."""
+
+from collections.abc import Sequence
+
+from mc_nested.arena.rules import Cell
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.tables import Dialect, Profile
+
+STACK = 64
+"""Blocks of one material in the hotbar: the game's full stack."""
+
+
+def reset_commands(profile: Profile, start: Cell, blocks: Sequence[str]) -> list[str]:
+    """What to type before an episode: clear the marked blocks, teleport to ``start``, fill the hotbar.
+
+    ``blocks`` are the scenario's block names, one for each hotbar slot from the left. ProfileError without an arena.
+    """
+    arena = profile.marked_arena()
+    return [
+        clear_command(arena),
+        teleport_command(arena, start, profile.body.pitch),
+        *(item_command(profile.game.dialect, slot, profile.block_name(block)) for slot, block in enumerate(blocks)),
+    ]
+
+
+def clear_command(arena: Arena) -> str:
+    """Fill the marked blocks with air, and none outside."""
+    low, high = arena.region
+    return f"/fill {_words(low)} {_words(high)} minecraft:air"
+
+
+def teleport_command(arena: Arena, cell: Cell, pitch: float) -> str:
+    """Stand in the middle of a cell and look the arena's way, ``pitch`` degrees down."""
+    x, y, z = arena.centre_of(cell)
+    # x and z keep their decimals, since the game moves whole numbers by half a block; y is taken as it is.
+    return f"/tp @s {x:.1f} {y:.0f} {z:.1f} {arena.yaw:g} {pitch:g}"
+
+
+def item_command(dialect: Dialect, slot: int, block: str) -> str:
+    """Put a stack of a block into a hotbar slot; 0 is the leftmost."""
+    if dialect == "1.12":
+        return f"/replaceitem entity @s slot.hotbar.{slot} minecraft:{block} {STACK} 0"
+    if dialect == "1.13":
+        return f"/replaceitem entity @s hotbar.{slot} minecraft:{block} {STACK}"
+    return f"/item replace entity @s hotbar.{slot} with minecraft:{block} {STACK}"
+
+
+def _words(block: tuple[int, int, int]) -> str:
+    return " ".join(str(part) for part in block)

@@ -1,0 +1,59 @@
+"""Which screen the game shows, and the buttons of each.
+
+A screen is known by its labels. Where none is found, as in another language, it is known by the points that a
+calibration recorded, if they look like their pictures.
+"""
+
+from typing import Literal
+
+from mc_nested.live.devices import Display
+from mc_nested.live.menus.click_points import ClickPoints, looks_the_same
+from mc_nested.live.vision.game_screen import WORLDS_TITLE, GameScreen
+
+ScreenName = Literal["world", "chat", "pause", "death", "disconnected", "title", "worlds", "unknown"]
+
+LABELS: dict[ScreenName, tuple[str, ...]] = {
+    "pause": ("Back to Game",),
+    "death": ("Respawn",),
+    "disconnected": ("Back to Title Screen", "Back to title screen", "Back to Menu"),
+    "title": ("Singleplayer",),
+}
+"""The buttons by which a screen is known and left, in every version (FACTS: Screens and their buttons)."""
+
+QUIT = "Save and Quit to Title"
+PLAY = "Play Selected World"
+
+BACK = "back_to_game"
+LEAVE = "save_and_quit_to_title"
+ENTER = "singleplayer"
+WORLD = "world"
+PLAY_IT = "play_selected_world"
+RESPAWN = "respawn"
+"""The names of the points that stand for buttons whose labels aren't found."""
+
+POINTS: dict[ScreenName, str] = {"pause": BACK, "death": RESPAWN, "title": ENTER, "worlds": PLAY_IT}
+"""The points by which a screen is known."""
+
+
+def identify_screen(screen: GameScreen, display: Display, points: ClickPoints) -> tuple[ScreenName, str]:
+    """Which screen is shown, and why the debug screen can't be read there; "" where it can."""
+    reading = screen.read()
+    if reading.problem is None:
+        return ("chat" if screen.is_chat_open() else "world"), ""
+    menu = screen.menu()
+    for name, labels in LABELS.items():
+        if any(menu.button(label).middle for label in labels):
+            return name, reading.problem
+    if menu.shows(WORLDS_TITLE):
+        return "worlds", reading.problem
+    if screen.is_chat_open():
+        return "chat", reading.problem
+    return _identify_by_points(display, points), reading.problem
+
+
+def _identify_by_points(display: Display, points: ClickPoints) -> ScreenName:
+    known = {name: points[point] for name, point in POINTS.items() if point in points}
+    if not known:
+        return "unknown"
+    frame = display.grab()
+    return next((name for name, point in known.items() if looks_the_same(point, frame)), "unknown")

@@ -1,0 +1,46 @@
+"""Waiting for a person: until the game is in front, its debug screen can be read, and the player stands still."""
+
+from mc_nested.errors import NotInFrontError, UnreadableError
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.deadline import Deadline
+from mc_nested.live.devices import Devices
+from mc_nested.live.model.reading import Reading
+
+PATIENCE_S = 60.0
+"""How long the player has to switch to the game and turn the debug screen on."""
+
+LOOK_S = 0.25
+"""Between two looks: a few frames of the game, so that the same position seen twice means that the player stands."""
+
+
+def wait_for_front(devices: Devices) -> None:
+    """Return as soon as the game is in front; NotInFrontError where that takes too long."""
+    clock = devices.clock
+    deadline = Deadline(clock, PATIENCE_S)
+    while not devices.display.is_in_front():
+        if deadline.has_passed:
+            raise NotInFrontError("the game's window didn't come to the front: click on it, and run this again")
+        clock.sleep_until(clock.now() + LOOK_S)
+
+
+def wait_until_standing_still(connection: GameConnection) -> Reading:
+    """The first reading that is the same twice in a row while the game is in front.
+
+    Raises:
+        NotInFrontError: the game was not in front when time ran out.
+        UnreadableError: it was, but the debug screen could not be read, or the player kept moving.
+    """
+    display, clock = connection.devices.display, connection.devices.clock
+    deadline = Deadline(clock, PATIENCE_S)
+    before: Reading | None = None
+    problem: str | None = None
+    while not deadline.has_passed:
+        reading = connection.screen.read() if display.is_in_front() else None
+        if reading is not None and reading.problem is None and reading == before:
+            return reading
+        before = reading
+        problem = (reading.problem or "the player keeps moving") if reading else None
+        clock.sleep_until(clock.now() + LOOK_S)
+    if problem is None:
+        raise NotInFrontError("the game's window didn't come to the front: click on it, and run this again")
+    raise UnreadableError(f"the debug screen can't be read ({problem}): mend that, and run this again")

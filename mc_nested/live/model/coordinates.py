@@ -1,0 +1,65 @@
+"""Between the arena's cells and the world's blocks. Cells are (x, y): x to the right, y forward, as the agent faces.
+
+In the world east is +X and south is +Z; yaw 0 is south, 90 west, 180 north, -90 east (FACTS: The F3 debug screen).
+"""
+
+import math
+from typing import Literal, NamedTuple
+
+from mc_nested.arena.rules import Cell
+from mc_nested.live.model.reading import Block
+
+Facing = Literal["north", "south", "west", "east"]
+
+_FORWARD: dict[Facing, tuple[int, int]] = {"north": (0, -1), "south": (0, 1), "west": (-1, 0), "east": (1, 0)}
+_YAW: dict[Facing, float] = {"south": 0.0, "west": 90.0, "north": 180.0, "east": -90.0}
+
+
+class GroundVector(NamedTuple):
+    """A position, an offset or a velocity on the ground, in blocks, as the agent faces."""
+
+    right: float
+    forward: float
+
+
+def yaw_of(facing: Facing) -> float:
+    """The yaw, in degrees, of an agent that faces that way."""
+    return _YAW[facing]
+
+
+def facing_of(yaw: float) -> Facing:
+    """The nearest of the four ways to face for a yaw in degrees, of any number of turns."""
+    quarters: list[Facing] = ["south", "west", "north", "east"]
+    return quarters[round(yaw / 90.0) % 4]
+
+
+def turn_between(yaw: float, other: float) -> float:
+    """The unsigned angle between two yaws, 0 to 180 degrees."""
+    return abs((yaw - other + 180.0) % 360.0 - 180.0)
+
+
+def block_of(origin: Block, facing: Facing, cell: Cell) -> Block:
+    """The block that fills ``cell``; ``origin`` is the block of cell (0, 0), at the level of the feet."""
+    forward_x, forward_z = _FORWARD[facing]
+    right_x, right_z = -forward_z, forward_x
+    x, y = cell
+    return origin[0] + right_x * x + forward_x * y, origin[1], origin[2] + right_z * x + forward_z * y
+
+
+def centre_of(origin: Block, facing: Facing, cell: Cell) -> tuple[float, float, float]:
+    """The world position of the feet of an agent in the middle of ``cell``, in blocks."""
+    x, y, z = block_of(origin, facing, cell)
+    return x + 0.5, float(y), z + 0.5
+
+
+def position_of(origin: Block, facing: Facing, xyz: tuple[float, float, float]) -> GroundVector:
+    """The world position ``xyz`` in cells: the middle of cell (x, y) is at exactly (x, y)."""
+    forward_x, forward_z = _FORWARD[facing]
+    right_x, right_z = -forward_z, forward_x
+    east, south = xyz[0] - origin[0] - 0.5, xyz[2] - origin[2] - 0.5
+    return GroundVector(east * right_x + south * right_z, east * forward_x + south * forward_z)
+
+
+def cell_at(position: tuple[float, float]) -> Cell:
+    """The cell that holds a position given in cells."""
+    return math.floor(position[0] + 0.5), math.floor(position[1] + 0.5)

@@ -1,0 +1,78 @@
+"""How far a key held for a number of ticks walks (FACTS: Walking), and which hold ends nearest a target."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+TICK_S = 0.05
+"""Seconds of a game tick (FACTS: Walking)."""
+
+INERTIA = 0.6 * 0.91
+"""The share of a step that is left after a tick, on stone."""
+
+STANDSTILL = 0.003
+"""Blocks a tick: a slower walker stands still."""
+
+SNEAKING = 0.3
+"""The share of a push that is left when sneaking."""
+
+PUSH = 0.98 * 0.1 * 0.1627714 / INERTIA**3
+"""Blocks that a held key adds to each tick's step when walking."""
+
+Gait = Literal["walk", "sneak"]
+
+
+@dataclass(frozen=True)
+class HoldPlan:
+    """How to hold a key: the gait and the number of ticks."""
+
+    gait: Gait
+    ticks: int
+
+
+def displacement(ticks: int, inertia: float = INERTIA) -> float:
+    """Blocks covered by holding a direction key for ``ticks`` ticks from rest, then coasting; the push is stone's."""
+    covered = velocity = 0.0
+    held = 0
+    while held < ticks or velocity >= STANDSTILL:
+        if held < ticks:
+            velocity += PUSH
+            held += 1
+        covered += velocity
+        velocity *= inertia
+    return covered
+
+
+def walk_response(longest: int) -> tuple[float, ...]:
+    """Blocks covered by walking holds of 1, 2 ... ``longest`` ticks."""
+    return tuple(displacement(ticks) for ticks in range(1, longest + 1))
+
+
+def nearest_ticks(distance: float, response: Sequence[float]) -> int:
+    """The hold, in ticks, that ends nearest ``distance`` blocks away; 0 if standing still is nearest.
+
+    ``response[n - 1]`` is the distance that ``n`` ticks cover; for a longer distance than the last, the last is taken.
+    """
+    ends = [0.0, *response]
+    return min(range(len(ends)), key=lambda ticks: abs(ends[ticks] - distance))
+
+
+def push_of(response: Sequence[float], inertia: float = INERTIA) -> float:
+    """Blocks that a held key adds to each tick's step, for a walker that covers what ``response`` says."""
+    return PUSH * response[-1] / displacement(len(response), inertia)
+
+
+def plan_hold(distance: float, response: Sequence[float], tolerance: float, sneaking: float = SNEAKING) -> HoldPlan:
+    """The walking hold that ends nearest; if that ends outside the tolerance, the nearer of walking and sneaking.
+
+    Sneaking covers ``sneaking`` times as much as walking. The hold is at least one tick long: an agent that has to move
+    must not wait for a smaller step than there is.
+    """
+    walk_ticks = max(1, nearest_ticks(distance, response))
+    walk_error = abs(response[walk_ticks - 1] - distance)
+    if walk_error <= tolerance:
+        return HoldPlan("walk", walk_ticks)
+    sneak_response = [sneaking * covered for covered in response]
+    sneak_ticks = max(1, nearest_ticks(distance, sneak_response))
+    is_sneaking_nearer = abs(sneak_response[sneak_ticks - 1] - distance) < walk_error
+    return HoldPlan("sneak", sneak_ticks) if is_sneaking_nearer else HoldPlan("walk", walk_ticks)

@@ -1,0 +1,28 @@
+"""What the debug screen says, in the game's words."""
+
+from dataclasses import dataclass
+
+Block = tuple[int, int, int]
+
+
+@dataclass(frozen=True)
+class Target:
+    """The block looked at: its position and its id as the screen shows it, each None where it isn't shown."""
+
+    pos: Block | None
+    id: str | None
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What one frame says. A frame that can't be read has no ``xyz``, and ``problem`` says why; nothing is guessed.
+
+    ``xyz`` is the position of the player's feet in blocks at the last tick; ``yaw`` and ``pitch`` are degrees;
+    ``target`` is None when no block is looked at (FACTS: The F3 debug screen).
+    """
+
+    xyz: tuple[float, float, float] | None = None
+    yaw: float | None = None
+    pitch: float | None = None
+    target: Target | None = None
+    problem: str | None = None

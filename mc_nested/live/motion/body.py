@@ -1,0 +1,265 @@
+"""Body: moves the agent by one cell or places one block, each confirmed on the debug screen before it counts.
+
+move:  look where the agent is and where it will stop -> hold the key that ends nearest from there -> look until it is
+       certain where that ends: a tick after the key is up, long before the agent stands still
+place: see the floor ahead -> click, perhaps while still moving -> wait until the debug screen names the new block there
+"""
+
+from collections.abc import Callable, Collection
+
+from mc_nested.arena.rules import Cell, front_of, is_inside
+from mc_nested.errors import NotConfirmedError
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.model.coordinates import GroundVector, cell_at
+from mc_nested.live.model.reading import Block, Target
+from mc_nested.live.motion.click_range import COASTING_CLICK, hits_floor, is_click_right, is_near
+from mc_nested.live.motion.effort import Effort
+from mc_nested.live.motion.locomotion import MIN_RESPONSE_S, Locomotion
+from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver, check_pose
+from mc_nested.live.motion.walk_tracker import CoastingState
+from mc_nested.live.profile.tables import Profile
+
+FAR = 2.0
+"""Blocks: an agent so far from a neighbouring cell did not get there by walking to it."""
+
+
+class Body:
+    """Moves the agent from cell to cell and places blocks, in a closed loop over what the debug screen says.
+
+    Raises (everything): UnreadableError if the debug screen can't be read for the profile's patience; NotConfirmedError
+    if what was asked is not seen in the profile's tries; what the input controller raises.
+    """
+
+    def __init__(self, profile: Profile, connection: GameConnection) -> None:
+        self._arena = profile.marked_arena()
+        self._limits = profile.body
+        self._input_latency_s = profile.walk.input_latency_s
+        self._controller = connection.controller
+        self._clock = connection.devices.clock
+        self._observer = PoseObserver(profile, connection)
+        self._locomotion = Locomotion(profile, connection, self._observer)
+        self.effort = Effort()
+
+    def check_screen(self) -> None:
+        """Check that the debug screen can be read and that the chat is closed; presses nothing."""
+        self._observer.look()
+        self._observer.permit_press()
+
+    def stay_in(self, cell: Cell) -> Cell:
+        """Check that the agent is still in a cell, and return the cell seen; presses nothing."""
+        pose = self._observer.look_and_check()
+        if pose.cell != cell:
+            raise NotConfirmedError(f"the agent left cell {cell} by itself, it is at {pose}: does something push it?")
+        return pose.cell
+
+    def arrive(self, cell: Cell) -> None:
+        """Wait until the agent stands in the middle of a cell, as after a teleport; presses nothing."""
+
+        def has_arrived(pose: PoseEstimate) -> bool:
+            return pose.problem is None and is_near(pose.position, cell, self._limits.tolerance)
+
+        pose = self._observer.watch(has_arrived, self._limits.patience_s)
+        if not has_arrived(pose):
+            raise NotConfirmedError(
+                f"the teleport to cell {cell} was not seen, the agent is at {pose}"
+                f"{f' and {pose.problem}' if pose.problem else ''}: are cheats on, and is this the arena's world?"
+            )
+        self._locomotion.set_standing(pose)
+
+    def move_to(self, cell: Cell, tries_made: int = 0) -> PoseEstimate:
+        """Walk until the agent comes to a stop within the tolerance of a cell's middle; the last pose seen.
+
+        Nothing is pressed if it does so already. ``tries_made`` are the holds that this move has taken before.
+        """
+        state, pose = self._locomotion.follow_to_end(self._observer.look_and_check())
+        for attempt in range(tries_made, self._limits.tries):
+            if self._ends_in(state, cell):
+                break
+            state, pose = self._step(state, pose, cell, attempt)
+        if not self._ends_in(state, cell):
+            raise NotConfirmedError(
+                f"cell {cell} was not reached in {self._limits.tries} tries, the agent is at {pose}: "
+                "is something in the way, the chat or a menu open, or auto-jump on?"
+            )
+        return pose
+
+    def build(self, cell: Cell, built: Collection[Cell], shown_id: str) -> Cell:
+        """Walk to a cell and place a block in front of it; the cell where the block was seen.
+
+        The click goes out while the agent still moves if it is right wherever the agent comes to a stop. The game gets
+        it after the release of the key, in order. So it finds the agent between where it was seen last and its end.
+
+        Args:
+            cell: where to stand.
+            built: the cells that hold a block already.
+            shown_id: the block's id as the debug screen shows it.
+        """
+        front = front_of(cell)
+        block = self._arena.block_of(front)
+        clicked: list[PoseEstimate] = []
+
+        def click_early(pose: PoseEstimate) -> None:
+            if clicked or not self._looks_at_floor(pose, block):
+                return
+            if is_click_right(pose.position, self._locomotion.end_if_late, cell):
+                self._click(0)
+                clicked.append(pose)
+
+        state, pose = self._locomotion.follow_to_end(self._observer.look_and_check())
+        is_there = self._ends_in(state, cell)
+        if not is_there:
+            state, pose = self._step(state, pose, cell, 0, click_early)
+        if not clicked:
+            pose = self.move_to(cell, tries_made=0 if is_there else 1)
+            self.check_front(pose, built, shown_id)
+            return self.place(cell, shown_id, pose)
+        if not hits_floor(state.end, cell):
+            raise NotConfirmedError(
+                f"the agent was carried on while it clicked, past cell {cell}, to {pose}: does something push it?"
+            )
+        is_placed = self._is_placed(cell, block, shown_id)
+        return front if is_placed else self.place(cell, shown_id)
+
+    def check_front(self, pose: PoseEstimate, built: Collection[Cell], shown_id: str) -> None:
+        """Check that the agent looks at what should be there: one of its own blocks in the next cell, or the floor.
+
+        A block too many, or a missing one, is an error whatever its cause. Outside the arena nothing is known.
+        """
+        front = front_of(pose.cell)
+        if not is_inside(front):
+            return
+        x, y, z = block = self._arena.block_of(front)
+        is_built = front in built
+
+        def is_right(seen: PoseEstimate) -> bool:
+            if seen.target is None or seen.target.pos is None:
+                return not is_built
+            return seen.target == Target(block, shown_id) if is_built else seen.target.pos == (x, y - 1, z)
+
+        if not is_right(pose):
+            seen = self._observer.watch(is_right, self._limits.confirm_s)
+            if not is_right(seen):
+                raise NotConfirmedError(
+                    f"{shown_id if is_built else 'only the floor'} should be at {block}, the screen says "
+                    f"{_words(seen.target)}: did somebody else build there?"
+                )
+
+    def check_floor_ahead(self) -> None:
+        """Check that no block is left in front of the cell in which the agent stands; presses nothing."""
+        self.check_front(self._observer.look_and_check(), (), "")
+
+    def place(self, cell: Cell, shown_id: str, pose: PoseEstimate | None = None) -> Cell:
+        """Place a block in front of ``cell``, where the agent stands or stops, and return the cell where it was seen.
+
+        A click goes out only while the agent looks at the floor there, so never onto a block that stands already.
+
+        Args:
+            cell: where the agent stands, or stops, within the tolerance.
+            shown_id: the block's id as the debug screen shows it.
+            pose: what was just seen; None looks first.
+        """
+        front = front_of(cell)
+        block = self._arena.block_of(front)
+        for attempt in range(self._limits.tries):
+            if attempt or pose is None or not self._is_aimed(pose, cell, block):
+                pose = self._aim(cell, block, may_walk=attempt == 0)
+            self._click(attempt)
+            self._wait_for_click()
+            if self._is_placed(cell, block, shown_id):
+                return front
+        raise NotConfirmedError(
+            f"no {shown_id} was seen at {block} after {self._limits.tries} clicks: is the block in the agent's hand?"
+        )
+
+    def _step(
+        self,
+        state: CoastingState,
+        pose: PoseEstimate,
+        cell: Cell,
+        attempt: int,
+        on_look: Callable[[PoseEstimate], None] | None = None,
+    ) -> tuple[CoastingState, PoseEstimate]:
+        """One hold towards a cell: the agent's state after it, and the last pose seen."""
+        self._observer.permit_press()
+        offset = GroundVector(cell[0] - state.end.right, cell[1] - state.end.forward)
+        if max(abs(offset.right), abs(offset.forward)) >= FAR:
+            raise NotConfirmedError(f"cell {cell} is no neighbour of the agent's, it is at {pose}: was it carried off?")
+        self.effort.moves += attempt == 0
+        self.effort.corrections += attempt > 0
+        return self._locomotion.follow_to_end(self._locomotion.walk(state, offset), on_look)
+
+    def _click(self, attempt: int) -> None:
+        self._observer.permit_press()
+        self._controller.click("right")
+        self.effort.clicks += attempt == 0
+        self.effort.second_clicks += attempt > 0
+
+    def _aim(self, cell: Cell, block: Block, *, may_walk: bool) -> PoseEstimate:
+        """Wait until the agent looks at the floor below ``block`` from ``cell``.
+
+        An agent that a late release carried on walks back if it may, which is as long as nothing was clicked.
+        """
+        pose = check_pose(self._observer.watch(lambda seen: self._is_aimed(seen, cell, block), self._limits.confirm_s))
+        if may_walk and not self._may_click(pose, cell):
+            pose = self.move_to(cell)
+        if not self._looks_at_floor(pose, block):
+            raise NotConfirmedError(
+                f"the floor at {_below(block)} must be looked at before placing, the screen says "
+                f"{_words(pose.target)}: is the cell free, and the looked-at block on the debug screen?"
+            )
+        if not self._may_click(pose, cell):
+            raise NotConfirmedError(
+                f"the agent left cell {cell} before placing, it is at {pose}: does something push it?"
+            )
+        return pose
+
+    def _is_aimed(self, pose: PoseEstimate, cell: Cell, block: Block) -> bool:
+        return self._looks_at_floor(pose, block) and self._may_click(pose, cell)
+
+    def _looks_at_floor(self, pose: PoseEstimate, block: Block) -> bool:
+        return pose.target is not None and pose.target.pos == _below(block)
+
+    def _may_click(self, pose: PoseEstimate, cell: Cell) -> bool:
+        """Whether the agent stands or coasts where a click is right, from now until it stops.
+
+        An agent whose position fits no path may still be walking, and only pass by.
+        """
+        state = self._locomotion.coasting_at(pose.position)
+        if state is None:
+            return False
+        return is_near(state.end, cell, self._limits.tolerance) and is_near(pose.position, cell, COASTING_CLICK)
+
+    def _wait_for_click(self) -> None:
+        """Wait until the effect of a click is likely to be seen."""
+        tick_phase = self._observer.tick_phase
+        if tick_phase.is_known:
+            self._observer.wait_for_step(tick_phase.next(self._clock.now() + self._input_latency_s))
+        else:
+            self._controller.wait(MIN_RESPONSE_S)
+
+    def _is_placed(self, cell: Cell, block: Block, shown_id: str) -> bool:
+        """Whether the block is seen in time; another block there, or the agent elsewhere, is an error."""
+        placed = Target(block, shown_id)
+        pose = check_pose(self._observer.watch(lambda pose: pose.target == placed, self._limits.confirm_s))
+        seen = pose.target
+        if seen is not None and seen.pos == block and seen.id != shown_id:
+            raise NotConfirmedError(f"{_words(seen)} was placed, not {shown_id}: correct [blocks] in the profile")
+        if seen != placed:
+            return False
+        self._observer.note_awaited_step()
+        if pose.cell != cell:
+            raise NotConfirmedError(f"the agent left cell {cell} while placing, it is at {pose}")
+        return True
+
+    def _ends_in(self, state: CoastingState, cell: Cell) -> bool:
+        return is_near(state.end, cell, self._limits.tolerance) and cell_at(state.position) == cell
+
+
+def _below(block: Block) -> Block:
+    return block[0], block[1] - 1, block[2]
+
+
+def _words(target: Target | None) -> str:
+    if target is None:
+        return "that no block is looked at"
+    return f"{target.id or 'a block'} at {target.pos or 'an unknown position'}"

@@ -1,0 +1,186 @@
+"""WalkTracker: follows a hold from reading to reading, so that its end is known long before the walker stands still.
+
+In each of a walker's ticks (FACTS: Walking) its velocity grows by the push of a held key, its position moves by the
+velocity, and the velocity is multiplied by the inertia, 0.546 on stone. So from a known position and velocity only few
+positions can be seen later: so many ticks before the key was felt, so many with it, so many coasting. If a position
+matches exactly one of them, to the decimals on the screen, the walker's end is known. If it matches none, or several
+that end apart, nothing is known, and the walker is watched until it stands still.
+"""
+
+import math
+from bisect import bisect_left, bisect_right
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+from mc_nested.live.model.coordinates import GroundVector
+from mc_nested.live.model.kinematics import INERTIA, STANDSTILL
+
+MATCH = 0.0016
+"""Blocks that a position may lie off a path: two roundings to three decimals, and a little."""
+
+AGREE = 0.02
+"""Blocks that the ends of all the path points matching a position may lie apart."""
+
+MORE_TICKS = 3
+"""Ticks that a hold may be felt shorter, and ticks that may pass before it: lateness, not lag."""
+
+LAG_TICKS = 12
+"""Ticks that a hold may be felt longer: in a game that stalls the release comes late (FACTS: Keys; ten at once)."""
+
+
+@dataclass(frozen=True)
+class CoastingState:
+    """A walker with every key up: where it was seen, in cells, and its velocity, the step of the next tick.
+
+    ``inertia`` is the share of a step that is left after a tick.
+    """
+
+    position: GroundVector
+    velocity: GroundVector
+    inertia: float = INERTIA
+
+    @property
+    def end(self) -> GroundVector:
+        """Where the walker comes to a stop."""
+        right, forward = (coasting_distance(speed, self.inertia) for speed in self.velocity)
+        return GroundVector(self.position.right + right, self.position.forward + forward)
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A held key: the axis (0 right, 1 forward), its direction, the ticks, and the push of a tick, in blocks."""
+
+    axis: int
+    sign: int
+    ticks: int
+    push: float
+
+
+class _PathPoint(NamedTuple):
+    """A point of a path: how far from its beginning, where the walker would end, its velocity, and the key.
+
+    ``is_released`` is whether the key is up for good; ``ticks_held`` how many ticks have felt it.
+    """
+
+    covered: float
+    end: float
+    velocity: float
+    is_released: bool
+    ticks_held: int
+
+
+class _Path:
+    """All points along one axis, found by the distance covered."""
+
+    def __init__(self, points: list[_PathPoint]) -> None:
+        self._points = sorted(points)
+        self._covered = [point.covered for point in self._points]
+
+    def matching(self, covered: float) -> list[_PathPoint]:
+        """The points that this distance can mean."""
+        first, last = bisect_left(self._covered, covered - MATCH), bisect_right(self._covered, covered + MATCH)
+        return self._points[first:last]
+
+    def farthest_end(self, ticks_held: int) -> float:
+        """The farthest end of the points where the key is up and at most so many ticks have felt it."""
+        return max(point.end for point in self._points if point.is_released and point.ticks_held <= ticks_held)
+
+
+class WalkTracker:
+    """Knows where a walker can be seen after ``begin``, with one hold or none.
+
+    Args:
+        begin: the walker's position and velocity.
+        hold: the key that is held then; None for no key.
+        inertia: the share of a step that is left after a tick.
+    """
+
+    def __init__(self, begin: CoastingState, hold: Hold | None = None, inertia: float = INERTIA) -> None:
+        self._begin = begin
+        self._hold = hold
+        self._inertia = inertia
+        self._paths = [
+            _hold_path(begin.velocity[axis] * hold.sign, hold.ticks, hold.push, inertia)
+            if hold and hold.axis == axis
+            else _coasting_path(begin.velocity[axis], inertia)
+            for axis in (0, 1)
+        ]
+        self._signs = [hold.sign if hold and hold.axis == axis else 1 for axis in (0, 1)]
+
+    def coasting_at(self, position: GroundVector) -> CoastingState | None:
+        """The state of a walker that is seen there; None if it isn't certain that its keys are up and where it ends."""
+        right, forward = (self._velocity(axis, position[axis]) for axis in (0, 1))
+        if right is None or forward is None:
+            return None
+        return CoastingState(position, GroundVector(right, forward), self._inertia)
+
+    def ticks_held(self, position: GroundVector) -> int | None:
+        """How many ticks have felt the key, for a walker seen there with the key still down; None if not certain."""
+        if self._hold is None:
+            return None
+        axis, sign = self._hold.axis, self._hold.sign
+        points = self._paths[axis].matching((position[axis] - self._begin.position[axis]) * sign)
+        counts = {point.ticks_held for point in points}
+        return counts.pop() if len(counts) == 1 and not any(point.is_released for point in points) else None
+
+    @property
+    def end_if_late(self) -> GroundVector:
+        """Where the walker comes to a stop if it feels the key one tick longer than planned."""
+        right, forward = (
+            self._begin.position[axis]
+            + sign * self._paths[axis].farthest_end(self._hold.ticks + 1 if self._hold else 0)
+            for axis, sign in enumerate(self._signs)
+        )
+        return GroundVector(right, forward)
+
+    def _velocity(self, axis: int, position: float) -> float | None:
+        sign = self._signs[axis]
+        covered = (position - self._begin.position[axis]) * sign
+        points = self._paths[axis].matching(covered)
+        if not points or not all(point.is_released for point in points):
+            return None
+        ends = [point.end for point in points]
+        if max(ends) - min(ends) > AGREE:
+            return None
+        return min(points, key=lambda point: abs(point.covered - covered)).velocity * sign
+
+
+def coasting_distance(velocity: float, inertia: float = INERTIA) -> float:
+    """Blocks that a walker with this velocity still covers until it stops."""
+    if abs(velocity) < STANDSTILL:
+        return 0.0
+    # The steps shrink to the first one below the standstill, which isn't taken.
+    steps = math.floor(math.log(STANDSTILL / abs(velocity)) / math.log(inertia)) + 1
+    return velocity * (1 - inertia**steps) / (1 - inertia)
+
+
+@lru_cache(256)
+def _coasting_path(velocity: float, inertia: float) -> _Path:
+    return _Path(_coasting_points(0.0, velocity, inertia))
+
+
+@lru_cache(64)
+def _hold_path(velocity: float, ticks: int, push: float, inertia: float) -> _Path:
+    """Every point of a hold of about ``ticks`` ticks, of the coasting before it and of the coasting after it."""
+    points: list[_PathPoint] = []
+    for waits, before in enumerate(_coasting_points(0.0, velocity, inertia)[: MORE_TICKS + 1]):
+        covered, speed = before.covered, before.velocity
+        points.append(_PathPoint(covered, covered, speed, False, 0))
+        for held in range(1, ticks + (MORE_TICKS if waits else LAG_TICKS) + 1):
+            step = (speed if abs(speed) >= STANDSTILL else 0.0) + push
+            covered, speed = covered + step, step * inertia
+            points.append(_PathPoint(covered, covered, speed, False, held))
+            if held >= ticks - MORE_TICKS:
+                points += _coasting_points(covered, speed, inertia, held)[1:]
+    return _Path(points)
+
+
+def _coasting_points(covered: float, velocity: float, inertia: float, ticks_held: int = 0) -> list[_PathPoint]:
+    """The points from here on, with the key up, until the walker stands still."""
+    end = covered + coasting_distance(velocity, inertia)
+    points = [_PathPoint(covered, end, velocity, True, ticks_held)]
+    while abs(velocity) >= STANDSTILL:
+        covered, velocity = covered + velocity, velocity * inertia
+        points.append(_PathPoint(covered, end, velocity, True, ticks_held))
+    return points

@@ -1,0 +1,83 @@
+"""The arena's table: where it lies in the world, and which blocks a reset may clear."""
+
+import math
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from mc_nested.arena.rules import SIZE, Cell
+from mc_nested.live.model import coordinates
+from mc_nested.live.model.coordinates import Facing, GroundVector
+from mc_nested.live.model.reading import Block
+
+FILL_LIMIT = 32768
+"""Blocks that one /fill may change (FACTS: Commands)."""
+
+
+class ProfileTable(BaseModel):
+    """A table of a profile: its keys are fixed, unknown ones are refused, and it never changes."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+
+
+class Arena(ProfileTable):
+    """Where the arena lies in the world."""
+
+    origin: Block = Field(
+        description="the block of cell (0, 0), as x, y, z: y is the level of the feet",
+    )
+    facing: Facing = Field(
+        description="the way the agent looks: where the cells' y grows",
+    )
+    marked: tuple[Block, Block] = Field(
+        description="two opposite corners of the blocks that a reset may clear; nothing outside is ever touched"
+    )
+    copied_to: Block | None = Field(
+        default=None,
+        description="the lowest corner of the copy of what stood there before: what calibrate arena --undo puts back",
+    )
+
+    @model_validator(mode="after")
+    def _is_marked(self) -> "Arena":
+        low, high = self.region
+        corners = (self.block_of((0, 0)), self.block_of((SIZE - 1, SIZE - 1)))
+        if any(not low[axis] <= corner[axis] <= high[axis] for corner in corners for axis in range(3)):
+            raise ValueError("the marked blocks don't hold the whole arena: run mc-nested calibrate arena")
+        if low[1] < self.origin[1]:
+            raise ValueError("the marked blocks reach below the feet, into the floor: run mc-nested calibrate arena")
+        if math.prod(high[axis] - low[axis] + 1 for axis in range(3)) > FILL_LIMIT:
+            raise ValueError(
+                f"more than {FILL_LIMIT} blocks are marked, too many for the game to clear at once: mark fewer"
+            )
+        return self
+
+    @classmethod
+    def around(cls, origin: Block, facing: Facing, height: int = 2) -> "Arena":
+        """The arena that starts at ``origin``, marked ``height`` blocks high: 2 is as tall as the player."""
+        x, y, z = coordinates.block_of(origin, facing, (SIZE - 1, SIZE - 1))
+        return cls(origin=origin, facing=facing, marked=(origin, (x, y + height - 1, z)))
+
+    @property
+    def region(self) -> tuple[Block, Block]:
+        """The lowest and the highest corner of the marked blocks, both included."""
+        one, other = self.marked
+        return (
+            (min(one[0], other[0]), min(one[1], other[1]), min(one[2], other[2])),
+            (max(one[0], other[0]), max(one[1], other[1]), max(one[2], other[2])),
+        )
+
+    @property
+    def yaw(self) -> float:
+        """The agent's yaw in degrees."""
+        return coordinates.yaw_of(self.facing)
+
+    def block_of(self, cell: Cell) -> Block:
+        """The block that fills a cell."""
+        return coordinates.block_of(self.origin, self.facing, cell)
+
+    def centre_of(self, cell: Cell) -> tuple[float, float, float]:
+        """Where the agent's feet are in the middle of a cell."""
+        return coordinates.centre_of(self.origin, self.facing, cell)
+
+    def position_of(self, xyz: tuple[float, float, float]) -> GroundVector:
+        """The position ``xyz`` in cells, as (right, forward); whole numbers are the middles of cells."""
+        return coordinates.position_of(self.origin, self.facing, xyz)

@@ -1,0 +1,75 @@
+"""Whether a profile still fits the game: its version, window size and GUI scale are those it was calibrated on."""
+
+import re
+from dataclasses import dataclass
+
+from mc_nested.errors import DesktopError, ProfileError
+from mc_nested.live.profile.tables import CalibratedTable, GameVersion
+
+_TITLE = re.compile(r"Minecraft\*? (\d+\.\d+(?:\.\d+)?)(?:[ -].*)?")
+"""The title of the game's window; a star means a modified game (FACTS: Input and windows)."""
+
+
+@dataclass(frozen=True)
+class Fingerprint:
+    """The game's window: its title, its width and height in framebuffer pixels, and the GUI scale if it is known."""
+
+    title: str
+    window: tuple[int, int]
+    gui_scale: int | None = None
+
+
+def version_in(title: str) -> str | None:
+    """The version in the title of the game's window; None where there is none, as with a modpack."""
+    found = _TITLE.fullmatch(title)
+    return found[1] if found else None
+
+
+def game_in(title: str, otherwise: GameVersion) -> GameVersion:
+    """The version in the title of the game's window, or ``otherwise`` where there is none."""
+    version = version_in(title)
+    return GameVersion(version=version) if version else otherwise
+
+
+def mismatch(calibrated: CalibratedTable, current: Fingerprint, profile: str) -> str | None:
+    """Why a profile of that name no longer fits, with the step to repeat; None if it fits.
+
+    A value that is unknown on either side is not compared.
+    """
+    again = f"mc-nested calibrate all --profile {profile}"
+    version = version_in(current.title)
+    if calibrated.version and version and calibrated.version != version:
+        return (
+            f"profile {profile} was calibrated on Minecraft {calibrated.version}, and this is {version}: "
+            f"start that version, or run {again}"
+        )
+    if calibrated.window and calibrated.window != current.window:
+        return (
+            f"profile {profile} was calibrated in a window of {_size(calibrated.window)} pixels, and this one has "
+            f"{_size(current.window)}: make it that size again, or run {again}"
+        )
+    if calibrated.gui_scale and current.gui_scale and calibrated.gui_scale != current.gui_scale:
+        return (
+            f"profile {profile} was calibrated at GUI scale {calibrated.gui_scale}, and this is {current.gui_scale}: "
+            f"set Video Settings > GUI Scale to {calibrated.gui_scale}, or run {again}"
+        )
+    return None
+
+
+def check_fit(calibrated: CalibratedTable | None, current: Fingerprint, profile: str) -> None:
+    """ProfileError, with the step to repeat, if a profile no longer fits. One that was never calibrated always fits."""
+    if calibrated is not None and (problem := mismatch(calibrated, current, profile)):
+        raise ProfileError(problem)
+
+
+def check_single_player(title: str, *, is_server_allowed: bool) -> None:
+    """DesktopError if the title of the game's window says that others may play there, unless that is allowed."""
+    if "Multiplayer" in title and not is_server_allowed:
+        raise DesktopError(
+            f"the window's title is {title!r}, so others may be playing there: open a world of your own, or allow "
+            "it with --server-allowed"
+        )
+
+
+def _size(size: tuple[int, int]) -> str:
+    return f"{size[0]} x {size[1]}"

@@ -1,0 +1,24 @@
+"""How a profile says that the debug screen is drawn."""
+
+import dataclasses
+
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.layout import VANILLA, Overlay
+from mc_nested.live.vision.layouts import LAYOUTS
+from mc_nested.live.vision.standin import STANDIN
+
+
+def overlay_of(profile: Profile) -> Overlay | None:
+    """The overlay of a profile that names its GUI scale: what else it leaves out is its layout's.
+
+    None where the GUI scale, and with it all the rest, is found on the screen.
+    """
+    screen = profile.screen
+    if screen.gui_scale is None:
+        return None
+    # Before layouts had names, lines 10 dots apart meant the stand-in's, and only its profiles had them.
+    unnamed = STANDIN if screen.line_pitch == STANDIN.pitch else VANILLA
+    layout = LAYOUTS[screen.layout] if screen.layout else unnamed
+    if screen.line_pitch is not None:
+        layout = dataclasses.replace(layout, pitch=screen.line_pitch)
+    return Overlay(screen.gui_scale, layout, screen.text_colour or layout.text_colour)

@@ -1,0 +1,88 @@
+"""Where the debug screen is in a frame: its GUI scale, its colour and its layout.
+
+A line is found by how it begins, its label, never by its row (FACTS: The F3 debug screen). It may stand in either
+column.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from mc_nested.live.devices import Frame
+from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
+from mc_nested.live.vision.layout import Overlay
+from mc_nested.live.vision.layouts import LAYOUTS
+from mc_nested.live.vision.text_colours import INK_SPREAD
+from mc_nested.live.vision.text_lines import is_text, positions_of
+
+SCALES = (4, 3, 2, 1)
+"""The GUI scales that are looked for: the larger, the fewer dots there are to look through."""
+
+POSITION = "XYZ:"
+REDUCED = "Chunk-relative:"
+OTHERS = ("Facing", "Chunk:", "Block:", "Minecraft ", "Looking at", "Targeted ")
+"""How other lines begin: they show that there is a debug screen where its position line can't be seen."""
+
+_LEFT_COLUMN = 120
+"""Columns in which a line of the left column begins: looking there first saves looking through the whole frame."""
+
+_LEAST = 200
+"""Any text is brighter, being 221 at least: the ground behind it is 183 at most (FACTS: The stand-in)."""
+
+
+@dataclass(frozen=True)
+class FoundScreen:
+    """The debug screen in one frame: its dots, how it is drawn, and the label of a line that was found on it."""
+
+    dots: GlyphGrid
+    overlay: Overlay
+    label: str
+
+
+def find_overlay(frame: Frame, font: Font) -> Overlay | None:
+    """How the debug screen is drawn in this frame (height, width, 3); None if there is none that this font reads."""
+    found = find_debug_screen(frame, font)
+    return found.overlay if found else None
+
+
+def find_debug_screen(frame: Frame, font: Font, overlay: Overlay | None = None) -> FoundScreen | None:
+    """Find the debug screen: by its position line if there is one, else by any other line that it begins to show."""
+    scales, least = ((overlay.scale,), _least(overlay)) if overlay else (SCALES, _LEAST)
+    left = [GlyphGrid(frame[:, : _LEFT_COLUMN * scale], scale, least) for scale in scales]
+    whole = [GlyphGrid(frame, scale, least) for scale in scales]
+    for labels in ((POSITION,), (REDUCED, *OTHERS)):
+        for dots in (*left, *whole):
+            for label in labels:
+                if positions := positions_of(dots, font, label):
+                    overlay = overlay or _measured(dots, font, label, positions[0])
+                    return FoundScreen(_line_dots(frame, overlay, positions[0][0]), overlay, label)
+    return None
+
+
+def _line_dots(frame: Frame, overlay: Overlay, row: int) -> GlyphGrid:
+    """The dots to look for lines in, one being known to stand in ``row``."""
+    if overlay.layout.has_one_grid:  # a ninth of the rows to look through
+        return GlyphGrid(frame, overlay.scale, _least(overlay), row % overlay.pitch, overlay.pitch)
+    return GlyphGrid(frame, overlay.scale, _least(overlay))
+
+
+def _least(overlay: Overlay) -> int:
+    return min(overlay.colour) - INK_SPREAD
+
+
+def _measured(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -> Overlay:
+    """The overlay's colour from the ink of a known line, its layout from where the lines beside it stand."""
+    row, column = position
+    glyphs = np.frombuffer(font.columns(label), np.uint8)
+    ink = np.unpackbits(glyphs[np.newaxis], axis=0, bitorder="little").astype(bool)
+    blue, green, red = np.median(dots.strip(row, column, column + len(glyphs))[ink], axis=0).astype(int)
+    colour = (int(red), int(green), int(blue))
+    overlays = [Overlay(dots.scale, layout, colour) for layout in LAYOUTS.values()]
+    return max(overlays, key=lambda overlay: _known_beside(dots, font, overlay, position))
+
+
+def _known_beside(dots: GlyphGrid, font: Font, overlay: Overlay, position: GridPosition) -> int:
+    """How many of the lines just above and below are text at this layout's pitch."""
+    row, column = position
+    return sum(is_text(dots, font, overlay, (near, column)) for near in (row - overlay.pitch, row + overlay.pitch))

@@ -1,0 +1,49 @@
+"""Readings of picture files, as ``mc-nested read`` prints them."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from mc_nested.live.model.reading import Reading
+from mc_nested.live.vision.debug_screen import read_debug_screen
+from mc_nested.live.vision.font import Font, decoded
+from mc_nested.live.vision.layout import Overlay
+
+_JPEG = b"\xff\xd8\xff"
+"""How every JPEG file begins."""
+
+
+def read_picture(path: Path, font: Font, overlay: Overlay | None = None) -> dict[str, object]:
+    """A picture file's reading, ready for JSON: file, xyz, yaw, pitch, target (pos, id), problem; None where absent.
+
+    Without ``overlay`` the GUI scale, the colour and the layout are found. A file that is no picture is a problem too.
+    """
+    reading = _read(path, font, overlay)
+    target = reading.target
+    return {
+        "file": str(path),
+        "xyz": list(reading.xyz) if reading.xyz else None,
+        "yaw": reading.yaw,
+        "pitch": reading.pitch,
+        "target": {"pos": list(target.pos) if target.pos else None, "id": target.id} if target else None,
+        "problem": reading.problem,
+    }
+
+
+def _read(path: Path, font: Font, overlay: Overlay | None) -> Reading:
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        return Reading(
+            problem=f"the file can't be read ({error.strerror or error}): give a picture of the game's window"
+        )
+    picture = decoded(data, cv2.IMREAD_COLOR)
+    if picture is None:
+        return Reading(problem="the file is not a picture: give a PNG of the game's window, as F2 takes it")
+    reading = read_debug_screen(np.asarray(picture, np.uint8), font, overlay)
+    if reading.problem is not None and data.startswith(_JPEG):
+        return Reading(
+            problem=f"a JPEG blurs the text: give a PNG of the game's window, as F2 takes it; {reading.problem}"
+        )
+    return reading

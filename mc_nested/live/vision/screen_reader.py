@@ -1,0 +1,96 @@
+"""Reads one window's debug screen repeatedly, and looks first where the lines of the last reading stood.
+
+Then only the rows of the window that hold these lines are captured, which is faster. If anything differs (a line moved,
+no block is looked at, something lies over the text), the whole window is captured and searched in the same call, so the
+reading is the same either way.
+"""
+
+from dataclasses import dataclass
+
+from mc_nested.live.devices import Display, Region
+from mc_nested.live.model.reading import Reading
+from mc_nested.live.vision.debug_screen import nothing_seen, read_lines, read_position
+from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid, GridPosition
+from mc_nested.live.vision.layout import Overlay
+from mc_nested.live.vision.overlay import POSITION, find_debug_screen
+from mc_nested.live.vision.screen_lines import ScreenLines
+
+
+@dataclass(frozen=True)
+class _Stood:
+    """Where the lines of a reading stood: the part of the window, and each line's position in it by how it begins.
+
+    Lines can stand at each ``pitch``-th row of dots of that part.
+    """
+
+    overlay: Overlay
+    region: Region
+    pitch: int
+    positions: dict[str, list[GridPosition]]
+
+
+class ScreenReader:
+    """Reads the debug screen of a window.
+
+    Args:
+        display: the game's window.
+        font: the font that reads it.
+        overlay: how the debug screen is drawn; without it that is found.
+    """
+
+    def __init__(self, display: Display, font: Font, overlay: Overlay | None = None) -> None:
+        self._display = display
+        self._font = font
+        self._overlay = overlay
+        self._stood: _Stood | None = None
+
+    def read(self) -> Reading:
+        """Take a picture and read it: a Reading as ``read_debug_screen`` gives it."""
+        return (self._stood and self._read_again(self._stood)) or self._read_whole()
+
+    def read_position(self) -> tuple[float, float, float] | None:
+        """Where the player is, from a picture of that line alone; None where it isn't where it stood."""
+        stood = self._stood
+        if stood is None:
+            return None
+        (row, column), scale = stood.positions[POSITION][0], stood.overlay.scale
+        whole = stood.region
+        region = Region(whole.left, whole.top + row * scale, whole.width, (GLYPH_ROWS + 1) * scale)
+        frame = self._display.grab(region)
+        if frame.shape[:2] != (region.height, region.width):
+            return None
+        dots = GlyphGrid(frame, scale, min(stood.overlay.colour), 0, stood.pitch)
+        return read_position(ScreenLines(dots, self._font, stood.overlay, {POSITION: [(0, column)]}))
+
+    def _read_again(self, stood: _Stood) -> Reading | None:
+        frame = self._display.grab(stood.region)
+        if frame.shape[:2] != (stood.region.height, stood.region.width):
+            return None
+        dots = GlyphGrid(frame, stood.overlay.scale, min(stood.overlay.colour), 0, stood.pitch)
+        reading = read_lines(ScreenLines(dots, self._font, stood.overlay, stood.positions))
+        # Only the whole screen tells that no block is looked at: its lines may have moved elsewhere.
+        return reading if reading.target else None
+
+    def _read_whole(self) -> Reading:
+        frame = self._display.grab()
+        self._stood = None
+        found = find_debug_screen(frame, self._font, self._overlay)
+        if found is None:
+            return nothing_seen(self._overlay)
+        lines = ScreenLines(found.dots, self._font, found.overlay)
+        reading = read_lines(lines, found.label)
+        if reading.target:
+            self._stood = _stood(lines)
+        return reading
+
+
+def _stood(lines: ScreenLines) -> _Stood:
+    """Where the lines stood that a reading was taken from, in the rows of dots that hold them all."""
+    dots, positions = lines.dots, lines.positions_seen
+    rows = lines.rows_read.union(row for seen in positions.values() for row, _ in seen)
+    first, behind = min(rows), max(rows) + GLYPH_ROWS + 1
+    height = min(behind * dots.scale, dots.frame.shape[0]) - first * dots.scale
+    region = Region(0, first * dots.scale, dots.frame.shape[1], height)
+    moved = {label: [(row - first, column) for row, column in seen] for label, seen in positions.items()}
+    return _Stood(lines.overlay, region, dots.pitch, moved)

@@ -1,0 +1,127 @@
+"""The block looked at, as each version's debug screen shows it (FACTS: The F3 debug screen).
+
+| version   | position                                        | id                                            |
+| 1.8-1.12  | left, ``Looking at: x y z``                     | right, a line of its own                      |
+| 1.13-1.15 | left, ``Looking at block: x y z``               | right, the line below ``Targeted Block``      |
+| 1.16 on   | either side, ``Targeted Block: x, y, z``        | the line below                                |
+| stand-in  | right, ``Looking at: x y z``                    | right, without namespace, over its properties |
+
+Fluids and entities have labels of their own, ``Targeted Fluid``, ``Looking at liquid`` and ``Targeted Entity``.
+"No block is looked at" is the answer only where no part of a block's lines is seen: the rest may be covered.
+"""
+
+import re
+
+from mc_nested.live.model.reading import Block, Target
+from mc_nested.live.vision.screen_lines import (
+    CLEAR,
+    WHOLE,
+    DebugLines,
+    Unreadable,
+    check_whole,
+    cut_to,
+    matched,
+    only_line,
+    shown,
+)
+from mc_nested.live.vision.standin import check_right_column_is_empty, id_above
+from mc_nested.live.vision.text_lines import UNKNOWN, Line
+
+_BESIDE = rf"(?:[ {UNKNOWN}].*)?"
+"""What is read behind a line's end where the world beside its box has the text's colour."""
+
+_TARGETED_AT = re.compile(rf"(Targeted Block: {WHOLE}, {WHOLE}, {WHOLE}){_BESIDE}")
+_LOOKING_AT = re.compile(rf"(Looking at(?: block)?: {WHOLE} {WHOLE} {WHOLE}){_BESIDE}")
+_NAMESPACED = re.compile(r"([a-z0-9_.-]+):[a-z0-9_./-]+")
+_ID = re.compile(rf"(([a-z0-9_.-]+):[a-z0-9_./-]+){_BESIDE}")
+_ALONE = re.compile(rf"(?:.*{UNKNOWN})?minecraft:(?!overworld|the_)[a-z0-9_./-]+")
+_OTHER_LABEL = re.compile(r"Targeted (?:Fluid|Entity)")
+
+_PARTS = ("Targeted B", "ted Block", "Looking at b", "king at block", "ooking at:", "ing at: ")
+"""Parts of the labels, either half of which may be covered."""
+
+
+def target_block(lines: DebugLines) -> Target | None:
+    """The block looked at, or None. Raises Unreadable if its lines are there, but not to be read for sure."""
+    if targeted := only_line(lines, "Targeted Block"):
+        return _targeted(lines, targeted)
+    looking = only_line(lines, "Looking at block: ") or only_line(lines, "Looking at: ")
+    if looking is None:
+        _check_nothing_hidden(lines)
+        return None
+    position = _position(lines, _LOOKING_AT, looking)
+    if looking.text.startswith("Looking at block"):
+        raise Unreadable(f"the 'Targeted Block' lines of the block looked at can't be seen: {CLEAR}")
+    # In the right column only the stand-in writes it.
+    return Target(position, _id_in_right_column(lines) if looking.is_left else id_above(lines, looking))
+
+
+def _targeted(lines: DebugLines, targeted: Line) -> Target:
+    if targeted.text != "Targeted Block":
+        return Target(_position(lines, _TARGETED_AT, targeted), _id_below(lines, targeted))
+    looking = only_line(lines, "Looking at block: ")
+    if looking is None:
+        raise Unreadable(f"the place of the block looked at can't be seen: {CLEAR}")
+    return Target(_position(lines, _LOOKING_AT, looking), _id_below(lines, targeted))
+
+
+def _position(lines: DebugLines, form: re.Pattern[str], line: Line) -> Block:
+    text, x, y, z = matched(form, line)
+    check_whole(cut_to(lines, line, text))
+    return int(x), int(y), int(z)
+
+
+def _id_below(lines: DebugLines, label: Line) -> str:
+    """1.13 and later: the id stands one line below its label, aligned with it on the column's side."""
+    row = label.row + lines.layout.pitch
+    line = lines.at(row, label.start) if label.is_left else lines.ending(row, label.end)
+    if line is None:
+        raise Unreadable(f"the id below 'Targeted Block' can't be seen: {CLEAR}")
+    return _id_of(lines, line)
+
+
+def _id_in_right_column(lines: DebugLines) -> str:
+    """1.8 to 1.12: a line of its own in the right column, the only one there that has an id's form.
+
+    A mod's id is found by where it ends, since its beginning isn't known.
+    """
+    right = [line for line in lines.starting("minecraft:") if not line.is_left]
+    if not right:
+        right = [line for line in lines.right_column() if _NAMESPACED.fullmatch(line.text)]
+    if len(right) != 1:
+        raise Unreadable(f"{len(right)} lines may be the id of the block looked at: {CLEAR}")
+    return _id_of(lines, right[0])
+
+
+def _id_of(lines: DebugLines, line: Line) -> str:
+    # Bright specks of the world may stand just left of the box, where a glyph could be: the game's own namespace tells
+    # where the id begins, and a part of it that some of it is covered.
+    before = max(0, line.text.rfind("minecraft:"))
+    form = _ID.fullmatch(line.text, before)
+    if form is None or (form[2] != "minecraft" and "minecraft".endswith(form[2])):
+        raise Unreadable(f"the id of the block looked at reads {shown(line.text)}: {CLEAR}")
+    check_whole(cut_to(lines, line, line.text[:before] + form[1]))
+    return form[1]
+
+
+def _check_nothing_hidden(lines: DebugLines) -> None:
+    for part in _PARTS:
+        if lines.holds(part):
+            raise Unreadable(f"of the block looked at only {part.strip()!r} can be seen: {CLEAR}")
+    if lines.layout.has_target_column:
+        check_right_column_is_empty(lines)
+    else:
+        _check_no_id_alone(lines)
+
+
+def _check_no_id_alone(lines: DebugLines) -> None:
+    """An id without the block's label over it: that is covered, or the id is a fluid's or an entity's."""
+    for line in lines.starting("minecraft:"):
+        full, over = lines.ending(line.row, line.end), line.row - lines.layout.pitch
+        if full is None or not _ALONE.fullmatch(full.text):
+            continue
+        above = lines.at(over, line.start) if full.is_left else lines.ending(over, line.end)
+        if above is None or not _OTHER_LABEL.search(above.text):
+            raise Unreadable(f"what {shown(line.text)} belongs to can't be seen: {CLEAR}")
+    if lines.holds("#minecraft:") and not lines.holds("Targeted "):
+        raise Unreadable(f"which block the tags in the right column belong to can't be seen: {CLEAR}")

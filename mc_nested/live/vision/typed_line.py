@@ -1,0 +1,98 @@
+"""The line that is being typed into the chat: whether it is there, and whether it holds a certain text."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.glyph_grid import GLYPH_ROWS
+from mc_nested.live.vision.text_colours import (
+    AQUA,
+    GOLD,
+    GREEN,
+    GREY,
+    INK_SPREAD,
+    LIGHT_PURPLE,
+    PLAIN,
+    RED,
+    YELLOW,
+)
+
+FIRST_COLUMNS = 8
+"""Columns of dots that hold the first character of a line, most being five wide, and its shadow."""
+
+_LEFT, _ABOVE_EDGE = 4, 12
+"""Dots from the window's left side, and from its lower edge up to the line's top (FACTS: Screens and their buttons)."""
+
+_COLOURS = np.array(
+    [colour[::-1] for colour in (PLAIN, GREY, AQUA, YELLOW, GREEN, LIGHT_PURPLE, GOLD, RED)],
+    np.int16,
+)
+"""Blue, green, red of what is typed: plain, and as the parts of a command are coloured from 1.13 on."""
+
+_GROUND = 150
+"""Brighter than anything behind the line, which is half black; some channel of any text is brighter still."""
+
+_LEAST_INK = 3
+
+_LEFT_FREE = 14
+"""Columns that a line which is too long may leave free: those of the two widest letters."""
+
+
+def typed_line_region(size: tuple[int, int], scale: int, columns: int | None = None) -> Region:
+    """Where the line stands in a window (width, height), with a row of dots below it for its shadow.
+
+    From its first letter on: so many ``columns`` of dots, or all of them.
+    """
+    width, height = size
+    top, left = (-(-height // scale) - _ABOVE_EDGE) * scale, _LEFT * scale
+    right = width - left if columns is None else left + columns * scale
+    return Region(left, top, right - left, min((GLYPH_ROWS + 1) * scale, height - top))
+
+
+def typed_line_dots(frame: Frame, scale: int) -> Frame:
+    """The dots of a picture of that region: (9, columns, 3)."""
+    return frame[scale // 2 :: scale, scale // 2 :: scale]
+
+
+def begins_a_line(dots: Frame, font: Font) -> bool:
+    """Whether these dots, ``FIRST_COLUMNS`` of them in a row, show a shadowed letter of what is typed."""
+    shown = dots.astype(np.int16)
+    near = np.abs(shown[:, :, np.newaxis] - _COLOURS).max(3) <= INK_SPREAD
+    ink = near[:-1, :-1]
+    lit = ink.any(2)
+    if int(lit.sum()) < _LEAST_INK:
+        return False
+    shadow = np.abs(shown[1:, 1:, np.newaxis] - (_COLOURS >> 2)).max(3) <= INK_SPREAD
+    casts = (ink & shadow).any(2)
+    if not (casts | near[1:, 1:].any(2))[lit].all():
+        return False
+    columns = np.packbits(lit[:GLYPH_ROWS], axis=0, bitorder="little").tobytes()
+    return any(columns.startswith(glyph + b"\0") for glyph in font.glyphs.values())
+
+
+def reads_as(dots: Frame, text: str, font: Font) -> bool:
+    """Whether these dots, the whole line's, show exactly that text, and nothing behind it but the cursor."""
+    ink = dots[:GLYPH_ROWS].max(2) > _GROUND
+    seen = np.packbits(ink, axis=0, bitorder="little").tobytes()
+    for line in (f"{text}_", text):
+        for shown in _ends(line, len(seen), font):
+            if seen.startswith(shown) and not any(seen[len(shown) :]):
+                return True
+    return False
+
+
+def _ends(line: str, room: int, font: Font) -> Iterator[bytes]:
+    """The columns of a line; of one that is too long for so many of them, those of each end that about fills them.
+
+    The game shows the end of such a line, and leaves room for a letter or two.
+    """
+    for first in range(max(1, len(line))):
+        columns = font.columns(line[first:]).rstrip(b"\0")
+        if len(columns) <= room:
+            if first and len(columns) < room - _LEFT_FREE:
+                return
+            yield columns
+            if not first:
+                return

@@ -1,0 +1,66 @@
+"""Random debug screens and worlds behind them, to test a reader on. The same seed gives the same frames."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mc_nested.live.devices import Frame
+from mc_nested.live.model.reading import Block, Reading, Target
+from mc_nested.live.vision.font import Font
+from sim.client.drawing.f3_layers import paint
+from sim.client.drawing.scenery import WORLDS, random_world
+from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+
+__all__ = ["WINDOWS", "WORLDS", "expected", "frames", "random_screen", "random_world"]
+
+WINDOWS = ((854, 480), (1280, 720), (1366, 768), (1600, 900), (1920, 1080), (2560, 1440))
+"""Widths and heights in pixels, wide enough that the two columns don't overlap."""
+
+_IDS = ("stone", "oak_planks", "oak_log", "grass_block", "dirt", "polished_blackstone_brick_wall", "tnt", "white_wool")
+_PROPERTIES = (("axis", "y"), ("snowy", "false"), ("waterlogged", "true"), ("facing", "north"))
+_TAGS = ("minecraft:planks", "minecraft:mineable/axe", "c:villager_job_sites")
+
+
+def frames(font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS) -> Iterator[tuple[F3Screen, Frame]]:
+    """Endless screens and their frames: each layout, GUI scale 1 to 4 and window in turn, over random kinds of worlds.
+
+    As in the game, a GUI scale that doesn't fit the window becomes the largest that fits (FACTS: The F3 debug screen).
+    """
+    rng = np.random.default_rng(seed)
+    count = 0
+    while True:
+        layout = LAYOUTS[count % len(LAYOUTS)]
+        width, height = windows[(count // len(LAYOUTS)) % len(windows)]
+        scale = min(1 + (count // (len(LAYOUTS) * len(windows))) % 4, width // 320, height // 240)
+        screen = random_screen(rng, layout, scale)
+        yield screen, paint(random_world(rng, WORLDS[int(rng.integers(len(WORLDS)))], width, height), screen, font)
+        count += 1
+
+
+def random_screen(rng: np.random.Generator, layout: Layout, gui_scale: int) -> F3Screen:
+    """A screen with coordinates from near the origin to the world's border, any view, and mostly a target block."""
+    reach = float(rng.choice([16, 1_000, 100_000, 29_999_000]))
+    x, z = (float(value) for value in rng.uniform(-reach, reach, 2))
+    near = tuple(int(value) for value in np.floor((x, rng.uniform(-64, 319), z)) + rng.integers(-4, 5, 3))
+    block: Block = (near[0], near[1], near[2])
+    name = _IDS[int(rng.integers(len(_IDS)))]
+    is_standin, is_old = layout == "standin", layout == "1.8-1.12"
+    return F3Screen(
+        layout,
+        gui_scale,
+        (x, float(rng.uniform(-64, 319)), z),
+        float(rng.uniform(-180, 180)),
+        float(rng.uniform(-90, 90)),
+        target=Target(block, name if is_standin else f"minecraft:{name}") if rng.random() < 0.8 else None,
+        properties=_PROPERTIES[: int(rng.integers(3 if is_standin else 5))],
+        tags=() if is_standin or is_old else _TAGS[: int(rng.integers(len(_TAGS) + 1))],
+        fluid=block if rng.random() < 0.2 else None,
+        swapped=layout == "1.21.9-26.3" and bool(rng.random() < 0.5),
+    )
+
+
+def expected(screen: F3Screen) -> Reading:
+    """What a perfect reader reads: the numbers as shown."""
+    x, y, z = screen.xyz
+    height = round(y, 3 if screen.layout == "standin" else 5)
+    return Reading((round(x, 3), height, round(z, 3)), round(screen.yaw, 1), round(screen.pitch, 1), screen.target)

@@ -1,0 +1,107 @@
+"""Drawn over the world while it is played: crosshair, hotbar, chat (FACTS: Screens and their buttons; Answers)."""
+
+import zlib
+from functools import lru_cache
+
+from sim.client.drawing.layers import Blend, Layer, Rect
+from sim.client.drawing.letters import Letters
+from sim.client.game.chat import ChatLine
+from sim.client.game.colours import Colour
+from sim.client.game.edition import Edition
+from sim.client.game.realm import Stack
+from sim.client.game.view import View
+
+_CHAT_WIDTH = 320
+_PITCH = 9
+_OPAQUE = 8
+_AXES: tuple[Colour, ...] = ((255, 0, 0), (0, 255, 0), (127, 127, 255))
+
+
+class HudLayers:
+    """The layers in a window of a size in GUI pixels; what didn't change is the same layer again."""
+
+    def __init__(self, letters: Letters, gui: tuple[int, int], edition: Edition) -> None:
+        self._letters = letters
+        self._width, self._height = gui
+        self._chat_bottom = self._height - (40 if edition.since(1, 13) else 48)
+        self._crosshair = lru_cache(2)(self._drawn_crosshair)
+        self._hotbar = lru_cache(16)(self._drawn_hotbar)
+        self._line = lru_cache(256)(self._drawn_line)
+        self._wrapped = lru_cache(256)(self._wrap)
+        self._input = lru_cache(16)(self._drawn_input)
+
+    def of(self, view: View) -> list[Layer]:
+        """Crosshair and hotbar."""
+        if not view.hotbar:
+            return []
+        return [*self._crosshair(view.f3 is not None), *self._hotbar(view.hotbar, view.slot)]
+
+    def chat(self, lines: tuple[ChatLine, ...], typed: str | None) -> list[Layer]:
+        """The chat's lines, the newest at the bottom, and the line being typed."""
+        layers: list[Layer] = []
+        row = 0
+        for line in lines:
+            for text in reversed(self._wrapped(line.text)):
+                layers += self._line(text, line.colour, line.opacity, row)
+                row += 1
+        return layers + (self._input(typed) if typed is not None else [])
+
+    def _fill(self, gui: Rect, colour: Colour, alpha: int = 255) -> Blend:
+        scale = self._letters.scale
+        return Blend((gui[0] * scale, gui[1] * scale, gui[2] * scale, gui[3] * scale), colour, alpha)
+
+    def _drawn_crosshair(self, has_axes: bool) -> list[Layer]:
+        x, y = self._width // 2, self._height // 2
+        if not has_axes:
+            white = (230, 230, 230)
+            return [self._fill((x - 4, y, x + 5, y + 1), white), self._fill((x, y - 4, x + 1, y + 5), white)]
+        ends = ((x, y, x + 8, y + 1), (x, y - 8, x + 1, y), (x - 6, y + 1, x, y + 2))
+        return [self._fill(end, colour) for end, colour in zip(ends, _AXES, strict=True)]
+
+    def _drawn_hotbar(self, hotbar: tuple[Stack | None, ...], slot: int) -> list[Layer]:
+        left, top = self._width // 2 - 91, self._height - 22
+        layers: list[Layer] = [self._fill((left, top, left + 182, top + 22), (0, 0, 0), 128)]
+        chosen = left + 20 * slot
+        layers.append(self._fill((chosen - 1, top - 1, chosen + 23, top + 22), (255, 255, 255), 100))
+        for index, stack in enumerate(hotbar):
+            if stack is None:
+                continue
+            x, y = left + 3 + 20 * index, top + 3
+            layers.append(self._fill((x, y, x + 16, y + 16), _icon_colour(stack.block)))
+            if stack.count > 1:
+                count = str(stack.count)
+                left_of_count = x + 17 - self._letters.width(count)
+                layers.append(self._letters.text(count, left_of_count, y + 9, (255, 255, 255), shadow=True))
+        return layers
+
+    def _wrap(self, text: str) -> list[str]:
+        lines = [""]
+        for word in text.split(" "):
+            longer = f"{lines[-1]} {word}" if lines[-1] else word
+            if lines[-1] and self._letters.width(longer) > _CHAT_WIDTH:
+                lines.append(word)
+            else:
+                lines[-1] = longer
+        return lines
+
+    def _drawn_line(self, text: str, colour: Colour, opacity: int, row: int) -> list[Layer]:
+        bottom = self._chat_bottom - _PITCH * row
+        faded = (colour[0] * opacity // _OPAQUE, colour[1] * opacity // _OPAQUE, colour[2] * opacity // _OPAQUE)
+        return [
+            self._fill((0, bottom - _PITCH, _CHAT_WIDTH + 8, bottom), (0, 0, 0), 128 * opacity // _OPAQUE),
+            self._letters.text(text, 4, bottom - _PITCH + 1, faded, shadow=True),
+        ]
+
+    def _drawn_input(self, typed: str) -> list[Layer]:
+        shown = f"{typed}_"
+        while self._letters.width(shown) > self._width - 8:
+            shown = shown[1:]
+        return [
+            self._fill((2, self._height - 14, self._width - 2, self._height - 2), (0, 0, 0), 128),
+            self._letters.text(shown, 4, self._height - 12, (224, 224, 224), shadow=True),
+        ]
+
+
+def _icon_colour(block: str) -> Colour:
+    shade = zlib.crc32(block.encode())
+    return 60 + shade % 120, 60 + (shade >> 8) % 120, 60 + (shade >> 16) % 120

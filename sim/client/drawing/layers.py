@@ -1,0 +1,108 @@
+"""The layers of a picture, from back to front: each covers a rectangle and can draw any part of it.
+
+Positions are in framebuffer pixels, colours are red, green, blue. A layer never changes: to draw something else, make a
+new layer.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from mc_nested.live.devices import Frame
+from sim.client.game.colours import Colour
+
+Rect = tuple[int, int, int, int]
+"""Left, top, right, bottom; the last two are outside."""
+
+
+class Layer(Protocol):
+    """A drawn rectangle."""
+
+    @property
+    def rect(self) -> Rect:
+        """The rectangle it covers, perhaps beyond the window."""
+
+    def draw(self, frame: Frame, part: Rect) -> None:
+        """Draw the part of it in ``part``, a rectangle inside the frame and inside ``rect``."""
+
+
+@dataclass(frozen=True, eq=False)
+class Blend:
+    """A colour over what is behind it; ``alpha`` is out of 255."""
+
+    rect: Rect
+    colour: Colour
+    alpha: int
+
+    def draw(self, frame: Frame, part: Rect) -> None:
+        left, top, right, bottom = part
+        under = frame[top:bottom, left:right]
+        if self.alpha == 255:
+            under[:] = self.colour[::-1]
+        elif len(set(self.colour)) == 1:
+            rest = (255 - self.alpha) / 255
+            under[:] = cv2.convertScaleAbs(under, alpha=rest, beta=self.colour[0] * self.alpha / 255)
+        else:
+            over = np.array(self.colour[::-1], np.uint16) * self.alpha
+            under[:] = (under.astype(np.uint16) * (255 - self.alpha) + over + 127) // 255
+
+
+@dataclass(frozen=True, eq=False)
+class Gradient:
+    """A colour that changes from top to bottom, over what is behind it; each alpha is out of 255."""
+
+    rect: Rect
+    upper: tuple[Colour, int]
+    lower: tuple[Colour, int]
+
+    def draw(self, frame: Frame, part: Rect) -> None:
+        left, top, right, bottom = part
+        down = ((np.arange(top, bottom) - self.rect[1]) / max(1, self.rect[3] - self.rect[1]))[:, None, None]
+        alpha = (self.upper[1] + (self.lower[1] - self.upper[1]) * down) / 255
+        first, last = (np.array(colour[::-1], np.float32) for colour, _ in (self.upper, self.lower))
+        over = first + (last - first) * down
+        under = frame[top:bottom, left:right]
+        under[:] = np.rint(under * (1 - alpha) + over * alpha)
+
+
+@dataclass(frozen=True, eq=False)
+class Ink:
+    """The dots of a text, made when they are first drawn.
+
+    ``dots`` returns two arrays (height, width, 3), blue green red: a mask of 255 where the background shows, and the
+    colours of the dots, 0 elsewhere.
+    """
+
+    rect: Rect
+    dots: Callable[[], tuple[NDArray[np.uint8], NDArray[np.uint8]]]
+
+    def draw(self, frame: Frame, part: Rect) -> None:
+        left, top, right, bottom = part
+        under = frame[top:bottom, left:right]
+        rows = slice(top - self.rect[1], bottom - self.rect[1])
+        columns = slice(left - self.rect[0], right - self.rect[0])
+        keep, ink = self.dots()
+        np.bitwise_and(under, keep[rows, columns], out=under)
+        np.bitwise_or(under, ink[rows, columns], out=under)
+
+
+def intersection(one: Rect, other: Rect) -> Rect | None:
+    """The rectangle that two rectangles share, or None."""
+    left, top = max(one[0], other[0]), max(one[1], other[1])
+    right, bottom = min(one[2], other[2]), min(one[3], other[3])
+    return (left, top, right, bottom) if left < right and top < bottom else None
+
+
+def draw_all(frame: Frame, layers: Sequence[Layer], part: Rect) -> None:
+    """Draw the part of all layers that lies in ``part``, later ones over earlier ones."""
+    left, top, right, bottom = part
+    for layer in layers:
+        from_left, from_top, to_right, to_bottom = layer.rect
+        # Most layers lie elsewhere; finding that out must not cost a call.
+        if from_top < bottom and to_bottom > top and from_left < right and to_right > left:
+            inside = max(left, from_left), max(top, from_top), min(right, to_right), min(bottom, to_bottom)
+            layer.draw(frame, inside)

@@ -1,0 +1,77 @@
+"""The chat: messages that appear and fade, and the line being typed (FACTS: Answers)."""
+
+from collections import deque
+from dataclasses import dataclass
+from itertools import islice
+
+from sim.client.game.colours import RED, WHITE, Colour
+
+LONGEST = 256
+"""Characters that a typed line may have."""
+_LASTS = 200
+"""Ticks that a message stays; in the last tenth of them it fades."""
+_STEPS = 8
+_KEPT, _SHOWN = 100, 10
+
+
+@dataclass(frozen=True)
+class Message:
+    """A message, and the tick in which it came."""
+
+    text: str
+    colour: Colour
+    born: int
+
+
+@dataclass(frozen=True)
+class ChatLine:
+    """A message as it is seen; ``opacity`` is out of 8."""
+
+    text: str
+    colour: Colour
+    opacity: int
+
+
+class VirtualChat:
+    """The messages, and the line being typed; ``typed`` is None while the chat is closed."""
+
+    def __init__(self) -> None:
+        self._messages: deque[Message] = deque(maxlen=_KEPT)
+        self.typed: str | None = None
+        self.is_selected = False
+
+    def say(self, text: str, tick: int, *, is_error: bool = False) -> None:
+        """Add a message."""
+        self._messages.appendleft(Message(text, RED if is_error else WHITE, tick))
+
+    def clear(self) -> None:
+        """Forget every message, as F3+D does."""
+        self._messages.clear()
+
+    def insert(self, text: str) -> None:
+        """Type or paste into the open chat; text beyond LONGEST and unprintable characters are dropped."""
+        before = "" if self.is_selected else self.typed or ""
+        self.typed = (before + "".join(char for char in text if char.isprintable()))[:LONGEST]
+        self.is_selected = False
+
+    def backspace(self) -> None:
+        """Delete the last letter, or what is selected."""
+        self.typed = "" if self.is_selected else (self.typed or "")[:-1]
+        self.is_selected = False
+
+    def lines(self, tick: int) -> tuple[ChatLine, ...]:
+        """The lines that show now, the newest first; with the chat open, older messages too."""
+        if self.typed is not None:
+            newest = islice(self._messages, 2 * _SHOWN)
+            return tuple(ChatLine(message.text, message.colour, _STEPS) for message in newest)
+        seen: list[ChatLine] = []
+        for message in self._messages:
+            opacity = _opacity(tick - message.born)
+            if not opacity or len(seen) == _SHOWN:
+                break
+            seen.append(ChatLine(message.text, message.colour, opacity))
+        return tuple(seen)
+
+
+def _opacity(age: int) -> int:
+    return round(_STEPS * min(1.0, max(0.0, 10 * (1 - age / _LASTS))) ** 2)

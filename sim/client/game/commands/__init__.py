@@ -1,0 +1,1 @@
+"""Chat commands in the syntax of each version, with the game's answers (FACTS: Commands; Answers)."""

@@ -1,0 +1,96 @@
+"""A line typed into the chat: a message, or a command and the game's answer to it (FACTS: Commands; Answers)."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from sim.client.game.commands import blocks, player, regions, rules
+from sim.client.game.commands.words import CommandRefusedError
+from sim.client.game.realm import Realm
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A line in the chat."""
+
+    text: str
+    is_error: bool = False
+
+
+def run(line: str, realm: Realm) -> list[Answer]:
+    """Carry out a line typed into the chat, and return the game's answers."""
+    if not line.startswith("/"):
+        return [Answer(f"<{realm.player_name}> {line}")] if line.strip() else []
+    name, *words = line[1:].split() or [""]
+    command = _COMMANDS.get(name.removeprefix("minecraft:"))
+    # Without cheats, newer versions don't know the command at all.
+    is_hidden = not realm.has_cheats and realm.edition.since(1, 13)
+    if command is None or is_hidden or not _is_known(name, realm):
+        return _unknown(line, realm)
+    try:
+        if not realm.has_cheats:
+            raise CommandRefusedError("You do not have permission to use this command")
+        answer = command(realm, words)
+    except CommandRefusedError as refusal:
+        return [Answer(str(refusal), is_error=True)]
+    except (ValueError, IndexError):
+        return _wrong(line, realm)
+    is_answered = answer and realm.rule("sendCommandFeedback", "send_command_feedback", True)
+    return [Answer(answer)] if is_answered else []
+
+
+def _is_known(name: str, realm: Realm) -> bool:
+    if name in ("item", "replaceitem"):
+        return (name == "item") == realm.edition.since(1, 17)
+    if name == "testforblocks":
+        return not realm.edition.since(1, 13)
+    return True
+
+
+def _unknown(line: str, realm: Realm) -> list[Answer]:
+    edition = realm.edition
+    if not edition.since(1, 13):
+        return [Answer("Unknown command. Try /help for a list of commands", is_error=True)]
+    if not edition.since(1, 14):
+        return [Answer("Unknown command", is_error=True), _here(line)]
+    joint = ". See" if edition.since(1, 21, 9) else ", see"
+    return [Answer(f"Unknown or incomplete command{joint} below for error", is_error=True), _here(line)]
+
+
+def _wrong(line: str, realm: Realm) -> list[Answer]:
+    if not realm.edition.since(1, 13):
+        return [Answer(f"Usage: /{line[1:].split()[0]}", is_error=True)]
+    return [Answer("Incorrect argument for command", is_error=True), _here(line)]
+
+
+def _here(line: str) -> Answer:
+    typed = line[1:]
+    return Answer(f"{'...' if len(typed) > 10 else ''}{typed[-10:]}<--[HERE]", is_error=True)
+
+
+def _execute(realm: Realm, words: list[str]) -> str:
+    def run_words(realm: Realm, words: list[str]) -> str:
+        return _COMMANDS[words[0]](realm, words[1:])
+
+    return regions.execute(realm, words, run_words)
+
+
+_COMMANDS: dict[str, Callable[[Realm, list[str]], str]] = {
+    "tp": player.teleport,
+    "teleport": player.teleport,
+    "fill": blocks.fill,
+    "setblock": blocks.setblock,
+    "gamemode": player.gamemode,
+    "gamerule": rules.gamerule,
+    "time": rules.time,
+    "weather": rules.weather,
+    "difficulty": rules.difficulty,
+    "give": player.give,
+    "clear": player.clear,
+    "item": player.item,
+    "replaceitem": player.replaceitem,
+    "effect": player.effect,
+    "kill": player.kill,
+    "clone": regions.clone,
+    "testforblocks": regions.testforblocks,
+    "execute": _execute,
+}

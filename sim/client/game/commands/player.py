@@ -1,0 +1,100 @@
+"""Commands about the player: where it is, its game mode, and what its hotbar holds."""
+
+import re
+
+from sim.client.game.commands.words import CommandRefusedError, after_player, block_name, coordinate, display_name
+from sim.client.game.realm import SLOTS, Mode, Realm, Stack
+from sim.client.game.world import AIR
+
+_MODES: dict[str, Mode] = {"creative": "creative", "survival": "survival"}
+_SHORT_MODES: dict[str, Mode] = {"0": "survival", "s": "survival", "1": "creative", "c": "creative"}
+
+
+def teleport(realm: Realm, words: list[str]) -> str:
+    """``/tp [player] x y z [yaw pitch]``."""
+    if words and not re.match(r"[-~\d.]", words[0]):
+        words = after_player(realm, words)
+    if len(words) not in (3, 5):
+        raise ValueError("a position, and perhaps a view")
+    player = realm.player
+    x, y, z = (
+        coordinate(word, part, centred=axis != 1)
+        for axis, (word, part) in enumerate(zip(words, player.feet, strict=False))
+    )
+    player.go_to((x, y, z))
+    if len(words) == 5:
+        player.look(coordinate(words[3], player.yaw), coordinate(words[4], player.pitch))
+    shown = (f"{part:.6f}" if realm.edition.since(1, 13) else f"{part:.2f}" for part in (x, y, z))
+    return f"Teleported {realm.player_name} to {', '.join(shown)}"
+
+
+def gamemode(realm: Realm, words: list[str]) -> str:
+    """``/gamemode creative``; before 1.13 also by its number or first letter."""
+    modes = _MODES if realm.edition.since(1, 13) else _MODES | _SHORT_MODES
+    mode = modes.get(words[0])
+    if mode is None:
+        raise ValueError(words[0])
+    realm.player.mode = mode
+    return f"Set own game mode to {mode.capitalize()} Mode"
+
+
+def give(realm: Realm, words: list[str]) -> str:
+    """``/give player block [count]``."""
+    block, *rest = after_player(realm, words)
+    stack = Stack(block_name(realm, block), int(rest[0]) if rest else 1)
+    realm.player.take(stack)
+    return f"Gave {stack.count} [{display_name(stack.block)}] to {realm.player_name}"
+
+
+def clear(realm: Realm, words: list[str]) -> str:
+    """``/clear [player]``."""
+    if words:
+        after_player(realm, words)
+    count = sum(stack.count for stack in realm.player.hotbar if stack)
+    if not count:
+        raise CommandRefusedError(f"No items were found on player {realm.player_name}")
+    realm.player.hotbar[:] = [None] * SLOTS
+    return f"Removed {count} items from player {realm.player_name}"
+
+
+def item(realm: Realm, words: list[str]) -> str:
+    """From 1.17 on: ``/item replace entity @s hotbar.0 with minecraft:stone 64``."""
+    if words[:2] != ["replace", "entity"] or words[4] != "with":
+        raise ValueError(words)
+    after_player(realm, words[2:3])
+    return _replace(realm, words[3], words[5:], "hotbar.")
+
+
+def replaceitem(realm: Realm, words: list[str]) -> str:
+    """Before 1.17: ``/replaceitem entity @s hotbar.0 minecraft:stone 64``; in 1.12 ``slot.hotbar.0``, data behind."""
+    if words[0] != "entity":
+        raise ValueError(words[0])
+    after_player(realm, words[1:2])
+    return _replace(realm, words[2], words[3:], "hotbar." if realm.edition.since(1, 13) else "slot.hotbar.")
+
+
+def effect(realm: Realm, words: list[str]) -> str:
+    """``/effect give player effect``, before 1.13 ``/effect player effect``. It changes nothing here."""
+    if realm.edition.since(1, 13) and words[0] not in ("give", "clear"):
+        raise ValueError(words[0])
+    if words[0] == "clear":
+        return f"Removed every effect from {realm.player_name}"
+    return f"Applied effect {words[2] if words[0] == 'give' else words[1]} to {realm.player_name}"
+
+
+def kill(realm: Realm, words: list[str]) -> str:
+    """``/kill @e[...]``: there are no entities."""
+    if words and words[0].startswith("@e"):
+        raise CommandRefusedError("No entity was found")
+    raise ValueError(realm.player_name)
+
+
+def _replace(realm: Realm, slot: str, words: list[str], prefix: str) -> str:
+    index = int(slot.removeprefix(prefix))
+    if not slot.startswith(prefix) or index not in range(SLOTS):
+        raise ValueError(slot)
+    stack = Stack(block_name(realm, words[0]), int(words[1]) if len(words) > 1 else 1)
+    realm.player.hotbar[index] = None if stack.block == AIR else stack
+    if realm.edition.since(1, 13):
+        return f"Replaced a slot on {realm.player_name} with [{display_name(stack.block)}]"
+    return f"Replaced slot {slot} with {stack.count} * [{display_name(stack.block)}]"

@@ -1,0 +1,305 @@
+"""The game itself, a tick at a time: moving, placing, screens, chat. It knows no pixels and no latencies."""
+
+from collections import deque
+from collections.abc import Callable
+
+from mc_nested.live.model.reading import Target
+from sim.client.game import physics, ray
+from sim.client.game.chat import VirtualChat
+from sim.client.game.commands import chat_line
+from sim.client.game.edition import Edition
+from sim.client.game.f3_text import F3Screen
+from sim.client.game.keys import GameKeys
+from sim.client.game.realm import SLOTS, Realm
+from sim.client.game.screens import DEATH_WAIT, IN_WORLD, Effect, MenuState, ScreenName
+from sim.client.game.view import View
+from sim.client.game.world import AIR, block_of
+
+REPEAT_TICKS = 4
+"""While the right button is held, the game places again every so many ticks (FACTS: Standing, looking, placing)."""
+
+SIGHT = 20.0
+"""Blocks within which the debug screen names a block; before 1.13 only within reach (FACTS: The F3 debug screen)."""
+
+_REACH = {"creative": 5.0, "survival": 4.5}
+_LOADING_TICKS = {"loading": 40, "saving": 20}
+_VOID = 64
+"""Blocks below the floor at which a falling player dies."""
+_TAGS = {"oak_planks": ("minecraft:planks", "minecraft:mineable/axe"), "stone": ("minecraft:mineable/pickaxe",)}
+
+
+class VirtualGame:
+    """A game that one player plays.
+
+    Args:
+        realm: the world, changed as it is played.
+        keys: the key bindings and their state.
+        ground: the floor that the player walks on.
+        shows_target: whether the debug screen names the block looked at; 1.21.9 and later do so only if set.
+        on_leave: called with the realm when the world is saved.
+        on_enter: returns the realm when the world is entered again.
+    """
+
+    def __init__(
+        self,
+        realm: Realm,
+        *,
+        keys: GameKeys | None = None,
+        ground: physics.Ground = physics.STONE,
+        shows_target: bool = True,
+        on_leave: Callable[[Realm], None] = lambda _: None,
+        on_enter: Callable[[Realm], Realm] = lambda realm: realm,
+    ) -> None:
+        self.realm = realm
+        self.keys = keys or GameKeys()
+        self._ground = ground
+        self.chat = VirtualChat()
+        self.screen: ScreenName = "world"
+        self.ticks = 0
+        self.has_f3 = True
+        self.hides_hud = False
+        self.pointer = (-1, -1)
+        self.is_world_chosen = False
+        self.reason = ""
+        self._shows_target = shows_target
+        self._on_leave, self._on_enter = on_leave, on_enter
+        self._since = 0
+        self._use_delay = 0
+        self._sent: deque[str] = deque()
+        self._ghosts: list[tuple[int, tuple[int, int, int]]] = []
+        self._refusals_to_come, self._ghosts_to_come = 0, 0
+        self._rested_at: tuple[int, physics.Vector] | None = None
+        self._looked: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
+
+    @property
+    def edition(self) -> Edition:
+        """The game's version."""
+        return self.realm.edition
+
+    @property
+    def is_in_world(self) -> bool:
+        """Whether a world is being played, whatever screen is over it."""
+        return self.screen in IN_WORLD
+
+    def open(self, screen: ScreenName) -> None:
+        """Show a screen; over the world, it takes the keys."""
+        self.keys.forget()
+        self.chat.typed = "" if screen == "chat" else None
+        self.chat.is_selected = False
+        if screen == "world":
+            self.keys.read_again()
+        self.screen, self._since, self.is_world_chosen = screen, self.ticks, False
+
+    def send(self, line: str) -> None:
+        """Send a line of the chat; the server takes it at the next tick."""
+        self._sent.append(line)
+
+    def do(self, effect: Effect) -> None:
+        """Carry out the effect of a button."""
+        if effect == "resume":
+            self.open("world")
+        elif effect == "leave":
+            self._on_leave(self.realm)
+            self.open("saving")
+        elif effect == "respawn":
+            self._respawn()
+        elif effect == "to_title":
+            self.open("title")
+        elif effect == "to_worlds":
+            self.open("worlds")
+        elif effect == "select_world":
+            self.is_world_chosen = True
+        elif effect in ("enter_world", "enter_selected"):
+            self.open("loading")
+
+    def die(self) -> None:
+        """Kill the player, who loses the hotbar unless the rules keep it."""
+        realm = self.realm
+        if not realm.rule("keepInventory", "keep_inventory", False):
+            realm.player.hotbar[:] = [None] * SLOTS
+        if realm.rule("doImmediateRespawn", "immediate_respawn", False):
+            self._respawn()
+        else:
+            self.open("death")
+
+    def disconnect(self, reason: str) -> None:
+        """Lose the connection; what was built so far is saved."""
+        self._on_leave(self.realm)
+        self.reason = reason
+        self.open("disconnected")
+
+    def knock(self, velocity: physics.Vector) -> None:
+        """Push the player, in blocks a tick."""
+        player = self.realm.player
+        x, y, z = (own + part for own, part in zip(player.velocity, velocity, strict=True))
+        player.velocity, player.on_ground = (x, y, z), False
+
+    def hide_f3(self) -> None:
+        """Switch the debug screen off."""
+        self.has_f3 = False
+
+    def refuse_next(self) -> None:
+        """Refuse one more block that the player places."""
+        self._refusals_to_come += 1
+
+    def expect_ghost(self) -> None:
+        """Place one more block as a ghost: the server takes it back two ticks later."""
+        self._ghosts_to_come += 1
+
+    def tick(self) -> None:
+        """Advance by a twentieth of a second."""
+        self.ticks += 1
+        wait = _LOADING_TICKS.get(self.screen)
+        if wait is not None and self.ticks - self._since >= wait:
+            self._finish_loading()
+        if not self.is_in_world or self.screen == "pause":
+            return
+        self._take_back_ghosts()
+        while self._sent:
+            for answer in chat_line.run(self._sent.popleft(), self.realm):
+                self.chat.say(answer.text, self.ticks, is_error=answer.is_error)
+        if self.screen == "world":
+            self._handle_keys()
+        if self.screen != "death":
+            self._move()
+            if self.realm.player.feet[1] < self.realm.world.floor - _VOID:
+                self.die()
+
+    def view(self) -> View:
+        """What the game shows now."""
+        player = self.realm.player
+        is_ready = self.screen != "death" or self.ticks - self._since >= DEATH_WAIT
+        state = MenuState(self.screen, is_ready, self.is_world_chosen, self.reason)
+        if not self.is_in_world:
+            return View(state, (0, 0, 0), pointer=self.pointer)
+        pointer = (-1, -1) if self.screen == "world" else self.pointer
+        scene = block_of(player.feet)
+        if self.hides_hud:
+            return View(state, scene, pointer=pointer)
+        return View(
+            state,
+            scene,
+            self._f3() if self.has_f3 else None,
+            tuple(player.hotbar),
+            player.slot,
+            self.chat.lines(self.ticks),
+            self.chat.typed,
+            player.mode == "creative",
+            pointer,
+        )
+
+    def target_block(self, reach: float) -> ray.Hit | None:
+        """The block that the player looks at, if it is within ``reach`` blocks."""
+        player, world = self.realm.player, self.realm.world
+        now = (player.feet, player.yaw, player.pitch, player.is_sneaking, world.revision)
+        if self._looked[0] != now:
+            self._looked = (now, ray.cast(self.realm.eye(), player.yaw, player.pitch, SIGHT, world.is_solid))
+        hit = self._looked[1]
+        return hit if hit is not None and hit.distance <= reach else None
+
+    def reach(self) -> float:
+        """Blocks from the eye within which blocks can be placed."""
+        return _REACH[self.realm.player.mode]
+
+    def _finish_loading(self) -> None:
+        if self.screen == "saving":
+            self.open("title")
+            return
+        self.realm = self._on_enter(self.realm)
+        self.chat = VirtualChat()
+        self.open("world")
+
+    def _respawn(self) -> None:
+        self.realm.player.go_to(self.realm.spawn)
+        self.realm.player.look(0.0, 0.0)
+        self.open("world")
+
+    def _handle_keys(self) -> None:
+        """Handle keys in order: the hotbar, attacks, uses, a held use, the inventory; the chat last."""
+        keys, player = self.keys, self.realm.player
+        self._use_delay = max(0, self._use_delay - 1)
+        target = self.target_block(self.reach())
+        for slot in range(SLOTS):
+            if keys.presses(f"hotbar.{slot}"):
+                player.slot = slot
+        if keys.presses("drop"):
+            player.hotbar[player.slot] = None
+        if keys.presses("attack") and target is not None and player.mode == "creative":
+            self.realm.world.put(target.block, AIR)
+        for _ in range(keys.presses("use")):
+            self._use(target)
+        if keys.is_held("use") and not self._use_delay:
+            self._use(target)
+        if keys.presses("inventory"):
+            self.open("inventory")
+        elif keys.presses("chat"):
+            self.open("chat")
+        elif keys.presses("command"):
+            self.open("chat")
+            self.chat.insert("/")
+
+    def _use(self, target: ray.Hit | None) -> None:
+        """Right-click: place the block in hand, unless the game refuses (FACTS: Standing, looking, placing)."""
+        self._use_delay = REPEAT_TICKS
+        player, world = self.realm.player, self.realm.world
+        stack = player.hotbar[player.slot]
+        if target is None or stack is None or world.block_at(target.before) != AIR:
+            return
+        if physics.overlaps(player.feet, self.realm.size()[0], target.before):
+            return
+        if self._refusals_to_come:
+            self._refusals_to_come -= 1
+            return
+        world.put(target.before, stack.block)
+        player.use_one()
+        if self._ghosts_to_come:
+            self._ghosts_to_come -= 1
+            self._ghosts.append((self.ticks + 2, target.before))
+
+    def _take_back_ghosts(self) -> None:
+        for due, block in [ghost for ghost in self._ghosts if ghost[0] <= self.ticks]:
+            self.realm.world.put(block, AIR)
+            self._ghosts.remove((due, block))
+
+    def _move(self) -> None:
+        keys, player, world = self.keys, self.realm.player, self.realm.world
+        player.is_sneaking = keys.is_held("sneak")
+        forward = keys.is_held("forward") - keys.is_held("back")
+        left = keys.is_held("left") - keys.is_held("right")
+        is_pushed = forward or left or keys.is_held("jump")
+        rests = player.on_ground and max(abs(player.velocity[0]), abs(player.velocity[2])) < physics.STANDSTILL
+        if rests and not is_pushed and self._rested_at == (world.revision, player.feet):
+            return
+        if keys.is_held("jump") and player.on_ground:
+            player.velocity = (player.velocity[0], physics.JUMP, player.velocity[2])
+        push = physics.wish(forward, left, "sneak" if player.is_sneaking else "walk", player.yaw)
+        before = player.feet
+        player.feet, player.velocity, player.on_ground = physics.step(
+            before,
+            player.velocity,
+            push,
+            self.realm.size()[0],
+            world.is_solid,
+            on_ground=player.on_ground,
+            ground=self._ground,
+            sneaks=player.is_sneaking,
+        )
+        # A player at rest on the ground stays there until a key or the world changes.
+        self._rested_at = (world.revision, before) if player.on_ground and player.feet == before else None
+
+    def _f3(self) -> F3Screen:
+        realm = self.realm
+        player, edition = realm.player, self.edition
+        hit = self.target_block(SIGHT if edition.since(1, 13) else self.reach()) if self._shows_target else None
+        name = realm.world.block_at(hit.block) if hit else ""
+        return F3Screen(
+            edition.layout,
+            1,
+            player.feet,
+            (player.yaw + 180.0) % 360.0 - 180.0,
+            player.pitch,
+            target=Target(hit.block, edition.shown_id(name)) if hit else None,
+            tags=_TAGS.get(name, ()) if edition.since(1, 13) else (),
+            reduced=realm.rule("reducedDebugInfo", "reduced_debug_info", False),
+            version=edition.version,
+        )

@@ -1,0 +1,91 @@
+"""What a saved world holds and commands can change: the blocks, the player, the game rules."""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from sim.client.game.edition import Edition
+from sim.client.game.physics import AT_REST, Vector
+from sim.client.game.world import VirtualWorld
+
+Mode = Literal["creative", "survival"]
+
+SLOTS = 9
+STANDING = (1.8, 1.62)
+"""Height of the player and of the eyes, in blocks (FACTS: Standing, looking, placing)."""
+
+
+@dataclass(frozen=True)
+class Stack:
+    """Some blocks of one kind, the name without namespace."""
+
+    block: str
+    count: int
+
+
+@dataclass
+class Player:
+    """The player: position, view, motion and hotbar, in blocks, degrees and blocks a tick."""
+
+    feet: Vector
+    yaw: float = 0.0
+    pitch: float = 0.0
+    velocity: Vector = AT_REST
+    on_ground: bool = True
+    is_sneaking: bool = False
+    mode: Mode = "creative"
+    slot: int = 0
+    hotbar: list[Stack | None] = field(default_factory=lambda: [None] * SLOTS)
+
+    def look(self, yaw: float, pitch: float) -> None:
+        """Turn to a view in degrees; the pitch stops at straight up and down."""
+        self.yaw, self.pitch = yaw, min(90.0, max(-90.0, pitch))
+
+    def go_to(self, feet: Vector) -> None:
+        """Be at a position at once, standing still."""
+        self.feet, self.velocity = feet, AT_REST
+
+    def use_one(self) -> None:
+        """Remove one block from the hand; in creative mode it never runs out."""
+        stack = self.hotbar[self.slot]
+        if self.mode == "survival" and stack is not None:
+            self.hotbar[self.slot] = Stack(stack.block, stack.count - 1) if stack.count > 1 else None
+
+    def take(self, stack: Stack) -> bool:
+        """Add blocks to the hotbar, to the same kind or in the first free slot; whether they fit."""
+        for slot, there in enumerate(self.hotbar):
+            if there is not None and there.block == stack.block and there.count + stack.count <= 64:
+                self.hotbar[slot] = Stack(stack.block, there.count + stack.count)
+                return True
+        if None not in self.hotbar:
+            return False
+        self.hotbar[self.hotbar.index(None)] = stack
+        return True
+
+
+@dataclass
+class Realm:
+    """A world with its player and its rules."""
+
+    edition: Edition
+    world: VirtualWorld
+    player: Player
+    player_name: str = "Player"
+    has_cheats: bool = True
+    spawn: Vector = (0.5, 64.0, 0.5)
+    rules: dict[str, str] = field(default_factory=dict)
+    day_time: int = 6000
+    view_distance: int = 10
+    """Chunks around the player's own that are loaded."""
+
+    def rule(self, older: str, newer: str, default: bool) -> bool:
+        """Whether a rule is on, given its name before 1.21.11 and its name since (FACTS: Commands)."""
+        return self.rules.get(newer if self.edition.since(1, 21, 11) else older, str(default).lower()) == "true"
+
+    def size(self) -> tuple[float, float]:
+        """The player's height and that of the eyes, in blocks."""
+        return self.edition.sneaking_height() if self.player.is_sneaking else STANDING
+
+    def eye(self) -> Vector:
+        """The position that the player looks from."""
+        x, y, z = self.player.feet
+        return x, y + self.size()[1], z

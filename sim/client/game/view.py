@@ -1,0 +1,28 @@
+"""What the game shows at one moment, before anything is drawn."""
+
+from dataclasses import dataclass
+
+from mc_nested.live.model.reading import Block
+from sim.client.game.chat import ChatLine
+from sim.client.game.f3_text import F3Screen
+from sim.client.game.realm import Stack
+from sim.client.game.screens import MenuState
+
+
+@dataclass(frozen=True)
+class View:
+    """One moment. ``f3`` is None while the debug screen is off, ``typed`` while the chat is closed.
+
+    ``scene`` is the block that the player is in: the world behind shifts with it. ``pointer`` is the mouse in GUI
+    pixels where a menu is open.
+    """
+
+    menu: MenuState
+    scene: Block
+    f3: F3Screen | None = None
+    hotbar: tuple[Stack | None, ...] = ()
+    slot: int = 0
+    chat: tuple[ChatLine, ...] = ()
+    typed: str | None = None
+    is_creative: bool = True
+    pointer: tuple[int, int] = (-1, -1)

@@ -1,0 +1,71 @@
+"""The virtual world: an endless floor, and the blocks that differ from it."""
+
+import itertools
+import math
+from collections.abc import Mapping
+
+from mc_nested.live.model.reading import Block
+
+AIR = "air"
+
+
+class VirtualWorld:
+    """Blocks by name, without namespace. Below ``floor`` everything is the floor's block; above is air.
+
+    Args:
+        floor: the height of the floor's top, on which the feet stand.
+        floor_block: what the floor is made of.
+    """
+
+    def __init__(self, floor: int, floor_block: str) -> None:
+        self.floor = floor
+        self.floor_block = floor_block
+        self._changed: dict[Block, str] = {}
+        self.revision = 0
+        """Increases with every change."""
+
+    def block_at(self, block: Block) -> str:
+        """The name of the block at a position; ``AIR`` where there is none."""
+        return self._changed.get(block) or self._natural(block)
+
+    def is_solid(self, x: int, y: int, z: int) -> bool:
+        """Whether the block there stops players and views."""
+        changed = self._changed.get((x, y, z)) if self._changed else None
+        return y < self.floor if changed is None else changed != AIR
+
+    def put(self, block: Block, name: str) -> bool:
+        """Put a block there, or air; whether that changed anything."""
+        if self.block_at(block) == name:
+            return False
+        self.revision += 1
+        if name == self._natural(block):
+            del self._changed[block]
+        else:
+            self._changed[block] = name
+        return True
+
+    def fill(self, low: Block, high: Block, name: str) -> int:
+        """Put a block everywhere between two corners, which are included; how many changed."""
+        sides = [range(min(one, other), max(one, other) + 1) for one, other in zip(low, high, strict=True)]
+        if name == AIR and sides[1][0] >= self.floor:
+            # Clearing above the floor, as every reset does: only what stands there can change.
+            there = [block for block in self._changed if all(block[axis] in sides[axis] for axis in range(3))]
+            return sum(self.put(block, name) for block in there)
+        return sum(self.put((x, y, z), name) for x, y, z in itertools.product(*sides))
+
+    def built(self) -> dict[Block, str]:
+        """What differs from the bare floor: names by position, ``AIR`` where some of the floor is missing."""
+        return dict(self._changed)
+
+    def restore(self, built: Mapping[Block, str]) -> None:
+        """Restore what ``built`` returned."""
+        self._changed = dict(built)
+        self.revision += 1
+
+    def _natural(self, block: Block) -> str:
+        return self.floor_block if block[1] < self.floor else AIR
+
+
+def block_of(point: tuple[float, float, float]) -> Block:
+    """The block that a point lies in."""
+    return math.floor(point[0]), math.floor(point[1]), math.floor(point[2])

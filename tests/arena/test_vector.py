@@ -1,0 +1,61 @@
+"""ArenaVectorEnv: its games say whether episodes can be saved half-way; gymnasium's wrappers fit over it."""
+
+import numpy as np
+from gymnasium.wrappers.vector import RecordEpisodeStatistics
+
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.game import Game, Resumable
+from mc_nested.arena.rules import Action
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arena.single import SingleAgentVectorEnv
+from mc_nested.arena.vector import ArenaVectorEnv, resumable_arenas
+from sim.grid import GridGame, GridVectorEnv
+
+LINE = load_scenario("line")
+
+
+class StartsOver(GridGame):
+    @property
+    def resumable(self) -> Resumable | None:
+        return None
+
+
+def arenas(*games: Game) -> ArenaVectorEnv:
+    return ArenaVectorEnv([ArenaEnv(game, LINE) for game in games])
+
+
+def test_arenas_can_be_resumed_if_every_game_can() -> None:
+    both, one = arenas(GridGame(LINE), GridGame(LINE)), arenas(GridGame(LINE), StartsOver(LINE))
+    assert both.resumable is both
+    assert one.resumable is None
+    assert resumable_arenas(SingleAgentVectorEnv(one, [LINE] * 2)) is None
+    single = SingleAgentVectorEnv(both, [LINE] * 2)
+    assert resumable_arenas(single) is single
+
+
+def test_a_restored_episode_goes_on_to_its_end_as_it_did_before() -> None:
+    env = arenas(GridGame(LINE), GridGame(LINE))
+    env.reset(options={"material": np.array([0, 1])})
+    random = np.random.default_rng(2)
+    for _ in range(9):
+        env.step(random.integers(0, 8, 2))
+    kept, placed = env.snapshot(), env.placed(1)
+    ahead = random.integers(0, 8, (60, 2))
+
+    def played() -> list[object]:
+        return [[part.tolist() for part in step[:4]] + [step[4]["score"].tolist()] for step in map(env.step, ahead)]
+
+    first = played()
+    env.reset()
+    env.restore(kept)
+    assert env.placed(1) == placed
+    assert played() == first
+    assert first[-1][3] == [True, True] or first[-1][2] == [True, True]  # type: ignore[index]  # both have ended
+
+
+def test_gymnasiums_wrappers_fit_over_it_and_start_their_episodes_over() -> None:
+    for env in (arenas(GridGame(LINE)), GridVectorEnv([LINE])):
+        wrapped = RecordEpisodeStatistics(env)
+        wrapped.reset()
+        assert wrapped.step(np.array([Action.BD]))[0].tolist() == [[7, 13, 10]]
+        assert resumable_arenas(wrapped) is None

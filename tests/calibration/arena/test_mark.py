@@ -1,0 +1,302 @@
+"""Marking the arena: where the corner lies for every stand and facing, what is asked, and what leaves no trace.
+
+The debug screen's own reading is tested in tests/live; here one is drawn with a made-up font, as a game would show it.
+"""
+
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from calibration.arena.mark import NEAR_MIDDLE, arena_from_reading, mark_arena, mark_question
+from mc_nested.arena.rules import SIZE, Cell
+from mc_nested.errors import DesktopError, ProfileError, UserError
+from mc_nested.live.devices import Devices, Frame, Region
+from mc_nested.live.model.coordinates import Facing, centre_of, yaw_of
+from mc_nested.live.model.reading import Block, Reading
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.store import load_profile
+from mc_nested.live.vision.font import Font, load_font
+from sim.client.desktop.clipboard import VirtualClipboard
+
+Open = Callable[[str], AbstractContextManager[Devices]]
+
+FACINGS: list[Facing] = ["north", "south", "west", "east"]
+CELLS = st.tuples(st.integers(0, SIZE - 1), st.integers(0, SIZE - 1))
+BLOCKS = st.tuples(st.integers(-30000, 30000), st.integers(-60, 300), st.integers(-30000, 30000))
+WITHIN = st.floats(-0.45, 0.45)
+
+
+@given(BLOCKS, st.sampled_from(FACINGS), CELLS, WITHIN, WITHIN, st.floats(-19.9, 19.9))
+def test_the_arena_is_the_one_that_the_player_stands_in(
+    origin: Block, facing: Facing, standing: Cell, east: float, south: float, turned: float
+) -> None:
+    x, y, z = centre_of(origin, facing, standing)
+    yaw = (yaw_of(facing) + turned + 180) % 360 - 180
+    arena = arena_from_reading(Reading((x + east, y, z + south), yaw, 30.0), standing)
+    assert (arena.origin, arena.facing) == (origin, facing)
+
+
+def test_a_player_at_the_near_edge_has_the_arena_before_and_beside_them() -> None:
+    # Facing south, +Z is ahead and west, -X, to the right (FACTS: The F3 debug screen).
+    arena = arena_from_reading(Reading((100.5, 64.0, 200.5), 0.0, 30.0), NEAR_MIDDLE)
+    assert arena.region == ((93, 64, 200), (107, 65, 214))
+
+
+@pytest.mark.parametrize(
+    ("yaw", "message"),
+    [
+        (40.0, "turn 40 degrees to the left to face south"),
+        (50.0, "turn 40 degrees to the right to face west"),
+        (-150.0, "turn 30 degrees to the left to face north"),
+        (-60.0, "turn 30 degrees to the left to face east"),
+        (-120.0, "turn 30 degrees to the right to face east"),
+    ],
+)
+def test_a_view_between_two_axes_is_told_how_to_turn(yaw: float, message: str) -> None:
+    with pytest.raises(UserError, match=message):
+        arena_from_reading(Reading((0.5, 64.0, 0.5), yaw, 30.0), NEAR_MIDDLE)
+
+
+@pytest.mark.parametrize("height", [64.5, 63.9375, 64.42])
+def test_feet_off_a_whole_blocks_top_mark_nothing(height: float) -> None:
+    with pytest.raises(UserError, match="top of a whole block"):
+        arena_from_reading(Reading((0.5, height, 0.5), 0.0, 30.0), NEAR_MIDDLE)
+
+
+def test_the_question_names_the_corners_and_that_nobody_knows_what_stands_there() -> None:
+    question = mark_question(Arena.around((10, 64, -20), "north"))
+    assert "(10, 64, -34) to (24, 65, -20)" in question
+    assert "15 x 15 x 2 high" in question
+    assert "not known" in question
+
+
+class SkippingClock:
+    """Time that passes only when somebody waits."""
+
+    def __init__(self) -> None:
+        self.time = 50.0
+
+    def now(self) -> float:
+        return self.time
+
+    def sleep_until(self, at: float) -> None:
+        self.time = max(self.time, at)
+
+
+class DrawnDisplay:
+    """A window that shows one picture, in front after so many looks."""
+
+    def __init__(
+        self, frame: Frame, looks_until_front: int = 0, title: str = "Minecraft 1.20.1 - Singleplayer"
+    ) -> None:
+        self.frame = frame
+        self.name = title
+        self.looks_left = looks_until_front
+
+    def size(self) -> tuple[int, int]:
+        return self.frame.shape[1], self.frame.shape[0]
+
+    def title(self) -> str:
+        return self.name
+
+    def is_in_front(self) -> bool:
+        self.looks_left -= 1
+        return self.looks_left < 0
+
+    def grab(self, region: Region | None = None) -> Frame:
+        assert region is None
+        return self.frame
+
+
+class NoInput:
+    """A keyboard and mouse that this calibration must not touch."""
+
+    def press(self, key: str) -> None:
+        raise AssertionError(key)
+
+    release = type = press
+
+    def position(self) -> tuple[int, int]:
+        raise AssertionError
+
+    def move(self, x: int, y: int) -> None:
+        raise AssertionError((x, y))
+
+
+BLANK = np.zeros((8, 8, 3), np.uint8)
+
+
+@pytest.fixture
+def font_file(tmp_path: Path) -> Path:
+    """A made-up font: each character's code drawn as two columns of dots beside a stroke."""
+    atlas = np.zeros((128, 128, 4), np.uint8)
+    for code in range(ord("!"), ord("~") + 1):
+        top, left = code // 16 * 8, code % 16 * 8
+        for column, bits in enumerate((0b1111111, (code & 15) << 1 | 1, (code >> 4) << 1 | 0b1000001)):
+            for row in range(7):
+                atlas[top + row, left + column] = 255 * (bits >> row & 1)
+    file = tmp_path / "ascii.png"
+    file.write_bytes(cv2.imencode(".png", atlas)[1].tobytes())
+    return file
+
+
+def debug_screen(font: Font, lines: list[str]) -> Frame:
+    """A screen of 854 x 480 at GUI scale 2 with the debug screen's left column (FACTS: The F3 debug screen)."""
+    dots = np.full((240, 427), 120.0)
+    for index, text in enumerate(lines):
+        columns = np.frombuffer(font.columns(text), np.uint8)
+        top = 2 + 9 * index
+        box = dots[top - 1 : top + 8, 1 : 2 + len(columns) + 1]
+        box[:] = (0x90 * 0x50 + (255 - 0x90) * box) / 255
+        inked = (columns[None, :] >> np.arange(8)[:, None] & 1).astype(bool)
+        dots[top : top + 8, 2 : 2 + len(columns)][inked] = 224
+    picture = dots.round().astype(np.uint8).repeat(2, 0).repeat(2, 1)
+    return np.ascontiguousarray(picture[:, : 427 * 2, None].repeat(3, 2))
+
+
+SCREEN = [
+    "Minecraft 1.20.1 (1.20.1/vanilla)",
+    "XYZ: -3.412 / 64.00000 / 118.633",
+    "Block: -4 64 118 [12 0 6]",
+    "Facing: west (Towards negative X) (97.3 / 12.0)",
+]
+
+
+def window_titled(name: str, font_file: Path) -> Open:
+    @contextmanager
+    def open_devices(title: str) -> Iterator[Devices]:
+        assert title
+        frame = debug_screen(load_font(font_file), SCREEN)
+        yield Devices(DrawnDisplay(frame, title=name), NoInput(), NoInput(), SkippingClock(), VirtualClipboard())
+
+    return open_devices
+
+
+@pytest.fixture
+def opened(font_file: Path) -> Open:
+    return window_titled("Minecraft 1.20.1 - Singleplayer", font_file)
+
+
+def test_the_arena_that_the_screen_shows_is_written_into_a_new_profile(
+    tmp_path: Path, font_file: Path, opened: Open
+) -> None:
+    file = tmp_path / "mine.toml"
+    questions: list[str] = []
+    told: list[str] = []
+
+    def agree(question: str) -> bool:
+        questions.append(question)
+        return True
+
+    assert mark_arena(file, ask=agree, say=told.append, font=font_file, open_devices=opened) == file
+    profile = load_profile(file)
+    # Facing west from block (-4, 64, 118): the right hand is north, so cell (0, 0) is 7 to the south.
+    assert profile.marked_arena() == Arena.around((-4, 64, 125), "west")
+    assert profile.screen.font_path() == font_file
+    assert profile.body.pitch == 65.0
+    assert len(questions) == 1
+    assert "near edge" in told[0]
+
+
+OLD = """# my own notes
+[keys]
+forward = "z"
+
+[arena]
+origin = [1, 2, 3]
+facing = "east"
+marked = [[1, 2, 3], [15, 3, 17]]
+"""
+
+
+@pytest.fixture
+def old_profile(tmp_path: Path, font_file: Path) -> Path:
+    file = tmp_path / "old.toml"
+    file.write_text(OLD + f'[screen]\nfont = "{font_file.as_posix()}"\n', "utf-8")
+    return file
+
+
+def test_an_old_profile_keeps_what_else_it_says(old_profile: Path, opened: Open) -> None:
+    mark_arena(old_profile, ask=lambda _: True, say=lambda _: None, open_devices=opened)
+    profile = load_profile(old_profile)
+    assert (profile.marked_arena().facing, profile.keys.forward) == ("west", "z")
+    assert old_profile.read_text("utf-8").startswith("# my own notes")
+
+
+def test_the_cell_that_the_player_stands_on_may_be_another(old_profile: Path, opened: Open) -> None:
+    mark_arena(old_profile, ask=lambda _: True, say=lambda _: None, standing=(7, 14), open_devices=opened)
+    assert load_profile(old_profile).marked_arena().block_of((7, 14)) == (-4, 64, 118)
+
+
+@pytest.mark.parametrize(
+    ("title", "version"),
+    [
+        ("Minecraft 1.12.2", "1.12.2"),
+        ("Minecraft 1.20.1 - Singleplayer", "1.20.1"),
+        ("Minecraft* 26.1 - Multiplayer (LAN)", "26.1"),
+        ("Minecraft 1.21.11-rc1", "1.21.11"),
+        ("Prismarine Web Client - Chromium", "1.16.5"),
+        ("Minecraft: All the Mods 9", "1.16.5"),
+    ],
+)
+def test_the_version_is_the_titles_or_stays(title: str, version: str, old_profile: Path, font_file: Path) -> None:
+    old_profile.write_text(old_profile.read_text("utf-8") + '[game]\nversion = "1.16.5"\n', "utf-8")
+    window = window_titled(title, font_file)
+    mark_arena(old_profile, ask=lambda _: True, say=lambda _: None, open_devices=window)
+    assert load_profile(old_profile).game.version == version
+
+
+def test_with_yes_nothing_is_asked(old_profile: Path, opened: Open) -> None:
+    def ask(question: str) -> bool:
+        raise AssertionError(question)
+
+    assert mark_arena(old_profile, ask=ask, say=lambda _: None, yes=True, open_devices=opened) == old_profile
+
+
+def test_a_no_leaves_the_profile_as_it_was(old_profile: Path, opened: Open) -> None:
+    before = old_profile.read_bytes()
+    assert mark_arena(old_profile, ask=lambda _: False, say=lambda _: None, open_devices=opened) is None
+    assert old_profile.read_bytes() == before
+
+
+@pytest.mark.parametrize("stage", ["say", "ask"])
+def test_ctrl_c_leaves_the_profile_as_it_was(stage: str, old_profile: Path, opened: Open) -> None:
+    before = old_profile.read_bytes()
+
+    def reached(at: str) -> bool:
+        if at == stage:
+            raise KeyboardInterrupt
+        return True
+
+    def say(_: str) -> None:
+        reached("say")
+
+    with pytest.raises(KeyboardInterrupt):
+        mark_arena(old_profile, ask=lambda _: reached("ask"), say=say, open_devices=opened)
+    assert old_profile.read_bytes() == before
+    assert list(old_profile.parent.glob("old.toml?*")) == []
+
+
+def refused(title: str) -> AbstractContextManager[Devices]:
+    raise DesktopError(f"no window's title matches {title!r}")
+
+
+def test_what_is_wrong_is_told_before_a_window_is_looked_for(tmp_path: Path, font_file: Path) -> None:
+    broken = tmp_path / "broken.toml"
+    broken.write_text("[arena\n", "utf-8")
+    for file, standing, font, error, message in (
+        (broken, NEAR_MIDDLE, font_file, ProfileError, "not TOML"),
+        (tmp_path / "new.toml", (15, 0), font_file, UserError, "outside the arena"),
+        (tmp_path / "new.toml", NEAR_MIDDLE, None, ProfileError, "font"),
+        (tmp_path / "new.toml", NEAR_MIDDLE, font_file, DesktopError, "no window"),
+    ):
+        with pytest.raises(error, match=message):
+            mark_arena(file, ask=lambda _: True, say=lambda _: None, standing=standing, font=font, open_devices=refused)
+    assert broken.read_text("utf-8") == "[arena\n"
+    assert not (tmp_path / "new.toml").exists()

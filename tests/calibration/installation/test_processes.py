@@ -1,0 +1,97 @@
+"""Which games run where: told by a command line or a working folder, and never taken for closed where nobody knows."""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from calibration.installation.processes import Process, folders_played, may_have_open, running_processes
+
+PLAIN = "/usr/lib/jvm/java-17/bin/java -Xmx2G -cp libs net.minecraft.client.main.Main"
+PRISM = "/usr/bin/java -jar /usr/share/prismlauncher/NewLaunch.jar org.prismlauncher.EntryPoint"
+
+
+@pytest.fixture
+def games(tmp_path: Path) -> tuple[Path, Path]:
+    """Two game folders, one with a space in its name."""
+    folders = tmp_path / ".minecraft", tmp_path / "My Pack" / "minecraft"
+    for folder in folders:
+        folder.mkdir(parents=True)
+    return folders
+
+
+def test_a_game_holds_the_folder_that_its_command_line_names(games: tuple[Path, Path]) -> None:
+    here, there = games
+    for line in (f"{PLAIN} --gameDir {there} --assetsDir /a", f'"javaw.exe" net.minecraft.Main --gameDir "{there}"'):
+        game = Process(line, folder=here)
+        assert may_have_open(game, there)
+        assert not may_have_open(game, here)
+        assert folders_played([game]) == [there]
+
+
+def test_a_game_that_names_no_folder_holds_the_one_that_it_runs_in(games: tuple[Path, Path]) -> None:
+    here, there = games
+    game = Process(PRISM, folder=there)
+    assert may_have_open(game, there)
+    assert not may_have_open(game, here)
+    assert folders_played([game]) == [there]
+
+
+def test_a_game_of_which_nothing_is_known_may_hold_any_folder_and_is_played_in_none(games: tuple[Path, Path]) -> None:
+    game = Process(PRISM)
+    assert all(may_have_open(game, folder) for folder in games)
+    assert folders_played([game]) == []
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "/usr/bin/java -jar jenkins.war",
+        "vim /home/ada/.minecraft/options.txt",
+        "grep -r minecraft javadoc",
+        "/opt/Minecraft Launcher/minecraft-launcher",
+        "",
+    ],
+)
+def test_other_programs_hold_nothing(command: str, games: tuple[Path, Path]) -> None:
+    assert not may_have_open(Process(command, folder=games[0]), games[0])
+    assert folders_played([Process(command, folder=games[0])]) == []
+
+
+def test_what_linux_tells_of_its_processes_is_read(tmp_path: Path, games: tuple[Path, Path]) -> None:
+    for number, words in ((7, PLAIN.split()), (8, ["bash"]), (9, [])):
+        (tmp_path / "proc" / str(number)).mkdir(parents=True)
+        (tmp_path / "proc" / str(number) / "cmdline").write_bytes(b"".join(word.encode() + b"\0" for word in words))
+    (tmp_path / "proc" / "7" / "cwd").symlink_to(games[1])
+    (tmp_path / "proc" / "10").mkdir()  # ended since it was listed
+    (tmp_path / "proc" / "meminfo").write_text("no process", "utf-8")
+    found = running_processes("linux", tmp_path / "proc")
+    assert found is not None
+    assert {(each.command, each.folder) for each in found} == {("", None), ("bash", None), (PLAIN, games[1])}
+    assert folders_played(found) == [games[1]]
+
+
+def test_a_system_that_tells_nothing_is_not_taken_for_one_without_games(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert running_processes("linux", tmp_path / "proc") is None
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert running_processes("windows") is None
+
+
+if sys.platform.startswith("linux"):
+
+    def test_this_process_is_among_those_that_run() -> None:
+        found = running_processes("linux")
+        assert found
+        assert any(each.folder == Path(os.path.realpath(".")) and "pytest" in each.command for each in found)
+
+
+if shutil.which("ps"):
+
+    def test_a_mac_is_asked_for_its_processes_in_the_way_that_works_here_too() -> None:
+        found = running_processes("macos")
+        assert found
+        assert any("pytest" in each.command for each in found)

@@ -1,0 +1,106 @@
+"""The acceptance test on the virtual client: what it builds is really there, and every error is noticed."""
+
+import dataclasses
+from pathlib import Path
+
+import cv2
+import pytest
+
+from calibration.acceptance_test import ACTIONS, SCENARIO, run_acceptance_test
+from calibration.context import CalibrationContext
+from mc_nested.arena import rules
+from mc_nested.arena.rules import Action, Cell
+from mc_nested.errors import LiveError
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.tables import BlocksTable, GameVersion, KeysTable, Profile, ScreenTable
+from sim.client.client import VirtualClient
+from sim.client.drawing.font import drawn_atlas
+from tests.calibration.contexts import context_over
+from tests.sim.client.playing import arena_of
+
+
+@pytest.fixture(scope="module")
+def font(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("font") / "ascii.png"
+    assert cv2.imwrite(str(path), drawn_atlas())
+    return path
+
+
+def context_of(client: VirtualClient) -> CalibrationContext:
+    return context_over(client)
+
+
+def profile_of(client: VirtualClient, font: Path) -> Profile:
+    version = GameVersion(version=client.settings.version)
+    return Profile(game=version, arena=arena_of(client), screen=ScreenTable(font=str(font)))
+
+
+def test_its_actions_are_the_eight_and_fill_the_design_by_the_rules() -> None:
+    assert sorted(ACTIONS) == list(Action)
+    cell, placed = SCENARIO.start, set[Cell]()
+    for action in ACTIONS:
+        target = rules.moved(cell, action, placed)
+        assert target != cell, "each of them moves"
+        landing = rules.landing(target, action, placed)
+        assert (landing is not None) == (action in rules.PLACES)
+        placed |= {landing} if landing else set()
+        cell = target
+    assert (cell, frozenset(placed)) == (SCENARIO.start, SCENARIO.design)
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
+def test_a_good_profile_is_proven_and_the_arena_left_empty(version: str, font: Path) -> None:
+    client = VirtualClient(version=version)
+    found = run_acceptance_test(context_of(client), profile_of(client, font))
+    assert found.lines[0] == "8 actions, 4 blocks: each where it should be"
+    assert (found.samples, len(found.pictures)) == (8, 1)
+    assert client.built == {}
+    assert not client.window.down
+
+
+class Witness:
+    """A window that notes, whenever it is looked at, which cells truly hold a block."""
+
+    def __init__(self, client: VirtualClient, arena: Arena) -> None:
+        self.seen: set[Cell] = set()
+        self._client, self._arena = client, arena
+
+    def size(self) -> tuple[int, int]:
+        return self._client.display.size()
+
+    def title(self) -> str:
+        return self._client.display.title()
+
+    def is_in_front(self) -> bool:
+        return self._client.display.is_in_front()
+
+    def grab(self, region: Region | None = None) -> Frame:
+        self.seen |= self._client.placed(self._arena)
+        return self._client.display.grab(region)
+
+
+def test_the_blocks_are_truly_there_before_they_are_cleared(font: Path) -> None:
+    client = VirtualClient()
+    profile = profile_of(client, font)
+    witness = Witness(client, profile.marked_arena())
+    context = context_of(client)
+    devices = dataclasses.replace(context.devices, display=witness)
+    seen = dataclasses.replace(context, connection=GameConnection(devices, context.controller))
+    run_acceptance_test(seen, profile)
+    assert witness.seen == SCENARIO.design
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"keys": KeysTable(left="d", right="a")},
+        {"blocks": BlocksTable(shown_prefix="")},
+    ],
+)
+def test_a_profile_that_is_wrong_is_not_proven(wrong: dict[str, object], font: Path) -> None:
+    client = VirtualClient()
+    with pytest.raises(LiveError):
+        run_acceptance_test(context_of(client), profile_of(client, font).model_copy(update=wrong))
+    assert not client.window.down

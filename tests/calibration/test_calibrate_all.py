@@ -1,0 +1,337 @@
+"""The guided run on virtual clients: what is written, and that nothing is written if anything goes wrong."""
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from calibration.arena.build import build_arena
+from calibration.arena.undo import undo_built_arena
+from calibration.calibrate_all import GATES, CalibrationResult, calibrate_all
+from calibration.context import CalibrationContext, ReportPicture, StepResult
+from calibration.doctor.check import Check, CheckName
+from calibration.registry import registered_steps
+from calibration.report.kept import kept_folder, load_kept
+from calibration.runner import CalibrationStep, StepFunction
+from mc_nested.errors import DesktopError, LiveError, McNestedError, NotConfirmedError, ProfileError, UserError
+from mc_nested.live.profile.store import earlier_path, load_profile, save_profile
+from mc_nested.live.profile.tables import CalibratedTable, KeysTable, Profile, ScreenTable
+from mc_nested.live.vision.chat_region import without_chat
+from scripts.bench_calibration import context_opener_for, doctor_for, write_font
+from sim.client.client import VirtualClient
+from tests.calibration.contexts import SPANISH
+
+DAY = "2026-11-21"
+
+
+class ProgressLog:
+    """Notes which steps began and were skipped."""
+
+    def __init__(self) -> None:
+        self.begun: list[str] = []
+        self.passed: list[str] = []
+        self.rows: Sequence[Check] = ()
+
+    def doctor_done(self, checks: Sequence[Check]) -> None:
+        self.rows = checks
+
+    def begin(self, name: str, number: int, of: int) -> None:
+        self.begun.append(f"{name} {number}/{of}")
+
+    def end(self, result: StepResult, seconds: float) -> None:
+        assert result
+        assert seconds >= 0
+
+    def skip(self, reason: str, seconds: float) -> None:
+        assert seconds >= 0
+        self.passed.append(reason)
+
+
+def all_pass(_name: str) -> list[Check]:
+    return [Check(name, "pass", "") for name in CheckName]
+
+
+def swapped(context: CalibrationContext, profile: Profile) -> StepResult:
+    frame = context.devices.display.grab()
+    keys = KeysTable(left="d", right="a")
+    return StepResult(
+        "walk", profile.model_copy(update={"keys": keys}), ("swapped",), 8, (ReportPicture("seen", frame),)
+    )
+
+
+def broken(context: CalibrationContext, _profile: Profile) -> StepResult:
+    context.controller.confirm_screen("world")
+    context.controller.press(context.devices.clock.now() + 2, "w")
+    raise NotConfirmedError("it did not go as it should")
+
+
+def stopped(context: CalibrationContext, profile: Profile) -> StepResult:
+    with pytest.raises(NotConfirmedError):
+        broken(context, profile)
+    raise KeyboardInterrupt
+
+
+@pytest.fixture
+def client() -> VirtualClient:
+    client = VirtualClient(pitch=40.0)
+    client.clock.sleep(0.3)
+    return client
+
+
+@pytest.fixture
+def profile(tmp_path: Path) -> Path:
+    """A profile that was there before."""
+    path = tmp_path / "mine.toml"
+    save_profile(Profile(screen=ScreenTable(font=str(write_font(tmp_path)))), path)
+    return path
+
+
+def run(
+    client: VirtualClient, profile: Path, *steps: CalibrationStep, progress: ProgressLog | None = None
+) -> CalibrationResult:
+    return calibrate_all(str(profile), context_opener_for(client), all_pass, steps, progress or ProgressLog(), DAY)
+
+
+def test_the_profile_is_written_with_what_it_was_calibrated_on(client: VirtualClient, profile: Path) -> None:
+    before = profile.read_bytes()
+    result = run(client, profile, CalibrationStep("walk", swapped))
+    written = load_profile(profile)
+    assert written == result.run.profile
+    assert written.keys.left == "d"
+    assert written.game.version == "1.20.1"
+    assert written.calibrated == CalibratedTable(
+        date=DAY, version="1.20.1", window=(854, 480), gui_scale=2, samples={"walk": 8}
+    )
+    assert earlier_path(profile).read_bytes() == before
+
+
+def test_what_was_seen_lies_beside_it(client: VirtualClient, profile: Path) -> None:
+    run(client, profile, CalibrationStep("walk", swapped))
+    kept = load_kept(profile)
+    assert [(step.step, step.lines, step.date) for step in kept.steps] == [("walk", ("swapped",), DAY)]
+    assert [check.name for check in kept.checks] == list(CheckName)
+    assert kept.steps[0].pictures[0].frame.shape == (480, 854, 3)
+
+
+@pytest.mark.parametrize("row", sorted(GATES))
+def test_a_row_that_all_the_rest_needs_ends_it_with_its_own_remedy(
+    row: CheckName, client: VirtualClient, profile: Path
+) -> None:
+    before = profile.read_bytes()
+    rows = [
+        Check(row, "fail", "this is wrong", "do that") if name == row else Check(name, "pass", "") for name in CheckName
+    ]
+    progress = ProgressLog()
+    with pytest.raises(DesktopError, match=f"^{row}: this is wrong: do that$"):
+        calibrate_all(
+            str(profile), context_opener_for(client), lambda _: rows, [CalibrationStep("walk", swapped)], progress, DAY
+        )
+    assert progress.rows == (), "what fails is said once, by the error"
+    assert progress.begun == []
+    assert profile.read_bytes() == before
+
+
+def test_the_gates_are_rows_that_there_are() -> None:
+    assert set(CheckName) >= GATES
+
+
+def test_rows_that_a_step_may_mend_do_not_end_it(client: VirtualClient, profile: Path) -> None:
+    rows = [Check(name, "pass" if name in GATES else "fail", "") for name in CheckName]
+    calibrate_all(
+        str(profile), context_opener_for(client), lambda _: rows, [CalibrationStep("walk", swapped)], ProgressLog(), DAY
+    )
+    assert load_profile(profile).calibrated is not None
+
+
+@pytest.mark.parametrize("last", [broken, stopped])
+def test_however_it_ends_early_the_profile_is_as_it_was_and_no_key_is_down(
+    last: object, client: VirtualClient, profile: Path
+) -> None:
+    before = profile.read_bytes()
+    assert callable(last)
+    with pytest.raises((LiveError, KeyboardInterrupt)):
+        run(client, profile, CalibrationStep("walk", swapped), CalibrationStep("proof", last))
+    assert profile.read_bytes() == before
+    assert not kept_folder(profile).exists()
+    assert not earlier_path(profile).exists()
+    assert not client.window.down
+
+
+def test_a_game_that_others_may_share_is_refused_before_any_step(
+    client: VirtualClient, profile: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
+    progress = ProgressLog()
+    with pytest.raises(DesktopError, match=r"others may be playing there.*--server-allowed"):
+        run(client, profile, CalibrationStep("walk", swapped), progress=progress)
+    assert progress.begun == []
+    assert client.built == {}
+
+
+@pytest.mark.parametrize("name", ["dir.toml", "file/mine.toml"])
+def test_a_place_that_no_profile_can_be_written_to_is_said_before_the_window_is_looked_for(
+    name: str, client: VirtualClient, tmp_path: Path
+) -> None:
+    (tmp_path / "dir.toml").mkdir()
+    (tmp_path / "file").write_text("", "utf-8")
+    progress = ProgressLog()
+    with pytest.raises(ProfileError, match="--profile"):
+        run(client, tmp_path / name, CalibrationStep("walk", swapped), progress=progress)
+    assert progress.rows == (), "not even the doctor has looked"
+    assert progress.begun == []
+
+
+def test_what_can_not_be_kept_for_the_report_does_not_end_it(client: VirtualClient, profile: Path) -> None:
+    kept_folder(profile).write_text("no folder", "utf-8")
+    run(client, profile, CalibrationStep("walk", swapped))
+    assert load_profile(profile).keys.left == "d"
+
+
+@pytest.mark.parametrize("standing", [(99, 99), (-1, 0), (15, 0)])
+def test_a_cell_outside_the_arena_is_refused_before_anything(standing: tuple[int, int]) -> None:
+    with pytest.raises(UserError, match="outside the arena"):
+        registered_steps(standing=standing)
+
+
+@pytest.mark.parametrize("last", [broken, stopped])
+def test_ended_after_the_arena_was_built_it_says_how_to_undo_that_and_can(last: StepFunction, tmp_path: Path) -> None:
+    client = VirtualClient()
+    client.realm.world.put((3, 64, 6), "stone")
+    before, file = client.built, tmp_path / "new.toml"
+    arena = CalibrationStep("arena", partial(build_arena, path=file))
+    font = Profile(screen=ScreenTable(font=str(write_font(tmp_path))))
+    with pytest.raises((LiveError, KeyboardInterrupt)) as ended:
+        run(
+            client,
+            file,
+            CalibrationStep("font", lambda _context, _profile: StepResult("font", font, (), 0)),
+            arena,
+            CalibrationStep("walk", last),
+        )
+    if isinstance(ended.value, LiveError):
+        assert str(ended.value).endswith(f"mc-nested calibrate arena --undo --profile {file}")
+    assert not file.exists()
+    assert client.built != before
+    undo_built_arena(str(file), context_opener_for(client))
+    assert client.built == before
+    assert list(tmp_path.glob("new*")) == []
+
+
+def test_a_window_made_another_size_midway_is_one_line(client: VirtualClient, profile: Path) -> None:
+    def resized(context: CalibrationContext, profile: Profile) -> StepResult:
+        client.resize((1280, 720))
+        return swapped(context, profile)
+
+    before = profile.read_bytes()
+    with pytest.raises(DesktopError, match="walk: the window was 854 x 480 pixels and is 1280 x 720"):
+        run(client, profile, CalibrationStep("walk", resized))
+    assert profile.read_bytes() == before
+
+
+def test_a_step_that_was_passed_over_has_no_samples(client: VirtualClient, profile: Path) -> None:
+    progress = ProgressLog()
+    result = run(
+        client,
+        profile,
+        CalibrationStep("walk", swapped),
+        CalibrationStep("clicks", broken, is_needed=False),
+        progress=progress,
+    )
+    assert progress.begun == ["walk 1/2", "clicks 2/2"]
+    assert progress.passed == ["it did not go as it should"]
+    assert result.run.skipped == {"clicks": "it did not go as it should"}
+    assert result.run.profile.calibrated is not None
+    assert result.run.profile.calibrated.samples == {"walk": 8}
+
+
+def test_menus_in_another_language_cost_their_points_and_are_said_to(profile: Path) -> None:
+    client = VirtualClient(words=SPANISH, pitch=40.0)
+    client.clock.sleep(0.3)
+    clicks = next(step for step in registered_steps() if step.name == "clicks")
+    result = run(client, profile, CalibrationStep("walk", swapped), clicks)
+    assert result.run.skipped["clicks"].startswith("no button was found; the Game Menu: no English label")
+    assert load_profile(profile).points == {}
+    assert client.game.screen == "world"
+
+
+def all_of_it(client: VirtualClient, folder: Path) -> CalibrationResult:
+    font = write_font(folder)
+    examined = doctor_for(client, folder)
+    return calibrate_all(
+        str(folder / "new.toml"), context_opener_for(client), examined, registered_steps(font), ProgressLog(), DAY
+    )
+
+
+@pytest.mark.slow
+def test_from_nothing_to_a_proven_profile_without_a_hand(tmp_path: Path) -> None:
+    client = VirtualClient(seed=5, version="1.21.9", size=(1000, 700), scale=0, pitch=35.0, yaw=-86.0, swaps_sides=True)
+    began = client.clock.now()
+    result = all_of_it(client, tmp_path)
+    assert client.clock.now() - began < 300
+    assert result.run.skipped == {}
+    written = load_profile(result.path)
+    assert (written.keys.left, written.keys.right) == ("d", "a")
+    assert written.marked_arena().facing == "east"
+    assert set(written.points) == {
+        *("back_to_game", "save_and_quit_to_title", "singleplayer", "world", "play_selected_world")
+    }
+    assert [step.step for step in load_kept(result.path).steps] == [
+        *("font", "arena", "walk", "clicks", "cross-check", "proof")
+    ]
+    assert not [check for check in result.checks if check.status == "fail"]
+    pictures = [picture.frame for found in result.run.results for picture in found.pictures]
+    whole_window = [frame for frame in pictures if frame.shape[:2] == (700, 1000)]
+    assert len(whole_window) == 3
+    for frame in whole_window:
+        assert np.array_equal(frame, without_chat(frame, client.scale)), "nothing that was said is on a picture"
+    assert not client.window.down
+    assert not client.window.strays
+
+
+class Troublemaker(ProgressLog):
+    """Lets something happen soon after a step has begun."""
+
+    def __init__(self, client: VirtualClient, step: str, what: str) -> None:
+        super().__init__()
+        self._client, self._step, self._what = client, step, what
+
+    def begin(self, name: str, number: int, of: int) -> None:
+        super().begin(name, number, of)
+        if name == self._step:
+            self._client.clock.call_at(self._client.clock.now() + 0.15, self._happen)
+
+    def _happen(self) -> None:
+        if self._what == "Ctrl+C":
+            raise KeyboardInterrupt
+        if self._what == "another window":
+            self._client.set_front(is_in_front=False)
+        else:
+            self._client.resize((1024, 768))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("step", "what"),
+    [
+        *(("font", "Ctrl+C"), ("arena", "Ctrl+C"), ("walk", "Ctrl+C"), ("clicks", "Ctrl+C"), ("proof", "Ctrl+C")),
+        *(
+            ("walk", "another window"),
+            ("proof", "another window"),
+            ("font", "another size"),
+            ("clicks", "another size"),
+        ),
+    ],
+)
+def test_whatever_happens_midway_nothing_is_written_and_no_key_stays_down(step: str, what: str, tmp_path: Path) -> None:
+    client = VirtualClient(seed=7, pitch=35.0)
+    progress = Troublemaker(client, step, what)
+    steps, examined = registered_steps(write_font(tmp_path)), doctor_for(client, tmp_path)
+    with pytest.raises((McNestedError, KeyboardInterrupt)) as ended:
+        calibrate_all(str(tmp_path / "new.toml"), context_opener_for(client), examined, steps, progress, DAY)
+    assert "\n" not in str(ended.value)
+    assert progress.begun[-1].startswith(step), "it ended where that happened"
+    assert list(tmp_path.glob("new*")) == []
+    assert not client.window.down
+    assert not client.window.strays

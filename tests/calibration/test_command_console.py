@@ -1,0 +1,159 @@
+"""Commands typed into a virtual client's chat, and what is watched for on its debug screen."""
+
+from pathlib import Path
+
+import pytest
+
+from calibration.command_console import COMMANDS_PER_CLEAR, TRIES, CommandConsole
+from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
+from mc_nested.live.menus.chat import Chat
+from mc_nested.live.profile.tables import Profile
+from sim.client.client import VirtualClient
+from tests.calibration.contexts import context_over, profile_in, started
+
+
+class CountingConsole(CommandConsole):
+    """Counts how often the chat is cleared, and after how many commands."""
+
+    def __init__(self, client: VirtualClient, profile: Profile) -> None:
+        super().__init__(context_over(client).connection.for_profile(profile), profile)
+        self.sent = 0
+        self.cleared_after: list[int] = []
+
+    def send(self, command: str) -> None:
+        super().send(command)
+        self.sent += 1
+
+    def clear(self) -> None:
+        self.cleared_after.append(self.sent)
+        super().clear()
+
+
+@pytest.fixture
+def client() -> VirtualClient:
+    return started(VirtualClient())
+
+
+@pytest.fixture
+def console(client: VirtualClient, tmp_path: Path) -> CountingConsole:
+    return CountingConsole(client, profile_in(tmp_path))
+
+
+def test_a_command_takes_effect_and_its_effect_is_seen(client: VirtualClient, console: CountingConsole) -> None:
+    console.send("/tp @s 3.5 64 5.5 90 30")
+    reading = console.watch(lambda seen: seen.pitch == 30.0, 1.0)
+    assert reading is not None
+    assert (reading.xyz, reading.yaw) == ((3.5, 64.0, 5.5), 90.0)
+    assert client.game.screen == "world"
+    assert not client.window.down
+
+
+def test_the_chat_is_cleared_before_every_sixth_command(console: CountingConsole) -> None:
+    for _ in range(2 * COMMANDS_PER_CLEAR + 1):
+        console.send("/time set 6000")
+    assert console.cleared_after == [COMMANDS_PER_CLEAR, 2 * COMMANDS_PER_CLEAR]
+
+
+def test_clearing_leaves_the_debug_screen_on(client: VirtualClient, console: CountingConsole) -> None:
+    client.game.chat.say("half a screen of words", client.game.ticks)
+    began = client.clock.now()
+    console.clear()
+    assert client.clock.now() - began < 1
+    assert client.game.has_f3
+    assert not client.window.down
+    assert client.game.screen == "world"
+
+
+def test_the_chat_is_cleared_by_d_while_the_debug_key_is_held(client: VirtualClient, console: CountingConsole) -> None:
+    events: list[tuple[str, str, float]] = []
+    press, release, began = client.keyboard.press, client.keyboard.release, client.clock.now()
+
+    def pressed(key: str) -> None:
+        events.append(("down", key, client.clock.now() - began))
+        press(key)
+
+    def released(key: str) -> None:
+        events.append(("up", key, client.clock.now() - began))
+        release(key)
+
+    client.keyboard.press, client.keyboard.release = pressed, released  # type: ignore[method-assign]
+    console.clear()
+    assert [(kind, key) for kind, key, _ in events[:4]] == [("down", "f3"), ("down", "d"), ("up", "d"), ("up", "f3")]
+    (_, _, first), (_, _, second), (_, _, third), (_, _, last) = events[:4]
+    assert second - first == pytest.approx(0.05, abs=0.01)
+    assert third - first == pytest.approx(0.1, abs=0.01)
+    assert last - first == pytest.approx(0.2, abs=0.01)
+
+
+class LateChat(Chat):
+    """A chat whose first lines aren't typed to their end."""
+
+    def __init__(self, failures: int) -> None:
+        self.failures = failures
+        self.tries = 0
+
+    def send(self, command: str) -> None:
+        self.tries += 1
+        if self.tries <= self.failures:
+            raise WrongScreenError(f"{command} was not typed")
+
+
+class LateConsole(CommandConsole):
+    def __init__(self, client: VirtualClient, profile: Profile, chat: LateChat) -> None:
+        super().__init__(context_over(client).connection.for_profile(profile), profile)
+        self._chat = chat
+
+
+def test_a_line_that_is_not_typed_is_begun_again_four_times_at_most(client: VirtualClient, tmp_path: Path) -> None:
+    late, never = LateChat(TRIES - 1), LateChat(TRIES)
+    LateConsole(client, profile_in(tmp_path), late).send("/time set 6000")
+    assert late.tries == TRIES == 4
+    with pytest.raises(WrongScreenError):
+        LateConsole(client, profile_in(tmp_path), never).send("/time set 6000")
+    assert never.tries == TRIES
+
+
+def test_in_a_chat_that_is_not_read_nothing_is_begun_again(client: VirtualClient, tmp_path: Path) -> None:
+    profile = profile_in(tmp_path)
+    blind = profile.model_copy(update={"input": profile.input.model_copy(update={"reads_chat": False})})
+    chat = LateChat(1)
+    with pytest.raises(WrongScreenError):
+        LateConsole(client, blind, chat).send("/time set 6000")
+    assert chat.tries == 1
+
+
+def test_a_chat_that_is_not_read_is_never_cleared(client: VirtualClient, tmp_path: Path) -> None:
+    profile = profile_in(tmp_path)
+    blind = profile.model_copy(update={"input": profile.input.model_copy(update={"reads_chat": False})})
+    console = CountingConsole(client, blind)
+    for _ in range(COMMANDS_PER_CLEAR + 1):
+        console.send("/time set 6000")
+    assert console.cleared_after == []
+
+
+def test_what_does_not_happen_is_watched_for_as_long_as_was_said(
+    client: VirtualClient, console: CountingConsole
+) -> None:
+    began = client.clock.now()
+    assert console.watch(lambda seen: seen.pitch == 89.0, 0.5) is None
+    assert 0.5 <= client.clock.now() - began < 0.7
+
+
+def test_an_open_chat_is_not_typed_into(client: VirtualClient, console: CountingConsole) -> None:
+    client.game.open("chat")
+    client.clock.sleep(0.2)
+    with pytest.raises(NotConfirmedError, match="the chat is open"):
+        console.send("/time set 6000")
+    assert client.game.screen == "chat"
+
+
+def test_a_debug_screen_that_stays_unreadable_is_an_error_after_the_profiles_patience(
+    client: VirtualClient, tmp_path: Path
+) -> None:
+    profile = profile_in(tmp_path)
+    client.game.open("pause")
+    client.clock.sleep(0.2)
+    began = client.clock.now()
+    with pytest.raises(UnreadableError, match="unreadable for too long"):
+        CountingConsole(client, profile).read()
+    assert profile.body.patience_s <= client.clock.now() - began < profile.body.patience_s + 0.3

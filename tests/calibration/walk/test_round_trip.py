@@ -1,0 +1,64 @@
+"""The round trip from a key to the screen, from holds whose every time is known."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from calibration.walk.round_trip import HoldTiming, latencies, round_trip_of
+from mc_nested.live.model.kinematics import TICK_S
+from mc_nested.live.motion.tick_phase import CAPTURE_LATENCY_S, INPUT_LATENCY_S
+
+FRAME_S = 1 / 60
+
+
+def hold(
+    pressed: float, held_s: float, felt_s: float, seen_s: float, rng: np.random.Generator | None = None
+) -> HoldTiming:
+    """A hold in a game that ticks at whole multiples of 50 ms; with ``rng`` every event is late by its own amount."""
+
+    def late(most: float) -> float:
+        return rng.uniform(-most, most) if rng else 0.0
+
+    first = math.ceil((pressed + felt_s + late(0.007)) / TICK_S)
+    behind = math.ceil((pressed + held_s + felt_s + late(0.007)) / TICK_S)
+    shown = [(tick, (first + tick - 1) * TICK_S + seen_s + late(0.008)) for tick in range(1, behind - first + 5)]
+    seen = tuple((tick, at - FRAME_S / 2, at + FRAME_S / 2) for tick, at in shown)
+    return HoldTiming(pressed, pressed + held_s, behind - first, seen)
+
+
+@given(st.floats(0.002, 0.06), st.floats(0.01, 0.09))
+def test_the_round_trip_is_the_way_in_and_the_way_out(felt_s: float, seen_s: float) -> None:
+    holds = [hold(100 + index * 0.831, 0.2 + index % 5 * 0.037, felt_s, seen_s) for index in range(60)]
+    assert round_trip_of(holds) == pytest.approx(felt_s + seen_s, abs=0.002)
+
+
+def test_jitter_of_every_event_moves_it_by_milliseconds_only() -> None:
+    rng = np.random.default_rng(5)
+    holds = [hold(100 + index * 0.831, 0.2 + index % 5 * 0.037, 0.0125, 0.028, rng) for index in range(60)]
+    assert round_trip_of(holds) == pytest.approx(0.0405, abs=0.004)
+
+
+def test_a_few_holds_that_lag_delayed_move_it_little() -> None:
+    holds = [hold(100 + index * 0.831, 0.2 + index % 5 * 0.037, 0.0125, 0.028) for index in range(60)]
+    lagged = [hold(200 + index * 0.831, 0.25, 0.3, 0.2) for index in range(4)]
+    assert round_trip_of([*holds, *lagged]) == pytest.approx(0.0405, abs=0.004)
+
+
+def test_steps_off_the_beat_of_their_hold_are_late() -> None:
+    steady = hold(100.0, 0.3, 0.0125, 0.028)
+    assert steady.late_steps == 0
+    moved = tuple((tick, since + 0.06 * (tick > 7), at + 0.06 * (tick > 7)) for tick, since, at in steady.steps)
+    assert (
+        HoldTiming(steady.pressed, steady.released, steady.ticks, moved).late_steps
+        == sum(tick > 7 for tick, _, _ in moved)
+        > 0
+    )
+
+
+def test_what_cannot_be_told_apart_is_shared_as_the_defaults_are() -> None:
+    assert latencies(INPUT_LATENCY_S + CAPTURE_LATENCY_S) == pytest.approx((INPUT_LATENCY_S, CAPTURE_LATENCY_S))
+    felt, seen = latencies(0.1)
+    assert felt + seen == pytest.approx(0.1)

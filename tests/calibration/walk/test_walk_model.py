@@ -1,0 +1,111 @@
+"""WalkModel: what synthetic holds of known push, inertia and latency are fitted to, and what is refused."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from calibration.walk.gait_fit import GaitModel
+from calibration.walk.survey import SurveyHold
+from calibration.walk.walk_model import WalkModel, fit_walk_model
+from calibration.walk.walker import RecordedHold, Sighting, WorldPose
+from mc_nested.errors import NotConfirmedError
+from mc_nested.live.model.kinematics import INERTIA, PUSH, SNEAKING, TICK_S, Gait, walk_response
+
+HOME = WorldPose((0.5, 64.0, 0.5), 0.0, 65.0)
+INPUT_S, CAPTURE_S = 0.0125, 0.0275
+"""Latencies of the synthetic game, which ticks at whole multiples of 50 ms and is looked at every 4 ms."""
+
+PLAIN = GaitModel(PUSH, INERTIA)
+SNEAKED = GaitModel(PUSH * SNEAKING, INERTIA)
+
+
+def hold_of(model: GaitModel, gait: Gait, pressed: float, held_s: float) -> SurveyHold:
+    """A hold forward, which is south, as it is seen on the screen."""
+    first = math.ceil((pressed + INPUT_S) / TICK_S)
+    ticks = math.ceil((pressed + held_s + INPUT_S) / TICK_S) - first
+    sightings = [
+        Sighting(at - 0.002, at + 0.002, (0.5, 64.0, 0.5 + covered))
+        for tick, covered in enumerate(model.path(ticks)[1:])
+        for at in [(first + tick) * TICK_S + CAPTURE_S]
+    ]
+    return SurveyHold("forward", gait, held_s / TICK_S, RecordedHold(pressed, pressed + held_s, HOME, tuple(sightings)))
+
+
+def holds(walking: GaitModel = PLAIN, sneaking: GaitModel = SNEAKED, count: int = 32) -> list[SurveyHold]:
+    """Walking holds of 1 to 8 ticks and a bit, and half as many sneaking ones, at all phases of the tick."""
+    walked = [hold_of(walking, "walk", 10 + 2.0309 * index, (1.1 + index % 8) * TICK_S) for index in range(count)]
+    sneaked = [hold_of(sneaking, "sneak", 100 + 2.0309 * index, (5.1 + index) * TICK_S) for index in range(count // 2)]
+    return [*walked, *sneaked]
+
+
+@pytest.fixture(scope="module")
+def plain() -> WalkModel:
+    return fit_walk_model(holds())
+
+
+def test_push_inertia_and_latency_are_found(plain: WalkModel) -> None:
+    assert plain.walking.push == pytest.approx(PUSH, rel=0.001)
+    assert plain.walking.inertia == pytest.approx(INERTIA, abs=0.001)
+    assert plain.round_trip_s == pytest.approx(INPUT_S + CAPTURE_S, abs=0.003)
+    assert plain.speed == pytest.approx(4.317, abs=0.01)
+    assert (len(plain.good), plain.outliers, plain.late) == (48, 0, 0)
+    assert max(plain.fit_rms, plain.held_out_rms) < 0.001
+    assert (plain.is_plain, plain.is_lagging) == (True, False)
+    # Ticks come at whole multiples of 50 ms, and their steps are seen 27.5 ms later.
+    assert plain.tick_phase % TICK_S == pytest.approx(CAPTURE_S)
+
+
+def test_the_profiles_table_holds_the_model(plain: WalkModel) -> None:
+    assert plain.table.covered == pytest.approx(walk_response(12), abs=0.002)
+    assert plain.table.sneaking == pytest.approx(SNEAKING, abs=0.001)
+    assert plain.table.input_latency_s + plain.table.capture_latency_s == pytest.approx(plain.round_trip_s, abs=1e-4)
+    assert plain.table.input_latency_s < plain.table.capture_latency_s
+
+
+def test_a_faster_player_and_another_floor_are_not_plain(plain: WalkModel) -> None:
+    assert not replace(plain, walking=GaitModel(PUSH * 1.02, INERTIA)).is_plain
+    assert not replace(plain, walking=GaitModel(PUSH * 0.98, INERTIA)).is_plain
+    assert replace(plain, walking=GaitModel(PUSH * 1.01, INERTIA)).is_plain
+    ice = INERTIA + 0.02
+    assert not replace(plain, walking=GaitModel(PUSH / (1 - INERTIA) * (1 - ice), ice)).is_plain
+
+
+def test_a_game_lags_if_more_than_a_tenth_of_the_holds_is_late_or_an_outlier(plain: WalkModel) -> None:
+    assert not replace(plain, late=4).is_lagging
+    assert replace(plain, late=5).is_lagging
+    assert replace(plain, late=2, outliers=4).is_lagging
+    assert not replace(plain, late=2, outliers=2).is_lagging
+
+
+def moved(hold: SurveyHold, *, aside: float = 0.0, later_s: float = 0.0, further: float = 0.0) -> SurveyHold:
+    """A hold whose last positions are pushed aside or on, or seen later."""
+    sightings = list(hold.recorded.sightings)
+    for index in range(len(sightings) - 3, len(sightings)):
+        x, y, z = sightings[index].xyz
+        since, at = sightings[index].since + later_s, sightings[index].at + later_s
+        sightings[index] = Sighting(since, at, (x + aside, y, z + further))
+    return replace(hold, recorded=replace(hold.recorded, sightings=tuple(sightings)))
+
+
+def test_holds_pushed_aside_or_on_or_seen_late_are_counted_and_left_out() -> None:
+    all_holds = holds()
+    all_holds[3] = moved(all_holds[3], aside=0.06)
+    all_holds[5] = moved(all_holds[5], further=0.1)
+    all_holds[6] = moved(all_holds[6], later_s=0.06)
+    all_holds.append(replace(all_holds[0], recorded=replace(all_holds[0].recorded, sightings=())))
+    model = fit_walk_model(all_holds)
+    assert (len(model.good), model.outliers, model.late) == (46, 2, 1)
+    assert model.walking.push == pytest.approx(PUSH, rel=0.001)
+
+
+def test_sneaking_that_is_no_slower_is_refused() -> None:
+    with pytest.raises(NotConfirmedError, match="sneaking is no slower than walking"):
+        fit_walk_model(holds(sneaking=GaitModel(PUSH * 0.97, INERTIA)))
+    assert fit_walk_model(holds(sneaking=GaitModel(PUSH * 0.9, INERTIA))).table.sneaking == pytest.approx(0.9, abs=0.01)
+
+
+def test_a_game_whose_every_hold_is_late_is_refused() -> None:
+    late = [moved(hold, later_s=0.1) for hold in holds()]
+    with pytest.raises(NotConfirmedError, match="every hold's ticks came late"):
+        fit_walk_model(late)

@@ -1,0 +1,101 @@
+"""What one of an experiment's processes does with what comes through its pipe; here in this process."""
+
+import signal
+from collections.abc import Iterator
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
+from pathlib import Path
+from threading import Thread
+
+import pytest
+
+from mc_nested.cli.job_process import JobEnded, JobReport, train_jobs
+from mc_nested.learn.experiments.job_training import OUTCOME, outcome_of
+from tests.learn.made_experiments import DOT, one_job
+
+JOB = one_job("nested", [DOT], 2)
+
+
+@pytest.fixture
+def pipe() -> Iterator[tuple[Connection, Connection]]:
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    ours, theirs = Pipe()
+    yield ours, theirs
+    ours.close()
+    theirs.close()
+    for number, handler in before.items():
+        signal.signal(number, handler)
+
+
+def heard(pipe: Connection) -> list[JobReport | JobEnded]:
+    messages = []
+    while pipe.poll():
+        messages.append(pipe.recv())
+    return messages
+
+
+def test_units_are_trained_one_after_the_other(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+    ours, theirs = pipe
+    said: list[JobReport | JobEnded] = []
+
+    def parent() -> None:
+        for name in ("one", "two"):
+            ours.send((JOB, tmp_path / name))
+            while not said or not isinstance(said[-1], JobEnded):
+                said.append(ours.recv())
+            said.append(JobReport("", (), (), 0))
+        ours.send(None)
+
+    thread = Thread(target=parent)
+    thread.start()
+    train_jobs(theirs)
+    thread.join()
+    assert said.count(JobEnded(JOB.name, finished=True)) == 2
+    one, two = (outcome_of(JOB, tmp_path / name) for name in ("one", "two"))
+    assert one
+    assert two
+    assert one.runs == two.runs
+
+
+def test_asked_to_stop_it_saves_and_ends(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+    ours, theirs = pipe
+    ours.send((JOB, tmp_path))
+    ours.send(None)
+    train_jobs(theirs)
+    report, ended = heard(ours)
+    assert isinstance(report, JobReport)
+    assert ended == JobEnded(JOB.name, finished=False)
+    assert (tmp_path / "checkpoint").exists()
+
+
+def test_without_its_parent_it_saves_and_ends(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+    ours, theirs = pipe
+    ours.send((JOB, tmp_path))
+    ours.close()
+    train_jobs(theirs)
+    assert (tmp_path / "checkpoint").exists()
+    assert not (tmp_path / OUTCOME).exists()
+
+
+def test_ctrl_c_is_left_to_the_parent(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+    ours, theirs = pipe
+    ours.send(None)
+    train_jobs(theirs)
+    signal.raise_signal(signal.SIGINT)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_checkpoint_of_something_else_is_said(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+    ours, theirs = pipe
+    ours.send((one_job("nested", [DOT], 3), tmp_path))
+    ours.send(None)
+    train_jobs(theirs)
+    heard(ours)
+    saved = {path.name: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()}
+    ours.send((JOB, tmp_path))
+    ours.send(None)
+    train_jobs(theirs)
+    (ended,) = heard(ours)
+    assert isinstance(ended, JobEnded)
+    assert "belongs to another scenario, agent or preset" in ended.failed
+    assert {path.name: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()} == saved

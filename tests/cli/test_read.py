@@ -1,0 +1,79 @@
+"""``mc-nested read``: one line a picture, for a person or as JSON, with a profile or without."""
+
+import json
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from mc_nested.cli.app import main
+from mc_nested.live.model.reading import Target
+from mc_nested.live.vision.font import font_of
+from sim.client.drawing.f3_layers import paint
+from sim.client.drawing.font import drawn_atlas
+from sim.client.game.f3_text import F3Screen
+
+STONE = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, 65.0, Target((8, 63, -2), "minecraft:stone"))
+SKY = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
+
+
+def printed(capsys: pytest.CaptureFixture[str], *words: str | Path) -> list[str]:
+    """What the command prints, line by line."""
+    with pytest.raises(SystemExit) as ended:
+        main(["read", *map(str, words)])
+    assert ended.value.code in (0, None)
+    return capsys.readouterr().out.splitlines()
+
+
+@pytest.fixture
+def font(tmp_path: Path) -> Path:
+    cv2.imwrite(str(tmp_path / "ascii.png"), drawn_atlas())
+    return tmp_path / "ascii.png"
+
+
+def picture(path: Path, screen: F3Screen) -> Path:
+    cv2.imwrite(str(path), paint(np.full((480, 854, 3), 60, np.uint8), screen, font_of(drawn_atlas())))
+    return path
+
+
+def test_each_picture_is_a_line_that_says_where_the_player_is_and_what_is_looked_at(
+    tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    stone, sky = picture(tmp_path / "a.png", STONE), picture(tmp_path / "b.png", SKY)
+    assert printed(capsys, stone, sky, "--font", font) == [
+        f"{stone}: at 8.500 64.000 -3.250, yaw 0.0, pitch 65.0, looks at minecraft:stone [8, 63, -2]",
+        f"{sky}: at 8.500 64.000 -3.250, yaw 0.0, pitch -65.0, looks at no block",
+    ]
+
+
+def test_a_picture_that_can_not_be_read_is_a_line_with_the_reason(
+    tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (line,) = printed(capsys, tmp_path / "none.png", "--font", font)
+    assert line.startswith(f"{tmp_path / 'none.png'}: unread: the file can't be read")
+
+
+def test_as_json_each_picture_is_an_object(tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (line,) = printed(capsys, picture(tmp_path / "a.png", STONE), "--font", font, "--json")
+    assert json.loads(line)["xyz"] == [8.5, 64.0, -3.25]
+
+
+@pytest.mark.parametrize(("scale", "is_read"), [(2, True), (3, False)])
+def test_a_profile_gives_the_font_and_how_the_screen_is_drawn(
+    scale: int, is_read: bool, tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    profile = tmp_path / "mine.toml"
+    profile.write_text(f"[screen]\nfont = {json.dumps(str(font))}\ngui_scale = {scale}\n", "utf-8")
+    (line,) = printed(capsys, picture(tmp_path / "a.png", STONE), "--profile", profile)
+    assert ("at 8.500" in line) is is_read
+    assert ("GUI scale 3" in line) is not is_read
+
+
+def test_a_font_that_is_named_goes_before_the_profiles(
+    tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    profile = tmp_path / "mine.toml"
+    profile.write_text("[screen]\nfont = '/nowhere/ascii.png'\n", "utf-8")
+    (line,) = printed(capsys, picture(tmp_path / "a.png", STONE), "--profile", profile, "--font", font)
+    assert "at 8.500" in line

@@ -1,0 +1,179 @@
+"""The DDQN target by hand, an update against torch's own Adam and Huber loss, and rows that never meet."""
+
+import numpy as np
+import pytest
+import torch
+from torch import Tensor, nn
+
+from mc_nested.learn.dqn.ddqn import DDQN, Batch, UpdateRule, td_target
+from mc_nested.learn.dqn.networks import initial_parameters
+from mc_nested.learn.dqn.state_space import StateSpace
+from tests.learn.dqn.test_networks import reference
+
+RULE = UpdateRule(batch=32, learning_rate=1e-3, target_period=3, huber_delta=1.0, margin=0.5)
+GAMMA = 0.95
+STATES = 15 * 15 * 12 * 2
+SIZES = (4, 32, 32, 8)
+
+
+def test_the_target_takes_the_online_networks_choice_and_the_target_networks_value() -> None:
+    # The online network prefers action 1; plain DQN would take the target network's own best, action 2:
+    # 1 + 0.5 · 7 = 4.5. Double DQN takes the target network's value of action 1 (paper, equation 4).
+    online, target = np.array([2.0, 5.0, 3.0], np.float32), np.array([1.0, 4.0, 7.0], np.float32)
+    assert td_target(1.0, 0.5, online, target) == 1.0 + 0.5 * 4.0
+
+
+def test_a_terminated_transition_is_worth_its_reward_alone() -> None:
+    assert td_target(1.0, 0.0, np.array([0.0, 1.0], np.float32), np.array([9.0, 9.0], np.float32)) == 1.0
+    found = td_target(0.0, 0.95, np.array([3.0, 1.0], np.float32), np.array([-2.0, 8.0], np.float32))
+    assert found == pytest.approx(-1.9)
+
+
+def learners(rows: int) -> DDQN:
+    space = StateSpace(np.array([[14, 14, 11, 1]] * rows), actions=8)
+    online = np.stack([initial_parameters(SIZES, np.random.default_rng(row)) for row in range(rows)])
+    return DDQN(space, SIZES, RULE, online)
+
+
+def batch_of(rows: int, seed: int) -> Batch:
+    random = np.random.default_rng(seed)
+    return Batch(
+        states=random.integers(0, STATES, (2, rows, 32)),
+        actions=random.integers(0, 8, (rows, 32)),
+        # Some rewards far beyond δ, so that both branches of the Huber loss are taken.
+        rewards=(random.standard_normal((rows, 32)) * 3).astype(np.float32),
+        discounts=np.where(random.random((rows, 32)) < 0.2, 0.0, GAMMA).astype(np.float32),
+        imitated=random.random((rows, 32)) < 0.3,
+        weights=random.random((rows, 32)).astype(np.float32),
+    )
+
+
+def part(batch: Batch, rows: list[int]) -> Batch:
+    rest = {name: getattr(batch, name)[rows] for name in ("actions", "rewards", "discounts", "imitated", "weights")}
+    return Batch(states=batch.states[:, rows], **rest)
+
+
+@pytest.mark.parametrize("rows", [1, 4])
+def test_updates_are_those_of_torchs_adam_on_the_huber_and_the_large_margin_loss(rows: int) -> None:
+    ours = learners(rows)
+    parameters = [nn.Parameter(torch.from_numpy(row.copy())) for row in ours.online]
+    optimisers = [torch.optim.Adam([parameter], lr=RULE.learning_rate) for parameter in parameters]
+    targets = [parameter.detach().clone() for parameter in parameters]
+    for update in range(1, 11):
+        batch = batch_of(rows, seed=update)
+        errors = ours.update(np.arange(rows), batch)
+        for row, (parameter, optimiser) in enumerate(zip(parameters, optimisers, strict=True)):
+            expected = _reference_update(ours.space, parameter, optimiser, targets[row], part(batch, [row]))
+            np.testing.assert_allclose(errors[row], expected, rtol=1e-4, atol=1e-4)
+            if update % RULE.target_period == 0:
+                targets[row] = parameter.detach().clone()
+    expected = torch.stack([p.detach() for p in parameters]).numpy()
+    np.testing.assert_allclose(ours.online, expected, rtol=1e-3, atol=1e-5)
+    np.testing.assert_allclose(ours.target, torch.stack(targets).numpy(), rtol=1e-3, atol=1e-5)
+    assert ours.updates.tolist() == [10] * rows
+
+
+def _reference_update(
+    space: StateSpace, parameter: nn.Parameter, optimiser: torch.optim.Adam, target: Tensor, batch: Batch
+) -> np.ndarray:
+    states, following = (torch.from_numpy(space.features_of(0)[numbers[0], :-1]) for numbers in batch.states)
+    rewards, discounts, actions, imitated, weights = (
+        torch.from_numpy(getattr(batch, name)[0]) for name in ("rewards", "discounts", "actions", "imitated", "weights")
+    )
+    with torch.no_grad():
+        best = reference(parameter, SIZES, following).argmax(1, keepdim=True)
+        goal = rewards + discounts * reference(target, SIZES, following).gather(1, best)[:, 0]
+    values = reference(parameter, SIZES, states)
+    chosen = values.gather(1, actions[:, None])[:, 0]
+    huber = (nn.functional.huber_loss(chosen, goal, delta=RULE.huber_delta, reduction="none") * weights).mean()
+    raised = values + RULE.margin * (torch.arange(8) != actions[:, None])
+    imitation = ((raised.max(1).values - chosen) * imitated).mean()
+    optimiser.zero_grad()
+    (huber + imitation).backward()  # type: ignore[no-untyped-call]  # torch
+    optimiser.step()
+    return np.array((chosen - goal).detach().numpy())
+
+
+def test_the_target_network_follows_every_period_and_stands_still_between() -> None:
+    ddqn = learners(1)
+    first = ddqn.target.copy()
+    for update in range(1, 3):
+        ddqn.update(np.array([0]), batch_of(1, update))
+        np.testing.assert_array_equal(ddqn.target, first)
+    ddqn.update(np.array([0]), batch_of(1, 3))
+    np.testing.assert_array_equal(ddqn.target, ddqn.online)
+    assert not np.array_equal(ddqn.target, first)
+
+
+def test_rows_that_are_not_named_stay_as_they_are() -> None:
+    ddqn = learners(4)
+    ddqn.update(np.arange(4), batch_of(4, 1))
+    before = {name: kept.copy() for name, kept in ddqn.state().items()}
+    ddqn.update(np.array([2, 0]), batch_of(2, 2))
+    for name, kept in ddqn.state().items():
+        np.testing.assert_array_equal(kept[[1, 3]], before[name][[1, 3]])
+    assert ddqn.updates.tolist() == [2, 1, 2, 1]
+
+
+def test_a_row_learns_the_same_to_the_bit_beside_others_and_alone() -> None:
+    every, some, alone = learners(4), learners(4), learners(1)
+    alone.load_online(every.online[[3]].copy())
+    for update in range(7):
+        batch = batch_of(4, update)
+        every.update(np.arange(4), batch)
+        for rows in ([3, 1], [0], [2]):
+            some.update(np.array(rows), part(batch, rows))
+        alone.update(np.array([0]), part(batch, [3]))
+    for name, kept in every.state().items():
+        np.testing.assert_array_equal(some.state()[name], kept)
+        np.testing.assert_array_equal(alone.state()[name][0], kept[3])
+
+
+def test_rows_of_other_scenarios_take_their_own_features() -> None:
+    space = StateSpace(np.array([[14, 14, 11, 1], [14, 14, 16, 1]]), actions=8)
+    same = initial_parameters(SIZES, np.random.default_rng(0))
+    both = DDQN(space, SIZES, RULE, np.stack([same, same]))
+    state = space.index(np.array([[7, 14, 11, 1]] * 2))
+    values = both.q_values(state)
+    assert not np.array_equal(values[0], values[1])
+    scaled = torch.tensor([[0.0, 1.0, 2 * 11 / 16 - 1, 1.0]])
+    expected = reference(torch.from_numpy(same), SIZES, scaled)[0].numpy()
+    np.testing.assert_allclose(values[1], expected, rtol=1e-5, atol=1e-6)
+
+
+def test_q_values_are_the_online_networks() -> None:
+    ddqn = learners(3)
+    states = np.array([5, 77, 1234])
+    features = torch.from_numpy(ddqn.space.features_of(0)[states, :-1])
+    expected = [reference(torch.from_numpy(ddqn.online[row]), SIZES, features[row]).numpy() for row in range(3)]
+    np.testing.assert_allclose(ddqn.q_values(states), np.stack(expected), rtol=1e-5, atol=1e-6)
+    some = ddqn.q_values(states[[2, 0]], np.array([2, 0]))
+    np.testing.assert_allclose(some, np.stack([expected[2], expected[0]]), rtol=1e-5, atol=1e-6)
+
+
+def test_loss_and_value_are_those_of_each_rows_last_update() -> None:
+    ddqn = learners(2)
+    batch = batch_of(1, 3)._replace(weights=np.ones((1, 32), np.float32))
+    states, actions = batch.states[0], batch.actions
+    own = ddqn.q_values(np.tile(states[0], 2)[:2] * 0 + states[0, 0])[1, actions[0, 0]]
+    errors = ddqn.update(np.array([1]), batch)
+    assert np.isnan(ddqn.last_loss()[0])
+    assert np.isnan(ddqn.last_q()[0])
+    size = np.abs(errors[0])
+    assert ddqn.last_loss()[1] == pytest.approx(np.where(size <= 1, size**2 / 2, size - 0.5).mean(), rel=1e-5)
+    assert ddqn._last_values[1, 0] == pytest.approx(own, rel=1e-4, abs=1e-6)
+
+
+def test_a_loaded_learner_goes_on_to_the_bit() -> None:
+    one, other = learners(2), learners(2)
+    one.update(np.arange(2), batch_of(2, 1))
+    other.load({name: kept.copy() for name, kept in one.state().items()})
+    for ddqn in (one, other):
+        ddqn.update(np.arange(2), batch_of(2, 2))
+    for name, kept in one.state().items():
+        np.testing.assert_array_equal(kept, other.state()[name])
+
+
+def test_networks_of_another_shape_are_refused() -> None:
+    with pytest.raises(ValueError, match="networks of"):
+        learners(2).load_online(np.zeros((2, 5), np.float32))

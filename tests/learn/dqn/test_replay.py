@@ -1,0 +1,143 @@
+"""Uniform replay: what goes in comes out, the oldest gives way, and each run keeps to itself."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.arrays import Float64s, Int64s
+from mc_nested.learn.dqn import replay as replay_module
+from mc_nested.learn.dqn.replay import Replay, Transitions
+
+
+def transition(*numbers: int) -> Transitions:
+    """A transition for each number, made so that every field tells the number."""
+    n = np.array(numbers)
+    return Transitions(np.stack([n, n + 2]), n % 8, n / 2, n / 4)
+
+
+def drawn_from(replay: Replay, rows: Int64s, uniforms: Float64s) -> Transitions:
+    return replay.gather(rows, replay.sample(rows, uniforms))
+
+
+def numbers(drawn: Transitions) -> list[list[int]]:
+    """The numbers that drawn transitions were made of, every field checked."""
+    found, following = drawn.states
+    np.testing.assert_array_equal(drawn.actions, found % 8)
+    np.testing.assert_array_equal(drawn.rewards, found / 2)
+    np.testing.assert_array_equal(following, found + 2)
+    np.testing.assert_array_equal(drawn.discounts, found / 4)
+    return [[int(number) for number in row] for row in found]
+
+
+def test_what_the_numbers_point_at_is_drawn() -> None:
+    replay = Replay(runs=2, states=200, capacity=10)
+    for step in range(4):
+        replay.add(np.array([0, 1]), transition(step, 100 + step))
+    uniforms = np.array([[0.0, 0.24, 0.25, 0.5, 0.999999], [0.75, 0.0, 0.5, 0.26, 0.3]])
+    assert numbers(drawn_from(replay, np.array([0, 1]), uniforms)) == [[0, 0, 1, 2, 3], [103, 100, 102, 101, 101]]
+
+
+def test_runs_fill_at_their_own_pace() -> None:
+    replay = Replay(runs=3, states=200, capacity=10)
+    replay.add(np.array([2]), transition(7))
+    replay.add(np.array([0, 2]), transition(8, 9))
+    assert replay.sizes().tolist() == [1, 0, 2]
+    assert numbers(drawn_from(replay, np.array([2, 0]), np.array([[0.9], [0.9]]))) == [[9], [8]]
+
+
+def test_the_oldest_gives_way_when_it_is_full() -> None:
+    replay = Replay(runs=1, states=200, capacity=3)
+    for step in range(5):
+        replay.add(np.array([0]), transition(step))
+    assert replay.sizes().tolist() == [3]
+    drawn = numbers(drawn_from(replay, np.array([0]), np.array([[0.1, 0.5, 0.9]])))
+    assert sorted(drawn[0]) == [2, 3, 4]
+
+
+@given(uniform=st.floats(0, 1, exclude_max=True), size=st.integers(1, 9))
+def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
+    replay = Replay(runs=2, states=200, capacity=100)
+    for step in range(size):
+        replay.add(np.array([0]), transition(step))
+    replay.add(np.array([1]), transition(50))
+    assert numbers(drawn_from(replay, np.array([0]), np.array([[uniform]])))[0][0] in range(size)
+
+
+@given(st.integers(0, 30), st.integers(0, 9))
+def test_what_is_forgotten_is_never_drawn_again(before: int, since: int) -> None:
+    replay = Replay(runs=2, states=200, capacity=20)
+    for step in range(before):
+        replay.add(np.array([0]), transition(step))
+    marks = replay.added.copy()
+    for step in range(since):
+        replay.add(np.array([0]), transition(100 + step))
+    replay.forget_since(marks)
+    held = int(replay.sizes()[0])
+    assert held == min(before, 20)
+    seen = {int(number) for number in numbers(replay.gather(np.array([0]), np.arange(held)[None, :]))[0]}
+    if before + since <= 20:
+        assert seen == set(range(before))
+    else:
+        assert seen <= set(range(max(0, before - 20), before))
+
+
+def test_draws_are_uniform() -> None:
+    replay = Replay(runs=1, states=200, capacity=100)
+    for step in range(8):
+        replay.add(np.array([0]), transition(step))
+    uniforms = np.random.default_rng(0).random((1, 80_000))
+    counts = np.bincount(numbers(drawn_from(replay, np.array([0]), uniforms))[0])
+    assert counts.tolist() == [pytest.approx(10_000, rel=0.05)] * 8
+
+
+@given(steps=st.integers(1, 40), capacity=st.integers(5, 30))
+def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(replay_module, "FIRST_ROOM", 4)
+        grown = Replay(runs=1, states=200, capacity=capacity)
+        copy = Replay(runs=1, states=200, capacity=capacity)
+    large = Replay(runs=1, states=200, capacity=capacity)
+    for step in range(steps):
+        for replay in (grown, large):
+            replay.add(np.array([0]), transition(step))
+    copy.extend(grown.added_since(np.array([0])))
+    grid = (np.arange(50) / 50)[None]
+    expected = numbers(drawn_from(large, np.array([0]), grid))
+    assert set(expected[0]) == set(range(max(0, steps - capacity), steps))
+    assert numbers(drawn_from(grown, np.array([0]), grid)) == expected
+    assert numbers(drawn_from(copy, np.array([0]), grid)) == expected
+
+
+@given(st.lists(st.integers(0, 25), min_size=1, max_size=5).filter(any), st.integers(5, 30))
+def test_what_was_added_in_parts_is_the_whole(parts: list[int], capacity: int) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(replay_module, "FIRST_ROOM", 4)
+        replay, copy = (Replay(runs=2, states=200, capacity=capacity) for _ in range(2))
+    number = 0
+    for part in parts:
+        marks = replay.added.copy()
+        for _ in range(part):
+            replay.add(np.array([1]), transition(number))
+            number += 1
+        copy.extend(replay.added_since(marks))
+    grid = (np.arange(50) / 50)[None]
+    assert copy.added.tolist() == [0, number]
+    assert numbers(drawn_from(copy, np.array([1]), grid)) == numbers(drawn_from(replay, np.array([1]), grid))
+
+
+def test_a_run_that_holds_nothing_yields_blanks() -> None:
+    replay = Replay(runs=2, states=200, capacity=10)
+    replay.add(np.array([1]), transition(8))
+    assert drawn_from(replay, np.array([0, 1]), np.array([[0.0], [0.9]])).states[0].tolist() == [[0], [8]]
+
+
+@pytest.mark.parametrize(("states", "bytes_a_number"), [(256, 2), (65_535, 2), (200_000, 4)])
+def test_states_are_kept_in_as_few_bytes_as_their_number_takes(states: int, bytes_a_number: int) -> None:
+    replay = Replay(runs=1, states=states, capacity=10)
+    replay.add(
+        np.array([0]), Transitions(np.full((2, 1), states - 1), np.array([7]), np.array([1.0]), np.array([0.95]))
+    )
+    kept = replay.added_since(np.array([0]))
+    assert kept["states"].itemsize == bytes_a_number
+    assert kept["states"].tolist() == [[states - 1] * 2]

@@ -1,0 +1,29 @@
+"""The target networks' values of every state, renewed by row."""
+
+import numpy as np
+import torch
+
+from mc_nested.learn.dqn.networks import initial_parameters
+from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.target_values import AT_ONCE, TargetValues
+from tests.learn.dqn.test_networks import reference
+
+SIZES = (3, 4, 8)
+
+
+def test_every_state_has_its_networks_value_and_only_named_rows_are_renewed() -> None:
+    space = StateSpace(np.array([[14, 14, 2], [14, 14, 1]]), actions=8)
+    assert space.count > 2 * AT_ONCE, "more than one part, the last not full"
+    assert space.count % AT_ONCE
+    target = np.stack([initial_parameters(SIZES, np.random.default_rng(row)) for row in range(3)])
+    found = TargetValues(space, SIZES, target[:2])
+
+    def expected(row: int, parameters: int) -> np.ndarray:
+        features = torch.from_numpy(space.features_of(row)[:, :-1])
+        return np.asarray(reference(torch.from_numpy(target[parameters]), SIZES, features).detach().numpy())
+
+    for row in (0, 1):
+        np.testing.assert_allclose(found.values[row], expected(row, row), rtol=1e-4, atol=1e-5)
+    found.renew(np.array([1]), target[[2]])
+    np.testing.assert_allclose(found.values[0], expected(0, 0), rtol=1e-4, atol=1e-5)
+    np.testing.assert_allclose(found.values[1], expected(1, 2), rtol=1e-4, atol=1e-5)

@@ -1,0 +1,125 @@
+"""Jobs that train: the same however they are cut and however often they are stopped, and saved before much is lost."""
+
+from pathlib import Path
+
+import pytest
+
+from mc_nested.errors import RunError
+from mc_nested.learn.experiments.job_training import OUTCOME, JobOutcome, JobTraining, RunOutcome, outcome_of
+from mc_nested.learn.experiments.jobs import Job, cut_into_jobs
+from sim.grid import GridVectorEnv
+from tests.learn.made_experiments import BAR, DOT, one_job, runs_of, small_preset
+
+
+def training(job: Job, folder: Path) -> JobTraining:
+    return JobTraining(job, folder, GridVectorEnv(job.scenarios))
+
+
+def train(job: Job, folder: Path) -> JobOutcome:
+    own = training(job, folder)
+    while not own.trainer.finished:
+        own.tick()
+    own.finish()
+    outcome = outcome_of(job, folder)
+    assert outcome
+    return outcome
+
+
+@pytest.mark.parametrize(
+    ("agent", "encoding"),
+    [("nested", "scaled"), ("hierarchical", "scaled"), ("single", "scaled"), ("nested", "one-hot")],
+)
+def test_what_comes_out_does_not_depend_on_the_cut(agent: str, encoding: str, tmp_path: Path) -> None:
+    runs = runs_of([agent], [DOT, BAR], 3, small_preset().model_copy(update={"encoding": encoding}))
+    found: list[dict[tuple[str, int], RunOutcome]] = []
+    for parts in (1, 4):
+        found.append({})
+        for job in cut_into_jobs(runs, parts, seed=3):
+            outcome = train(job, tmp_path / f"{parts}" / job.name)
+            keys = [(scenario.name, trial) for scenario, trial in zip(job.scenarios, job.trials, strict=True)]
+            found[-1].update(zip(keys, outcome.runs, strict=True))
+    assert found[0] == found[1]
+    assert len(found[0]) == 6
+    assert found[0]["bar", 0] != found[0]["bar", 1]
+
+
+def test_an_outcome_says_what_was_evaluated_and_what_it_took(tmp_path: Path) -> None:
+    job = one_job("nested", [DOT, BAR], 2)
+    outcome = train(job, tmp_path)
+    assert [row.episode for row in outcome.runs[0].evaluations] == [5, 10, 15, 20]
+    assert outcome.networks == 2
+    assert outcome.seconds > 0
+    for scenario, run in zip(job.scenarios, outcome.runs, strict=True):
+        # An update a step from the fourth transition on, and one an episode for the main agent, likewise.
+        assert run.updates == (run.env_steps - 3) + (20 - 3)
+        assert 20 <= run.env_steps <= 20 * scenario.step_limit
+        assert {row.material for row in run.evaluations} <= {"wood", "stone"}
+        assert run.score == run.evaluations[-1].score
+
+
+def test_no_run_loses_more_than_an_evaluation_interval(tmp_path: Path) -> None:
+    job = one_job("nested", [DOT, BAR], 2, episodes=50)
+    own = training(job, tmp_path)
+    for tick in range(200):
+        own.tick()
+        if tick % 20 == 0 and (tmp_path / "checkpoint").exists():
+            lost = own.trainer.episodes_done - training(job, tmp_path).trainer.episodes_done
+            assert lost.min() >= 0
+            assert lost.max() < job.preset.evaluate_every
+    assert own.trainer.episodes_done.max() > 3 * job.preset.evaluate_every
+
+
+def test_stopped_time_and_again_the_same_comes_out(tmp_path: Path) -> None:
+    job = one_job("hierarchical", [DOT, BAR], 2)
+    straight = train(job, tmp_path / "straight")
+    own = training(job, tmp_path / "stopped")
+    ticks = 0
+    while not own.trainer.finished:
+        own.tick()
+        ticks += 1
+        if ticks % 37 == 0:
+            own.save()
+            own = training(job, tmp_path / "stopped")
+        elif ticks % 50 == 0:  # a kill: what came after the last save is done again
+            own = training(job, tmp_path / "stopped")
+    assert own.trainer.finished
+    own.finish()
+    stopped = outcome_of(job, tmp_path / "stopped")
+    assert stopped
+    assert stopped.runs == straight.runs
+
+
+def test_a_finished_job_leaves_its_outcome_alone(tmp_path: Path) -> None:
+    job = one_job("nested", [DOT], 1)
+    assert outcome_of(job, tmp_path / "job") is None
+    train(job, tmp_path / "job")
+    assert [path.name for path in (tmp_path / "job").iterdir()] == [OUTCOME]
+
+
+def test_an_outcome_of_another_job_or_half_of_one_is_refused(tmp_path: Path) -> None:
+    job = one_job("nested", [DOT], 1)
+    train(job, tmp_path)
+    with pytest.raises(RunError, match="belongs to another experiment"):
+        outcome_of(one_job("nested", [DOT], 1, episodes=21), tmp_path)
+    whole = (tmp_path / OUTCOME).read_bytes()
+    (tmp_path / OUTCOME).write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(RunError, match="remove it to train that again") as caught:
+        outcome_of(job, tmp_path)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_full_disk_costs_one_line_and_not_the_last_save(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    job = one_job("nested", [DOT], 2, episodes=50)
+    own = training(job, tmp_path)
+
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    while (own.trainer.episodes_done < 14).all():
+        own.tick()
+    saved = training(job, tmp_path).trainer.ticks
+    with monkeypatch.context() as patch:
+        patch.setattr("os.fsync", full)
+        with pytest.raises(RunError, match=r"No space left on device.*: make room"):
+            own.save()
+    assert 0 < training(job, tmp_path).trainer.ticks == saved

@@ -1,0 +1,80 @@
+"""The exploration of many runs: each run's own episodes, and the best of them handed to the right learner's row."""
+
+import numpy as np
+
+from mc_nested.arena.rules import Action
+from mc_nested.learn.agents import AGENT_SPECS, Agent
+from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
+from mc_nested.learn.preset import ExcursionRule, Imitation
+from tests.learn.made_experiments import DOT, small_preset
+
+RULE = ExcursionRule(at_end=1.0, wander=1, rejoin=0.4, repeat=0.8)
+PRESET = small_preset().model_copy(
+    update={"explore_nested": None, "excursions": RULE, "imitation": Imitation(batch=2, margin=0.5)}
+)
+BOTH, START = np.array([0, 1]), np.array([[7, 13, 1], [7, 13, 1]])
+
+
+def of_two_runs(name: str = "hierarchical") -> tuple[Agent, BatchedReturnThenExplore]:
+    agent = Agent(AGENT_SPECS[name], [DOT, DOT], PRESET, 0)
+    return agent, BatchedReturnThenExplore(RULE, agent)
+
+
+def played(explorer: BatchedReturnThenExplore, run: int, row: int, hits: bool = True) -> None:
+    """One run steps back and places its only block."""
+    only, after = np.array([run]), np.array([[7, 12, 0]])
+    explorer.begin(only, np.zeros((2, NUMBERS)))
+    reward, action = np.array([float(hits)]), np.array([int(Action.BD)])
+    explorer.observe(only, START[[run]], START[[run]], action, reward, after, np.array([True]))
+    explorer.end(only, np.array([row]))
+
+
+def imitated(agent: Agent) -> list[int]:
+    """How many steps each row imitates."""
+    assert agent.low_level.best is not None
+    lengths: list[int] = agent.low_level.best._length.tolist()
+    return lengths
+
+
+def test_the_best_episode_of_a_run_is_imitated_by_the_row_that_played_it() -> None:
+    agent, explorer = of_two_runs()
+    played(explorer, run=1, row=3)
+    assert imitated(agent) == [0, 0, 0, 1]
+    played(explorer, run=1, row=2)  # as good, with the other material: the newer one counts
+    assert imitated(agent) == [0, 0, 1, 0]
+    played(explorer, run=0, row=0, hits=False)  # nothing on the design
+    assert imitated(agent) == [0, 0, 1, 0]
+
+
+def test_an_excursion_repeats_the_runs_own_best_episode() -> None:
+    _, explorer = of_two_runs()
+    played(explorer, run=1, row=3)
+    explorer.begin(BOTH, np.zeros((2, NUMBERS)))
+    assert explorer.act(np.array([1]), START, np.zeros((2, NUMBERS))).tolist() == [Action.BD]
+    # The other run has no best episode: its first number of a step that counts picks among all actions.
+    numbers = np.full((2, NUMBERS), 0.99)
+    assert explorer.act(np.array([0]), START, numbers).tolist() == [7]
+
+
+def test_a_loaded_exploration_goes_on_and_imitates_what_it_did() -> None:
+    agent, explorer = of_two_runs()
+    played(explorer, run=0, row=1)
+    other_agent, other = of_two_runs()
+    other.load({name: array.copy() for name, array in explorer.state().items()})
+    assert imitated(other_agent) == imitated(agent) == [0, 1, 0, 0]
+    for each in (explorer, other):
+        each.begin(BOTH, np.zeros((2, NUMBERS)))
+    numbers = np.zeros((2, NUMBERS))
+    assert other.act(BOTH, START, numbers).tolist() == explorer.act(BOTH, START, numbers).tolist()
+
+
+def test_without_imitation_no_best_episode_is_kept_for_it() -> None:
+    agent = Agent(AGENT_SPECS["nested"], [DOT], PRESET.model_copy(update={"imitation": None}), 0)
+    explorer = BatchedReturnThenExplore(RULE, agent)
+    played_states = np.array([[7, 13, 1, 0]])
+    explorer.begin(np.array([0]), np.zeros((1, NUMBERS)))
+    after = np.array([[7, 12, 0, 0]])
+    explorer.observe(np.array([0]), START[:1], played_states, np.array([7]), np.ones(1), after, np.array([True]))
+    explorer.end(np.array([0]), np.array([0]))
+    assert agent.low_level.best is None
+    assert explorer.state()["0.best"].shape == (1, 8)

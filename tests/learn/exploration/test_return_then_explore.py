@@ -1,0 +1,195 @@
+"""Return-then-explore by hand: what is walked again, where it is left, what is avoided, which episode is the best."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.learn.exploration.return_then_explore import EpisodeStep, ReturnThenExplore, blocks_in, without_loops
+from mc_nested.learn.preset import ExcursionRule
+
+RULE = ExcursionRule(at_end=0.1, wander=3, rejoin=0.5, repeat=0.8)
+ALWAYS, NEVER = 0.0, 0.999
+
+
+def step(x: int, y: int, action: int, used: bool = False, reward: float = 0.0, state: int | None = None) -> EpisodeStep:
+    """A step whose state is told by its place, unless given."""
+    number = 15 * x + y if state is None else state
+    return EpisodeStep(x, y, number, action, reward, number + 1, False, used)
+
+
+def numbers(*values: float) -> np.ndarray:
+    return np.array(values)
+
+
+WALK = [step(7, 14, 1), step(7, 13, 5, used=True, reward=1.0, state=500), step(7, 12, 6, True, 1.0, state=600)]
+
+
+def after(walk: list[EpisodeStep], rule: ExcursionRule = RULE, row: int = 0) -> ReturnThenExplore:
+    """ReturnThenExplore whose one episode so far was that walk."""
+    excursions = ReturnThenExplore(rule, actions=8)
+    excursions.begin(numbers(0, 0, 0))
+    for each in walk:
+        excursions.observe(each)
+    excursions.end(row)
+    return excursions
+
+
+def test_the_first_excursion_has_nothing_to_follow_and_wanders() -> None:
+    excursions = ReturnThenExplore(RULE, actions=8)
+    excursions.begin(numbers(0.5, 0.5, 0.5))
+    assert [excursions.next_action(7, 14, numbers(NEVER, NEVER, which)) for which in (0.0, 0.5, 0.99)] == [0, 4, 7]
+
+
+def test_the_best_episode_is_walked_again_until_it_is_left() -> None:
+    excursions = after(WALK)
+    # 0.6 of the 4 ways to leave a walk of 3 steps is behind its second step.
+    excursions.begin(numbers(NEVER, 0.6, 0.0))
+    for each in WALK[:2]:
+        assert excursions.next_action(each.x, each.y, numbers(NEVER, NEVER, 0.0)) == each.action
+        excursions.observe(each)
+    assert excursions.next_action(7, 12, numbers(NEVER, NEVER, 0.0)) == 0
+
+
+def test_at_the_chosen_share_it_is_followed_to_its_end() -> None:
+    excursions = after(WALK)
+    excursions.begin(numbers(0.09, 0.0, 0.0))
+    actions = []
+    for each in WALK:
+        actions.append(excursions.next_action(each.x, each.y, numbers(NEVER, NEVER, 0.0)))
+        excursions.observe(each)
+    assert actions == [each.action for each in WALK]
+
+
+def test_what_wasted_a_block_at_a_place_is_not_wandered_into_again() -> None:
+    excursions = after([step(7, 14, 4, used=True, reward=0.0), step(7, 14, 6, used=True, reward=0.0)])
+    excursions.begin(numbers(NEVER, 0.0, 0.0))
+    drawn = {excursions.next_action(7, 14, numbers(NEVER, NEVER, which)) for which in np.arange(0, 1, 0.05)}
+    assert drawn == {0, 1, 2, 3, 5, 7}
+    elsewhere = {excursions.next_action(7, 13, numbers(NEVER, NEVER, which)) for which in np.arange(0, 1, 0.05)}
+    assert elsewhere == set(range(8))
+
+
+def test_where_everything_was_wasted_anything_goes() -> None:
+    excursions = after([step(7, 14, action, used=True, reward=0.0) for action in range(8)])
+    excursions.begin(numbers(NEVER, 0.0, 0.0))
+    assert excursions.next_action(7, 14, numbers(NEVER, NEVER, 0.99)) == 7
+
+
+def test_a_placing_known_to_lie_on_the_design_is_repeated_as_often_as_the_rule_says() -> None:
+    excursions = after([*WALK[:1], WALK[1]])
+    excursions.begin(numbers(NEVER, 0.0, 0.0))
+    assert excursions.next_action(7, 13, numbers(NEVER, 0.79, 0.3)) == 5
+    assert excursions.next_action(7, 13, numbers(NEVER, 0.81, 0.3)) == 2
+
+
+def test_an_occupied_front_tells_nothing_new_about_a_placing() -> None:
+    excursions = after([WALK[0], WALK[1], step(7, 13, 5, used=False)])
+    excursions.begin(numbers(NEVER, 0.0, 0.0))
+    assert excursions.next_action(7, 13, numbers(NEVER, 0.0, 0.0)) == 5
+
+
+def test_wandering_may_rejoin_the_path_it_meets_within_its_steps() -> None:
+    excursions = after(WALK)
+    excursions.begin(numbers(NEVER, 0.0, 0.4))  # leave at once, wander 1 + int(0.4 · 3) = 2 steps
+    assert excursions.next_action(7, 14, numbers(ALWAYS, NEVER, 0.0)) == 0, "there is no rejoining before a step"
+    excursions.observe(step(7, 14, 0))
+    assert excursions.next_action(7, 12, numbers(0.51, NEVER, 0.0)) == 0, "not rejoined: a number above the rule's"
+    assert excursions.next_action(7, 12, numbers(0.49, NEVER, 0.0)) == 6, "rejoined at its third step"
+    excursions.observe(step(7, 12, 6))
+    assert excursions.next_action(7, 12, numbers(ALWAYS, NEVER, 0.0)) == 6, "again: two steps were wandered"
+    excursions.observe(step(7, 12, 6))
+    assert excursions.next_action(7, 12, numbers(ALWAYS, NEVER, 0.0)) == 0, "three steps are more than it may wander"
+
+
+def test_after_a_wasted_block_the_path_is_left_for_good() -> None:
+    excursions = after(WALK)
+    excursions.begin(numbers(NEVER, 0.0, 0.99))
+    excursions.observe(step(7, 13, 7, used=True, reward=0.0))
+    assert excursions.next_action(7, 12, numbers(ALWAYS, NEVER, 0.0)) == 0
+
+
+def test_the_best_episode_ends_with_its_last_block_and_counts_only_until_the_first_wasted() -> None:
+    excursions = after([*WALK, step(5, 5, 0), step(5, 6, 4, used=True, reward=0.0), step(5, 7, 5, True, 1.0)])
+    assert excursions.best == WALK
+
+
+def test_more_blocks_are_better_then_fewer_steps_and_as_good_replaces() -> None:
+    excursions = after(WALK, row=3)
+    worse, longer = WALK[:2], [step(6, 14, 2), *WALK]
+    equal = [step(8, 14, 1, state=900), *WALK[1:]]
+    for walk, taken in ((worse, False), (longer, False), (equal, True)):
+        excursions.begin(numbers(0, 0, 0))
+        for each in walk:
+            excursions.observe(each)
+        assert excursions.end(row=5) is taken
+    assert excursions.best == equal
+    assert excursions.best_row == 5
+
+
+def test_a_loop_is_cut_out() -> None:
+    a, b, c = step(1, 1, 0), step(1, 2, 1), step(1, 3, 2)
+    assert without_loops([a, b, c, b, a, c]) == [a, c]
+    assert without_loops([a, a._replace(action=7)]) == [a._replace(action=7)]
+
+
+@given(st.lists(st.integers(0, 6), max_size=30))
+def test_without_loops_no_state_is_seen_twice_and_every_step_leads_to_the_next(states: list[int]) -> None:
+    walk = [
+        step(0, 0, 0, state=now)._replace(next_state=then) for now, then in zip(states, [*states[1:], 99], strict=False)
+    ]
+    kept = without_loops(walk)
+    assert len({each.state for each in kept}) == len(kept)
+    assert all(now.next_state == then.state for now, then in pairwise(kept))
+    if walk:
+        assert (kept[0].state, kept[-1]) == (walk[0].state, walk[-1])
+
+
+def test_blocks_are_counted() -> None:
+    assert blocks_in(WALK) == 2
+
+
+@pytest.mark.parametrize("steps", [0, 1, 2])
+def test_saved_excursions_go_on_where_they_were(steps: int) -> None:
+    one, other = after(WALK, row=1), ReturnThenExplore(RULE, actions=8)
+    one.begin(numbers(NEVER, 0.6, 0.9))
+    for each in WALK[:steps]:
+        one.next_action(each.x, each.y, numbers(NEVER, NEVER, 0.0))
+        one.observe(each)
+    other.load({name: kept.copy() for name, kept in one.state().items()})
+    assert (other.best, other.best_row) == (one.best, 1)
+    for each in WALK[steps:]:
+        chosen = [some.next_action(each.x, each.y, numbers(ALWAYS, NEVER, 0.3)) for some in (one, other)]
+        assert chosen[0] == chosen[1]
+        one.observe(each)
+        other.observe(each)
+    one.end(2)
+    other.end(2)
+    assert one.best == other.best
+
+
+def test_a_plan_leaves_the_best_episode_at_a_step_and_wanders_a_part_of_the_most() -> None:
+    rule = ExcursionRule(at_end=0.1, wander=12, rejoin=0.4, repeat=0.8)
+    explorer = ReturnThenExplore(rule, actions=8)
+    explorer.begin(np.array([0.9, 0.0, 0.5]))
+    # Nothing to return along: it leaves at step 0 and wanders 12 / 2 steps after the first.
+    assert explorer.state()["plan"][2:4].tolist() == [0, 0 + 1 + 6]
+    explorer.best = [EpisodeStep(7, 14 - i, i, 1, 0.0, i + 1, False, False) for i in range(3)]
+    explorer.begin(np.array([0.9, 0.6, 0.25]))
+    assert explorer.state()["plan"][2:4].tolist() == [int(0.6 * 4), 2 + 1 + 3]
+    explorer.begin(np.array([0.05, 0.0, 0.0]))
+    assert explorer.state()["plan"][2:4].tolist() == [3, 3 + 1]
+
+
+@pytest.mark.parametrize(("which", "action"), [(0.0, 3), (0.6, 4)])
+def test_where_the_best_episode_passed_twice_a_number_says_from_which_step_it_is_followed(
+    which: float, action: int
+) -> None:
+    explorer = ReturnThenExplore(ExcursionRule(at_end=0.1, wander=12, rejoin=1.0, repeat=0.0), actions=8)
+    steps = [(7, 13, 3), (7, 12, 0), (7, 13, 4), (7, 12, 0)]
+    explorer.best = [EpisodeStep(x, y, i, act, 0.0, i + 1, False, False) for i, (x, y, act) in enumerate(steps)]
+    explorer.begin(np.array([0.9, 0.0, 0.9]))  # leaves at once
+    explorer.observe(step(7, 14, 1))
+    assert explorer.next_action(7, 13, np.array([0.5, 0.5, which])) == action

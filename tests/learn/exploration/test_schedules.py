@@ -1,0 +1,21 @@
+"""ε by hand: linear from the start to the floor over its share of the episodes, then flat."""
+
+import numpy as np
+import pytest
+
+from mc_nested.learn.exploration.schedules import LinearDecay
+
+
+@pytest.mark.parametrize(
+    ("done", "epsilon"), [(0, 1.0), (900, 1.0 - 0.999 * 0.5), (1800, 0.001), (1801, 0.001), (3000, 0.001)]
+)
+def test_the_nested_agents_epsilon_reaches_its_floor_after_60_percent(done: int, epsilon: float) -> None:
+    assert LinearDecay(1.0, 0.001, 0.6).epsilon(np.array([done]), 3000) == pytest.approx(epsilon)
+
+
+def test_the_main_agents_epsilon_falls_faster_and_stays_higher() -> None:
+    done = np.arange(3001)
+    main, nested = LinearDecay(1.0, 0.01, 0.18).epsilon(done, 3000), LinearDecay(1.0, 0.001, 0.6).epsilon(done, 3000)
+    assert (main[1:1700] < nested[1:1700]).all()
+    assert (main[1800:] > nested[1800:]).all()
+    assert main[540] == pytest.approx(0.01)

@@ -1,0 +1,48 @@
+"""Experiments that take a moment: small designs, small networks, few episodes."""
+
+import tomlkit
+
+from mc_nested.arena.scenario import Material, Scenario
+from mc_nested.arena.scenario_file import draw_grid
+from mc_nested.learn.agents import AGENT_SPECS
+from mc_nested.learn.experiments.jobs import Job, Run, cut_into_jobs
+from mc_nested.learn.preset import Preset, load_preset
+
+MATERIALS = Material("wood", -5.0, "oak_planks"), Material("stone", 10.0, "stone")
+
+DOT = Scenario("dot", frozenset({(7, 13)}), (7, 13), 4, MATERIALS)
+BAR = Scenario("bar", frozenset({(6, 12), (7, 12), (8, 12)}), (7, 13), 9, MATERIALS)
+
+
+def small_preset(episodes: int = 20) -> Preset:
+    paper = load_preset("paper")
+    update = paper.update.model_copy(update={"batch": 4, "learning_starts": 4, "target_period": 10})
+    changes = {"episodes": episodes, "evaluate_every": 5, "hidden": [4], "replay_capacity": 1000, "update": update}
+    return paper.model_copy(update=changes)
+
+
+def small_preset_text(episodes: int = 20) -> str:
+    return tomlkit.dumps(small_preset(episodes).model_dump(exclude_none=True))
+
+
+def scenario_text(scenario: Scenario) -> str:
+    materials = "\n".join(
+        f'[[materials]]\nname = "{m.name}"\np = {m.p}\nblock = "{m.block}"' for m in scenario.materials
+    )
+    return (
+        f'name = "{scenario.name}"\nstart = {list(scenario.start)}\nstep_limit = {scenario.step_limit}\n'
+        f'design = """\n{draw_grid(scenario.design)}"""\n{materials}\n'
+    )
+
+
+def runs_of(agents: list[str], scenarios: list[Scenario], trials: int, preset: Preset) -> list[Run]:
+    return [
+        Run(agent, AGENT_SPECS[agent], preset, scenario, trial)
+        for agent in agents
+        for scenario in scenarios
+        for trial in range(trials)
+    ]
+
+
+def one_job(agent: str, scenarios: list[Scenario], trials: int, episodes: int = 20) -> Job:
+    return cut_into_jobs(runs_of([agent], scenarios, trials, small_preset(episodes)), 1, seed=3)[0]

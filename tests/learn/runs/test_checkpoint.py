@@ -1,0 +1,168 @@
+"""Checkpoints: whole or not at all, what was added journalled, and never taken for another run's."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import torch
+from numpy.typing import NDArray
+
+from mc_nested.arrays import Arrays
+from mc_nested.errors import RunError
+from mc_nested.learn.runs import checkpoint as checkpoint_module
+from mc_nested.learn.runs.checkpoint import FILE, FORMAT, Checkpoint
+
+IDENTITY = {"scenario": "line", "preset": {"batch": 32, "hidden": [32, 32]}}
+
+
+class Counts:
+    """The least that can be saved: how far it has counted, and every number on the way."""
+
+    def __init__(self) -> None:
+        self.numbers: list[int] = []
+
+    def count(self, times: int) -> "Counts":
+        for _ in range(times):
+            self.numbers.append(3 * len(self.numbers))
+        return self
+
+    def state(self) -> Arrays:
+        return {"now": np.array([len(self.numbers)], np.uint16), "none": np.zeros((0, 7))}
+
+    def marks(self) -> Arrays:
+        return {"count": np.array([len(self.numbers)])}
+
+    def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
+        return {"numbers": np.array(self.numbers[int(since["count"][0]) if since else 0 :], dtype=np.int64)}
+
+    def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None:
+        self.numbers = [int(number) for journal in journals for number in journal["numbers"]]
+        assert state["now"].tolist() == [len(self.numbers)]
+
+
+def loaded(folder: Path, identity: Mapping[str, Any] = IDENTITY) -> list[int]:
+    counts = Counts()
+    Checkpoint(folder, identity).load_into(counts)
+    return counts.numbers
+
+
+def test_what_was_saved_is_read_back(tmp_path: Path) -> None:
+    checkpoint, counts = Checkpoint(tmp_path / "checkpoint", IDENTITY), Counts()
+    assert not checkpoint.exists
+    for _ in range(3):
+        checkpoint.save(counts.count(2))
+    state = Checkpoint(tmp_path / "checkpoint", {**IDENTITY}).state()
+    assert (state["now"].tolist(), str(state["now"].dtype), state["none"].shape) == ([6], "uint16", (0, 7))
+    assert loaded(tmp_path / "checkpoint") == [0, 3, 6, 9, 12, 15]
+
+
+def test_a_save_writes_only_what_was_added(tmp_path: Path) -> None:
+    checkpoint, counts = Checkpoint(tmp_path, IDENTITY), Counts()
+    checkpoint.save(counts.count(50_000))
+    checkpoint.save(counts.count(1))
+    first, second = sorted(tmp_path.glob("journal-*.pt"))
+    assert first.stat().st_size > 400_000
+    assert second.stat().st_size < 4_000
+
+
+def test_journals_become_one_before_they_are_many(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checkpoint_module, "MOST_JOURNALS", 3)
+    checkpoint, counts = Checkpoint(tmp_path, IDENTITY), Counts()
+    for _ in range(8):
+        checkpoint.save(counts.count(1))
+        assert len(list(tmp_path.glob("journal-*.pt"))) <= 3
+    assert loaded(tmp_path) == counts.numbers
+
+
+def test_a_loaded_training_is_saved_on_from_there(tmp_path: Path) -> None:
+    Checkpoint(tmp_path, IDENTITY).save(Counts().count(4))
+    again, counts = Checkpoint(tmp_path, IDENTITY), Counts()
+    again.load_into(counts)
+    again.save(counts.count(2))
+    assert loaded(tmp_path) == [0, 3, 6, 9, 12, 15]
+
+
+def test_a_finished_training_is_the_same_files_however_often_it_was_saved(tmp_path: Path) -> None:
+    Checkpoint(tmp_path / "one", IDENTITY).save(Counts().count(5), finished=True)
+    often, counts = Checkpoint(tmp_path / "two", IDENTITY), Counts()
+    for _ in range(5):
+        often.save(counts.count(1))
+    again = Checkpoint(tmp_path / "two", IDENTITY)
+    again.load_into(Counts())
+    again.save(counts, finished=True)
+    files = [{path.name: path.read_bytes() for path in (tmp_path / name).iterdir()} for name in ("one", "two")]
+    assert files[0] == files[1]
+    assert loaded(tmp_path / "two") == counts.numbers
+
+
+@pytest.mark.parametrize("refused_at", [1, 2])
+def test_a_save_that_breaks_off_leaves_the_last_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, refused_at: int
+) -> None:
+    checkpoint, counts = Checkpoint(tmp_path, IDENTITY), Counts()
+    checkpoint.save(counts.count(2))
+    calls = []
+
+    def full_disk(_: int) -> None:
+        calls.append(1)
+        if len(calls) == refused_at:
+            raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("os.fsync", full_disk)
+        with pytest.raises(OSError, match="No space left"):
+            checkpoint.save(counts.count(2))
+    assert loaded(tmp_path) == [0, 3]
+    checkpoint.save(counts)
+    assert loaded(tmp_path) == [0, 3, 6, 9]
+
+
+@pytest.mark.parametrize("name", [FILE, "journal-000000.pt"])
+@pytest.mark.parametrize("kept", [0, 1, 100, 1000, -1])
+def test_a_truncated_checkpoint_is_one_clear_line(tmp_path: Path, kept: int, name: str) -> None:
+    Checkpoint(tmp_path, IDENTITY).save(Counts().count(3))
+    whole = (tmp_path / name).read_bytes()
+    (tmp_path / name).write_bytes(whole[:kept])
+    with pytest.raises(RunError, match="damaged or cut short: bring back a whole copy") as caught:
+        loaded(tmp_path)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_checkpoint_of_another_scenario_is_refused(tmp_path: Path) -> None:
+    Checkpoint(tmp_path, IDENTITY).save(Counts())
+    with pytest.raises(RunError, match="belongs to another scenario, agent or preset"):
+        loaded(tmp_path, {**IDENTITY, "scenario": "diamond"})
+
+
+def rewritten(folder: Path, change: Callable[[dict[str, Any]], None]) -> None:
+    """Change what the state file holds beside its arrays."""
+    found = torch.load(folder / FILE, weights_only=True)
+    change(found)
+    torch.save(found, folder / FILE)
+
+
+def test_a_checkpoint_without_a_version_is_read(tmp_path: Path) -> None:
+    Checkpoint(tmp_path, IDENTITY).save(Counts().count(2))
+    rewritten(tmp_path, lambda found: found.pop("format"))
+    assert loaded(tmp_path) == [0, 3]
+
+
+def test_a_checkpoint_of_a_newer_version_is_refused_in_one_line(tmp_path: Path) -> None:
+    Checkpoint(tmp_path, IDENTITY).save(Counts().count(2))
+    rewritten(tmp_path, lambda found: found.update(format=FORMAT + 1))
+    with pytest.raises(RunError, match="newer mc-nested: update mc-nested"):
+        loaded(tmp_path)
+
+
+def test_what_a_killed_save_left_is_removed_when_the_training_goes_on(tmp_path: Path) -> None:
+    Checkpoint(tmp_path, IDENTITY).save(Counts().count(2))
+    (tmp_path / f"{FILE}.0123abcd.unfinished").write_bytes(b"half")
+    assert loaded(tmp_path) == [0, 3]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["journal-000000.pt", FILE]
+
+
+def test_no_checkpoint_is_one_clear_line(tmp_path: Path) -> None:
+    with pytest.raises(RunError, match="no checkpoint yet"):
+        loaded(tmp_path)

@@ -1,0 +1,39 @@
+"""Which command a folder belongs to, whether it can be new, and that a newer version's is refused."""
+
+from pathlib import Path
+
+import pytest
+
+from mc_nested.errors import RunError
+from mc_nested.learn.runs.folder_kind import FORMAT, check_config, check_free
+
+
+@pytest.mark.parametrize(
+    ("text", "verb"), [('agent = "nested"', "train"), ('agents = ["nested"]', "reproduce"), ("[[variants]]", "sweep")]
+)
+def test_a_folder_is_opened_by_the_command_that_made_it_alone(text: str, verb: str) -> None:
+    check_config(text, Path("runs/x"), verb)
+    other = "sweep" if verb == "train" else "train"
+    with pytest.raises(RunError, match=f"the folder of mc-nested {verb}, not of {other}: .* --resume runs/x"):
+        check_config(text, Path("runs/x"), other)
+
+
+def test_a_folder_of_a_newer_version_is_refused_in_one_line() -> None:
+    check_config(f'agent = "nested"\nformat = {FORMAT}', Path("runs/x"), "train")
+    with pytest.raises(RunError, match="newer mc-nested: update mc-nested"):
+        check_config(f'agent = "nested"\nformat = {FORMAT + 1}', Path("runs/x"), "train")
+
+
+def test_an_empty_or_missing_folder_can_be_new_and_what_a_killed_process_left_does_not_count(tmp_path: Path) -> None:
+    check_free(tmp_path / "missing")
+    check_free(tmp_path)
+    (tmp_path / "config.toml.0123abcd.unfinished").write_text("half")
+    check_free(tmp_path)
+
+
+def test_a_folder_that_holds_something_or_a_file_is_not_overwritten(tmp_path: Path) -> None:
+    (tmp_path / "notes.txt").write_text("mine")
+    (tmp_path / "config.toml.0123abcd.unfinished").write_text("half")
+    for path in (tmp_path, tmp_path / "notes.txt"):
+        with pytest.raises(RunError, match="nothing was overwritten"):
+            check_free(path)

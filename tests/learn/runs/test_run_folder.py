@@ -1,0 +1,121 @@
+"""A training's folder: what it holds, that old ones open, and what a disk that refuses leaves."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+from mc_nested.arena.scenario_file import table_of
+from mc_nested.errors import RunError
+from mc_nested.learn.agents import view_of
+from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.learn.runs.run_folder import RunConfig, RunFolder, summarise
+from mc_nested.learn.trainer import Trainer
+from sim.grid import GridVectorEnv
+from tests.learn.made_experiments import DOT, small_preset
+
+
+def config_of(trials: int = 2, profile: str | None = None) -> RunConfig:
+    return RunConfig(
+        agent="nested",
+        backend="sim",
+        profile=profile,
+        trials=trials,
+        seed=4,
+        stop_at_optimum=False,
+        preset_name="small",
+        preset=small_preset(10),
+        scenario=table_of(DOT),
+    )
+
+
+def trainer_in(folder: RunFolder) -> Trainer:
+    agent = folder.new_agent(folder.config.trials)
+    env = view_of(agent.spec, GridVectorEnv(folder.scenarios), folder.scenarios)
+    return Trainer(env, folder.scenarios, agent, folder.config.preset, folder.config.seed)
+
+
+def begun(path: Path) -> RunFolder:
+    folder = RunFolder.new(path, config_of())
+    folder.begin()
+    return folder
+
+
+def test_a_folder_is_opened_as_it_was_begun(tmp_path: Path) -> None:
+    folder = begun(tmp_path / "run")
+    assert RunFolder.open(tmp_path / "run").config == folder.config
+    assert folder.only_begun
+    assert folder.wall_s_so_far() == 0.0
+    with pytest.raises(RunError, match="nothing was overwritten"):
+        RunFolder.new(tmp_path / "run", config_of())
+
+
+def test_a_folder_from_before_there_were_versions_opens_and_its_checkpoint_fits(tmp_path: Path) -> None:
+    folder = begun(tmp_path)
+    file = tmp_path / "config.toml"
+    lines = file.read_text("utf-8").splitlines(keepends=True)
+    assert "format = 1\n" in lines
+    file.write_text("".join(line for line in lines if line != "format = 1\n"), "utf-8")
+    assert RunFolder.open(tmp_path).config.identity() == folder.config.identity()
+
+
+def test_the_profile_may_change_and_nothing_else() -> None:
+    assert config_of().identity() == config_of(profile="moved").identity()
+    assert config_of().identity() != config_of(trials=3).identity()
+    assert "format" not in config_of().identity()
+
+
+def test_an_unfinished_training_has_no_final_scores_and_a_finished_one_has_everything(tmp_path: Path) -> None:
+    folder = begun(tmp_path)
+    trainer = trainer_in(folder)
+    trainer.tick()
+    early = folder.save(trainer, 1.5, {"live": {}})
+    assert (early["final_scores"], early["live"]) == ([None, None], {})
+    assert not folder.only_begun
+    while not trainer.finished:
+        trainer.tick()
+    summary = folder.save(trainer, 2.5)
+    assert json.loads((tmp_path / "summary.json").read_text("utf-8")) == summary
+    assert folder.wall_s_so_far() == 2.5
+    assert summary["episodes_done"] == [10, 10]
+    assert summary["final_scores"] == trainer.kept_scores.tolist()
+    with (tmp_path / "episodes.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 20
+    assert sum(int(row["steps"]) for row in rows) == summary["env_steps"]
+
+
+def test_what_was_played_to_the_optimum_counts_the_greedy_episodes_too(tmp_path: Path) -> None:
+    folder = RunFolder.new(tmp_path, config_of())
+    trainer = trainer_in(folder)
+    trainer.episode_rows += [EpisodeRow(0, number, 1.0, 1, number, 0.5, 0.5) for number in range(1, 9)]
+    trainer.episode_rows += [EpisodeRow(1, 1, 1.0, 1, 4, 0.5, 0.5)]
+    trainer.evaluation_rows += [
+        EvaluationRow(0, 0, 1.0, 1, 4),
+        EvaluationRow(0, 5, 11.0, 1, 1),
+        EvaluationRow(0, 8, 11.0, 1, 1),
+        EvaluationRow(1, 0, 10.9, 1, 4),
+    ]
+    summary = summarise(folder.config, folder.scenario, trainer, 1.23456)
+    assert summary["episodes_to_optimum"] == [5, None]
+    # Five episodes of 1 to 5 steps, and the greedy ones of 4 and 1 steps.
+    assert summary["played_to_optimum"] == [{"episodes": 7, "steps": 20}, None]
+    assert (summary["wall_s"], summary["optimum"], summary["networks"]) == (1.235, 11.0, 2)
+
+
+def test_a_disk_that_refuses_is_one_line_and_leaves_nothing_half_begun(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full_disk(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    folder = RunFolder.new(tmp_path / "run", config_of())
+    monkeypatch.setattr("os.fsync", full_disk)
+    with pytest.raises(RunError, match="make room and begin again"):
+        folder.save_before_all(trainer_in(folder))
+    assert not (tmp_path / "run" / "checkpoint").exists()
+    with pytest.raises(RunError, match="No space left on device: name another folder"):
+        folder.begin()
+    with pytest.raises(RunError, match="make room, then mc-nested train --resume"):
+        folder.save(trainer_in(folder), 0.0)

@@ -1,0 +1,129 @@
+"""Windows of an X server, with the server's answers made up; test_desktop.py has a real one."""
+
+import sys
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, cast
+
+import pytest
+
+from mc_nested.errors import DesktopError
+
+if not sys.platform.startswith("linux"):
+    pytest.skip("windows of an X server", allow_module_level=True)
+
+from Xlib import X
+from Xlib.error import ConnectionClosedError
+from Xlib.xobject.drawable import Window
+
+from mc_nested.live.desktop.window import ClientArea
+from mc_nested.live.desktop.x11 import X11Window
+
+if TYPE_CHECKING:
+    from Xlib.display import Display
+
+TITLE = "Minecraft 1.20.1"
+
+
+class FakeWindow(Window):
+    """A window in a tree of windows."""
+
+    def __init__(self, parent: "FakeWindow | None" = None) -> None:
+        self.parent, self.under_pointer = parent, None
+        self.map_state = X.IsViewable
+        self.size, self.corner = (320, 240), (60, 40)
+        self.is_gone = False
+
+    under_pointer: "FakeWindow | None"
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    __hash__ = Window.__hash__
+
+    def query_tree(self) -> Any:
+        return SimpleNamespace(parent=self.parent or X.NONE)
+
+    def query_pointer(self) -> Any:
+        return SimpleNamespace(child=self.under_pointer or X.NONE)
+
+    def get_attributes(self) -> Any:
+        if self.is_gone:
+            raise ConnectionClosedError("gone")
+        return SimpleNamespace(map_state=self.map_state)
+
+    def get_geometry(self) -> Any:
+        return SimpleNamespace(width=self.size[0], height=self.size[1])
+
+    def translate_coords(self, src_window: Any, _x: int, _y: int) -> Any:
+        return SimpleNamespace(x=src_window.corner[0], y=src_window.corner[1])
+
+
+class Server:
+    """An X server with a game's window inside a frame, and another window beside it."""
+
+    def __init__(self) -> None:
+        self.root = FakeWindow()
+        self.frame = FakeWindow(self.root)
+        self.game = FakeWindow(self.frame)
+        self.canvas = FakeWindow(self.game)
+        self.other = FakeWindow(self.root)
+        self.focus: object = self.game
+        self.window = X11Window(cast("Display", self), self.game, TITLE)
+
+    def screen(self) -> Any:
+        return SimpleNamespace(root=self.root)
+
+    def get_input_focus(self) -> Any:
+        return SimpleNamespace(focus=self.focus)
+
+    def point_at(self, *chain: FakeWindow) -> None:
+        """The pointer is over these windows, from the root inwards."""
+        for outer, inner in zip((self.root, *chain), chain, strict=False):
+            outer.under_pointer = inner
+
+
+def test_keys_reach_a_window_with_the_focus_or_whose_part_has_it() -> None:
+    server = Server()
+    assert server.window.is_in_front()
+    server.focus = server.canvas
+    assert server.window.is_in_front()
+
+
+def test_keys_go_elsewhere_with_the_focus_on_another_window_or_on_none() -> None:
+    server = Server()
+    server.point_at(server.frame, server.game)
+    for focus in (server.other, X.NONE):
+        server.focus = focus
+        assert not server.window.is_in_front()
+
+
+@pytest.mark.parametrize("holder", ["root", "frame", "pointer root"])
+def test_with_the_focus_around_it_keys_go_to_the_window_under_the_pointer(holder: str) -> None:
+    server = Server()
+    server.focus = {"root": server.root, "frame": server.frame, "pointer root": X.PointerRoot}[holder]
+    server.point_at(server.frame, server.game, server.canvas)
+    assert server.window.is_in_front()
+    server.point_at(server.other)
+    assert not server.window.is_in_front()
+
+
+def test_the_client_area_is_where_the_window_is_on_the_root() -> None:
+    assert Server().window.client_area() == ClientArea(60, 40, 320, 240)
+
+
+def test_a_window_that_is_not_shown_or_has_no_area_is_minimised() -> None:
+    server = Server()
+    server.game.map_state = X.IsUnmapped
+    with pytest.raises(DesktopError, match="minimised"):
+        server.window.client_area()
+    empty = Server()
+    empty.game.size = (320, 0)
+    with pytest.raises(DesktopError, match="minimised"):
+        empty.window.client_area()
+
+
+def test_a_window_that_is_gone_has_closed() -> None:
+    server = Server()
+    server.game.is_gone = True
+    with pytest.raises(DesktopError, match=f"'{TITLE}' has closed"):
+        server.window.client_area()

@@ -1,0 +1,422 @@
+"""InputController: presses that keep their time, are gated by the window in front, and never leave anything down."""
+
+import contextlib
+import signal
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.errors import NotInFrontError, StoppedError, WrongScreenError
+from mc_nested.live.input.input_controller import FRESH_S, LONGEST_S, OVERDUE_S, InputController, PressTarget
+from mc_nested.live.input.signals import EndedBySignal
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.tables import InputTable, Profile
+from tests.live.fake_game import FakeClock, FakeGame, FakeKeyboard, devices_of
+from tests.live.menus.fake_menus import FakeMenus, connection_of
+
+PROFILE = Profile(arena=Arena.around((0, 64, 0), "south"))
+
+
+def _controller(game: FakeGame, fail_after: int = -1) -> InputController:
+    """A controller for which the world was just confirmed."""
+    controller = InputController(devices_of(game, FakeKeyboard(game, fail_after)), game.profile.input)
+    controller.confirm_screen("world")
+    return controller
+
+
+def _press(controller: InputController, how: str) -> None:
+    {
+        "hold": lambda: controller.hold("w", 5),
+        "tap": lambda: controller.tap("1"),
+        "click": lambda: controller.click("right"),
+        "click_at": lambda: controller.click_at(3, 4),
+        "hover": lambda: controller.hover(3, 4),
+        "type_line": lambda: controller.type_line("/fill"),
+    }[how]()
+
+
+@pytest.mark.parametrize("ticks", [1, 2, 3, 5, 12])
+def test_a_hold_of_n_ticks_is_n_ticks_in_the_game(ticks: int) -> None:
+    game = FakeGame(PROFILE)
+    _controller(game).hold("w", ticks)
+    game.clock.sleep_until(game.clock.now() + 2.0)
+    walked = game.read().xyz
+    assert walked is not None
+    assert walked[2] - 0.5 == pytest.approx(PROFILE.walk.covered[ticks - 1], abs=0.001)
+
+
+def test_late_wake_ups_never_add_up() -> None:
+    game = FakeGame(PROFILE, clock=FakeClock(late=0.004))
+    start = game.clock.now()
+    _controller(game).hold("w", 12)
+    assert game.clock.now() - start == pytest.approx(0.604)
+
+
+def test_a_click_is_as_long_as_the_profile_says_and_ends_while_something_is_waited_for() -> None:
+    game = FakeGame(Profile(input=InputTable(click_s=0.12)))
+    controller = _controller(game)
+    controller.click("right")
+    controller.wait(0.119)
+    assert game.down == {"right button"}
+    controller.wait(0.002)
+    assert game.down == set()
+    assert game.presses == ["right button"]
+
+
+def test_the_release_time_of_a_held_key_can_be_changed() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    start = game.clock.now()
+    controller.press(start + 0.25, "w")
+    controller.keep_until(start + 0.2, "w")
+    controller.wait_until(start + 0.199)
+    assert game.down == {"w"}
+    controller.wait_until(start + 0.2)
+    assert game.down == set()
+
+
+@pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "hover", "type_line"])
+def test_nothing_is_pressed_while_another_window_is_in_front(press: str) -> None:
+    game = FakeGame(PROFILE, front_until=0.0)
+    with pytest.raises(NotInFrontError, match="not in front"):
+        _press(_controller(game), press)
+    assert game.presses == []
+
+
+@pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "hover", "type_line"])
+@pytest.mark.parametrize("seen", ["world", "chat", "menu"])
+def test_nothing_is_pressed_that_the_screen_just_seen_is_not_there_for(press: str, seen: PressTarget) -> None:
+    wanted = {"click_at": "menu", "hover": "menu", "type_line": "chat"}.get(press, "world")
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.confirm_screen(seen)
+    if seen == wanted:
+        # The right one, but that is some time ago.
+        game.clock.sleep_until(game.clock.now() + FRESH_S + 0.01)
+    with pytest.raises(WrongScreenError, match=f"the {wanted} was not just seen"):
+        _press(controller, press)
+    assert game.presses == []
+
+
+def test_a_stop_releases_everything_at_once_and_ends_what_is_going_on() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.press(game.clock.now() + 1.0, "w")
+    controller.stop("the panic key was pressed")
+    assert game.down == set()
+    began = game.clock.now()
+    with pytest.raises(StoppedError, match="the panic key was pressed: every key is up"):
+        controller.wait(1.0)
+    assert game.clock.now() - began <= 0.1
+    with pytest.raises(StoppedError):
+        controller.tap("1")
+    assert game.presses == ["w"]
+
+
+def test_nothing_is_held_longer_than_the_longest_hold() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.press(game.clock.now() + 60.0, "w")
+    controller.wait(LONGEST_S + 0.01)
+    assert game.down == set()
+
+
+def test_the_watchdog_releases_only_what_is_overdue() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.press(game.clock.now() + 0.25, "w")
+    game.clock.sleep_until(game.clock.now() + 0.26)
+    controller.release_overdue()
+    assert game.down == {"w"}
+    game.clock.sleep_until(game.clock.now() + OVERDUE_S)
+    controller.release_overdue()
+    assert game.down == set()
+
+
+def test_a_key_is_overdue_a_quarter_of_a_second_after_its_release_time() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.press(100.25, "w")
+    game.clock.sleep_until(100.499)
+    controller.release_overdue()
+    assert game.down == {"w"}
+    game.clock.sleep_until(100.5)
+    controller.release_overdue()
+    assert game.down == set()
+
+
+def test_what_was_pressed_in_the_world_can_be_released_again() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.hold("w", 2)
+    game.down = {"w"}
+    controller.release_again()
+    assert game.down == set()
+
+
+def test_a_changed_release_time_is_no_longer_than_the_longest_hold_either() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.press(game.clock.now() + 0.2, "w")
+    controller.keep_until(game.clock.now() + 60.0, "w")
+    controller.wait(LONGEST_S - 0.01)
+    assert game.down == {"w"}
+    controller.wait(0.02)
+    assert game.down == set()
+
+
+def test_a_key_that_is_up_has_no_release_time_to_change() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.keep_until(game.clock.now() + 1.0, "w")
+    controller.wait(1.1)
+    assert (game.presses, game.down) == ([], set())
+
+
+def test_a_screen_that_was_just_confirmed_permits_presses_for_a_quarter_of_a_second() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    game.clock.sleep_until(game.clock.now() + FRESH_S)
+    controller.tap("1")
+    assert game.presses == ["1"]
+
+
+def test_before_any_screen_was_confirmed_nothing_is_pressed() -> None:
+    game = FakeGame(PROFILE)
+    controller = InputController(devices_of(game), game.profile.input)
+    with pytest.raises(WrongScreenError, match="the world was not just seen"):
+        controller.tap("1")
+    assert game.presses == []
+
+
+def test_only_keys_pressed_in_the_world_are_released_again() -> None:
+    game = FakeGame(PROFILE)
+    keyboard = CountingKeyboard(game)
+    controller = InputController(devices_of(game, keyboard), game.profile.input)
+    controller.confirm_screen("menu")
+    controller.tap("esc", on="menu")
+    controller.confirm_screen("world")
+    controller.tap("1")
+    assert keyboard.released == ["esc", "1"]
+    controller.release_again()
+    assert keyboard.released == ["esc", "1", "1"]
+
+
+def test_the_front_is_checked_without_pressing_anything() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.check_front()
+    game.front_until = game.clock.now()
+    with pytest.raises(NotInFrontError, match="click on it"):
+        controller.check_front()
+
+
+def test_a_click_on_a_menu_moves_the_mouse_and_presses_a_tick_later() -> None:
+    menus = FakeMenus("pause")
+    controller = connection_of(menus).controller
+    controller.confirm_screen("menu")
+    controller.click_at(427, 100)
+    assert menus.pressed == [(427, 100)]
+    assert menus.clock.now() == pytest.approx(100.0 + 0.05 + 0.08)
+
+
+def test_hovering_presses_nothing() -> None:
+    menus = FakeMenus("pause")
+    controller = connection_of(menus).controller
+    controller.confirm_screen("menu")
+    controller.hover(427, 100)
+    assert menus.position() == (427, 100)
+    assert menus.pressed == []
+
+
+@pytest.mark.parametrize(
+    ("off", "is_clicked"),
+    [((3, 3), True), ((-3, -3), True), ((4, 0), False), ((0, 4), False), ((-4, 0), False), ((0, -4), False)],
+)
+def test_nothing_is_clicked_where_the_mouse_is_not_where_it_was_moved_to(
+    off: tuple[int, int], is_clicked: bool
+) -> None:
+    class Drifting(FakeMenus):
+        """The mouse ends up a little beside where it was moved to."""
+
+        def position(self) -> tuple[int, int]:
+            x, y = super().position()
+            return x + off[0], y + off[1]
+
+    menus = Drifting("pause")
+    controller = connection_of(menus).controller
+    controller.confirm_screen("menu")
+    with contextlib.nullcontext() if is_clicked else pytest.raises(WrongScreenError, match="the mouse was moved"):
+        controller.click_at(427, 100)
+    assert menus.pressed == ([(427, 100)] if is_clicked else [])
+
+
+def test_a_key_goes_up_within_a_tick_of_losing_the_window() -> None:
+    game = FakeGame(PROFILE)
+    start = game.clock.now()
+    game.front_until = start + 0.07
+    with pytest.raises(NotInFrontError):
+        _controller(game).hold("w", 12)
+    assert game.down == set()
+    assert game.clock.now() - start <= 0.07 + 0.05
+
+
+def test_a_failing_release_is_tried_again_when_the_controller_is_left() -> None:
+    game = FakeGame(PROFILE)
+    with pytest.raises(OSError, match="keyboard is gone"), _controller(game, fail_after=1) as controller:
+        controller.hold("w", 2)
+    assert game.down == set()
+
+
+class _JammingKeyboard(FakeKeyboard):
+    """Its keys stay down when they are released too early: "a" the first time, "b" the first two times."""
+
+    def __init__(self, game: FakeGame) -> None:
+        super().__init__(game)
+        self._jams = ["a", "b", "b"]
+
+    def type(self, text: str) -> None:
+        self.press(text)
+        raise KeyboardInterrupt
+
+    def release(self, key: str) -> None:
+        if key in self._jams:
+            self._jams.remove(key)
+            raise OSError("the keyboard is gone")
+        super().release(key)
+
+
+def _jamming_controller(game: FakeGame) -> InputController:
+    controller = InputController(devices_of(game, _JammingKeyboard(game)), PROFILE.input)
+    controller.confirm_screen("world")
+    return controller
+
+
+def test_one_key_that_can_not_be_released_does_not_keep_the_others_down() -> None:
+    game = FakeGame(PROFILE)
+    controller = _jamming_controller(game)
+    controller.press(game.clock.now() + 1.0, "a", "b", "c")
+    with pytest.raises(OSError, match="keyboard is gone"):
+        controller.release_all()
+    assert game.down == {"a", "b"}
+    with pytest.raises(OSError, match="keyboard is gone"):
+        controller.release_all()
+    assert game.down == {"b"}
+    controller.release_all()
+    assert game.down == set()
+
+
+def test_a_letter_that_is_interrupted_after_its_press_goes_up_again() -> None:
+    game = FakeGame(PROFILE)
+    controller = _jamming_controller(game)
+    controller.confirm_screen("chat")
+    with pytest.raises(KeyboardInterrupt):
+        controller.type_line("c")
+    assert game.presses == ["c"]
+    assert game.down == set()
+
+
+class _StealingKeyboard(FakeKeyboard):
+    """Brings another window to the front once a letter was typed."""
+
+    def __init__(self, game: FakeGame) -> None:
+        super().__init__(game)
+        self._world = game
+
+    def type(self, text: str) -> None:
+        super().type(text)
+        self._world.front_until = self._world.clock.now()
+
+
+def test_no_letter_of_a_command_goes_to_a_window_that_comes_to_the_front() -> None:
+    game = FakeGame(PROFILE)
+    controller = InputController(devices_of(game, _StealingKeyboard(game)), PROFILE.input)
+    controller.confirm_screen("chat")
+    with pytest.raises(NotInFrontError):
+        controller.type_line("/fill")
+    assert game.presses_behind == []
+
+
+class CountingKeyboard(FakeKeyboard):
+    """A keyboard that notes what is released."""
+
+    def __init__(self, game: FakeGame) -> None:
+        super().__init__(game)
+        self.released: list[str] = []
+
+    def release(self, key: str) -> None:
+        self.released.append(key)
+        super().release(key)
+
+
+def test_releasing_everything_twice_is_fine() -> None:
+    game = FakeGame(PROFILE)
+    keyboard = CountingKeyboard(game)
+    controller = InputController(devices_of(game, keyboard), game.profile.input)
+    controller.confirm_screen("world")
+    controller.press(game.clock.now() + 1.0, "w", "a")
+    assert keyboard.released == []
+    controller.release_all()
+    controller.release_all()
+    assert sorted(keyboard.released) == ["a", "w"]
+    assert game.down == set()
+
+
+class _EndingClock(FakeClock):
+    """A clock in whose second sleep the process is sent a signal."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__()
+        self._number = number
+
+    def sleep_until(self, at: float) -> None:
+        super().sleep_until(at)
+        if len(self.slept) == 2:
+            signal.raise_signal(self._number)
+
+
+@pytest.mark.parametrize(("number", "error"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, EndedBySignal)])
+def test_a_signal_in_the_middle_of_a_hold_leaves_nothing_down(number: int, error: type[BaseException]) -> None:
+    game = FakeGame(PROFILE, clock=_EndingClock(number))
+    before = signal.getsignal(signal.SIGTERM)
+    with pytest.raises(error), _controller(game) as controller:
+        controller.hold("w", 12)
+    assert game.presses == ["w"]
+    assert game.down == set()
+    assert signal.getsignal(signal.SIGTERM) is before
+
+
+controller_actions = st.one_of(
+    st.tuples(st.just("hold"), st.sampled_from("wasd"), st.integers(1, 12)),
+    st.tuples(st.just("press"), st.sampled_from("wasd"), st.integers(1, 200)),
+    st.tuples(st.just("tap"), st.sampled_from("19t"), st.none()),
+    st.tuples(st.just("click"), st.sampled_from(["left", "right"]), st.none()),
+    st.tuples(st.just("type_line"), st.text("/tp @s 0.5", max_size=30), st.none()),
+    st.tuples(st.just("stop"), st.just(""), st.none()),
+)
+
+
+@given(st.lists(controller_actions, max_size=8), st.floats(0.0, 3.0), st.integers(-1, 20))
+def test_nothing_stays_down_and_nothing_goes_elsewhere_whatever_happens(
+    actions: list[tuple[str, str, int | None]], front_s: float, fail_after: int
+) -> None:
+    game = FakeGame(PROFILE)
+    game.front_until = game.clock.now() + front_s
+    with contextlib.suppress(NotInFrontError, StoppedError, OSError), _controller(game, fail_after) as controller:
+        for kind, what, ticks in actions:
+            controller.confirm_screen("chat" if kind == "type_line" else "world")
+            if kind == "hold" and ticks is not None:
+                controller.hold(what, ticks)
+            elif kind == "press" and ticks is not None:
+                controller.press(game.clock.now() + ticks * 0.05, what)
+            elif kind == "tap":
+                controller.tap(what)
+            elif kind == "click":
+                controller.click("left" if what == "left" else "right")
+            elif kind == "stop":
+                controller.stop("enough")
+            else:
+                controller.type_line(what)
+    assert game.down == set()
+    assert game.presses_behind == []

@@ -1,0 +1,116 @@
+"""The chat: a line is sent only once all of it was seen, and nothing is typed into anything else."""
+
+import pytest
+
+from mc_nested.errors import NotConfirmedError
+from mc_nested.live.menus.chat import LOOK_S, PATIENCE_S, Chat
+from mc_nested.live.profile.tables import InputTable, Profile
+from tests.live.fake_game import FakeGame, FakeScreen, connection_to
+
+LINE = "/tp @s 0.5 64 0.5 0 65"
+BLIND = Profile(input=InputTable(reads_chat=False, chat_open_s=0.3, chat_close_s=0.7))
+
+
+class ChatScreen(FakeScreen):
+    """The fake game's screen, counting the looks for an open chat; ``is_open`` and ``typed`` overrule what is there."""
+
+    def __init__(self, game: FakeGame) -> None:
+        super().__init__(game)
+        self.looks = 0
+        self.closed_from_look = 10**6
+        self.open_from_look = 10**6
+        self.typed_instead: str | None = None
+
+    def is_chat_open(self) -> bool:
+        self.looks += 1
+        if self.looks >= self.closed_from_look:
+            return False
+        return self.looks >= self.open_from_look or super().is_chat_open()
+
+    def is_typed(self, text: str) -> bool:
+        if text and self.typed_instead is not None:
+            return text == self.typed_instead
+        return super().is_typed(text)
+
+
+def chat_in(game: FakeGame, screen: ChatScreen) -> Chat:
+    connection = connection_to(game, screen)
+    connection.controller.confirm_screen("world")
+    return Chat(game.profile, connection)
+
+
+def test_a_line_is_typed_and_sent() -> None:
+    game = FakeGame(Profile())
+    chat_in(game, ChatScreen(game)).send(LINE)
+    assert game.commands == [LINE]
+    assert game.presses == ["t", "enter"]
+    assert game.typed() is None
+
+
+def test_the_chat_is_looked_at_every_eight_letters() -> None:
+    # One look at the open chat, one before each of the three parts of 22 letters, one at the closed chat.
+    game = FakeGame(Profile())
+    screen = ChatScreen(game)
+    chat_in(game, screen).send(LINE)
+    assert screen.looks == 1 + 3 + 1
+
+
+def test_where_the_chat_can_not_be_read_the_profiles_times_are_waited() -> None:
+    game = FakeGame(BLIND)
+    screen = ChatScreen(game)
+    chat_in(game, screen).send(LINE)
+    assert game.commands == [LINE]
+    assert screen.looks == 0
+    # Two taps of a tick each, and the two waits: typing itself takes no time here.
+    assert game.clock.now() == pytest.approx(100.0 + 0.05 + 0.3 + 0.05 + 0.7)
+
+
+def test_a_chat_that_does_not_open_is_an_error_after_the_patience_and_nothing_is_typed() -> None:
+    game = FakeGame(Profile())
+    screen = ChatScreen(game)
+    screen.closed_from_look = 1
+    with pytest.raises(NotConfirmedError, match="the chat did not open, empty: leave mouse and keys alone"):
+        chat_in(game, screen).send(LINE)
+    assert game.typed() == ""
+    waited = game.clock.now() - 100.0 - 0.05
+    assert PATIENCE_S <= waited <= PATIENCE_S + LOOK_S + 0.001
+
+
+def test_a_chat_that_opens_with_text_in_it_is_not_typed_into() -> None:
+    class Opened(ChatScreen):
+        """A chat that holds a letter already."""
+
+        def is_typed(self, text: str) -> bool:
+            return text == "x"
+
+    game = FakeGame(Profile())
+    with pytest.raises(NotConfirmedError, match="did not open, empty"):
+        chat_in(game, Opened(game)).send(LINE)
+    assert game.typed() == ""
+
+
+def test_a_chat_that_closes_half_way_gets_no_more_letters() -> None:
+    game = FakeGame(Profile())
+    screen = ChatScreen(game)
+    screen.closed_from_look = 3
+    with pytest.raises(NotConfirmedError, match="the chat did not stay open"):
+        chat_in(game, screen).send(LINE)
+    assert game.typed() == LINE[:8]
+    assert game.commands == []
+
+
+def test_a_line_that_lacks_a_letter_is_not_sent() -> None:
+    game = FakeGame(Profile())
+    screen = ChatScreen(game)
+    screen.typed_instead = LINE[1:]
+    with pytest.raises(NotConfirmedError, match=r"'/tp @s 0.5 64 0.5 0 65' was not seen in the chat"):
+        chat_in(game, screen).send(LINE)
+    assert game.commands == []
+
+
+def test_a_chat_that_stays_open_after_enter_is_an_error() -> None:
+    game = FakeGame(Profile())
+    screen = ChatScreen(game)
+    screen.open_from_look = 5
+    with pytest.raises(NotConfirmedError, match="the chat did not close"):
+        chat_in(game, screen).send(LINE)

@@ -1,0 +1,172 @@
+"""Recovery: from any screen to the world in bounded time, never from a server's world to one's own."""
+
+import pytest
+
+from mc_nested.errors import LiveError, NotInFrontError
+from mc_nested.live.menus.recovery import EFFECT_S, FRONT_PATIENCE_S, PATIENCE_S, UNKNOWN_S, Recovery
+from mc_nested.live.profile.tables import KeysTable, Profile
+from tests.live.menus.fake_menus import PROBLEM, FakeMenus, connection_of
+
+SERVER = "Minecraft 1.20.1 - Multiplayer (3rd-party Server)"
+
+
+def recovery_in(menus: FakeMenus, profile: Profile | None = None) -> Recovery:
+    return Recovery(profile or Profile(), connection_of(menus))
+
+
+def test_in_the_world_nothing_is_pressed() -> None:
+    menus = FakeMenus()
+    assert recovery_in(menus).recover() == ()
+    assert menus.pressed == []
+    assert menus.clock.now() == 100.0
+
+
+@pytest.mark.parametrize(
+    ("shown", "passed"),
+    [
+        ("chat", ("chat",)),
+        ("pause", ("pause",)),
+        ("death", ("death",)),
+        ("title", ("title", "worlds")),
+        ("worlds", ("worlds",)),
+        ("disconnected", ("disconnected", "title", "worlds")),
+    ],
+)
+def test_every_known_screen_leads_back_and_the_screens_on_the_way_are_returned(
+    shown: str, passed: tuple[str, ...]
+) -> None:
+    menus = FakeMenus(shown)
+    assert recovery_in(menus).recover() == passed
+    assert menus.shown == "world"
+
+
+def test_the_effect_of_a_press_is_looked_for_six_ticks_after_it() -> None:
+    menus = FakeMenus("pause")
+    recovery_in(menus).recover()
+    # The mouse is moved for a tick, pressed for the 0.08 s of a click, and then comes the effect.
+    assert menus.clock.now() == pytest.approx(100.0 + 0.05 + 0.08 + EFFECT_S)
+
+
+def test_an_unknown_screen_gets_the_debug_key_and_then_esc_each_after_a_while() -> None:
+    menus = FakeMenus("inventory")
+    assert recovery_in(menus, Profile(keys=KeysTable(debug="f4"))).recover() == ("unknown",)
+    assert menus.pressed == ["f4", "esc"]
+    waited = menus.clock.now() - 100.0
+    assert 2 * UNKNOWN_S < waited < 2 * UNKNOWN_S + 6 * EFFECT_S
+
+
+def test_a_debug_screen_that_is_off_is_switched_on() -> None:
+    menus = FakeMenus(has_debug=False)
+    recovery_in(menus).recover()
+    assert menus.pressed == ["f3"]
+    assert menus.has_debug
+
+
+def test_an_unknown_screen_that_goes_by_itself_gets_no_key() -> None:
+    class Loading(FakeMenus):
+        """Shows the world after the fifth look."""
+
+        def is_in_front(self) -> bool:
+            self.shown = "world" if self.looks >= 5 else "loading"
+            return True
+
+    menus = Loading()
+    assert recovery_in(menus).recover() == ("unknown",)
+    assert menus.pressed == []
+
+
+def test_after_a_known_screen_an_unknown_one_is_waited_for_as_long_again_and_gets_the_debug_key_first() -> None:
+    class Changing(FakeMenus):
+        """Unknown until the debug key was pressed, then the pause menu once, then unknown for good."""
+
+        def is_in_front(self) -> bool:
+            if self.pressed == ["f3"]:
+                self.shown = "pause"
+            elif self.pressed:
+                self.shown = "inventory" if self.pressed[-1] != "esc" else self.shown
+            return True
+
+    menus = Changing("inventory")
+    assert recovery_in(menus).recover() == ("unknown", "pause", "unknown")
+    assert menus.pressed == ["f3", (427, 100), "f3", "esc"]
+
+
+def test_what_never_becomes_the_world_is_an_error_after_the_patience_with_the_screen_and_the_reason() -> None:
+    menus = FakeMenus("death", greyed={"Respawn"})
+    with pytest.raises(LiveError, match=rf"not found in 60 s, the screen is death \({PROBLEM}\)"):
+        recovery_in(menus).recover("the chat covers it")
+    assert PATIENCE_S <= menus.clock.now() - 100.0 < PATIENCE_S + 2 * EFFECT_S
+
+
+def test_where_the_reader_has_no_reason_the_callers_is_named() -> None:
+    class Stuck(FakeMenus):
+        """The chat does not close, with the debug screen readable."""
+
+        def press(self, key: str) -> None:
+            self.pressed.append(key)
+
+    with pytest.raises(LiveError, match=r"the screen is chat \(a letter was lost\)"):
+        recovery_in(Stuck("chat")).recover("a letter was lost")
+
+
+def test_another_window_in_front_is_waited_for() -> None:
+    menus = FakeMenus("pause", front_from=110.0)
+    recovery_in(menus).recover()
+    assert menus.pressed == [(427, 100)]
+    assert menus.clock.now() >= 110.0
+
+
+def test_another_window_that_stays_in_front_is_an_error_and_nothing_is_pressed() -> None:
+    menus = FakeMenus("pause", front_from=1000.0)
+    with pytest.raises(NotInFrontError, match="click on it"):
+        recovery_in(menus).recover()
+    assert menus.pressed == []
+    assert FRONT_PATIENCE_S <= menus.clock.now() - 100.0 < FRONT_PATIENCE_S + 2 * EFFECT_S
+
+
+@pytest.mark.parametrize("shown", ["title", "worlds", "disconnected"])
+def test_from_a_server_these_screens_lead_nowhere(shown: str) -> None:
+    menus = FakeMenus(shown, window_title=SERVER)
+    with pytest.raises(LiveError, match=f"the server was left, the screen is {shown}"):
+        recovery_in(menus).recover()
+    assert menus.pressed == []
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "message"),
+    [
+        (SERVER, "Minecraft 1.20.1 - Singleplayer", "was a server's, and is your own now"),
+        ("Minecraft 1.20.1 - Singleplayer", SERVER, "was your own, and is a server's now"),
+    ],
+)
+def test_a_world_of_another_kind_is_not_the_one_that_was_left(before: str, after: str, message: str) -> None:
+    menus = FakeMenus(window_title=before)
+    recovery = recovery_in(menus)
+    menus.window_title = after
+    with pytest.raises(LiveError, match=message):
+        recovery.recover()
+
+
+@pytest.mark.parametrize("shown", ["world", "chat", "pause", "death"])
+def test_the_world_is_left_for_the_title(shown: str) -> None:
+    menus = FakeMenus(shown)
+    recovery = recovery_in(menus)
+    recovery.leave_world()
+    assert menus.shown == "title"
+    assert recovery.screen_name() == "title"
+    assert menus.pressed[-1] == (427, 200)
+
+
+def test_a_servers_world_is_never_left() -> None:
+    menus = FakeMenus(window_title=SERVER)
+    with pytest.raises(LiveError, match="is not left, since nothing leads back"):
+        recovery_in(menus).leave_world()
+    assert menus.pressed == []
+
+
+def test_a_title_that_is_not_reached_is_an_error_after_the_patience_and_an_unknown_screen_gets_no_key() -> None:
+    menus = FakeMenus("inventory")
+    with pytest.raises(LiveError, match="title screen was not reached, the screen is unknown"):
+        recovery_in(menus).leave_world()
+    assert menus.pressed == []
+    assert PATIENCE_S <= menus.clock.now() - 100.0 < PATIENCE_S + 2 * EFFECT_S

@@ -1,0 +1,73 @@
+"""How far a held key walks, against the facts' table."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.live.model.kinematics import (
+    PUSH,
+    HoldPlan,
+    displacement,
+    nearest_ticks,
+    plan_hold,
+    push_of,
+    walk_response,
+)
+
+
+@pytest.mark.parametrize(("ticks", "blocks"), [(1, 0.210), (2, 0.427), (3, 0.642), (4, 0.857), (5, 1.073), (6, 1.291)])
+def test_walking_and_coasting_covers_what_the_facts_say(ticks: int, blocks: float) -> None:
+    assert displacement(ticks) == pytest.approx(blocks, abs=0.0006)
+
+
+def test_no_tick_walks_nowhere() -> None:
+    assert displacement(0) == 0.0
+
+
+def test_a_long_walk_ends_at_the_steady_speed() -> None:
+    assert (displacement(101) - displacement(100)) * 20 == pytest.approx(4.317, abs=0.001)
+
+
+def test_one_block_takes_five_ticks() -> None:
+    assert nearest_ticks(1.0, walk_response(12)) == 5
+
+
+def test_standing_still_is_nearest_to_a_hair() -> None:
+    assert nearest_ticks(0.1, walk_response(12)) == 0
+
+
+@given(st.floats(0.0, 2.58))
+def test_the_nearest_hold_ends_within_half_a_tick_of_walking(distance: float) -> None:
+    response = walk_response(12)
+    ends = (0.0, *response)
+    assert abs(ends[nearest_ticks(distance, response)] - distance) <= 0.1093
+
+
+def test_the_push_follows_from_the_longest_hold() -> None:
+    assert push_of(walk_response(12)) == pytest.approx(PUSH)
+    assert push_of([0.2, 2 * displacement(2)]) == pytest.approx(2 * PUSH)
+    assert push_of([displacement(1, 0.9)], 0.9) == pytest.approx(PUSH)
+
+
+@pytest.mark.parametrize(
+    ("distance", "tolerance", "plan"),
+    [
+        (1.0, 0.1, HoldPlan("walk", 5)),
+        (0.32, 0.15, HoldPlan("walk", 2)),
+        # Walking ends at 0.210 or 0.427; five ticks of sneaking end at 0.3 * 1.073 = 0.322.
+        (0.32, 0.05, HoldPlan("sneak", 5)),
+        (0.0, 0.05, HoldPlan("sneak", 1)),
+        (0.2, 0.005, HoldPlan("sneak", 3)),
+        (9.0, 0.05, HoldPlan("walk", 12)),
+    ],
+)
+def test_sneaking_is_planned_only_if_walking_misses_and_sneaking_ends_nearer(
+    distance: float, tolerance: float, plan: HoldPlan
+) -> None:
+    assert plan_hold(distance, walk_response(12), tolerance) == plan
+
+
+def test_a_tie_between_walking_and_sneaking_is_walked() -> None:
+    # Walking ends at 1.0, sneaking at 0.5: both are 0.25 off.
+    assert plan_hold(0.75, [1.0], 0.1, 0.5) == HoldPlan("walk", 1)
+    assert plan_hold(0.74, [1.0], 0.1, 0.5) == HoldPlan("sneak", 1)

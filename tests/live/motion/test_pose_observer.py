@@ -1,0 +1,178 @@
+"""PoseObserver: what a look says, which looks it spares, and which steps it takes as sightings of a tick."""
+
+from collections.abc import Callable
+
+import pytest
+
+from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
+from mc_nested.live.model.reading import Reading, Target
+from mc_nested.live.motion.pose_observer import FRAME_S, PoseObserver, check_pose
+from mc_nested.live.motion.tick_phase import TickPhase
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.tables import Profile
+from tests.live.fake_game import FakeGame, FakeScreen, connection_to
+
+PROFILE = Profile(arena=Arena.around((14, 64, 0), "south"))
+"""Cell (x, y) of this arena has its middle at (14.5 - x, 64, 0.5 + y), looked at with yaw 0 and pitch 65."""
+
+
+class Steps(TickPhase):
+    """Records the steps that it was told of."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.seen: list[tuple[float, float]] = []
+
+    def saw_step(self, since: float, at: float) -> None:
+        self.seen.append((since, at))
+
+
+class Observed:
+    """An observer of one reading that a test changes, with a count of the looks at the screen."""
+
+    def __init__(self) -> None:
+        self.game = FakeGame(PROFILE)
+        self.reading = Reading((7.5, 64.0, 7.5), 0.0, 65.0, Target((7, 63, 8), "stone"))
+        self.looks = 0
+        self.connection = connection_to(self.game, FakeScreen(self.game, self._read))
+        self.observer = PoseObserver(PROFILE, self.connection)
+        self.steps = self.observer.tick_phase = Steps()
+
+    def _read(self) -> Reading:
+        self.looks += 1
+        return self.reading
+
+    def pass_time(self, seconds: float) -> float:
+        self.game.clock.time += seconds
+        return self.game.clock.time
+
+    def walk_to(self, z: float) -> None:
+        self.reading = Reading((7.5, 64.0, z), 0.0, 65.0)
+
+
+@pytest.fixture
+def observed() -> Observed:
+    return Observed()
+
+
+def test_a_look_gives_the_position_in_cells_and_the_block_looked_at(observed: Observed) -> None:
+    observed.reading = Reading((7.25, 64.0, 8.5), 0.0, 65.0, Target((7, 63, 9), "stone"))
+    pose = observed.observer.look_and_check()
+    assert (pose.position, pose.cell, pose.target) == ((7.25, 8.0), (7, 8), Target((7, 63, 9), "stone"))
+    assert str(pose) == "(7.25, 8.00)"
+
+
+def test_within_one_frame_the_screen_is_looked_at_once(observed: Observed) -> None:
+    observed.observer.look()
+    observed.pass_time(0.004)
+    observed.observer.look()
+    assert observed.looks == 1
+    observed.pass_time(0.002)
+    observed.observer.look()
+    assert observed.looks == 2
+
+
+@pytest.mark.parametrize(
+    ("xyz", "yaw", "pitch", "problem"),
+    [
+        ((7.5, 64.04, 7.5), 0.5, 64.5, None),
+        ((7.5, 64.0, 7.5), 359.6, 65.5, None),
+        ((7.5, 64.0, 7.5), 0.6, 65.0, "the agent looks 0.6 / 65, not 0 / 65"),
+        ((7.5, 64.0, 7.5), 0.0, 65.6, "the agent looks 0 / 65.6, not 0 / 65"),
+        ((7.5, 64.0, 7.5), 0.0, 64.4, "the agent looks 0 / 64.4, not 0 / 65"),
+        ((7.5, 63.94, 7.5), 0.0, 65.0, "its feet are at y = 63.94, not 64"),
+    ],
+)
+def test_a_turned_view_or_another_height_is_a_problem(
+    xyz: tuple[float, float, float], yaw: float, pitch: float, problem: str | None, observed: Observed
+) -> None:
+    observed.reading = Reading(xyz, yaw, pitch)
+    pose = observed.observer.look()
+    assert pose.problem == problem
+    if problem:
+        with pytest.raises(NotConfirmedError, match="leave mouse and keys alone"):
+            check_pose(pose)
+    else:
+        assert check_pose(pose) is pose
+
+
+@pytest.mark.parametrize(
+    "reading", [Reading(None, 0.0, 65.0), Reading((7.5, 64.0, 7.5), None, 65.0), Reading((7.5, 64.0, 7.5), 0.0, None)]
+)
+def test_a_reading_with_a_part_missing_is_waited_for_in_bounded_time(reading: Reading, observed: Observed) -> None:
+    observed.reading = reading
+    began = observed.game.clock.now()
+    with pytest.raises(UnreadableError, match="unreadable for 5 s: it shows no Facing line"):
+        observed.observer.look()
+    assert observed.game.clock.now() - began == pytest.approx(5.0, abs=FRAME_S)
+
+
+def test_a_step_between_two_looks_a_frame_apart_is_a_sighting(observed: Observed) -> None:
+    observed.observer.look()
+    since = observed.game.clock.now()
+    at = observed.pass_time(FRAME_S)
+    observed.walk_to(7.6)
+    observed.observer.look()
+    observed.pass_time(FRAME_S)
+    observed.observer.look()
+    assert observed.steps.seen == [(since, at)]
+
+
+def test_a_step_after_a_longer_time_or_an_unreadable_frame_is_no_sighting(observed: Observed) -> None:
+    observed.observer.look()
+    observed.pass_time(1.6 * FRAME_S)
+    observed.walk_to(7.6)
+    observed.observer.look()
+    readings = iter([Reading(problem="covered"), Reading((7.5, 64.0, 7.7), 0.0, 65.0)])
+    screen = FakeScreen(observed.game, lambda: next(readings, None))
+    observer = PoseObserver(PROFILE, connection_to(observed.game, screen))
+    observer.tick_phase = observed.steps
+    observer.look()
+    assert observed.steps.seen == []
+
+
+def test_an_awaited_step_seen_by_the_first_look_is_a_sighting_since_a_frame_before(observed: Observed) -> None:
+    tick = observed.game.clock.now()
+    observed.observer.wait_for_step(tick)
+    observed.observer.look()
+    observed.observer.note_awaited_step()
+    assert observed.steps.seen == [pytest.approx((tick + 0.028 - FRAME_S, tick + 0.028))]
+
+
+def test_an_awaited_step_seen_by_a_later_look_is_none(observed: Observed) -> None:
+    observed.observer.note_awaited_step()
+    observed.observer.wait_for_step(observed.game.clock.now())
+    observed.pass_time(FRAME_S)
+    observed.observer.look()
+    observed.observer.note_awaited_step()
+    assert observed.steps.seen == []
+
+
+def test_watching_ends_with_the_pose_that_was_waited_for_or_after_the_time(observed: Observed) -> None:
+    began = observed.game.clock.now()
+
+    def after(seconds: float) -> Callable[[object], bool]:
+        return lambda _: observed.game.clock.now() >= began + seconds
+
+    observed.observer.watch(after(0.1), 1.0)
+    assert observed.game.clock.now() - began == pytest.approx(0.1, abs=FRAME_S)
+    observed.observer.watch(after(9.0), 1.0)
+    assert observed.game.clock.now() - began == pytest.approx(1.1, abs=2 * FRAME_S)
+
+
+def test_the_position_alone_is_read_without_a_pose_and_may_be_missing(observed: Observed) -> None:
+    assert observed.observer.read_position() == (7.0, 7.0)
+    observed.reading = Reading(problem="covered")
+    assert observed.observer.read_position() is None
+
+
+def test_a_press_is_permitted_only_while_the_chat_is_closed(observed: Observed) -> None:
+    with pytest.raises(WrongScreenError):
+        observed.connection.controller.click("right")
+    observed.observer.permit_press()
+    observed.connection.controller.click("right")
+    assert observed.game.presses == ["right button"]
+    observed.game.send(PROFILE.keys.chat, is_down=True)
+    observed.pass_time(0.1)
+    with pytest.raises(NotConfirmedError, match="the chat is open"):
+        observed.observer.permit_press()

@@ -1,0 +1,104 @@
+"""WalkTracker: from where a walker is seen to where it ends, and nothing if that isn't certain."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.live.model.coordinates import GroundVector
+from mc_nested.live.model.kinematics import PUSH, displacement
+from mc_nested.live.motion.walk_tracker import CoastingState, Hold, WalkTracker, coasting_distance
+
+AT_REST = CoastingState(GroundVector(3.0, 5.0), GroundVector(0.0, 0.0))
+
+
+def _path(ticks: int, waits: int = 0, velocity: float = 0.0) -> list[tuple[float, bool]]:
+    """How far a walker has come after each tick, and whether the key is up by then (FACTS: Walking)."""
+    position, path = 0.0, []
+    for tick in range(waits + ticks + 14):
+        velocity = (velocity if abs(velocity) >= 0.003 else 0.0) + (PUSH if waits <= tick < waits + ticks else 0.0)
+        position += velocity
+        velocity *= 0.546
+        path.append((position, tick >= waits + ticks))
+    return path
+
+
+@pytest.mark.parametrize("ticks", range(1, 8))
+@pytest.mark.parametrize("felt", [-1, 0, 1])
+def test_the_end_is_known_once_the_key_is_released_and_not_before(ticks: int, felt: int) -> None:
+    known = []
+    for position, is_released in _path(ticks + felt) if ticks + felt else []:
+        state = WalkTracker(AT_REST, Hold(1, -1, ticks, PUSH)).coasting_at(GroundVector(3.0, 5.0 - round(position, 3)))
+        assert state is None or is_released
+        if is_released:
+            known.append(state is not None)
+        if state is not None:
+            assert state.end == pytest.approx((3.0, 5.0 - displacement(ticks + felt)), abs=0.005)
+    # Two paths cross, as 3 ticks and a stop do with 4 ticks on: then it takes one tick more.
+    assert known.count(False) <= 1
+
+
+@given(st.integers(3, 7), st.integers(0, 3), st.floats(-0.12, 0.12), st.integers(0, 12))
+def test_a_known_end_is_right_even_if_the_walker_was_coasting_before(
+    ticks: int, waits: int, velocity: float, after: int
+) -> None:
+    path = _path(ticks, waits, velocity)
+    position, _ = path[min(waits + ticks + after, len(path) - 1)]
+    state = WalkTracker(
+        CoastingState(GroundVector(0.0, 0.0), GroundVector(velocity, 0.0)), Hold(0, 1, ticks, PUSH)
+    ).coasting_at(GroundVector(position, 0.0))
+    if state is not None:
+        assert state.end[0] == pytest.approx(path[-1][0], abs=0.03)
+
+
+@pytest.mark.parametrize("late", [4, 8, 12])
+def test_a_release_that_comes_late_because_the_game_stalled_is_followed_too(late: int) -> None:
+    tracker = WalkTracker(AT_REST, Hold(1, 1, 5, PUSH))
+    seen = [
+        (tracker.coasting_at(GroundVector(3.0, 5.0 + round(position, 3))), is_released)
+        for position, is_released in _path(5 + late)
+    ]
+    assert all(state is None for state, is_released in seen if not is_released)
+    ends = [state.end[1] for state, _ in seen if state]
+    assert ends == pytest.approx([5.0 + displacement(5 + late)] * len(ends), abs=0.005)
+    assert len(ends) > 8
+
+
+@pytest.mark.parametrize("inertia", [0.4, 0.546, 0.89])
+def test_other_ground_has_another_inertia(inertia: float) -> None:
+    position, velocity, ends = 0.0, 0.0, []
+    tracker = WalkTracker(AT_REST, Hold(1, 1, 5, 0.05), inertia)
+    for tick in range(80):
+        velocity = (velocity if abs(velocity) >= 0.003 else 0.0) + (0.05 if tick < 5 else 0.0)
+        position, velocity = position + velocity, velocity * inertia
+        if state := tracker.coasting_at(GroundVector(3.0, 5.0 + position)):
+            ends.append(state.end[1])
+    assert ends == pytest.approx([5.0 + position] * len(ends), abs=0.02)
+    assert len(ends) > 60
+
+
+def test_a_position_on_no_path_gives_no_state() -> None:
+    tracker = WalkTracker(AT_REST, Hold(1, 1, 5, PUSH))
+    assert tracker.coasting_at(GroundVector(3.0, 5.5)) is None
+    assert tracker.coasting_at(GroundVector(3.1, 5.944)) is None
+
+
+def test_a_walker_that_has_not_set_off_may_still_do_so() -> None:
+    assert WalkTracker(AT_REST, Hold(1, 1, 5, PUSH)).coasting_at(GroundVector(3.0, 5.0)) is None
+    assert WalkTracker(AT_REST).coasting_at(GroundVector(3.0, 5.0)) == AT_REST
+
+
+@pytest.mark.parametrize(("position", "ticks"), [(0.098, 1), (0.2495, 2), (0.4303, 3), (0.05, None), (0.944, None)])
+def test_during_a_hold_the_position_tells_how_many_ticks_felt_the_key(position: float, ticks: int | None) -> None:
+    assert WalkTracker(AT_REST, Hold(1, 1, 5, PUSH)).ticks_held(GroundVector(3.0, 5.0 + position)) == ticks
+
+
+def test_without_a_hold_no_tick_felt_one() -> None:
+    assert WalkTracker(AT_REST).ticks_held(GroundVector(3.0, 5.0)) is None
+
+
+@given(st.floats(-0.3, 0.3))
+def test_the_coasting_distance_is_the_sum_of_the_steps_until_standstill(velocity: float) -> None:
+    position, left = 0.0, velocity
+    while abs(left) >= 0.003:
+        position, left = position + left, left * 0.546
+    assert coasting_distance(velocity) == pytest.approx(position, abs=1e-9)

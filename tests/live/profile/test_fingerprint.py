@@ -1,0 +1,115 @@
+"""Profiles that no longer fit are refused with the step to repeat, before anything is pressed."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.errors import DesktopError, ProfileError
+from mc_nested.live.profile.fingerprint import (
+    Fingerprint,
+    check_fit,
+    check_single_player,
+    game_in,
+    mismatch,
+    version_in,
+)
+from mc_nested.live.profile.tables import CalibratedTable, GameVersion
+
+CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
+CURRENT = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), 2)
+
+
+@pytest.mark.parametrize(
+    ("title", "version"),
+    [
+        ("Minecraft 1.12.2", "1.12.2"),
+        ("Minecraft* 26.1 - Multiplayer (LAN)", "26.1"),
+        ("Minecraft 1.21.11-rc1", "1.21.11"),
+        ("Minecraft: All the Mods 9", None),
+        ("Prismarine Web Client - Chromium", None),
+    ],
+)
+def test_the_title_says_the_version(title: str, version: str | None) -> None:
+    assert version_in(title) == version
+
+
+def test_what_was_calibrated_on_fits() -> None:
+    assert mismatch(CALIBRATED, CURRENT, "default") is None
+
+
+@pytest.mark.parametrize(
+    ("current", "complaint"),
+    [
+        (
+            Fingerprint("Minecraft* 1.20.2", (854, 480), 2),
+            (
+                "profile laptop was calibrated on Minecraft 1.20.1, and this is 1.20.2: start that version, or run "
+                "mc-nested calibrate all --profile laptop"
+            ),
+        ),
+        (
+            Fingerprint("Minecraft 1.20.1", (1024, 768), 2),
+            (
+                "profile laptop was calibrated in a window of 854 x 480 pixels, and this one has 1024 x 768: make it "
+                "that size again, or run mc-nested calibrate all --profile laptop"
+            ),
+        ),
+        (
+            Fingerprint("Minecraft 1.20.1", (854, 480), 1),
+            (
+                "profile laptop was calibrated at GUI scale 2, and this is 1: set Video Settings > GUI Scale to 2, or "
+                "run mc-nested calibrate all --profile laptop"
+            ),
+        ),
+    ],
+)
+def test_whatever_has_changed_is_named_with_the_step_to_repeat(current: Fingerprint, complaint: str) -> None:
+    assert mismatch(CALIBRATED, current, "laptop") == complaint
+
+
+def test_what_nobody_knows_is_not_compared() -> None:
+    assert mismatch(CalibratedTable(date="2026-11-21"), CURRENT, "default") is None
+    assert mismatch(CALIBRATED, Fingerprint("All the Mods 9", (854, 480)), "default") is None
+
+
+SIZES = st.tuples(st.integers(320, 4000), st.integers(240, 3000))
+
+
+@given(SIZES, SIZES, st.integers(1, 4), st.integers(1, 4))
+def test_a_profile_fits_exactly_where_size_and_scale_are_the_same(
+    then: tuple[int, int], now: tuple[int, int], scale: int, scale_now: int
+) -> None:
+    calibrated = CalibratedTable(date="2026-11-21", version="1.20.1", window=then, gui_scale=scale)
+    problem = mismatch(calibrated, Fingerprint("Minecraft 1.20.1", now, scale_now), "default")
+    assert (problem is None) == (then == now and scale == scale_now)
+
+
+def test_a_profile_that_was_never_calibrated_plays_as_before() -> None:
+    check_fit(None, Fingerprint("Minecraft 1.8.9", (640, 480), 1), "default")
+    with pytest.raises(ProfileError, match="was calibrated on Minecraft"):
+        check_fit(CALIBRATED, Fingerprint("Minecraft 1.8.9", (640, 480), 1), "default")
+
+
+def test_a_title_without_a_version_leaves_the_profiles() -> None:
+    known = GameVersion(version="1.16.5")
+    assert game_in("Minecraft 1.20.1 - Singleplayer", known) == GameVersion(version="1.20.1")
+    assert game_in("All the Mods 9", known) is known
+
+
+@pytest.mark.parametrize(
+    ("title", "is_server_allowed", "is_refused"),
+    [
+        ("Minecraft 1.20.1 - Multiplayer (LAN)", False, True),
+        ("Minecraft 1.20.1 - Multiplayer (LAN)", True, False),
+        ("Minecraft 1.20.1 - Singleplayer", False, False),
+        ("Minecraft 1.20.1", False, False),
+    ],
+)
+def test_only_a_title_that_says_multiplayer_is_refused_and_only_where_that_is_not_allowed(
+    title: str, is_server_allowed: bool, is_refused: bool
+) -> None:
+    if not is_refused:
+        check_single_player(title, is_server_allowed=is_server_allowed)
+        return
+    with pytest.raises(DesktopError, match=r"others may be playing there: .*--server-allowed"):
+        check_single_player(title, is_server_allowed=is_server_allowed)

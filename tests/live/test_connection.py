@@ -1,0 +1,128 @@
+"""A connection: the devices, the one owner of held keys and the screen reader, kept together and released together."""
+
+from pathlib import Path
+
+import cv2
+import pytest
+
+from mc_nested.errors import DesktopError, FontError, ProfileError
+from mc_nested.live.connection import GameConnection, connect
+from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.profile.tables import InputTable, Profile, ScreenTable
+from sim.client.client import VirtualClient
+from sim.client.drawing.font import drawn_atlas
+from tests.live.fake_game import FakeGame, FakeScreen, connection_to, devices_of
+from tests.live.menus.fake_menus import FakeMenus, connection_of
+
+SERVER = "Minecraft 1.20.1 - Multiplayer (LAN)"
+
+
+@pytest.fixture
+def font(tmp_path: Path) -> ScreenTable:
+    """The screen's table of a profile that names a font."""
+    path = tmp_path / "ascii.png"
+    path.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
+    return ScreenTable(font=str(path))
+
+
+def connection_without_font(game: FakeGame) -> GameConnection:
+    devices = devices_of(game)
+    return GameConnection(devices, InputController(devices, game.profile.input))
+
+
+@pytest.mark.parametrize("error", [None, RuntimeError("it broke"), KeyboardInterrupt()])
+def test_every_key_is_up_whichever_way_it_is_left(error: BaseException | None) -> None:
+    game = FakeGame(Profile())
+    caught: BaseException | None = None
+    try:
+        with connection_to(game) as connection:
+            connection.controller.confirm_screen("world")
+            connection.controller.press(game.clock.now() + 1.0, "w", "left.shift")
+            assert game.down == {"w", "left.shift"}
+            if error:
+                raise error
+    except (RuntimeError, KeyboardInterrupt) as raised:
+        caught = raised
+    assert caught is error
+    assert game.down == set()
+
+
+def test_entering_gives_the_connection_itself() -> None:
+    connection = connection_to(FakeGame(Profile()))
+    with connection as entered:
+        assert entered is connection
+
+
+def test_without_a_font_there_is_no_screen_and_the_error_says_what_makes_one() -> None:
+    with pytest.raises(ProfileError, match="run mc-nested calibrate font first"):
+        _ = connection_without_font(FakeGame(Profile())).screen
+
+
+def test_a_profile_without_a_font_makes_no_connection_that_reads() -> None:
+    game = FakeGame(Profile())
+    with pytest.raises(ProfileError, match=r"screen\.font is missing"):
+        connect(Profile(), devices_of(game))
+    with pytest.raises(ProfileError, match=r"screen\.font is missing"):
+        connection_without_font(game).for_profile(Profile())
+
+
+def test_a_font_that_can_not_be_read_makes_no_connection(tmp_path: Path) -> None:
+    profile = Profile(screen=ScreenTable(font=str(tmp_path / "none.png")))
+    with pytest.raises(FontError):
+        connect(profile, devices_of(FakeGame(Profile())))
+
+
+def test_a_game_is_read_with_the_profiles_font(font: ScreenTable) -> None:
+    client = VirtualClient()
+    client.clock.sleep(0.3)
+    connection = connect(Profile(screen=font), client.devices)
+    assert connection.devices is client.devices
+    assert connection.screen.read().xyz == client.realm.player.feet
+    assert connection.screen.scale() == client.scale
+
+
+def test_the_controller_has_the_profiles_times(font: ScreenTable) -> None:
+    game = FakeGame(Profile())
+    connection = connect(Profile(screen=font, input=InputTable(click_s=0.12)), devices_of(game))
+    connection.controller.confirm_screen("world")
+    connection.controller.click("right")
+    connection.controller.wait(0.11)
+    assert game.down == {"right button"}
+    connection.controller.wait(0.02)
+    assert game.down == set()
+
+
+@pytest.mark.parametrize("is_server_allowed", [True, False])
+def test_another_screen_or_profile_keeps_the_devices_the_controller_and_what_is_allowed(
+    font: ScreenTable, is_server_allowed: bool
+) -> None:
+    game = FakeGame(Profile())
+    devices = devices_of(game)
+    controller = InputController(devices, game.profile.input)
+    first = GameConnection(devices, controller, is_server_allowed=is_server_allowed)
+    screen = FakeScreen(game)
+    for other in (first.with_screen(screen), first.for_profile(Profile(screen=font))):
+        assert other.devices is devices
+        assert other.controller is controller
+        assert other.is_server_allowed is is_server_allowed
+    assert first.with_screen(screen).screen is screen
+
+
+def titled(title: str, *, is_server_allowed: bool) -> GameConnection:
+    devices = connection_of(FakeMenus(window_title=title)).devices
+    return GameConnection(devices, InputController(devices, InputTable()), is_server_allowed=is_server_allowed)
+
+
+def test_a_game_that_others_may_share_is_refused_unless_it_is_allowed() -> None:
+    with pytest.raises(DesktopError, match=r"Multiplayer \(LAN\)', so others may be playing there"):
+        titled(SERVER, is_server_allowed=False).check_single_player()
+    titled(SERVER, is_server_allowed=True).check_single_player()
+    titled("Minecraft 1.20.1 - Singleplayer", is_server_allowed=False).check_single_player()
+
+
+def test_a_connection_made_from_a_profile_is_for_a_single_player_unless_said_otherwise(font: ScreenTable) -> None:
+    devices = connection_of(FakeMenus(window_title=SERVER)).devices
+    profile = Profile(screen=font)
+    with pytest.raises(DesktopError, match="--server-allowed"):
+        connect(profile, devices).check_single_player()
+    connect(profile, devices, is_server_allowed=True).check_single_player()

@@ -1,0 +1,101 @@
+"""Where the chat lies on a picture, by hand and against the virtual client's own chat."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.vision.chat_region import BLANK, CLOSED_LINES, OPEN_LINES, chat_regions, without_chat
+from sim.client.client import VirtualClient
+from sim.client.drawing.hud_layers import HudLayers
+from sim.client.drawing.layers import draw_all
+from sim.client.drawing.letters import Letters
+from sim.client.game.chat import ChatLine
+from sim.client.game.colours import WHITE
+from sim.client.game.edition import Edition
+from sim.client.settings import gui_scale
+from tests.sim.client.playing import FONT, tap
+
+
+def test_at_854_x_480_and_scale_2_it_is_the_lower_left_and_the_lowest_line() -> None:
+    # 138 to 38 dots above the lower edge, 332 wide; 14 for the line being typed.
+    assert chat_regions((854, 480), 2) == (Region(0, 204, 664, 200), Region(0, 452, 854, 28))
+
+
+@given(st.integers(1, 3000), st.integers(1, 2000), st.integers(1, 4))
+def test_it_never_reaches_out_of_the_window(width: int, height: int, scale: int) -> None:
+    for region in chat_regions((width, height), scale):
+        assert region.left >= 0
+        assert region.left + region.width <= width
+        assert region.top >= 0
+        assert region.top + region.height <= height
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.20.1", "26.1"])
+@pytest.mark.parametrize(("size", "scale"), [((854, 480), 1), ((1280, 720), 3)])
+def test_nothing_that_was_said_is_left_on_the_picture(version: str, size: tuple[int, int], scale: int) -> None:
+    def seen(words: str) -> Frame:
+        client = VirtualClient(version=version, size=size, scale=scale, capture_latency_s=(0.0, 0.0))
+        for line in range(12):
+            client.game.chat.say(f"<Ann> {words} {line}", client.game.ticks)
+        client.clock.sleep(0.3)
+        return client.display.grab()
+
+    one, other = seen("meet me at the oak, as always, at eight"), seen("i will be a bit late, it is raining")
+    scale = gui_scale(size, scale)
+    assert not np.array_equal(one, other)
+    assert np.array_equal(without_chat(one, scale), without_chat(other, scale))
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "26.1"])
+def test_nor_what_is_being_typed(version: str) -> None:
+    def seen(words: str) -> Frame:
+        client = VirtualClient(version=version, capture_latency_s=(0.0, 0.0))
+        tap(client, "t")
+        client.keyboard.type(words)
+        client.clock.sleep(0.3)
+        return client.display.grab()
+
+    one, other = seen("meet me at the oak"), seen("i will be a bit late")
+    assert not np.array_equal(one, other)
+    assert np.array_equal(without_chat(one, 2), without_chat(other, 2))
+
+
+def chat_over(size: tuple[int, int], scale: int, version: str, said: list[str], typed: str) -> Frame:
+    """A grey window with a chat in it, painted as the facts say."""
+    letters, gui = Letters(FONT, scale), (-(-size[0] // scale), -(-size[1] // scale))
+    lines = tuple(ChatLine(text, WHITE, 8) for text in said)
+    frame: Frame = np.full((size[1], size[0], 3), 120, np.uint8)
+    draw_all(frame, HudLayers(letters, gui, Edition(version)).chat(lines, typed), (0, 0, *size))
+    return frame
+
+
+@given(
+    st.integers(320, 1000),
+    st.integers(240, 700),
+    st.integers(1, 4),
+    st.sampled_from(["1.12.2", "1.20.1"]),
+    st.sampled_from([CLOSED_LINES, OPEN_LINES]),
+    st.text("iIlW@.jg_", min_size=1, max_size=45),
+)
+@settings(max_examples=60, deadline=None)
+def test_no_pixel_of_messages_or_of_the_typed_line_is_left_in_any_window(
+    width: int, height: int, scale: int, version: str, lines: int, text: str
+) -> None:
+    size = (width, height)
+    one = chat_over(size, scale, version, [text] * lines, typed=text * 3)
+    other = chat_over(size, scale, version, [], typed="")
+    assert np.array_equal(without_chat(one, scale, lines=lines), without_chat(other, scale, lines=lines))
+
+
+def test_the_rest_of_the_picture_and_what_is_opaque_stay_and_the_frame_itself_is_left_alone() -> None:
+    frame = np.random.default_rng(0).integers(100, 256, (240, 427, 3), np.uint8)
+    before = frame.copy()
+    blanked = without_chat(frame, 1, [Region(100, 150, 50, 20), Region(-5, 230, 10, 30)])
+    assert np.array_equal(frame, before)
+    assert np.array_equal(blanked[:102], frame[:102])
+    assert np.array_equal(blanked[150:170, 100:150], frame[150:170, 100:150])
+    assert np.array_equal(blanked[230:, :5], frame[230:, :5])
+    assert (blanked[102:150, :332] == BLANK).all()
+    assert np.array_equal(blanked[102:202, 332:], frame[102:202, 332:])

@@ -1,0 +1,131 @@
+"""The window's pixels as a GameScreen: scale, menus' texts, the line being typed, over a display of the test's own."""
+
+import numpy as np
+import pytest
+
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.vision.font import font_of
+from mc_nested.live.vision.game_screen import WORLDS_TITLE, WindowScreen
+from mc_nested.live.vision.layout import VANILLA, Overlay
+from sim.client.drawing.f3_layers import paint
+from sim.client.drawing.font import drawn_atlas
+from sim.client.game.f3_text import F3Screen
+from tests.live.vision.menu_painter import GREY, MenuPainter
+
+FONT = font_of(drawn_atlas())
+
+
+class ShownFrame:
+    """A Display that shows ``frame``, and counts the pictures of the whole window."""
+
+    def __init__(self, frame: Frame) -> None:
+        self.frame = frame
+        self.whole_grabs = 0
+
+    def size(self) -> tuple[int, int]:
+        return self.frame.shape[1], self.frame.shape[0]
+
+    def title(self) -> str:
+        return "Minecraft 1.20.1"
+
+    def is_in_front(self) -> bool:
+        return True
+
+    def grab(self, region: Region | None = None) -> Frame:
+        if region is None:
+            self.whole_grabs += 1
+            return self.frame
+        return self.frame[region.top : region.top + region.height, region.left : region.left + region.width]
+
+
+def ground(width: int = 860, height: int = 480) -> Frame:
+    return np.full((height, width, 3), 60, np.uint8)
+
+
+def debug_screen(scale: int, frame: Frame) -> Frame:
+    return paint(frame, F3Screen("1.16-1.19.2", scale, (8.5, 64.0, 3.5), 0.0, 65.0), FONT)
+
+
+def painter(frame: Frame, scale: int) -> MenuPainter:
+    return MenuPainter(frame, scale, FONT, np.random.default_rng(0))
+
+
+def test_the_scale_is_measured_once_for_each_size_of_the_window() -> None:
+    display = ShownFrame(debug_screen(2, ground()))
+    screen = WindowScreen(display, FONT)
+    assert [screen.scale(), screen.scale(), display.whole_grabs] == [2, 2, 1]
+    display.frame = debug_screen(3, ground(960, 720))
+    assert [screen.scale(), screen.scale(), display.whole_grabs] == [3, 3, 2]
+
+
+def test_without_a_debug_screen_the_scale_stays_what_it_was() -> None:
+    display = ShownFrame(debug_screen(2, ground()))
+    screen = WindowScreen(display, FONT)
+    screen.scale()
+    display.frame = ground(960, 720)
+    assert screen.scale() == 2
+
+
+def test_the_overlay_that_is_given_says_the_scale_and_no_picture_is_taken() -> None:
+    display = ShownFrame(ground())
+    assert WindowScreen(display, FONT, Overlay(3, VANILLA, (224, 224, 224))).scale() == 3
+    assert display.whole_grabs == 0
+
+
+@pytest.mark.parametrize("scale", [1, 2, 3])
+def test_the_list_of_worlds_says_the_scale_before_any_debug_screen_was_seen(scale: int) -> None:
+    frame = ground()
+    painter(frame, scale).text(WORLDS_TITLE, 50, 10)
+    assert WindowScreen(ShownFrame(frame), FONT).scale() == scale
+
+
+def test_where_nothing_tells_the_scale_it_is_1() -> None:
+    assert WindowScreen(ShownFrame(ground()), FONT).scale() == 1
+
+
+@pytest.mark.parametrize("scale", [1, 2])
+def test_a_white_text_is_found_by_its_middle_the_uppermost_first(scale: int) -> None:
+    frame = ground()
+    wide = len(FONT.columns("New World"))
+    for top in (70, 30):
+        painter(frame, scale).text("New World", 40, top)
+    assert WindowScreen(ShownFrame(frame), FONT).position_of("New World") == (
+        int((40 + wide / 2) * scale),
+        34 * scale,
+    )
+
+
+def test_a_text_with_something_behind_it_or_of_another_colour_is_not_found() -> None:
+    frame = ground()
+    painter(frame, 2).text("New World2", 40, 30)
+    painter(frame, 2).text("New World", 40, 60, GREY)
+    assert WindowScreen(ShownFrame(frame), FONT).position_of("New World") is None
+
+
+def test_the_chat_is_open_where_its_line_begins_with_a_letter_and_holds_what_stands_there() -> None:
+    frame = ground()
+    screen = WindowScreen(ShownFrame(frame), FONT, Overlay(2, VANILLA, (224, 224, 224)))
+    assert not screen.is_chat_open()
+    assert screen.is_typed("")
+    painter(frame, 2).text("/tp 1 2 3_", 4, 240 - 12, (224, 224, 224))
+    assert screen.is_chat_open()
+    assert screen.is_typed("/tp 1 2 3")
+    assert not screen.is_typed("/tp 1 2")
+
+
+def test_a_menus_texts_and_buttons_are_those_on_the_screen() -> None:
+    frame = ground()
+    middle = painter(frame, 2).button("Respawn", 115, 60, 200)
+    menu = WindowScreen(ShownFrame(frame), FONT).menu()
+    assert menu.shows("Respawn")
+    assert not menu.shows("Title Screen")
+    found = menu.button("Respawn").middle
+    assert found is not None
+    assert max(abs(found[0] - middle[0]), abs(found[1] - middle[1])) <= 4
+
+
+def test_what_the_debug_screen_says_is_read_whole_and_then_its_position_alone() -> None:
+    display = ShownFrame(debug_screen(2, ground()))
+    screen = WindowScreen(display, FONT)
+    assert screen.read_position() is None, "it isn't known yet where the line stands"
+    assert screen.read().xyz == (8.5, 64.0, 3.5)

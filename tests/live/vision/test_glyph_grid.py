@@ -1,0 +1,102 @@
+"""Dots of a frame and patterns of columns in them, on pictures made of single dots."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.live.devices import Frame
+from mc_nested.live.vision.glyph_grid import GlyphGrid
+
+BAR, CORNER = 0b11111111, 0b00000001
+"""Columns of eight dots: all of them, and the uppermost alone."""
+
+
+def frame_with(columns: bytes, row: int, column: int, scale: int, size: tuple[int, int] = (30, 40)) -> Frame:
+    """A black frame of so many rows and columns of dots, with these columns of white dots in it."""
+    dots = np.zeros(size, np.uint8)
+    for right, byte in enumerate(columns):
+        for down in range(8):
+            dots[row + down, column + right] = 255 * (byte >> down & 1)
+    return np.repeat(dots.repeat(scale, 0).repeat(scale, 1)[..., np.newaxis], 3, 2)
+
+
+@pytest.mark.parametrize("scale", [1, 2, 3, 4])
+@pytest.mark.parametrize("position", [(0, 0), (13, 7), (21, 36)])
+def test_a_pattern_is_found_where_it_stands(scale: int, position: tuple[int, int]) -> None:
+    pattern = bytes((BAR, CORNER, BAR))
+    assert GlyphGrid(frame_with(pattern, *position, scale), scale, 200).find(pattern) == [position]
+
+
+def test_of_a_grid_of_lines_only_each_pitchth_row_from_the_first_on_is_looked_at() -> None:
+    pattern = bytes((BAR, CORNER, BAR))
+    for row in (2, 10, 11, 20):
+        found = GlyphGrid(frame_with(pattern, row, 5, 2), 2, 200, first=2, pitch=9).find(pattern)
+        assert found == ([(row, 5)] if row in (2, 11, 20) else [])
+
+
+def test_each_of_several_is_found() -> None:
+    pattern = bytes((BAR, CORNER))
+    frame = np.maximum(frame_with(pattern, 1, 3, 1), frame_with(pattern, 12, 38, 1))
+    assert GlyphGrid(frame, 1, 200).find(pattern) == [(1, 3), (12, 38)]
+
+
+def test_a_pattern_does_not_go_on_in_the_next_row() -> None:
+    pattern = bytes((BAR, CORNER, BAR))
+    frame = np.maximum(frame_with(pattern[:2], 3, 38, 1), frame_with(pattern[2:], 4, 0, 1))
+    assert GlyphGrid(frame, 1, 200).find(pattern) == []
+
+
+@pytest.mark.parametrize("pattern", [b"", bytes((BAR,)), bytes((BAR,)) * 2000])
+def test_a_pattern_of_fewer_than_two_columns_or_more_than_there_are_is_nowhere(pattern: bytes) -> None:
+    assert GlyphGrid(frame_with(bytes((BAR,)), 3, 3, 1), 1, 200).find(pattern) == []
+
+
+def test_ink_is_where_green_is_bright_enough() -> None:
+    pattern = bytes((BAR, CORNER))
+    frame = frame_with(pattern, 3, 3, 1)
+    frame[frame == 255] = 200
+    for pitch in (1, 9):
+        assert GlyphGrid(frame, 1, 200, 3 % pitch, pitch).find(pattern) == [(3, 3)]
+        assert GlyphGrid(frame, 1, 201, 3 % pitch, pitch).find(pattern) == []
+    frame[..., (0, 2)] = 0
+    assert GlyphGrid(frame, 1, 200).find(pattern) == [(3, 3)]
+
+
+@pytest.mark.parametrize(
+    ("height", "width", "scale", "rows", "columns"),
+    [
+        (8, 1, 1, 1, 1),
+        (7, 5, 1, 0, 5),
+        (0, 0, 1, 0, 0),
+        (24, 10, 3, 0, 3),
+        (25, 10, 3, 1, 3),
+        (23, 9, 3, 0, 2),
+        (17, 3, 2, 1, 1),
+    ],
+)
+def test_a_dot_counts_where_a_whole_one_fits_behind_the_first_ones_middle(
+    height: int, width: int, scale: int, rows: int, columns: int
+) -> None:
+    grid = GlyphGrid(np.zeros((height, width, 3), np.uint8), scale, 200)
+    assert (grid.rows, grid.columns) == (rows, columns)
+
+
+def test_a_row_that_does_not_count_is_not_looked_through() -> None:
+    # 30 dots of 2 pixels are 29 and a half from the first one's middle on: glyphs begin in rows 0 to 21.
+    pattern = bytes((BAR, CORNER))
+    assert GlyphGrid(frame_with(pattern, 22, 5, 2), 2, 200).find(pattern) == []
+    assert GlyphGrid(frame_with(pattern, 22, 5, 2), 2, 200, first=4, pitch=9).find(pattern) == []
+
+
+def test_a_strip_is_the_middle_pixel_of_each_of_its_dots() -> None:
+    frame = np.random.default_rng(0).integers(0, 256, (60, 90, 3), np.uint8)
+    strip = GlyphGrid(frame, 3, 200).strip(5, 2, 6)
+    np.testing.assert_array_equal(strip, frame[16:40:3, 7:19:3])
+
+
+@given(st.binary(min_size=2, max_size=6), st.integers(1, 3), st.integers(0, 21), st.integers(0, 32))
+def test_whatever_stands_there_is_found_there(pattern: bytes, scale: int, row: int, column: int) -> None:
+    grid = GlyphGrid(frame_with(pattern, row, column, scale), scale, 200)
+    assert (row, column) in grid.find(pattern)
+    assert (row, column) in GlyphGrid(grid.frame, scale, 200, row % 9, 9).find(pattern)

@@ -1,0 +1,95 @@
+"""What lines written down say: the position and the view in each form, and each reason why they are unreadable."""
+
+import pytest
+
+from mc_nested.live.model.reading import Reading, Target
+from mc_nested.live.vision.debug_screen import nothing_seen, read_lines, read_position
+from mc_nested.live.vision.layout import VANILLA, Overlay
+from mc_nested.live.vision.overlay import POSITION, REDUCED
+from mc_nested.live.vision.text_lines import UNKNOWN
+from tests.live.vision.written_lines import WrittenLines, written
+
+XYZ = "XYZ: -8.500 / 64.00000 / 12345.678"
+FACING = "Facing: north (Towards negative Z) (-179.9 / 65.0)"
+
+
+def said(*texts: str, label: str = POSITION) -> Reading:
+    return read_lines(WrittenLines(*(written(text, number) for number, text in enumerate(texts))), label)
+
+
+def test_position_view_and_block_are_read() -> None:
+    reading = said(XYZ, FACING, "Targeted Block: 1, 2, 3", "minecraft:stone")
+    assert reading == Reading((-8.5, 64.0, 12345.678), -179.9, 65.0, Target((1, 2, 3), "minecraft:stone"))
+
+
+def test_the_stand_ins_forms_are_read() -> None:
+    reading = said("XYZ: 1,000 / 2,500 / -3.250", "Facing (minecraft): south (towards positive Z) (0.0 65.0)")
+    assert reading == Reading((1.0, 2.5, -3.25), 0.0, 65.0, None)
+
+
+@pytest.mark.parametrize("behind", ["", f" {UNKNOWN}i", " i", UNKNOWN])
+def test_what_the_world_shows_behind_a_complete_position_is_no_part_of_it(behind: str) -> None:
+    assert said(XYZ + behind, FACING + behind).xyz == (-8.5, 64.0, 12345.678)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "XYZ: -8.50 / 64.00000 / 12345.678",
+        "XYZ: -8.500 / 64.0000 / 12345.678",
+        "XYZ: -8.500 / 64.00000 / 12345.6789",
+        "XYZ: 08.500 / 64.00000 / 12345.678",
+        "XYZ: 123456789.500 / 64.00000 / 1.000",
+        f"XYZ: -8.5{UNKNOWN}0 / 64.00000 / 12345.678",
+    ],
+)
+def test_a_position_of_another_form_is_a_problem_and_nothing_else_is_told(text: str) -> None:
+    reading = said(text, FACING)
+    assert (reading.xyz, reading.yaw, reading.target) == (None, None, None)
+    assert (reading.problem or "").startswith("a line reads 'XYZ: ")
+
+
+@pytest.mark.parametrize(("yaw", "pitch"), [("180.0", "90.0"), ("-180.0", "-90.0")])
+def test_the_ends_of_the_views_range_are_read(yaw: str, pitch: str) -> None:
+    reading = said(XYZ, f"Facing: north (Towards negative Z) ({yaw} / {pitch})")
+    assert (reading.yaw, reading.pitch) == (float(yaw), float(pitch))
+
+
+@pytest.mark.parametrize(("yaw", "pitch"), [("180.1", "0.0"), ("0.0", "90.1"), ("-180.1", "-90.1")])
+def test_a_view_out_of_range_is_a_problem(yaw: str, pitch: str) -> None:
+    problem = said(XYZ, f"Facing: north (Towards negative Z) ({yaw} / {pitch})").problem or ""
+    assert problem.startswith(f"a yaw of {yaw} with a pitch of {pitch} can't be")
+
+
+def test_without_a_view_there_is_a_problem() -> None:
+    assert (said(XYZ).problem or "").startswith("the debug screen shows no Facing line")
+
+
+def test_the_position_alone_is_read_without_the_rest_and_none_is_none() -> None:
+    assert read_position(WrittenLines(written(XYZ, 0))) == (-8.5, 64.0, 12345.678)
+    assert read_position(WrittenLines(written("XYZ: 1", 0))) is None
+    assert read_position(WrittenLines()) is None
+
+
+def test_a_reduced_debug_screen_is_named() -> None:
+    problem = said("Chunk-relative: 1 2 3", label=REDUCED).problem or ""
+    assert problem.startswith("the debug screen is reduced and shows no XYZ")
+
+
+@pytest.mark.parametrize(
+    ("title", "is_too_new"),
+    [("26.4", True), ("26.10", True), ("27.1", True), ("26.3", False), ("1.20.1", False), ("x", False)],
+)
+def test_a_version_from_26_4_on_is_named_as_not_supported(title: str, is_too_new: bool) -> None:
+    problem = said(f"Minecraft {title} (vanilla)", label="Minecraft ").problem or ""
+    assert problem.startswith(f"the debug screen of Minecraft {title} has a layout") is is_too_new
+    assert problem.startswith("no XYZ line is to be seen") is not is_too_new
+
+
+def test_a_debug_screen_without_its_title_and_position_lacks_its_position() -> None:
+    assert (said("Facing: north", label="Facing").problem or "").startswith("no XYZ line is to be seen")
+
+
+def test_where_nothing_is_seen_the_scale_that_was_looked_for_is_named() -> None:
+    assert "at GUI scale 3: press F3" in (nothing_seen(Overlay(3, VANILLA, (224, 224, 224))).problem or "")
+    assert "at a GUI scale from 1 to 4: press F3" in (nothing_seen(None).problem or "")

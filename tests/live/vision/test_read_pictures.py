@@ -1,0 +1,82 @@
+"""Drives read_picture with files; what is read from a frame is left to test_debug_screen.py."""
+
+import json
+import struct
+import zlib
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from mc_nested.live.model.reading import Target
+from mc_nested.live.vision.font import font_of
+from mc_nested.live.vision.layout import VANILLA, Overlay
+from mc_nested.live.vision.read_pictures import read_picture
+from sim.client.drawing.f3_layers import paint
+from sim.client.drawing.font import drawn_atlas
+from sim.client.game.f3_text import F3Screen
+
+FONT = font_of(drawn_atlas())
+SCREEN = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, 65.0, Target((8, 63, -2), "minecraft:stone"))
+
+
+def picture(path: Path, screen: F3Screen = SCREEN) -> Path:
+    cv2.imwrite(str(path), paint(np.full((480, 854, 3), 60, np.uint8), screen, FONT))
+    return path
+
+
+@pytest.mark.parametrize("overlay", [None, Overlay(2, VANILLA, (224, 224, 224))], ids=["found", "given"])
+def test_a_picture_gives_its_reading_as_json(tmp_path: Path, overlay: Overlay | None) -> None:
+    path = picture(tmp_path / "größe.png".replace("ö", "o").replace("ß", "ss"))
+    assert json.loads(json.dumps(read_picture(path, FONT, overlay))) == {
+        "file": str(path),
+        "xyz": [8.5, 64.0, -3.25],
+        "yaw": 0.0,
+        "pitch": 65.0,
+        "target": {"pos": [8, 63, -2], "id": "minecraft:stone"},
+        "problem": None,
+    }
+
+
+def test_no_block_looked_at_is_a_null_target(tmp_path: Path) -> None:
+    screen = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
+    assert read_picture(picture(tmp_path / "sky.png", screen), FONT, None)["target"] is None
+
+
+@pytest.mark.parametrize(
+    "data", [None, b"", b"no picture", b"\x89PNG\r\n\x1a\n"], ids=["missing", "empty", "text", "cut"]
+)
+def test_a_file_that_is_no_picture_is_a_problem(tmp_path: Path, data: bytes | None) -> None:
+    path = tmp_path / "given.png"
+    if data is not None:
+        path.write_bytes(data)
+    read = read_picture(path, FONT, None)
+    assert read["xyz"] is None
+    assert "the file" in str(read["problem"])
+
+
+def test_a_folder_is_a_problem(tmp_path: Path) -> None:
+    assert "can't be read" in str(read_picture(tmp_path, FONT, None)["problem"])
+
+
+def test_a_grey_picture_of_sixteen_bits_is_a_problem_and_no_crash(tmp_path: Path) -> None:
+    cv2.imwrite(str(tmp_path / "deep.png"), np.zeros((300, 400), np.uint16))
+    assert read_picture(tmp_path / "deep.png", FONT, None)["xyz"] is None
+
+
+def test_a_picture_of_more_pixels_than_can_be_opened_is_a_problem(tmp_path: Path) -> None:
+    header = b"IHDR" + struct.pack(">IIBBBBB", 60_000, 60_000, 8, 2, 0, 0, 0)
+    data = b"\x89PNG\r\n\x1a\n" + struct.pack(">I", 13) + header + struct.pack(">I", zlib.crc32(header))
+    (tmp_path / "huge.png").write_bytes(data)
+    assert "not a picture" in str(read_picture(tmp_path / "huge.png", FONT, None)["problem"])
+
+
+def test_a_png_without_a_debug_screen_is_not_called_a_jpeg(tmp_path: Path) -> None:
+    cv2.imwrite(str(tmp_path / "world.png"), np.full((480, 854, 3), 60, np.uint8))
+    problem = str(read_picture(tmp_path / "world.png", FONT, None)["problem"])
+    assert problem.startswith("no debug screen is to be seen at a GUI scale from 1 to 4")
+
+
+def test_a_jpeg_that_can_not_be_read_says_that_it_is_one(tmp_path: Path) -> None:
+    assert "a JPEG blurs" in str(read_picture(picture(tmp_path / "screen.jpg"), FONT, None)["problem"])

@@ -1,0 +1,140 @@
+"""Drives ScreenReader with painted frames behind a display that notes its pictures; reading is left to others."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.model.reading import Target
+from mc_nested.live.vision.debug_screen import read_debug_screen
+from mc_nested.live.vision.font import font_of
+from mc_nested.live.vision.screen_reader import ScreenReader
+from sim.client.drawing.f3_cases import WORLDS, expected, random_screen, random_world
+from sim.client.drawing.f3_layers import paint
+from sim.client.drawing.font import drawn_atlas
+from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+
+FONT = font_of(drawn_atlas())
+
+
+class Pictures:
+    """A Display that shows ``frame``, and remembers which regions were pictured."""
+
+    def __init__(self, frame: Frame) -> None:
+        self.frame = frame
+        self.grabbed: list[Region | None] = []
+
+    def size(self) -> tuple[int, int]:
+        return self.frame.shape[1], self.frame.shape[0]
+
+    def title(self) -> str:
+        return "Minecraft 1.20.1 - Singleplayer"
+
+    def is_in_front(self) -> bool:
+        return True
+
+    def grab(self, region: Region | None = None) -> Frame:
+        self.grabbed.append(region)
+        if region is None:
+            return self.frame
+        return self.frame[region.top : region.top + region.height, region.left : region.left + region.width]
+
+
+def screen(layout: Layout = "1.16-1.19.2", x: float = 8.5) -> F3Screen:
+    name = "stone" if layout == "standin" else "minecraft:stone"
+    return F3Screen(layout, 2, (x, 64.0, 3.5), 0.0, 65.0, Target((8, 63, 4), name))
+
+
+def painted(shown: F3Screen, width: int = 860, height: int = 480) -> Frame:
+    return paint(np.full((height, width, 3), 120, np.uint8), shown, FONT)
+
+
+def opened(shown: F3Screen) -> tuple[ScreenReader, Pictures]:
+    """A reader that has read this screen once."""
+    pictures = Pictures(painted(shown))
+    reader = ScreenReader(pictures, FONT)
+    assert reader.read() == expected(shown)
+    pictures.grabbed.clear()
+    return reader, pictures
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_the_next_reading_pictures_only_the_rows_of_the_last_ones_lines(layout: Layout) -> None:
+    reader, pictures = opened(screen(layout))
+    moved = screen(layout, x=8.716)
+    pictures.frame = painted(moved)
+    assert reader.read() == expected(moved)
+    (region,) = pictures.grabbed
+    assert region is not None
+    assert region.height < 480 * 0.75
+
+
+def test_the_block_of_a_mod_is_reread_in_the_oldest_layout() -> None:
+    shown = dataclasses.replace(screen("1.8-1.12"), target=Target((8, 63, 4), "some-mod:machine"))
+    reader, pictures = opened(shown)
+    assert reader.read() == expected(shown)
+    assert None not in pictures.grabbed
+
+
+def test_what_stands_elsewhere_is_read_anew_and_remembered() -> None:
+    reader, pictures = opened(screen())
+    for change in (screen(x=-10.5), screen("1.13-1.15"), dataclasses.replace(screen(), gui_scale=1)):
+        pictures.frame = painted(change)
+        assert reader.read() == expected(change)
+        assert pictures.grabbed.pop() is None or change.layout == "1.16-1.19.2"
+        pictures.grabbed.clear()
+        assert reader.read() == expected(change)
+        assert None not in pictures.grabbed
+        pictures.grabbed.clear()
+
+
+@pytest.mark.parametrize("size", [(1000, 480), (700, 480), (860, 260), (330, 60)])
+def test_a_window_of_another_size_gives_what_reading_it_anew_gives(size: tuple[int, int]) -> None:
+    reader, pictures = opened(screen())
+    pictures.frame = painted(screen(x=9.5), *size)
+    assert reader.read() == read_debug_screen(pictures.frame, FONT)
+
+
+def test_that_no_block_is_looked_at_is_only_said_of_the_whole_window() -> None:
+    reader, pictures = opened(screen())
+    sky = dataclasses.replace(screen(), target=None)
+    pictures.frame = painted(sky)
+    for _ in range(2):
+        assert reader.read() == expected(sky)
+        assert pictures.grabbed.pop() is None
+
+
+def spoilt(frame: Frame, name: str) -> Frame:
+    if name == "shifted":
+        return np.roll(frame, 7, 0)
+    if name == "covered":
+        frame[:, 100:140] = 255
+        return frame
+    return frame // {"black": 255, "dimmed": 3}[name]
+
+
+@pytest.mark.parametrize("name", ["black", "dimmed", "covered", "shifted"])
+def test_a_spoilt_frame_gives_what_reading_it_anew_gives_and_the_next_one_is_read(name: str) -> None:
+    reader, pictures = opened(screen())
+    pictures.frame = spoilt(painted(screen()), name)
+    assert reader.read() == read_debug_screen(pictures.frame, FONT)
+    pictures.frame = painted(screen(x=9.0))
+    assert reader.read() == expected(screen(x=9.0))
+
+
+@given(st.sampled_from(LAYOUTS), st.sampled_from(WORLDS), st.integers(0, 2**32 - 1))
+@settings(max_examples=40)
+def test_two_screens_after_each_other_are_read_as_each_alone(layout: Layout, kind: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    pictures = Pictures(np.zeros((480, 860, 3), np.uint8))
+    reader = ScreenReader(pictures, FONT)
+    first = random_screen(rng, layout, 2)
+    later = dataclasses.replace(first, xyz=(first.xyz[0] + 0.216, first.xyz[1], first.xyz[2]))
+    for shown in (first, later, random_screen(rng, layout, 2)):
+        pictures.frame = paint(random_world(rng, kind, 860, 480), shown, FONT)
+        reading = reader.read()
+        assert reading == read_debug_screen(pictures.frame, FONT)
+        assert reading.problem or reading == expected(shown)

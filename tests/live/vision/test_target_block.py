@@ -1,0 +1,161 @@
+"""The block looked at, from lines written down: every version's form, and each reason why it is unreadable."""
+
+import dataclasses
+
+import pytest
+
+from mc_nested.live.model.reading import Target
+from mc_nested.live.vision.screen_lines import Unreadable
+from mc_nested.live.vision.target_block import target_block
+from mc_nested.live.vision.text_lines import UNKNOWN, Line
+from tests.live.vision.written_lines import RIGHT, WrittenLines, written
+
+STONE = Target((-9, 63, 12), "minecraft:stone")
+ID = written("minecraft:stone", 5, right=True)
+
+
+def of(*lines: Line) -> Target | None:
+    return target_block(WrittenLines(*lines))
+
+
+def why_not(*lines: Line) -> str:
+    with pytest.raises(Unreadable) as raised:
+        of(*lines)
+    return str(raised.value)
+
+
+def test_1_8_writes_the_position_on_the_left_and_the_id_on_the_right() -> None:
+    assert of(written("Looking at: -9 63 12", 9), ID) == STONE
+
+
+def test_1_13_writes_the_position_on_the_left_and_the_id_below_a_label_on_the_right() -> None:
+    assert of(written("Looking at block: -9 63 12", 9), written("Targeted Block", 4, right=True), ID) == STONE
+
+
+@pytest.mark.parametrize("right", [True, False])
+def test_1_16_writes_both_below_each_other_in_either_column(right: bool) -> None:
+    block = written("minecraft:stone", 5, right=right)
+    assert of(written("Targeted Block: -9, 63, 12", 4, right=right), block) == STONE
+
+
+def test_no_line_of_a_block_is_no_block() -> None:
+    assert of(written("XYZ: 1.000 / 2.00000 / 3.000", 0)) is None
+
+
+def test_a_block_of_a_mod_is_found_by_where_its_line_ends() -> None:
+    block = written("some-mod:machine/a_2", 7, right=True)
+    assert of(written("Looking at: 1 2 3", 9), block) == Target((1, 2, 3), "some-mod:machine/a_2")
+
+
+def test_the_id_of_1_8_is_not_the_biomes_on_the_left() -> None:
+    assert of(written("Looking at: -9 63 12", 9), written("minecraft:plains", 3), ID) == STONE
+
+
+@pytest.mark.parametrize("ids", [[], [ID, written("minecraft:dirt", 6, right=True)]])
+def test_none_or_two_ids_on_the_right_of_1_8_are_told_by_their_count(ids: list[Line]) -> None:
+    assert f"{len(ids)} lines may be the id" in why_not(written("Looking at: 1 2 3", 9), *ids)
+
+
+def test_what_the_world_shows_behind_a_position_on_the_left_is_no_part_of_it() -> None:
+    assert of(written(f"Looking at: -9 63 12 {UNKNOWN}i", 9), ID) == STONE
+
+
+def test_on_the_right_nothing_may_follow_a_position() -> None:
+    label = written("Targeted Block: -9, 63, 12 .", 4, right=True)
+    assert "a line reads 'Targeted Block: -9, 63, 12 .'" in why_not(label, ID)
+
+
+@pytest.mark.parametrize("text", ["Looking at: 1 2", "Looking at: 01 2 3", "Looking at: 1 2 3.5", "Looking at: 1 ? 3"])
+def test_a_position_of_another_form_is_not_read(text: str) -> None:
+    assert "a line reads" in why_not(written(text, 9), ID)
+
+
+def test_a_position_whose_end_may_be_covered_is_not_read() -> None:
+    assert "the end of 'Looking at: 1 2 3' may be covered" in why_not(written("Looking at: 1 2 3", 9, whole=False), ID)
+
+
+def test_an_id_whose_end_may_be_covered_is_not_read() -> None:
+    covered = dataclasses.replace(ID, whole=False)
+    assert "the end of 'minecraft:stone' may be covered" in why_not(
+        written("Targeted Block: 1, 2, 3", 4, right=True), covered
+    )
+
+
+def test_an_id_that_is_covered_in_its_middle_is_not_read() -> None:
+    label = written("Targeted Block: 1, 2, 3", 4, right=True)
+    covered = written(f"minecraft:sto{UNKNOWN}e", 5, right=True)
+    assert "a line reads 'minecraft:sto?e'" in why_not(label, covered)
+
+
+@pytest.mark.parametrize("text", [f"mine{UNKNOWN}raft:stone", "craft:stone", "stone", "raft:stone", "t:stone"])
+def test_an_id_of_which_a_part_may_be_covered_is_not_read(text: str) -> None:
+    label = written("Targeted Block: 1, 2, 3", 4, right=True)
+    assert "the id of the block looked at reads" in why_not(label, written(text, 5, right=True))
+
+
+def test_specks_left_of_an_id_are_no_part_of_it() -> None:
+    label = written("Targeted Block: -9, 63, 12", 4, right=True)
+    assert of(label, written(f"{UNKNOWN} i minecraft:stone", 5, right=True)) == STONE
+
+
+def test_what_the_world_shows_behind_an_id_on_the_left_is_no_part_of_it() -> None:
+    label = written("Targeted Block: -9, 63, 12", 4)
+    assert of(label, written(f"minecraft:stone {UNKNOWN}", 5)) == STONE
+
+
+def test_a_label_without_its_id_below_it_is_said() -> None:
+    label = written("Targeted Block: 1, 2, 3", 4, right=True)
+    assert "the id below 'Targeted Block' can't be seen" in why_not(label, written("minecraft:stone", 6, right=True))
+
+
+def test_1_13s_label_without_its_position_is_said() -> None:
+    problem = why_not(written("Targeted Block", 4, right=True), ID)
+    assert problem.startswith("the place of the block looked at can't be seen")
+
+
+def test_1_13s_position_without_its_label_is_said() -> None:
+    assert "the 'Targeted Block' lines" in why_not(written("Looking at block: 1 2 3", 9), ID)
+
+
+@pytest.mark.parametrize("label", ["Targeted Block: 1, 2, 3", "Looking at: 1 2 3", "Looking at block: 1 2 3"])
+def test_two_lines_of_a_label_are_not_chosen_between(label: str) -> None:
+    assert "2 lines begin with" in why_not(written(label, 4), written(label, 20), ID)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["Targeted Blo", "geted Block: 1, 2, 3", "Looking at b", "oking at block: 1 2 3", "ooking at: 1", "ing at: 1"],
+)
+def test_half_a_label_is_not_taken_for_no_block(text: str) -> None:
+    assert "of the block looked at only" in why_not(written(text, 4))
+
+
+def test_an_id_without_a_label_over_it_is_not_taken_for_no_block() -> None:
+    assert "what 'minecraft:stone' belongs to can't be seen" in why_not(ID)
+    assert "what 'minecraft:stone' belongs to can't be seen" in why_not(ID, written("CPU: 4x", 4, right=True))
+    assert "belongs to can't be seen" in why_not(written(f"{UNKNOWN}minecraft:stone", 5, right=True))
+    assert "belongs to can't be seen" in why_not(written("minecraft:stone", 5))
+
+
+@pytest.mark.parametrize("label", ["Targeted Fluid: 1, 2, 3", "Targeted Entity"])
+@pytest.mark.parametrize("right", [True, False])
+def test_an_id_below_a_fluids_or_an_entitys_label_is_no_block(label: str, right: bool) -> None:
+    lines = [written(label, 4, right=right), written("minecraft:lava", 5, right=right)]
+    if right:  # aligned where the lines end, not where they begin
+        assert lines[0].start != lines[1].start
+    assert of(*lines) is None
+
+
+@pytest.mark.parametrize("text", ["Biome: minecraft:plains", "minecraft:overworld FC: 0", "minecraft:the_nether"])
+def test_a_biome_or_a_dimension_is_no_block(text: str) -> None:
+    assert of(written(text, 5)) is None
+
+
+def test_tags_without_a_label_are_not_taken_for_no_block() -> None:
+    tags = written("#minecraft:planks", 8, right=True)
+    assert "which block the tags" in why_not(tags)
+    assert of(tags, written("Targeted Fluid: 1, 2, 3", 4, right=True)) is None
+
+
+def test_the_ids_line_ends_where_its_label_ends() -> None:
+    assert ID.end == written("Targeted Block: 1, 2, 3", 4, right=True).end == RIGHT

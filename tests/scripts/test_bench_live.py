@@ -1,0 +1,64 @@
+"""The bench of the live path: what its counts hold against a client's world, and which actions it draws."""
+
+import numpy as np
+import pytest
+
+from mc_nested.arena import rules
+from mc_nested.arena.rules import Action
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.live.profile.arena import Arena
+from scripts.bench_live import ClientTruth, PlayCounts, drawn_action, figures, play
+from sim.client.client import VirtualClient
+
+
+def test_nothing_is_wrong_in_a_short_play_without_mishaps() -> None:
+    counts = play(12, 0.0, 3, load_scenario("diamond"))
+    assert counts.is_right
+    assert (counts.actions, counts.failed_actions, counts.mishaps) == (12, 0, 0)
+    assert len(counts.moves_s) + len(counts.placings_s) == 12
+    assert counts.resets >= 1
+    assert min([*counts.moves_s, *counts.placings_s]) > 0
+    assert sum([*counts.moves_s, *counts.placings_s]) < counts.played_s < 60
+
+
+@pytest.mark.parametrize("wrong", ["wrong_cells", "wrong_blocks", "unnoticed", "gave_up", "left_down", "strays"])
+def test_each_wrong_count_alone_is_wrong(wrong: str) -> None:
+    assert PlayCounts(actions=5, corrections=3, failed_actions=2).is_right
+    counts = PlayCounts()
+    setattr(counts, wrong, 1)
+    assert not counts.is_right
+
+
+def test_the_clients_world_is_as_built_only_with_these_cells_and_what_was_there() -> None:
+    client = VirtualClient()
+    client.realm.world.put((50, 64, 50), "dirt")
+    arena = Arena.around((7, 64, 0), "south")
+    truth = ClientTruth(client, arena)
+    assert truth.cell() == (7, 0)
+    assert truth.is_built(set())
+    client.realm.world.put(arena.block_of((3, 4)), "stone")
+    assert truth.is_built({(3, 4)})
+    assert not truth.is_built(set())
+    assert not truth.is_built({(3, 4), (3, 5)})
+    client.realm.world.put((50, 64, 50), "air")
+    assert not truth.is_built({(3, 4)})
+
+
+def test_only_actions_that_do_something_are_drawn() -> None:
+    rng = np.random.default_rng(0)
+    corner, placed = (0, 0), {(1, 0)}
+    drawn = {drawn_action(rng, corner, placed) for _ in range(200)}
+    for action in Action:
+        target = rules.moved(corner, action, placed)
+        does_something = target != corner or rules.landing(target, action, placed) is not None
+        assert (action in drawn) == does_something
+    assert 0 < len(drawn) < len(Action)
+
+
+def test_the_figures_are_of_moves_and_placings_apart_and_together() -> None:
+    counts = PlayCounts(actions=4, moves_s=[0.1, 0.3], placings_s=[0.5, 0.7])
+    summary = figures(counts)
+    assert summary["actions"] == 4
+    assert 0.3 <= summary["median_action_s"] <= 0.5
+    assert 0.1 <= summary["moves"]["median_s"] <= 0.3
+    assert 0.5 <= summary["placings"]["median_s"] <= 0.7

@@ -1,0 +1,156 @@
+import numpy as np
+
+from mc_nested.live.devices import Frame
+from sim.client.drawing.hud_layers import HudLayers
+from sim.client.drawing.layers import Layer, draw_all
+from sim.client.drawing.letters import Letters
+from sim.client.game.chat import ChatLine
+from sim.client.game.colours import RED, WHITE
+from sim.client.game.edition import Edition
+from sim.client.game.f3_text import F3Screen
+from sim.client.game.realm import Stack
+from sim.client.game.screens import MenuState
+from sim.client.game.view import View
+from tests.sim.client.playing import FONT
+
+WIDTH, HEIGHT = 427, 240
+F3 = F3Screen("1.19.3-1.21.8", 1, (0.5, 64.0, 0.5), 0.0, 0.0)
+
+
+def hud(version: str = "1.20.1", scale: int = 1) -> HudLayers:
+    return HudLayers(Letters(FONT, scale), (WIDTH, HEIGHT), Edition(version))
+
+
+def drawn(layers: list[Layer], world: int = 0) -> Frame:
+    frame = np.full((HEIGHT, WIDTH, 3), world, np.uint8)
+    draw_all(frame, layers, (0, 0, WIDTH, HEIGHT))
+    return frame
+
+
+def view(f3: F3Screen | None = None, slot: int = 0, *stacks: Stack) -> View:
+    hotbar: tuple[Stack | None, ...] = (*stacks, *[None] * (9 - len(stacks)))
+    return View(MenuState("world"), (0, 64, 0), f3, hotbar, slot)
+
+
+def bounds(mask: np.ndarray) -> tuple[int, int, int, int]:
+    """Left, top, right, bottom of what is set; the last two are outside."""
+    rows, columns = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0))
+    return int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1
+
+
+def test_without_a_hotbar_nothing_is_drawn() -> None:
+    assert hud().of(View(MenuState("world"), (0, 64, 0))) == []
+
+
+def test_the_crosshair_is_a_cross_of_nine_pixels_in_the_middle() -> None:
+    frame = drawn(hud().of(view()))[:200]
+    white = (frame == 230).all(2)
+    assert bounds(white) == (213 - 4, 120 - 4, 213 + 5, 120 + 5)
+    assert white.sum() == 17
+
+
+def test_with_the_debug_screen_the_crosshair_is_three_coloured_axes() -> None:
+    frame = drawn(hud().of(view(F3)))[:200]
+    for colour, rect in (
+        ((255, 0, 0), (213, 120, 221, 121)),
+        ((0, 255, 0), (213, 112, 214, 120)),
+        ((127, 127, 255), (207, 121, 213, 122)),
+    ):
+        assert bounds((frame == colour[::-1]).all(2)) == rect
+    assert not (frame == 230).all(2).any()
+
+
+def test_the_chosen_slot_is_brighter_than_the_others() -> None:
+    frame = drawn(hud().of(view(None, 3)), 200)[200:]
+    left = 213 - 91
+    chosen = bounds((frame[:, left:, 0] > 120) & (frame[:, left:, 0] < 200))
+    assert (chosen[0], chosen[2]) == (20 * 3 - 1, 20 * 3 + 23)
+    bar = bounds((frame != 200).any(2))
+    assert bar == (left, 17, left + 182, 40)
+
+
+def test_a_stack_is_an_icon_with_its_count_unless_it_is_one() -> None:
+    one, two = (drawn(hud().of(view(None, 8, Stack("stone", count)))) for count in (1, 64))
+    left = 213 - 91 + 3
+    icon = one[221, left]
+    assert bounds((one == icon).all(2)) == (left, 221, left + 16, 237)
+    digits = (two == 255).all(2)
+    width = Letters(FONT, 1).width("64")
+    assert bounds(digits)[0] == left + 17 - width
+    assert bounds(digits)[1] == 230
+    assert not (one == 255).all(2).any()
+
+
+def test_each_block_has_an_icon_of_its_own_colour() -> None:
+    frame = drawn(hud().of(view(None, 8, Stack("stone", 1), Stack("dirt", 1), Stack("stone", 1))))
+    first, second, third = (frame[225, 213 - 91 + 3 + 20 * slot].tolist() for slot in range(3))
+    assert first == third != second
+    assert min(first) >= 60
+    assert max(first) < 180
+
+
+def test_the_newest_line_of_the_chat_is_at_the_bottom() -> None:
+    lines = (ChatLine("new", WHITE, 8), ChatLine("old", RED, 8))
+    for version, bottom in (("1.20.1", HEIGHT - 40), ("1.12.2", HEIGHT - 48)):
+        frame = drawn(hud(version).chat(lines, None))
+        assert bounds((frame == 255).all(2))[0] == 4
+        assert bottom - 9 <= bounds((frame == 255).all(2))[1] < bottom
+        red = bounds((frame == RED[::-1]).all(2))
+        assert bottom - 18 <= red[1] < red[3] <= bottom - 9
+
+
+def test_a_line_fades_with_its_box() -> None:
+    full, half = (drawn(hud().chat((ChatLine("I", WHITE, opacity),), None), 200) for opacity in (8, 4))
+    inside = (HEIGHT - 41, 320)
+    assert int(full[inside][0]) == round(200 * (255 - 128) / 255)
+    assert int(half[inside][0]) == round(200 * (255 - 64) / 255)
+    assert (half == 127).all(2).any()
+    assert full[HEIGHT - 41, 328, 0] == 200
+    assert full[HEIGHT - 41, 327, 0] < 200
+
+
+def test_a_long_line_is_wrapped_at_words_and_its_end_is_lowest() -> None:
+    letters = Letters(FONT, 1)
+    text = " ".join(["word"] * 30)
+    fitting = max(count for count in range(1, 31) if letters.width(" ".join(["word"] * count)) <= 320)
+    rows = -(-30 // fitting)
+    assert rows > 1
+    layers = hud().chat((ChatLine(text, WHITE, 8),), None)
+    assert len(layers) == 2 * rows
+    upper, lower = layers[-1], layers[1]
+    assert upper.rect[2] - upper.rect[0] == letters.width(" ".join(["word"] * fitting)) + 1
+    assert lower.rect[1] - upper.rect[1] == 9 * (rows - 1)
+    assert lower.rect[2] < upper.rect[2]
+
+
+def test_a_word_longer_than_the_chat_stays_on_its_line() -> None:
+    assert len(hud().chat((ChatLine("x" * 200, WHITE, 8),), None)) == 2
+
+
+def test_what_is_typed_has_a_cursor_and_shows_its_end() -> None:
+    letters = Letters(FONT, 1)
+    box, text = hud().chat((), "abc")
+    assert box.rect == (2, HEIGHT - 14, WIDTH - 2, HEIGHT - 2)
+    assert text.rect[:2] == (4, HEIGHT - 12)
+    assert text.rect[2] == 4 + letters.width("abc_") + 1
+    _, long = hud().chat((), "x" * 200)
+    assert WIDTH - 8 - letters.width("x") < long.rect[2] - long.rect[0] - 1 <= WIDTH - 8
+
+
+def test_a_line_that_just_fits_is_shown_from_its_beginning() -> None:
+    letters = Letters(FONT, 1)
+    texts = ("x" * count + narrow for count in range(100) for narrow in ("", "i", "l", "t", "il", "it", "lt", "ilt"))
+    fitting = next(text for text in texts if letters.width(f"{text}_") == WIDTH - 8)
+    _, shown = hud().chat((), fitting)
+    assert shown.rect[2] - shown.rect[0] - 1 == WIDTH - 8
+
+
+def test_what_did_not_change_is_the_same_layer_again() -> None:
+    layers = hud()
+    assert layers.of(view()) == layers.of(view())
+    assert layers.chat((ChatLine("a", WHITE, 8),), "b") == layers.chat((ChatLine("a", WHITE, 8),), "b")
+
+
+def test_everything_grows_with_the_scale() -> None:
+    small, large = hud().of(view()), hud(scale=2).of(view())
+    assert [tuple(2 * edge for edge in layer.rect) for layer in small] == [layer.rect for layer in large]

@@ -1,0 +1,66 @@
+import numpy as np
+import pytest
+
+from mc_nested.live.devices import Frame
+from sim.client.drawing.layers import draw_all
+from sim.client.drawing.letters import Letters
+from sim.client.game.colours import WHITE
+from tests.sim.client.playing import FONT
+
+SHADOW = (63, 63, 63)
+
+
+def text_in(frame: Frame, colour: tuple[int, int, int]) -> np.ndarray:
+    return np.asarray((frame == colour[::-1]).all(2))
+
+
+@pytest.mark.parametrize("scale", [1, 3])
+def test_a_text_has_its_shadow_one_gui_pixel_to_the_right_and_below(scale: int) -> None:
+    frame = np.zeros((20 * scale, 60 * scale, 3), np.uint8)
+    text = Letters(FONT, scale).text("Quit", 5, 6, WHITE, shadow=True)
+    draw_all(frame, [text], (0, 0, 60 * scale, 20 * scale))
+    ink, shadow = text_in(frame, WHITE), text_in(frame, SHADOW)
+    moved = np.roll(ink, (scale, scale), (0, 1))
+    assert ink.any()
+    assert np.array_equal(shadow, moved & ~ink)
+    assert np.flatnonzero(ink.any(1))[0] == 6 * scale
+    assert np.flatnonzero(ink.any(0))[0] == 5 * scale
+
+
+def test_a_text_is_as_wide_as_its_letters_with_a_gap_after_each() -> None:
+    letters = Letters(FONT, 1)
+    assert letters.width("") == 0
+    assert letters.width(" ") == 4
+    assert letters.width("i") == len(FONT.glyphs["i"]) + 1
+    assert letters.width("Quit game") == sum(letters.width(char) for char in "Quit game")
+
+
+def test_a_character_that_the_font_lacks_is_a_question_mark() -> None:
+    letters = Letters(FONT, 1)
+    assert letters.width("\u6728") == letters.width("?")
+    shown, expected = (letters.text(text, 0, 0, WHITE).dots()[1] for text in ("\u6728", "?"))
+    assert np.array_equal(shown, expected)
+
+
+@pytest.mark.parametrize(("shadow", "rect"), [(False, (6, 9, 6 + 12, 9 + 48)), (True, (6, 9, 6 + 18, 9 + 54))])
+def test_a_large_text_covers_twice_the_size_at_its_scale(shadow: bool, rect: tuple[int, int, int, int]) -> None:
+    letters = Letters(FONT, 3)
+    text = letters.text("!", 2, 3, WHITE, shadow=shadow, size=2)
+    assert letters.width("!") == 2
+    assert text.rect == rect
+    keep, ink = text.dots()
+    assert keep.shape == ink.shape == (rect[3] - rect[1], rect[2] - rect[0], 3)
+
+
+def test_the_colour_is_written_blue_green_red_and_the_shadow_a_quarter_of_it() -> None:
+    keep, ink = Letters(FONT, 1).text("!", 0, 0, (200, 101, 7), shadow=True).dots()
+    assert ink[0, 0].tolist() == [7, 101, 200]
+    assert keep[0, 0].tolist() == [0, 0, 0]
+    assert ink[1, 1].tolist() == [1, 25, 50]
+    assert keep[0, 1].tolist() == [255, 255, 255]
+    assert ink[0, 1].tolist() == [0, 0, 0]
+
+
+def test_an_empty_text_has_no_dots() -> None:
+    keep, ink = Letters(FONT, 2).text("", 0, 0, WHITE).dots()
+    assert keep.size == ink.size == 0

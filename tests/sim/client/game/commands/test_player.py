@@ -1,0 +1,121 @@
+import pytest
+
+from sim.client.game.realm import Stack
+from tests.sim.client.game.commands.commanded import answer_to, realm
+
+
+@pytest.mark.parametrize(
+    ("version", "answer"),
+    [
+        ("1.12.2", "Teleported Player to 1.50, 70.00, -2.00"),
+        ("1.13", "Teleported Player to 1.500000, 70.000000, -2.000000"),
+    ],
+)
+def test_a_teleport_answers_with_the_position(version: str, answer: str) -> None:
+    assert answer_to("/tp @s 1 70 -2.0", realm(version)) == (answer, False)
+
+
+def test_a_teleport_turns_the_player_where_it_names_a_view() -> None:
+    played = realm()
+    answer_to("/tp 1 70 -2 ~15 -20", played)
+    assert (played.player.yaw, played.player.pitch) == (45.0, -20.0)
+    answer_to("/tp 1 70 -2", played)
+    assert (played.player.yaw, played.player.pitch) == (45.0, -20.0)
+
+
+@pytest.mark.parametrize("line", ["/tp", "/tp 1 2", "/tp 1 2 3 4", "/tp @s 1 2 3 4", "/tp 1 2 3 4 5 6"])
+def test_a_teleport_without_a_whole_position_is_wrong(line: str) -> None:
+    assert answer_to(line, realm()) == ("Incorrect argument for command", True)
+
+
+@pytest.mark.parametrize(
+    ("version", "word", "mode"),
+    [
+        ("1.20.1", "survival", "survival"),
+        ("1.12.2", "s", "survival"),
+        ("1.12.2", "1", "creative"),
+        ("1.12.2", "creative", "creative"),
+    ],
+)
+def test_the_game_mode_is_named_or_abbreviated(version: str, word: str, mode: str) -> None:
+    played = realm(version)
+    played.player.mode = "creative" if mode == "survival" else "survival"
+    assert answer_to(f"/gamemode {word}", played) == (f"Set own game mode to {mode.capitalize()} Mode", False)
+    assert played.player.mode == mode
+
+
+@pytest.mark.parametrize(("version", "word"), [("1.13", "s"), ("1.12.2", "spectator"), ("1.20.1", "adventure")])
+def test_other_game_modes_are_wrong(version: str, word: str) -> None:
+    assert answer_to(f"/gamemode {word}", realm(version))[1]
+
+
+def test_given_blocks_are_one_unless_counted() -> None:
+    played = realm()
+    assert answer_to("/give @s stone", played) == ("Gave 1 [Stone] to Player", False)
+    answer_to("/give Player minecraft:oak_planks 5", played)
+    assert played.player.hotbar[:3] == [Stack("stone", 1), Stack("oak_planks", 5), None]
+
+
+def test_clearing_counts_what_it_removes() -> None:
+    played = realm()
+    played.player.hotbar[:2] = [Stack("stone", 3), Stack("dirt", 4)]
+    assert answer_to("/clear Player", played) == ("Removed 7 items from player Player", False)
+    assert played.player.hotbar == [None] * 9
+    assert answer_to("/clear", played) == ("No items were found on player Player", True)
+
+
+def test_a_slot_is_replaced_since_1_17() -> None:
+    played = realm()
+    assert answer_to("/item replace entity @s hotbar.8 with minecraft:stone 64", played) == (
+        "Replaced a slot on Player with [Stone]",
+        False,
+    )
+    assert played.player.hotbar[8] == Stack("stone", 64)
+    answer_to("/item replace entity @s hotbar.8 with air", played)
+    assert played.player.hotbar[8] is None
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "/item modify entity @s hotbar.0 with stone",
+        "/item replace block @s hotbar.0 with stone",
+        "/item replace entity @s hotbar.0 from stone",
+        "/item replace entity @s weapon.0 with stone",
+        "/item replace entity @s hotbar.-1 with stone",
+    ],
+)
+def test_another_slot_or_another_word_is_wrong(line: str) -> None:
+    played = realm()
+    assert answer_to(line, played) == ("Incorrect argument for command", True)
+    assert played.player.hotbar == [None] * 9
+
+
+@pytest.mark.parametrize(
+    ("version", "slot", "answer"),
+    [
+        ("1.12.2", "slot.hotbar.2", "Replaced slot slot.hotbar.2 with 3 * [Stone]"),
+        ("1.13", "hotbar.2", "Replaced a slot on Player with [Stone]"),
+    ],
+)
+def test_a_slot_is_replaced_before_1_17(version: str, slot: str, answer: str) -> None:
+    played = realm(version)
+    assert answer_to(f"/replaceitem entity @s {slot} stone 3", played) == (answer, False)
+    assert played.player.hotbar[2] == Stack("stone", 3)
+    assert answer_to(f"/replaceitem block @s {slot} stone 3", played)[1]
+
+
+@pytest.mark.parametrize(
+    ("version", "line", "answer"),
+    [
+        ("1.12.2", "/effect @s speed", ("Applied effect speed to Player", False)),
+        ("1.13", "/effect give @s speed", ("Applied effect speed to Player", False)),
+        ("1.13", "/effect clear @s", ("Removed every effect from Player", False)),
+        ("1.13", "/effect @s speed", ("Incorrect argument for command", True)),
+        ("1.20.1", "/kill", ("Incorrect argument for command", True)),
+        ("1.20.1", "/kill @s", ("Incorrect argument for command", True)),
+        ("1.20.1", "/kill @e", ("No entity was found", True)),
+    ],
+)
+def test_effects_and_kills_are_answered_in_words(version: str, line: str, answer: tuple[str, bool]) -> None:
+    assert answer_to(line, realm(version)) == answer

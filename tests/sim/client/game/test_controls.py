@@ -1,0 +1,287 @@
+import pytest
+
+from sim.client.game.controls import Controls
+from sim.client.game.edition import Edition
+from sim.client.game.game import VirtualGame
+from sim.client.game.realm import Player, Realm
+from sim.client.game.screens import MenuState, ScreenName, menu
+from sim.client.game.world import VirtualWorld
+
+SIZE = (427, 240)
+
+
+class Played:
+    """A game, its controls, and the clipboard that they use."""
+
+    def __init__(self, version: str = "1.20.1", screen: ScreenName = "world") -> None:
+        self.game = VirtualGame(Realm(Edition(version), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5))))
+        self.clipboard = "pasted"
+        self.controls = Controls(self.game, lambda: self.clipboard, self.write)
+        if screen != "world":
+            self.game.open(screen)
+
+    def write(self, text: str) -> None:
+        self.clipboard = text
+
+    def tap(self, *keys: str) -> None:
+        """Press keys together, and release them the other way round."""
+        for key in keys:
+            self.controls.key(key, is_down=True)
+        for key in reversed(keys):
+            self.controls.key(key, is_down=False)
+
+    def click(self, name: ScreenName, label: str, now: float = 0.0) -> None:
+        chosen = self.game.is_world_chosen
+        buttons = menu(MenuState(name, is_chosen=chosen), self.game.edition, *SIZE).buttons
+        button = next(each for each in buttons if each.label == label)
+        self.click_at(round(button.middle[0]), round(button.middle[1]), now)
+
+    def click_at(self, x: int, y: int, now: float = 0.0) -> None:
+        self.controls.button("left", (x, y), SIZE, now, is_down=True)
+        self.controls.button("left", (x, y), SIZE, now, is_down=False)
+
+    def said(self) -> list[str]:
+        return [line.text for line in self.game.chat.lines(self.game.ticks)]
+
+
+def test_a_key_of_the_world_goes_to_the_game_until_it_is_released() -> None:
+    played = Played()
+    played.controls.key("w", is_down=True)
+    assert played.game.keys.is_held("forward")
+    assert played.game.keys.physical == {"w"}
+    played.controls.key("w", is_down=False)
+    assert not played.game.keys.is_held("forward")
+    assert played.game.keys.physical == set()
+
+
+def test_f3_toggles_the_debug_screen_on_release_in_a_world_alone() -> None:
+    played = Played()
+    played.controls.key("f3", is_down=True)
+    assert played.game.has_f3
+    played.controls.key("f3", is_down=False)
+    assert not played.game.has_f3
+    title = Played(screen="title")
+    title.tap("f3")
+    assert title.game.has_f3
+
+
+def test_f3_pressed_on_another_screen_toggles_nothing() -> None:
+    played = Played(screen="inventory")
+    played.tap("f3")
+    assert played.game.has_f3
+    played.tap("esc")
+    played.tap("f3")
+    assert not played.game.has_f3
+
+
+def test_f3_and_a_letter_is_no_toggle_and_no_game_key() -> None:
+    played = Played()
+    played.tap("f3", "d")
+    assert played.game.has_f3
+    assert not played.game.keys.presses("right")
+
+
+def test_f3_and_another_key_of_the_game_is_that_key_and_a_toggle() -> None:
+    played = Played()
+    played.tap("f3", "w")
+    assert played.game.keys.presses("forward") == 1
+    assert not played.game.has_f3
+
+
+def test_f3_and_d_clears_the_chat() -> None:
+    played = Played()
+    played.game.chat.say("text", 0)
+    played.tap("f3", "d")
+    assert played.said() == []
+
+
+def test_f3_and_esc_pauses() -> None:
+    played = Played()
+    played.tap("f3", "esc")
+    assert played.game.screen == "pause"
+
+
+def test_f3_and_p_switches_the_pause_without_focus() -> None:
+    played = Played()
+    played.tap("f3", "p")
+    assert not played.controls.pauses_unfocused
+    played.controls.stay_unfocused()
+    assert str(played.game.screen) == "world"
+    played.tap("f3", "p")
+    assert played.said() == ["[Debug]: Pause on lost focus: enabled", "[Debug]: Pause on lost focus: disabled"]
+    played.controls.stay_unfocused()
+    assert played.game.screen == "pause"
+
+
+def test_without_focus_only_the_world_is_paused() -> None:
+    played = Played(screen="inventory")
+    played.controls.stay_unfocused()
+    assert played.game.screen == "inventory"
+
+
+def test_f3_and_c_copies_the_position_since_1_13() -> None:
+    played = Played()
+    played.tap("f3", "c")
+    assert played.clipboard == "/execute in minecraft:overworld run tp @s 0.50 64.00 0.50 0.00 0.00"
+    assert played.said() == ["[Debug]: Copied location to clipboard"]
+    old = Played("1.12.2")
+    old.tap("f3", "c")
+    assert old.clipboard == "pasted"
+
+
+def test_reduced_debug_info_copies_nothing() -> None:
+    played = Played()
+    played.game.realm.rules["reducedDebugInfo"] = "true"
+    played.tap("f3", "c")
+    assert played.clipboard == "pasted"
+
+
+def test_f1_hides_the_hud_and_shows_it_again() -> None:
+    played = Played()
+    played.tap("f1")
+    assert played.game.hides_hud
+    played.tap("f1")
+    assert not played.game.hides_hud
+
+
+def test_the_mouse_turns_by_its_sensitivity() -> None:
+    played = Played()
+    played.controls.turn(100, -20)
+    assert (played.game.realm.player.yaw, played.game.realm.player.pitch) == pytest.approx((15.0, -3.0))
+    played.controls.turn(20, 40)
+    assert (played.game.realm.player.yaw, played.game.realm.player.pitch) == pytest.approx((18.0, 3.0))
+
+
+def test_a_lost_focus_releases_every_key() -> None:
+    played = Played()
+    played.controls.key("w", is_down=True)
+    played.controls.lose_focus()
+    assert not played.game.keys.is_held("forward")
+    assert played.game.keys.physical == set()
+
+
+@pytest.mark.parametrize(
+    ("screen", "after"),
+    [
+        ("world", "pause"),
+        ("pause", "world"),
+        ("inventory", "world"),
+        ("chat", "world"),
+        ("worlds", "title"),
+        ("death", "death"),
+        ("title", "title"),
+    ],
+)
+def test_esc_leads_where_it_does_in_the_game(screen: ScreenName, after: str) -> None:
+    played = Played(screen=screen)
+    played.tap("esc")
+    assert played.game.screen == after
+
+
+def test_e_closes_the_inventory_and_no_other_screen() -> None:
+    played = Played(screen="inventory")
+    played.tap("w")
+    assert played.game.screen == "inventory"
+    played.tap("e")
+    assert str(played.game.screen) == "world"
+    paused = Played(screen="pause")
+    paused.tap("e")
+    assert paused.game.screen == "pause"
+
+
+def test_typed_keys_go_into_the_chat() -> None:
+    played = Played(screen="chat")
+    for key in ("h", "i", "space", "x", "backspace", "f5", "left.shift"):
+        played.tap(key)
+    assert played.game.chat.typed == "hi "
+
+
+def test_control_pastes_and_selects_but_types_no_letter() -> None:
+    played = Played(screen="chat")
+    played.tap("a")
+    played.tap("left.control", "x")
+    assert played.game.chat.typed == "a"
+    played.tap("left.control", "a")
+    assert played.game.chat.is_selected
+    played.tap("left.control", "v")
+    assert played.game.chat.typed == "pasted"
+
+
+def test_enter_sends_the_line_and_an_empty_one_is_not_sent() -> None:
+    played = Played(screen="chat")
+    played.tap("h")
+    played.tap("enter")
+    assert played.game.screen == "world"
+    played.game.tick()
+    assert played.said() == ["<Player> h"]
+    played.game.open("chat")
+    played.tap("space")
+    played.tap("enter")
+    played.game.tick()
+    assert played.said() == ["<Player> h"]
+
+
+@pytest.mark.parametrize(("version", "after"), [("1.15.2", "worlds"), ("1.16", "loading")])
+def test_enter_plays_the_chosen_world_since_1_16(version: str, after: str) -> None:
+    played = Played(version, "worlds")
+    played.tap("enter")
+    assert played.game.screen == "worlds"
+    played.game.is_world_chosen = True
+    played.tap("esc2")
+    assert played.game.screen == "worlds"
+    played.tap("enter")
+    assert played.game.screen == after
+
+
+def test_enter_does_nothing_on_the_title() -> None:
+    played = Played(screen="title")
+    played.game.is_world_chosen = True
+    played.tap("enter")
+    assert played.game.screen == "title"
+
+
+def test_a_button_of_the_world_is_a_key_of_the_game() -> None:
+    played = Played()
+    played.controls.button("right", (0, 0), SIZE, 0.0, is_down=True)
+    assert played.game.keys.is_held("use")
+    assert played.game.keys.physical == {"right button"}
+    played.controls.button("right", (0, 0), SIZE, 0.0, is_down=False)
+    assert not played.game.keys.is_held("use")
+    assert played.game.keys.physical == set()
+
+
+def test_only_the_left_button_clicks_on_a_menu() -> None:
+    played = Played(screen="pause")
+    x, y = (round(part) for part in menu(MenuState("pause"), played.game.edition, *SIZE).buttons[0].middle)
+    played.controls.button("right", (x, y), SIZE, 0.0, is_down=True)
+    assert played.game.screen == "pause"
+    played.controls.button("left", (x, y), SIZE, 0.0, is_down=True)
+    assert str(played.game.screen) == "world"
+
+
+def test_a_click_beside_every_button_and_on_an_inactive_one_does_nothing() -> None:
+    played = Played(screen="pause")
+    played.click_at(0, 0)
+    assert played.game.screen == "pause"
+    worlds = Played(screen="worlds")
+    worlds.click("worlds", "Play Selected World")
+    assert worlds.game.screen == "worlds"
+
+
+ROW = menu(MenuState("worlds"), Edition("1.20.1"), *SIZE).buttons[1]
+
+
+@pytest.mark.parametrize(("second", "after"), [(0.2, "loading"), (0.25, "worlds"), (0.4, "worlds")])
+def test_a_world_is_entered_by_two_quick_clicks(second: float, after: str) -> None:
+    played, (x, y) = Played(screen="worlds"), (round(part) for part in ROW.middle)
+    played.click_at(x, y, 0.0)
+    assert played.game.is_world_chosen
+    played.click_at(x, y, second)
+    assert played.game.screen == after
+
+
+def test_a_click_elsewhere_and_one_on_the_world_are_no_double_click() -> None:
+    played, (x, y) = Played(screen="worlds"), (round(part) for part in ROW.middle)
+    played.click_at(0, 0, 0.0)
+    played.click_at(x, y, 0.1)
+    assert played.game.screen == "worlds"

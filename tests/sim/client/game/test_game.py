@@ -1,0 +1,315 @@
+import pytest
+
+from mc_nested.live.model.reading import Target
+from sim.client.game.edition import Edition
+from sim.client.game.game import VirtualGame
+from sim.client.game.realm import Mode, Player, Realm, Stack
+from sim.client.game.screens import MenuState
+from sim.client.game.world import VirtualWorld
+
+FRONT = (0, 64, 1)
+
+
+def game(mode: Mode = "creative", z: float = 0.5, pitch: float = 65.0, version: str = "1.20.1") -> VirtualGame:
+    """A player in the middle of the block at 0, 0, who looks south at the floor ahead, with two stones in hand."""
+    player = Player((0.5, 64.0, z), 0.0, pitch, mode=mode)
+    player.hotbar[0] = Stack("stone", 2)
+    return VirtualGame(Realm(Edition(version), VirtualWorld(64, "dirt"), player))
+
+
+def ticks(played: VirtualGame, count: int) -> None:
+    for _ in range(count):
+        played.tick()
+
+
+def click(played: VirtualGame) -> None:
+    played.keys.press("right button")
+    played.keys.release("right button")
+
+
+def screen_of(played: VirtualGame) -> str:
+    return played.screen
+
+
+def built(played: VirtualGame) -> set[tuple[int, int, int]]:
+    return set(played.realm.world.built())
+
+
+def test_a_click_places_one_block_at_the_next_tick() -> None:
+    played = game()
+    click(played)
+    assert built(played) == set()
+    ticks(played, 10)
+    assert built(played) == {FRONT}
+
+
+def test_a_second_click_meets_the_blocks_near_face_and_is_refused() -> None:
+    played = game()
+    for _ in range(3):
+        click(played)
+        ticks(played, 2)
+    assert built(played) == {FRONT}
+
+
+def test_clicks_of_one_tick_have_the_same_target() -> None:
+    played = game(pitch=50.0)
+    for _ in range(3):
+        click(played)
+    ticks(played, 1)
+    assert built(played) == {FRONT}
+    click(played)
+    ticks(played, 1)
+    assert built(played) == {FRONT, (0, 65, 1)}
+
+
+def test_a_held_button_places_again_every_four_ticks() -> None:
+    played = game(pitch=49.0)
+    played.keys.press("right button")
+    counts = []
+    for _ in range(9):
+        played.tick()
+        counts.append(len(built(played)))
+    assert counts == [1, 1, 1, 1, 2, 2, 2, 2, 2]
+
+
+@pytest.mark.parametrize(("z", "pitch", "count"), [(0.69, 70.0, 1), (0.71, 70.0, 0), (0.5, 80.0, 0)])
+def test_a_block_that_would_touch_the_player_is_refused(z: float, pitch: float, count: int) -> None:
+    played = game(z=z, pitch=pitch)
+    click(played)
+    ticks(played, 1)
+    assert len(built(played)) == count
+
+
+@pytest.mark.parametrize(("mode", "count"), [("creative", 1), ("survival", 0)])
+def test_creative_reaches_half_a_block_farther(mode: Mode, count: int) -> None:
+    played = game(mode, pitch=20.0)
+    click(played)
+    ticks(played, 1)
+    assert len(built(played)) == count
+
+
+def test_counted_stacks_run_out() -> None:
+    played = game("survival")
+    for _ in range(3):
+        click(played)
+        ticks(played, 1)
+        played.realm.player.look(played.realm.player.yaw + 90.0, 65.0)
+    assert len(built(played)) == 2
+    assert played.realm.player.hotbar[0] is None
+
+
+def test_clicks_of_one_tick_use_up_one_block_only_and_creative_uses_up_none() -> None:
+    for mode, left in (("survival", 1), ("creative", 2)):
+        played = game("survival" if mode == "survival" else "creative")
+        click(played)
+        click(played)
+        ticks(played, 1)
+        assert played.realm.player.hotbar[0] == Stack("stone", left)
+
+
+def test_an_empty_hand_places_nothing_and_a_number_key_takes_another_slot() -> None:
+    played = game()
+    played.keys.press("5")
+    click(played)
+    ticks(played, 1)
+    assert played.realm.player.slot == 4
+    assert built(played) == set()
+
+
+def test_a_refused_placing_changes_nothing_and_the_next_one_is_not_refused() -> None:
+    played = game()
+    played.refuse_next()
+    click(played)
+    ticks(played, 1)
+    assert built(played) == set()
+    click(played)
+    ticks(played, 1)
+    assert built(played) == {FRONT}
+
+
+def test_a_ghost_block_is_there_for_two_ticks() -> None:
+    played = game()
+    played.expect_ghost()
+    click(played)
+    counts = []
+    for _ in range(4):
+        played.tick()
+        counts.append(len(built(played)))
+    assert counts == [1, 1, 0, 0]
+
+
+def test_the_chat_opens_at_the_next_tick_and_takes_the_keys() -> None:
+    played = game()
+    played.keys.press("w")
+    played.keys.press("t")
+    assert screen_of(played) == "world"
+    ticks(played, 1)
+    assert screen_of(played) == "chat"
+    assert not played.keys.is_held("forward")
+
+
+def test_keys_that_are_down_count_again_when_a_screen_closes() -> None:
+    played = game()
+    played.keys.physical |= {"w", "right button"}
+    played.open("inventory")
+    played.open("world")
+    assert played.keys.is_held("forward")
+    assert not played.keys.is_held("use")
+
+
+def test_the_pause_menu_stops_the_world_and_the_inventory_does_not() -> None:
+    for screen, moves in (("pause", False), ("inventory", True)):
+        played = game()
+        played.knock((0.3, 0.0, 0.0))
+        played.open("pause" if screen == "pause" else "inventory")
+        ticks(played, 3)
+        assert (played.realm.player.feet[0] > 0.5) is moves
+
+
+def test_a_death_takes_the_hotbar_and_respawning_leads_to_the_spawn() -> None:
+    played = game()
+    played.realm.spawn = (5.5, 64.0, 5.5)
+    played.die()
+    assert screen_of(played) == "death"
+    assert not played.view().menu.is_ready
+    ticks(played, 20)
+    assert played.view().menu.is_ready
+    played.do("respawn")
+    assert (played.screen, played.realm.player.feet) == ("world", (5.5, 64.0, 5.5))
+    assert played.realm.player.hotbar == [None] * 9
+
+
+def test_rules_keep_the_hotbar_and_skip_the_death_screen() -> None:
+    played = game()
+    played.realm.rules |= {"keepInventory": "true", "doImmediateRespawn": "true"}
+    played.die()
+    assert screen_of(played) == "world"
+    assert played.realm.player.hotbar[0] == Stack("stone", 2)
+
+
+def test_whoever_falls_out_of_the_world_dies() -> None:
+    played = game()
+    played.realm.player.go_to((0.5, 1.0, 0.5))
+    played.realm.world.fill((0, -10, 0), (0, 63, 0), "air")
+    ticks(played, 60)
+    assert screen_of(played) == "death"
+
+
+def test_the_way_from_a_world_to_the_title_and_back() -> None:
+    played = game()
+    played.do("leave")
+    ticks(played, 19)
+    assert screen_of(played) == "saving"
+    ticks(played, 1)
+    assert screen_of(played) == "title"
+    played.do("to_worlds")
+    assert not played.view().menu.is_chosen
+    played.do("select_world")
+    assert played.view().menu.is_chosen
+    played.do("enter_selected")
+    ticks(played, 40)
+    assert (played.screen, played.realm.player.hotbar[0]) == ("world", Stack("stone", 2))
+
+
+@pytest.mark.parametrize(("version", "pitch", "is_named"), [("1.12.2", 10.0, False), ("1.20.1", 10.0, True)])
+def test_far_blocks_are_named_from_1_13_on(version: str, pitch: float, is_named: bool) -> None:
+    f3 = game(version=version, pitch=pitch).view().f3
+    assert f3 is not None
+    assert (f3.target is not None) is is_named
+
+
+def test_standing_still_nothing_to_be_seen_changes() -> None:
+    played = game()
+    ticks(played, 3)
+    before = played.view()
+    ticks(played, 100)
+    assert played.view() == before
+
+
+def test_messages_fade_after_nine_seconds_and_are_gone_after_ten() -> None:
+    played = game()
+    played.send("hello")
+    ticks(played, 1)
+    assert [(line.text, line.opacity) for line in played.view().chat] == [("<Player> hello", 8)]
+    ticks(played, 179)
+    assert played.view().chat[0].opacity == 8
+    ticks(played, 10)
+    assert 0 < played.view().chat[0].opacity < 8
+    ticks(played, 11)
+    assert played.view().chat == ()
+    played.open("chat")
+    assert len(played.view().chat) == 1
+
+
+@pytest.mark.parametrize(("mode", "is_broken"), [("creative", True), ("survival", False)])
+def test_a_left_click_breaks_the_target_in_creative_mode(mode: Mode, is_broken: bool) -> None:
+    played = game(mode)
+    played.keys.press("left button")
+    played.tick()
+    assert played.realm.world.built() == ({(0, 63, 1): "air"} if is_broken else {})
+
+
+def test_q_drops_the_stack_in_hand() -> None:
+    played = game()
+    played.keys.press("q")
+    played.tick()
+    assert played.realm.player.hotbar[0] is None
+
+
+def test_a_jump_leaves_the_ground_and_lands_again() -> None:
+    played = game()
+    played.keys.press("space")
+    played.tick()
+    assert played.realm.player.feet[1] == pytest.approx(64.42)
+    played.keys.release("space")
+    ticks(played, 20)
+    assert played.realm.player.feet == (0.5, 64.0, 0.5)
+
+
+def test_the_debug_screen_describes_the_player_and_the_target() -> None:
+    played = game()
+    screen = played.view().f3
+    assert screen is not None
+    assert (screen.xyz, screen.yaw, screen.pitch) == ((0.5, 64.0, 0.5), 0.0, 65.0)
+    assert screen.target == Target((0, 63, 1), "minecraft:dirt")
+    played.realm.player.look(190.0, 65.0)
+    turned = played.view().f3
+    assert turned is not None
+    assert turned.yaw == -170.0
+    played.hide_f3()
+    assert played.view().f3 is None
+
+
+def test_a_push_adds_to_the_velocity_and_lifts_the_player() -> None:
+    played = game()
+    played.knock((0.4, 0.36, -0.2))
+    assert not played.realm.player.on_ground
+    played.tick()
+    x, y, z = played.realm.player.feet
+    assert (x, y, z) == pytest.approx((0.9, 64.0 + 0.36 - 0.0784, 0.3))
+
+
+def test_a_lost_connection_saves_and_shows_its_reason() -> None:
+    saved: list[Realm] = []
+    realm = game().realm
+    played = VirtualGame(realm, on_leave=saved.append)
+    played.disconnect("Timed out")
+    assert saved == [realm]
+    assert played.view().menu == MenuState("disconnected", True, False, "Timed out")
+    assert played.view().hotbar == ()
+
+
+def test_tags_of_the_target_are_shown_since_1_13() -> None:
+    for version, tags in (("1.12.2", ()), ("1.13", ("minecraft:mineable/pickaxe",))):
+        played = game(version=version)
+        played.realm.world.put((0, 63, 1), "stone")
+        screen = played.view().f3
+        assert screen is not None
+        assert screen.tags == tags
+
+
+def test_a_game_that_names_no_target_shows_none() -> None:
+    realm = game().realm
+    screen = VirtualGame(realm, shows_target=False).view().f3
+    assert screen is not None
+    assert screen.target is None

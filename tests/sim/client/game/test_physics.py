@@ -1,0 +1,141 @@
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from sim.client.game.physics import AT_REST, INPUT, Gait, Ground, displacement, is_free, overlaps, step, wish
+
+INERTIA = 0.546
+PUSH = 0.98 * 0.1 * 0.1627714 / INERTIA**3
+ticks = st.integers(1, 60)
+
+
+def covered(held: int, push: float) -> float:
+    """The same way as two geometric series: setting off, then coasting while the step is 0.003 or more."""
+    setting_off = sum(push * (1 - INERTIA**tick) / (1 - INERTIA) for tick in range(1, held + 1))
+    last = push * (1 - INERTIA**held) / (1 - INERTIA)
+    coasting = math.floor(math.log(0.003 / last) / math.log(INERTIA))
+    return setting_off + last * INERTIA * (1 - INERTIA**coasting) / (1 - INERTIA)
+
+
+def is_floor(_x: int, y: int, _z: int) -> bool:
+    return y < 64
+
+
+@pytest.mark.parametrize("held", range(1, 31))
+@pytest.mark.parametrize(("gait", "factor"), [("walk", 1.0), ("sneak", 0.3)])
+def test_a_hold_and_its_coasting_are_two_geometric_series(held: int, gait: Gait, factor: float) -> None:
+    assert displacement(held, gait) == pytest.approx(covered(held, PUSH * factor), abs=1e-9)
+
+
+def test_walking_covers_what_the_facts_say() -> None:
+    assert [round(displacement(held, "walk"), 3) for held in range(1, 7)] == [0.210, 0.427, 0.642, 0.857, 1.073, 1.291]
+    assert displacement(0, "walk") == 0
+
+
+@given(ticks, st.sampled_from(["walk", "sneak"]), st.sampled_from([0.0, 90.0, 180.0, -90.0]))
+def test_ticks_in_a_free_world_add_up_to_the_displacement(held: int, gait: Gait, yaw: float) -> None:
+    feet, velocity, stands = (0.5, 64.0, 0.5), AT_REST, True
+    for tick in range(held + 30):
+        push = wish(tick < held, 0, gait, yaw)
+        feet, velocity, stands = step(feet, velocity, push, 1.8, is_floor, on_ground=stands)
+    assert stands
+    assert feet[1] == 64.0
+    assert math.dist((0.5, 0.5), (feet[0], feet[2])) == pytest.approx(displacement(held, gait), abs=1e-9)
+
+
+@given(st.sampled_from([0.0, 90.0, 180.0, -90.0]), st.floats(-0.19, 0.19))
+def test_a_wall_stops_a_walker_at_its_face(yaw: float, start: float) -> None:
+    east, south = -round(math.sin(math.radians(yaw))), round(math.cos(math.radians(yaw)))
+    feet, velocity, stands = (0.5 + east * start, 64.0, 0.5 + south * start), AT_REST, True
+
+    def is_solid(x: int, y: int, z: int) -> bool:
+        return y < 64 or ((x, z) == (east, south) and y == 64)
+
+    for _ in range(40):
+        feet, velocity, stands = step(feet, velocity, wish(1, 0, "walk", yaw), 1.8, is_solid, on_ground=stands)
+        assert is_free(feet, 1.8, is_solid)
+    along = (feet[0] - 0.5) * east + (feet[2] - 0.5) * south
+    assert along == pytest.approx(0.2, abs=1e-6)
+
+
+@given(st.floats(-5, 5), st.floats(-5, 5), st.lists(st.tuples(st.integers(-1, 1), st.integers(-1, 1)), max_size=40))
+def test_nobody_ever_walks_into_a_block(x: float, z: float, keys: list[tuple[int, int]]) -> None:
+    def is_solid(block_x: int, y: int, block_z: int) -> bool:
+        return y < 64 or (y == 64 and (block_x * 7 + block_z * 3) % 5 == 0)
+
+    feet, velocity, stands = (x, 66.0, z), (0.0, 0.0, 0.0), False
+    for forward, left in keys:
+        feet, velocity, stands = step(
+            feet, velocity, wish(forward, left, "walk", 30.0), 1.8, is_solid, on_ground=stands
+        )
+        assert is_free(feet, 1.8, is_solid)
+
+
+def test_a_fall_ends_on_the_floor() -> None:
+    feet, velocity, stands = (0.5, 70.0, 0.5), (0.0, 0.0, 0.0), False
+    heights = []
+    while not stands:
+        feet, velocity, stands = step(feet, velocity, (0.0, 0.0), 1.8, is_floor, on_ground=stands)
+        heights.append(feet[1])
+    assert heights[1] == pytest.approx(70 - 0.0784)
+    assert heights == sorted(heights, reverse=True)
+    assert feet == (0.5, 64.0, 0.5)
+
+
+@pytest.mark.parametrize(("z", "touches"), [(0.69, False), (0.71, True)])
+def test_a_block_is_touched_from_two_tenths_off_the_middle_of_the_cell_behind_it(z: float, touches: bool) -> None:
+    assert overlaps((0.5, 64.0, z), 1.8, (0, 64, 1)) is touches
+
+
+def test_two_keys_at_once_are_no_faster_than_an_input_of_one() -> None:
+    east, south = wish(1, 1, "walk", 0.0)
+    assert math.hypot(east, south) == pytest.approx(1.0)
+    assert wish(1, 0, "walk", 0.0) == pytest.approx((0.0, 0.98))
+    assert wish(0, 1, "sneak", 0.0) == pytest.approx((0.294, 0.0))
+
+
+def test_on_ice_a_step_is_shorter_and_its_coasting_longer() -> None:
+    ice = Ground(slipperiness=0.98)
+    assert ice.inertia == pytest.approx(0.8918)
+    assert INPUT * ice.acceleration == pytest.approx(0.02249, abs=1e-5)
+    assert displacement(5, "walk", ice) == pytest.approx(1.0126, abs=1e-3)
+
+
+@given(ticks, st.sampled_from([0.6, 0.8, 0.98]), st.floats(0.5, 2.0))
+def test_every_floor_and_effect_is_walked_on_as_its_displacement_says(
+    held: int, slipperiness: float, speed: float
+) -> None:
+    ground = Ground(slipperiness, speed)
+    feet, velocity, stands = (0.5, 64.0, 0.5), AT_REST, True
+    for tick in range(held + 100):
+        push = wish(tick < held, 0, "walk", 0.0)
+        feet, velocity, stands = step(feet, velocity, push, 1.8, is_floor, on_ground=stands, ground=ground)
+    assert feet[2] - 0.5 == pytest.approx(displacement(held, "walk", ground), abs=1e-9)
+
+
+@given(st.integers(-1, 1), st.integers(-1, 1), st.floats(-180, 180))
+def test_who_sneaks_never_walks_over_an_edge(forward: int, left: int, yaw: float) -> None:
+    def is_solid(x: int, y: int, z: int) -> bool:
+        return y < 64 and abs(x) <= 1 and abs(z) <= 1
+
+    feet, velocity, stands = (0.5, 64.0, 0.5), AT_REST, True
+    for _ in range(200):
+        push = wish(forward, left, "sneak", yaw)
+        feet, velocity, stands = step(feet, velocity, push, 1.5, is_solid, on_ground=stands, sneaks=True)
+    assert feet[1] == 64.0
+    # The floor goes from -1 to 2: the box of a player, 0.3 to each side, may stand out over its edge, not beyond it.
+    assert min(feet[0], feet[2]) > -1.3
+    assert max(feet[0], feet[2]) < 2.3
+
+
+def test_who_walks_does() -> None:
+    def is_solid(_x: int, y: int, z: int) -> bool:
+        return y < 64 and z <= 1
+
+    feet, velocity, stands = (0.5, 64.0, 0.5), AT_REST, True
+    for _ in range(40):
+        push = wish(1, 0, "walk", 0.0)
+        feet, velocity, stands = step(feet, velocity, push, 1.8, is_solid, on_ground=stands)
+    assert feet[1] < 60

@@ -1,0 +1,72 @@
+import pytest
+
+from sim.client.game.edition import Edition
+from sim.client.game.physics import AT_REST
+from sim.client.game.realm import Player, Realm, Stack
+from sim.client.game.world import VirtualWorld
+
+
+def realm(version: str = "1.20.1") -> Realm:
+    return Realm(Edition(version), VirtualWorld(64, "dirt"), Player((8.5, 64.0, 8.5)))
+
+
+@pytest.mark.parametrize(("pitch", "kept"), [(-91.0, -90.0), (-90.0, -90.0), (12.5, 12.5), (90.5, 90.0)])
+def test_the_pitch_stops_at_straight_up_and_down(pitch: float, kept: float) -> None:
+    player = realm().player
+    player.look(400.0, pitch)
+    assert (player.yaw, player.pitch) == (400.0, kept)
+
+
+def test_a_player_that_goes_somewhere_stands_still_there() -> None:
+    player = realm().player
+    player.velocity = (1.0, 2.0, 3.0)
+    player.go_to((1.0, 2.0, 3.0))
+    assert (player.feet, player.velocity) == ((1.0, 2.0, 3.0), AT_REST)
+
+
+def test_survival_uses_blocks_up_and_creative_does_not() -> None:
+    player = realm().player
+    player.hotbar[0] = Stack("stone", 2)
+    player.use_one()
+    assert player.hotbar[0] == Stack("stone", 2)
+    player.mode = "survival"
+    player.use_one()
+    assert player.hotbar[0] == Stack("stone", 1)
+    player.use_one()
+    assert player.hotbar[0] is None
+    player.use_one()
+    assert player.hotbar[0] is None
+
+
+def test_blocks_join_their_kind_up_to_64_then_take_the_first_free_slot() -> None:
+    player = realm().player
+    player.hotbar[:2] = [Stack("dirt", 1), Stack("stone", 60)]
+    assert player.take(Stack("stone", 4))
+    assert player.take(Stack("stone", 1))
+    assert player.hotbar[:4] == [Stack("dirt", 1), Stack("stone", 64), Stack("stone", 1), None]
+
+
+def test_a_full_hotbar_takes_no_other_block() -> None:
+    player = realm().player
+    player.hotbar[:] = [Stack("dirt", 64)] * 9
+    assert not player.take(Stack("stone", 1))
+    assert player.hotbar == [Stack("dirt", 64)] * 9
+
+
+@pytest.mark.parametrize(("version", "name"), [("1.21.10", "keepInventory"), ("1.21.11", "keep_inventory")])
+def test_a_rule_has_the_name_of_its_version(version: str, name: str) -> None:
+    world = realm(version)
+    assert not world.rule("keepInventory", "keep_inventory", False)
+    assert world.rule("keepInventory", "keep_inventory", True)
+    world.rules[name] = "true"
+    assert world.rule("keepInventory", "keep_inventory", False)
+    world.rules[name] = "false"
+    assert not world.rule("keepInventory", "keep_inventory", True)
+
+
+def test_the_eyes_are_lower_while_sneaking() -> None:
+    world = realm()
+    assert world.eye() == (8.5, 64.0 + 1.62, 8.5)
+    assert world.size() == (1.8, 1.62)
+    world.player.is_sneaking = True
+    assert world.eye() == (8.5, 64.0 + 1.27, 8.5)

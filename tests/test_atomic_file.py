@@ -1,0 +1,68 @@
+"""Atomic writes: the new file, or the old one and nothing else; what a killed process leaves is told apart."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from mc_nested.atomic_file import atomic_write, is_leftover, remove_leftovers
+
+
+def test_the_file_is_replaced_at_the_end(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text("old")
+    with atomic_write(path) as unfinished:
+        unfinished.write_text("new")
+        assert path.read_text() == "old"
+    assert path.read_text() == "new"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("error", [OSError, KeyboardInterrupt])
+def test_an_error_leaves_the_old_file_and_nothing_beside_it(tmp_path: Path, error: type[BaseException]) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text("old")
+
+    def breaks_off() -> None:
+        with atomic_write(path) as unfinished:
+            unfinished.write_text("ne")
+            raise error
+
+    with pytest.raises(error):
+        breaks_off()
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_two_writers_of_one_file_do_not_disturb_each_other(tmp_path: Path) -> None:
+    path = tmp_path / "table.csv"
+    with atomic_write(path) as one:
+        one.write_text("one")
+        with atomic_write(path) as other:
+            other.write_text("other")
+        assert (path.read_text(), one.read_text()) == ("other", "one")
+    assert path.read_text() == "one"
+
+
+def test_the_file_is_on_the_disk_before_it_replaces_the_old_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "table.csv"
+    path.write_text("old")
+    seen = []
+    monkeypatch.setattr(os, "fsync", lambda descriptor: seen.append((os.fstat(descriptor).st_size, path.read_text())))
+    with atomic_write(path) as unfinished:
+        unfinished.write_text("longer")
+    assert seen == [(6, "old")]
+
+
+def test_what_a_killed_process_left_can_be_told_and_removed(tmp_path: Path) -> None:
+    kept = tmp_path / "state.pt"
+    kept.write_text("whole")
+    with atomic_write(kept) as unfinished:
+        unfinished.write_text("half")
+        assert is_leftover(unfinished)
+        assert not is_leftover(kept)
+        (tmp_path / f"copy-{unfinished.name}").write_text("half")  # as if killed here
+    remove_leftovers(tmp_path)
+    assert [path.name for path in tmp_path.iterdir()] == ["state.pt"]
