@@ -8,6 +8,7 @@ from mc_nested.live.deadline import Deadline
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import Profile
 
 COMMANDS_PER_CLEAR = 5
@@ -15,8 +16,6 @@ COMMANDS_PER_CLEAR = 5
 
 TRIES = 4
 """How often a line is begun: on a busy machine its letters may come so late that the rest isn't typed."""
-
-POLL_S = 0.02
 
 CLEAR = "d"
 """With the debug screen's key it clears the chat (FACTS: Keys)."""
@@ -58,7 +57,7 @@ class CommandConsole:
             self._controller.check_front()
             if deadline.has_passed:
                 raise UnreadableError(f"the debug screen was unreadable for too long: {reading.problem}")
-            self._controller.wait(POLL_S)
+            self._controller.wait(TYPING_LOOK_S)
         return reading
 
     def watch(self, is_so: Callable[[Reading], bool], seconds: float) -> Reading | None:
@@ -67,7 +66,7 @@ class CommandConsole:
         while not is_so(reading := self.read()):
             if deadline.has_passed:
                 return None
-            self._controller.wait(POLL_S)
+            self._controller.wait(TYPING_LOOK_S)
         return reading
 
     def clear(self) -> None:

@@ -18,6 +18,7 @@ from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.coordinates import turn_between
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.timing import MENU_LOOK_S
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
 
@@ -33,8 +34,6 @@ TRIES = 3
 
 PATIENCE_S = 1.5
 """How long the copy may take to reach the clipboard."""
-
-POLL_S = 0.1
 
 TOLERANCE_BLOCKS = 0.005 + 0.0005
 TOLERANCE_DEG = 0.05 + 0.005
@@ -109,7 +108,7 @@ def _copied(connection: GameConnection, profile: Profile) -> tuple[float, ...]:
         controller.release_again()
         deadline = Deadline(clock, PATIENCE_S)
         while not deadline.has_passed:
-            controller.wait(POLL_S)
+            controller.wait(MENU_LOOK_S)
             if match := _COPIED.fullmatch(clipboard.read()):
                 return tuple(float(part) for part in match.groups())
     recovery.recover()  # a game that doesn't know F3+C has taken F3 alone

@@ -16,6 +16,7 @@ from mc_nested.live.menus.click_points import record_point
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.screens import BACK, ENTER, LABELS, LEAVE, PLAY, PLAY_IT, QUIT, WORLD
 from mc_nested.live.menus.wait_for_player import wait_for_front, wait_until_standing_still
+from mc_nested.live.model.timing import MENU_LOOK_S
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.chat_region import without_chat
@@ -29,8 +30,6 @@ MENU_S = 5.0
 
 SAVING_S = 60.0
 """How long saving the world may take."""
-
-POLL_S = 0.1
 
 HOVER_S = 0.2
 """From moving the mouse until the picture shows the button highlighted."""
@@ -106,7 +105,7 @@ class MenuWalk:
                 self._controller.tap("esc", on="menu")
                 self._wait_until(lambda: self._recovery.screen_name() == "pause", MENU_S / 4)
             else:
-                self._controller.wait(POLL_S)
+                self._controller.wait(MENU_LOOK_S)
         return True
 
     def _go(self, label: str, is_there: Callable[[], bool], patience_s: float) -> None:
@@ -207,7 +206,7 @@ class MenuWalk:
         while not is_so():
             if deadline.has_passed:
                 return False
-            self._controller.wait(POLL_S)
+            self._controller.wait(MENU_LOOK_S)
         return True
 
 

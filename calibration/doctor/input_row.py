@@ -15,11 +15,11 @@ from mc_nested.errors import DesktopError, NotInFrontError, WrongScreenError
 from mc_nested.live.deadline import Deadline
 from mc_nested.live.devices import Clock, Devices
 from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.model.timing import KEY_LOOK_S
 
 EFFECT_S = 1.5
 """How long the effect of a press may take to be seen: a game's slow frames, and a desktop's slow pictures."""
 
-POLL_S = 0.05
 TRIES = 3
 """Presses to turn the debug screen on again: one may get lost."""
 
@@ -82,7 +82,7 @@ def _first_snapshot(
             return current
         if deadline.has_passed:
             return None
-        controller.wait(POLL_S)
+        controller.wait(KEY_LOOK_S)
 
 
 def _is_on(snapshot: WindowSnapshot) -> bool:

@@ -7,6 +7,7 @@ from mc_nested.live.deadline import Deadline
 from mc_nested.live.devices import Devices, Frame
 from mc_nested.live.menus.screens import LABELS, ScreenName
 from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.timing import PERSON_LOOK_S
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.vision.debug_screen import nothing_seen, read_found
 from mc_nested.live.vision.font import Font
@@ -20,8 +21,6 @@ FRONT_S = 30.0
 
 READABLE_S = 5.0
 """Time to then close the menu that the game opened meanwhile."""
-
-POLL_S = 0.25
 
 
 @dataclass(frozen=True)
@@ -99,7 +98,7 @@ def wait_until_readable(
             has_arrived, deadline = True, Deadline(clock, READABLE_S)
         if deadline.has_passed:
             break
-        clock.sleep_until(clock.now() + POLL_S)
+        clock.sleep_until(clock.now() + PERSON_LOOK_S)
         snapshot = take_snapshot(devices, font, overlay)
     return snapshot
 

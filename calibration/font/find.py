@@ -20,6 +20,7 @@ from mc_nested.errors import ClipboardError, FontError, NotConfirmedError, Unrea
 from mc_nested.live.devices import Frame
 from mc_nested.live.menus.recovery import UNKNOWN_S, Recovery
 from mc_nested.live.menus.wait_for_player import wait_for_front
+from mc_nested.live.model.timing import PERSON_LOOK_S
 from mc_nested.live.profile.fingerprint import version_in
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.debug_screen import read_debug_screen
@@ -31,8 +32,6 @@ STEP = "font"
 
 PATIENCE_S = 15.0
 """How long a debug screen that is found may stay unreadable: chat messages disappear after ten seconds."""
-
-LOOK_S = 0.25
 
 
 def sources_here(version: str | None) -> FontSources:
@@ -149,9 +148,9 @@ def _on_screen(
             for key in keys:
                 controller.confirm_screen("menu")
                 controller.tap(key, on="menu")
-                controller.wait(LOOK_S)
+                controller.wait(PERSON_LOOK_S)
             unknown_since = clock.now()
-        controller.wait(LOOK_S)
+        controller.wait(PERSON_LOOK_S)
 
 
 def _way_from_menu(context: CalibrationContext, profile: Profile, candidates: Sequence[Candidate]) -> Recovery | None:

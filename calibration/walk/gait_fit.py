@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.optimize import fmin
 
 from mc_nested.errors import NotConfirmedError
-from mc_nested.live.model.kinematics import STANDSTILL, TICK_S, Gait
+from mc_nested.live.model.kinematics import TICK_S, Gait, hold_path
 
 Float64Array = NDArray[np.float64]
 
@@ -64,13 +64,7 @@ class GaitModel:
 
     def path(self, ticks: int) -> tuple[float, ...]:
         """The position after each tick of a hold from rest, in blocks from its beginning, until standstill."""
-        positions, position, step = [0.0], 0.0, 0.0
-        while len(positions) <= ticks or step >= STANDSTILL:
-            step = (step if step >= STANDSTILL else 0.0) + (self.push if len(positions) <= ticks else 0.0)
-            position += step
-            positions.append(position)
-            step *= self.inertia
-        return tuple(positions)
+        return hold_path(ticks, self.push, self.inertia)
 
     def covered(self, ticks: int) -> float:
         """Blocks that a hold of so many ticks covers until standstill."""

@@ -18,13 +18,16 @@ from calibration.walk.figure import picture_of_walk
 from calibration.walk.gait_fit import rms
 from calibration.walk.survey import FORWARD_AXIS, SIDE_AXIS, Survey
 from calibration.walk.walk_model import PLAIN_SPEED, WalkModel, fit_walk_model
-from calibration.walk.walker import Walker, WorldPose
+from calibration.walk.walker import Walker
 from mc_nested.arena.rules import SIZE, Cell
 from mc_nested.errors import NotConfirmedError, ProfileError
+from mc_nested.live.connection import GameConnection
 from mc_nested.live.menus.commands import clear_command, teleport_command
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.kinematics import TICK_S, nearest_ticks
-from mc_nested.live.profile.arena import Arena
+from mc_nested.live.model.reading import WorldPose
+from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver
+from mc_nested.live.motion.pose_reader import PoseReader
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile
 
@@ -36,6 +39,9 @@ TIMED = (5, 5, 4, 4, 6, 6, 2, 2)
 
 NEAR = 0.15
 """Blocks from the starting point that are near enough to it at the end."""
+
+ARRIVAL_TOLERANCE = 0.01
+"""Blocks that a player may be off the position of a teleport."""
 
 MAX_HOLDS_BACK = 6
 """Holds per axis that the way back may take."""
@@ -83,11 +89,14 @@ def walk(context: CalibrationContext, profile: Profile) -> StepResult:
     context.say("Measuring how you walk, for about a minute: leave mouse and keys alone.")
     wait_until_standing_still(connection)
     connection.check_single_player()
-    walker, console = Walker(connection, profile), CommandConsole(connection, profile)
-    began = walker.look()
+    console = CommandConsole(connection, profile)
+    _, began, _ = PoseReader(connection, profile.body.patience_s).read()
     if profile.arena is not None and profile.world is None:
-        _teleport_into(profile.arena, console, profile, walker)
-    survey = Survey(walker, profile.keys, context.devices.clock)
+        console.send(clear_command(profile.arena))
+        console.send(teleport_command(profile.arena, MIDDLE, profile.body.pitch))
+        middle = WorldPose(profile.arena.centre_of(MIDDLE), profile.arena.yaw, profile.body.pitch)
+        _wait_for_arrival(connection, profile, middle)
+    survey = Survey(Walker(connection, profile), profile.keys, context.devices.clock)
     keys = survey.find_keys()
     survey.find_floor()
     survey.walk()
@@ -96,7 +105,7 @@ def walk(context: CalibrationContext, profile: Profile) -> StepResult:
     walk_model = fit_walk_model(survey.holds)
     if profile.arena is not None and profile.world is None:
         console.send(_back_to(began))
-        _arrive(walker, began)
+        _wait_for_arrival(connection, profile, began)
     else:
         _walk_back(walk_model, survey)
     lines = (
@@ -140,19 +149,19 @@ def _walk_back(walk_model: WalkModel, survey: Survey) -> None:
             survey.hold_homewards(axis, max(1, nearest_ticks(offset, covered)), _between_ticks(walk_model))
 
 
-def _teleport_into(arena: Arena, console: CommandConsole, profile: Profile, walker: Walker) -> None:
-    console.send(clear_command(arena))
-    console.send(teleport_command(arena, MIDDLE, profile.body.pitch))
-    _arrive(walker, WorldPose(arena.centre_of(MIDDLE), arena.yaw, profile.body.pitch))
-
-
 def _back_to(pose: WorldPose) -> str:
     x, y, z = pose.xyz
     return f"/tp @s {x:.3f} {y:.3f} {z:.3f} {pose.yaw:.1f} {pose.pitch:.1f}"
 
 
-def _arrive(walker: Walker, pose: WorldPose) -> None:
-    if not walker.arrives(pose):
+def _wait_for_arrival(connection: GameConnection, profile: Profile, pose: WorldPose) -> None:
+    """Wait until the player is at a pose after a teleport; NotConfirmedError if that isn't seen within the patience."""
+
+    def has_arrived(seen: PoseEstimate) -> bool:
+        return seen.problem is None and max(map(abs, seen.position)) <= ARRIVAL_TOLERANCE
+
+    observer = PoseObserver(profile, connection, PoseFrame.around(pose))
+    if not has_arrived(observer.watch(has_arrived, profile.body.patience_s)):
         x, y, z = pose.xyz
         raise NotConfirmedError(
             f"the teleport to {x:g} {y:g} {z:g} was not seen: are cheats on, and is this the world of the arena?"

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from calibration.walk.directions import DIRECTIONS, Direction, corrected_keys, direction_of
 from calibration.walk.gait_fit import HoldTrace
 from calibration.walk.round_trip import HoldTiming
-from calibration.walk.walker import RecordedHold, Walker, WorldPose, offset_from
+from calibration.walk.walker import RecordedHold, Walker
 from mc_nested.errors import NotConfirmedError, UserError
 from mc_nested.live.deadline import Deadline
 from mc_nested.live.devices import Clock
@@ -63,8 +63,8 @@ class SurveyHold:
         """Its positions along its direction, as long as they grow; None if nothing moved."""
         axis, sign = _axis_of(self.direction)
         along: list[float] = []
-        for position in self.recorded.positions:
-            covered = position[axis] * sign
+        for offset in self.recorded.offsets:
+            covered = offset[axis] * sign
             if covered > (along[-1] if along else 0.0):
                 along.append(covered)
         return HoldTrace(self.gait, self.recorded.held_s, tuple(along)) if along else None
@@ -72,7 +72,7 @@ class SurveyHold:
     @property
     def aside(self) -> float:
         """Blocks that it led sideways: none, unless something pushed."""
-        return max((abs(at[1 - _axis_of(self.direction)[0]]) for at in self.recorded.positions), default=0.0)
+        return max((abs(offset[1 - _axis_of(self.direction)[0]]) for offset in self.recorded.offsets), default=0.0)
 
     def timing(self, at_tick: tuple[int, ...], ticks: int) -> HoldTiming:
         """Its steps in time; ``at_tick`` says after how many ticks each of the trace's positions was reached."""
@@ -96,7 +96,7 @@ class Survey:
 
     def __init__(self, walker: Walker, keys: KeysTable, clock: Clock) -> None:
         self._walker, self.keys, self._clock = walker, keys, clock
-        self.home: WorldPose = walker.stand()
+        self.home = walker.stand()
         self.holds: list[SurveyHold] = []
         self.reach = REACH
 
@@ -137,7 +137,7 @@ class Survey:
 
     def offset(self, axis: Axis) -> float:
         """Blocks along an axis from the starting point."""
-        return offset_from(self.home, self._walker.look().xyz)[_axis_of(axis[1])[0]]
+        return self._walker.position().minus(self.home)[_axis_of(axis[1])[0]]
 
     def _step(self) -> float:
         """Blocks that a tick of walking covers, by the longest holds so far."""
@@ -148,7 +148,7 @@ class Survey:
         """Where the key that should go this way really leads; None if it leads nowhere in a few tries."""
         for _ in range(TRIES):
             hold = self._hold(direction, "sneak", PROBE_S / TICK_S)
-            if found := direction_of(offset_from(hold.recorded.begin, hold.recorded.end)):
+            if found := direction_of(hold.recorded.end.minus(hold.recorded.begin)):
                 self.holds[-1] = SurveyHold(found, "sneak", hold.held_ticks, hold.recorded)
                 return found
         return None
@@ -159,7 +159,7 @@ class Survey:
         covered = 0.0
         for _ in range(TRIES):
             hold = self._hold(direction, "sneak", OUT_S / TICK_S, max_distance=REACH - covered)
-            covered = offset_from(self.home, hold.recorded.end)[axis] * sign
+            covered = hold.recorded.end.minus(self.home)[axis] * sign
             if covered >= NEEDED:
                 break
         return covered

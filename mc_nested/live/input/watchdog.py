@@ -5,9 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from mc_nested.live.input.input_controller import InputController
-
-LOOK_S = 0.05
-"""Seconds between two checks."""
+from mc_nested.live.model.timing import KEY_LOOK_S
 
 
 @contextmanager
@@ -16,7 +14,7 @@ def watched(controller: InputController) -> Iterator[None]:
     ended = threading.Event()
 
     def watch() -> None:
-        while not ended.wait(LOOK_S):
+        while not ended.wait(KEY_LOOK_S):
             controller.release_overdue()
 
     thread = threading.Thread(target=watch, name="watchdog", daemon=True)

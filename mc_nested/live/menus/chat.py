@@ -8,12 +8,11 @@ from collections.abc import Callable
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
+from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import Profile
 
 PATIENCE_S = 1.5
 """How long the chat's line may take to look as it should."""
-
-LOOK_S = 0.02
 
 LETTERS_PER_LOOK = 8
 """Letters typed between two looks."""
@@ -69,4 +68,4 @@ class Chat:
         while not is_so():
             if deadline.has_passed:
                 raise NotConfirmedError(f"{problem}: leave mouse and keys alone, and look whether the game allows chat")
-            self._controller.wait(LOOK_S)
+            self._controller.wait(TYPING_LOOK_S)

@@ -13,6 +13,7 @@ import numpy as np
 
 from mc_nested.live.devices import Display, Frame
 from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.model.timing import MENU_LOOK_S
 
 WIDTH, HEIGHT = 96, 10
 """GUI pixels that a picture shows, around its point: a label's height and most of its length, and nothing outside any
@@ -28,9 +29,6 @@ brightness and contrast are taken out: the same button gave 0.16, greyed 0.32; a
 
 SLACK = 2
 """Pixels that it may have moved by: a fraction of the window leads back to within one."""
-
-LOOK_S = 0.1
-"""From moving the mouse until the button under it is drawn so."""
 
 _FLAT = 4.0
 """Grey levels: what varies less, such as a bare wall, could be anywhere."""
@@ -93,7 +91,7 @@ def hover_over(point: ClickPoint, controller: InputController, display: Display)
         return False
     controller.confirm_screen("menu")
     controller.hover(*point.position(display.size()))
-    controller.wait(LOOK_S)
+    controller.wait(MENU_LOOK_S)
     return looks_the_same(point, display.grab())
 
 

@@ -5,12 +5,10 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
 from mc_nested.live.devices import Devices
 from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.timing import PERSON_LOOK_S
 
 PATIENCE_S = 60.0
 """How long the player has to switch to the game and turn the debug screen on."""
-
-LOOK_S = 0.25
-"""Between two looks: a few frames of the game, so that the same position seen twice means that the player stands."""
 
 
 def wait_for_front(devices: Devices) -> None:
@@ -20,7 +18,7 @@ def wait_for_front(devices: Devices) -> None:
     while not devices.display.is_in_front():
         if deadline.has_passed:
             raise NotInFrontError("the game's window didn't come to the front: click on it, and run this again")
-        clock.sleep_until(clock.now() + LOOK_S)
+        clock.sleep_until(clock.now() + PERSON_LOOK_S)
 
 
 def wait_until_standing_still(connection: GameConnection) -> Reading:
@@ -40,7 +38,7 @@ def wait_until_standing_still(connection: GameConnection) -> Reading:
             return reading
         before = reading
         problem = (reading.problem or "the player keeps moving") if reading else None
-        clock.sleep_until(clock.now() + LOOK_S)
+        clock.sleep_until(clock.now() + PERSON_LOOK_S)
     if problem is None:
         raise NotInFrontError("the game's window didn't come to the front: click on it, and run this again")
     raise UnreadableError(f"the debug screen can't be read ({problem}): mend that, and run this again")

@@ -7,7 +7,7 @@ import math
 from typing import Literal, NamedTuple
 
 from mc_nested.arena.rules import Cell
-from mc_nested.live.model.reading import Block
+from mc_nested.live.model.reading import XYZ, Block, WorldPose
 
 Facing = Literal["north", "south", "west", "east"]
 
@@ -20,6 +20,10 @@ class GroundVector(NamedTuple):
 
     right: float
     forward: float
+
+    def minus(self, other: "GroundVector") -> "GroundVector":
+        """From ``other`` to here."""
+        return GroundVector(self.right - other.right, self.forward - other.forward)
 
 
 def yaw_of(facing: Facing) -> float:
@@ -58,6 +62,13 @@ def position_of(origin: Block, facing: Facing, xyz: tuple[float, float, float]) 
     right_x, right_z = -forward_z, forward_x
     east, south = xyz[0] - origin[0] - 0.5, xyz[2] - origin[2] - 0.5
     return GroundVector(east * right_x + south * right_z, east * forward_x + south * forward_z)
+
+
+def offset_from(pose: WorldPose, xyz: XYZ) -> GroundVector:
+    """The position ``xyz`` as seen from a pose. Yaw 0 is south, 90 west (FACTS: Standing, looking, placing)."""
+    sine, cosine = math.sin(math.radians(pose.yaw)), math.cos(math.radians(pose.yaw))
+    east, south = xyz[0] - pose.xyz[0], xyz[2] - pose.xyz[2]
+    return GroundVector(-east * cosine - south * sine, -east * sine + south * cosine)
 
 
 def cell_at(position: tuple[float, float]) -> Cell:

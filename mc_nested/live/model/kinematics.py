@@ -1,5 +1,10 @@
-"""How far a key held for a number of ticks walks (FACTS: Walking), and which hold ends nearest a target."""
+"""The recurrence of walking (FACTS: Walking): how far a held key walks, and which hold ends nearest a target.
 
+In each tick the velocity becomes 0 if it is below the standstill, and grows by the push of a held key. The walker moves
+by it, and it is multiplied by the inertia.
+"""
+
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -30,17 +35,33 @@ class HoldPlan:
     ticks: int
 
 
+def step_of(velocity: float, push: float = 0.0) -> float:
+    """Blocks that a walker moves by in its next tick; ``push`` is what a held key adds, 0 with every key up."""
+    return (velocity if abs(velocity) >= STANDSTILL else 0.0) + push
+
+
+def hold_path(ticks: int, push: float = PUSH, inertia: float = INERTIA) -> tuple[float, ...]:
+    """The position after each tick of a hold of ``ticks`` ticks from rest, in blocks, until standstill."""
+    positions, position, velocity = [0.0], 0.0, 0.0
+    while len(positions) <= ticks or velocity >= STANDSTILL:
+        step = step_of(velocity, push if len(positions) <= ticks else 0.0)
+        position, velocity = position + step, step * inertia
+        positions.append(position)
+    return tuple(positions)
+
+
 def displacement(ticks: int, inertia: float = INERTIA) -> float:
     """Blocks covered by holding a direction key for ``ticks`` ticks from rest, then coasting; the push is stone's."""
-    covered = velocity = 0.0
-    held = 0
-    while held < ticks or velocity >= STANDSTILL:
-        if held < ticks:
-            velocity += PUSH
-            held += 1
-        covered += velocity
-        velocity *= inertia
-    return covered
+    return hold_path(ticks, PUSH, inertia)[-1]
+
+
+def coasting_distance(velocity: float, inertia: float = INERTIA) -> float:
+    """Blocks that a walker with this velocity still covers until it stops, with every key up."""
+    if abs(velocity) < STANDSTILL:
+        return 0.0
+    # The steps shrink to the first one below the standstill, which isn't taken.
+    steps = math.floor(math.log(STANDSTILL / abs(velocity)) / math.log(inertia)) + 1
+    return velocity * (1 - inertia**steps) / (1 - inertia)
 
 
 def walk_response(longest: int) -> tuple[float, ...]:

@@ -13,6 +13,10 @@ class Target:
     id: str | None
 
 
+XYZ = tuple[float, float, float]
+"""A position in the world, in blocks."""
+
+
 @dataclass(frozen=True)
 class Reading:
     """What one frame says. A frame that can't be read has no ``xyz``, and ``problem`` says why; nothing is guessed.
@@ -21,8 +25,17 @@ class Reading:
     ``target`` is None when no block is looked at (FACTS: The F3 debug screen).
     """
 
-    xyz: tuple[float, float, float] | None = None
+    xyz: XYZ | None = None
     yaw: float | None = None
     pitch: float | None = None
     target: Target | None = None
     problem: str | None = None
+
+
+@dataclass(frozen=True)
+class WorldPose:
+    """The position of the player's feet, in blocks, and the view, in degrees."""
+
+    xyz: XYZ
+    yaw: float
+    pitch: float

@@ -15,7 +15,7 @@ from mc_nested.live.model.reading import Block, Target
 from mc_nested.live.motion.click_range import COASTING_CLICK, hits_floor, is_click_right, is_near
 from mc_nested.live.motion.effort import Effort
 from mc_nested.live.motion.locomotion import MIN_RESPONSE_S, Locomotion
-from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver, check_pose
+from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver, check_pose
 from mc_nested.live.motion.walk_tracker import CoastingState
 from mc_nested.live.profile.tables import Profile
 
@@ -36,7 +36,7 @@ class Body:
         self._input_latency_s = profile.walk.input_latency_s
         self._controller = connection.controller
         self._clock = connection.devices.clock
-        self._observer = PoseObserver(profile, connection)
+        self._observer = PoseObserver(profile, connection, PoseFrame.of_arena(profile))
         self._locomotion = Locomotion(profile, connection, self._observer)
         self.effort = Effort()
 
@@ -177,7 +177,7 @@ class Body:
         pose: PoseEstimate,
         cell: Cell,
         attempt: int,
-        on_look: Callable[[PoseEstimate], None] | None = None,
+        on_look: Callable[[PoseEstimate], None] = lambda _: None,
     ) -> tuple[CoastingState, PoseEstimate]:
         """One hold towards a cell: the agent's state after it, and the last pose seen."""
         self._observer.permit_press()

@@ -2,12 +2,11 @@
 
 from collections.abc import Callable
 
-from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.deadline import Deadline
 from mc_nested.live.model.coordinates import GroundVector
 from mc_nested.live.model.kinematics import TICK_S, plan_hold, push_of
-from mc_nested.live.motion.pose_observer import FRAME_S, PoseEstimate, PoseObserver
+from mc_nested.live.motion.key_hold import KeyHold
+from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
 from mc_nested.live.motion.standstill import Standstill
 from mc_nested.live.motion.walk_tracker import CoastingState, Hold, WalkTracker
 from mc_nested.live.profile.tables import Profile
@@ -20,12 +19,6 @@ SHORT_HOLD_TICKS = 2
 
 SURELY_SEEN_S = 0.053
 """Seconds after a tick at which its step is certainly on the screen, and the next one's can't be."""
-
-FAST_LOOKS = 3
-"""Looks that come twice a frame at first: a click that goes out a little sooner is felt a tick sooner."""
-
-RELEASE_AGAIN_LOOKS = 20
-"""Looks at an agent whose position fits no path, after which its keys are released once more."""
 
 MAX_SHIFT_S = 1.2 * TICK_S
 """Seconds that a look during a hold may move its release by: a tick felt more or less, never what a stall hid."""
@@ -44,6 +37,7 @@ class Locomotion:
         self._push = push_of(profile.walk.covered, profile.walk.inertia)
         self._controller = connection.controller
         self._observer = observer
+        self._key_hold = KeyHold(connection, observer, profile.body.patience_s)
         self._clock = connection.devices.clock
         self._tracker = self._tracker_at_rest(GroundVector(0.0, 0.0))
 
@@ -79,37 +73,33 @@ class Locomotion:
         return self._tracker.end_if_late
 
     def follow_to_end(
-        self, pose: PoseEstimate, on_look: Callable[[PoseEstimate], None] | None = None
+        self, pose: PoseEstimate, on_look: Callable[[PoseEstimate], None] = lambda _: None
     ) -> tuple[CoastingState, PoseEstimate]:
         """Look until it is certain where the agent stops: by the hold that it was in, or because it stands still.
 
         ``on_look`` gets each pose that is seen before that. Returns the agent's state and the last pose.
         """
         standstill = Standstill(pose.position, self._clock.now(), self._limits.settle_s)
-        patience = Deadline(self._clock, self._limits.patience_s)
-        looks = 0
-        while True:
-            state = self._tracker.coasting_at(pose.position)
-            if state is None and standstill.is_reached(pose.position, self._clock.now()):
-                state = CoastingState(pose.position, GroundVector(0.0, 0.0), self._walk.inertia)
-            if state is not None:
-                self._observer.note_awaited_step()
-                self._tracker = WalkTracker(state, None, self._walk.inertia)
-                return state, pose
-            if on_look:
-                on_look(pose)
-            if patience.has_passed:
-                raise NotConfirmedError(f"the agent does not stand still, it is at {pose}: does something push it?")
-            looks += 1
-            if looks % RELEASE_AGAIN_LOOKS == 0:
-                self._controller.release_again()
-            self._controller.wait(FRAME_S if looks > FAST_LOOKS else FRAME_S / 2)
-            pose = self._observer.look_and_check()
+        states: list[CoastingState] = []
+
+        def is_certain(seen: PoseEstimate) -> bool:
+            state = self._tracker.coasting_at(seen.position)
+            if state is None and standstill.is_reached(seen.position, self._clock.now()):
+                state = CoastingState(seen.position, GroundVector(0.0, 0.0), self._walk.inertia)
+            if state is None:
+                on_look(seen)
+                return False
+            states.append(state)
+            return True
+
+        pose = self._key_hold.follow(pose, is_certain)
+        self._observer.note_awaited_step()
+        self._tracker = WalkTracker(states[0], None, self._walk.inertia)
+        return states[0], pose
 
     def _tracker_at_rest(self, position: GroundVector) -> WalkTracker:
-        return WalkTracker(
-            CoastingState(position, GroundVector(0.0, 0.0), self._walk.inertia), None, self._walk.inertia
-        )
+        state = CoastingState(position, GroundVector(0.0, 0.0), self._walk.inertia)
+        return WalkTracker(state, None, self._walk.inertia)
 
     def _hold(self, ticks: int, *keys: str) -> None:
         """Hold keys so that exactly so many ticks feel them, if the tick phase is known; then wait for the next step.
@@ -121,25 +111,23 @@ class Locomotion:
         now, tick_phase = self._clock.now(), self._observer.tick_phase
         mid_tick = TICK_S / 2 - self._walk.input_latency_s
         if not tick_phase.is_known:
-            self._controller.hold(keys[-1], ticks, *keys[:-1])
+            self._key_hold.hold(now + ticks * TICK_S, *keys)
             self._controller.wait(MIN_RESPONSE_S)
             return
         if ticks <= SHORT_HOLD_TICKS:
             self._controller.wait_until(tick_phase.next(now, mid_tick))
-            release_at = self._clock.now() + ticks * TICK_S
-            self._controller.press(release_at, *keys)
+            release_at = self._key_hold.hold(self._clock.now() + ticks * TICK_S, *keys)
         else:
-            planned = release_at = now + ticks * TICK_S
-            self._controller.press(release_at, *keys)
+            planned = now + ticks * TICK_S
             tick = tick_phase.next(now + TICK_S / 2)
-            self._controller.wait_until(tick + SURELY_SEEN_S)
-            ticks_held = self._ticks_held()
-            if ticks_held is not None:
-                timed = tick + (ticks - ticks_held) * TICK_S + mid_tick
-                if abs(timed - planned) <= MAX_SHIFT_S:
-                    release_at = timed
-                    self._controller.keep_until(release_at, *keys)
-        self._controller.wait_until(release_at)
+
+            def timed_release() -> float | None:
+                ticks_held = self._ticks_held()
+                timed = None if ticks_held is None else tick + (ticks - ticks_held) * TICK_S + mid_tick
+                return timed if timed is not None and abs(timed - planned) <= MAX_SHIFT_S else None
+
+            look_times = (tick + SURELY_SEEN_S,)
+            release_at = self._key_hold.hold(planned, *keys, look_times=look_times, on_look=timed_release)
         self._observer.wait_for_step(release_at - mid_tick + TICK_S)
 
     def _ticks_held(self) -> int | None:

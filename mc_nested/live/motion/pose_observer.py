@@ -1,26 +1,22 @@
 """PoseObserver: the agent's position and the block it looks at, read from the debug screen, and the game's tick phase.
 
-Every press needs a look first: only what was just seen permits a press. Nothing is pressed while the view is not the
-arena's, or while the chat is open.
+Every press needs a look first: only what was just seen permits a press. Nothing is pressed while the view or the height
+is not the expected one, or while the chat is open.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from mc_nested.arena.rules import Cell
-from mc_nested.errors import NotConfirmedError, UnreadableError
+from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
-from mc_nested.live.model.coordinates import GroundVector, cell_at, turn_between
-from mc_nested.live.model.reading import Target
+from mc_nested.live.model.coordinates import GroundVector, cell_at, offset_from, turn_between
+from mc_nested.live.model.reading import XYZ, Target, WorldPose
+from mc_nested.live.model.timing import FRAME_S, SAME_FRAME_S
+from mc_nested.live.motion.pose_reader import PoseReader
 from mc_nested.live.motion.tick_phase import TickPhase
 from mc_nested.live.profile.tables import Profile
-
-FRAME_S = 1 / 60
-"""Seconds between two looks at the screen: a frame of the game, so that no wait is much longer than it must be."""
-
-SAME_FRAME_S = 0.005
-"""Seconds after a look in which another one would see the same frame."""
 
 LIKELY_SEEN_S = 0.028
 """Seconds after a tick at which looks for its step begin: a frame and a picture take 10 to 47 ms."""
@@ -29,66 +25,87 @@ VIEW_TOLERANCE = 0.5
 """Degrees that the view may be off: the debug screen shows tenths (FACTS: The F3 debug screen)."""
 
 HEIGHT_TOLERANCE = 0.05
-"""Blocks that the feet may be above or below the arena's floor: standing on a full block there is no difference."""
+"""Blocks that the feet may be above or below the floor: standing on a full block there is no difference."""
 
 
 @dataclass(frozen=True)
 class PoseEstimate:
-    """A reading in the arena's coordinates: the position in cells, what is wrong with the pose, the block looked at."""
+    """A reading in a frame's coordinates: the position, what is wrong with the pose, the block looked at, and when."""
 
     position: GroundVector
     problem: str | None
     target: Target | None
+    at: float = field(default=0.0, compare=False)
 
     @property
     def cell(self) -> Cell:
-        """The cell that holds the position."""
+        """The cell that holds the position, in the arena's frame."""
         return cell_at(self.position)
 
     def __str__(self) -> str:
         return f"({self.position.right:.2f}, {self.position.forward:.2f})"
 
 
+@dataclass(frozen=True)
+class PoseFrame:
+    """What poses are measured in: coordinates on the ground, and the view and the height of the feet expected there."""
+
+    position_of: Callable[[XYZ], GroundVector]
+    yaw: float
+    pitch: float
+    height: float
+
+    @classmethod
+    def of_arena(cls, profile: Profile) -> "PoseFrame":
+        """The arena's cells; ProfileError if none is marked."""
+        arena = profile.marked_arena()
+        return cls(arena.position_of, arena.yaw, profile.body.pitch, arena.origin[1])
+
+    @classmethod
+    def around(cls, pose: WorldPose) -> "PoseFrame":
+        """Blocks right and forward of a pose."""
+        return cls(lambda xyz: offset_from(pose, xyz), pose.yaw, pose.pitch, pose.xyz[1])
+
+    def problem(self, pose: WorldPose) -> str | None:
+        """What is wrong with a pose, in words; None if nothing is."""
+        if turn_between(pose.yaw, self.yaw) > VIEW_TOLERANCE or abs(pose.pitch - self.pitch) > VIEW_TOLERANCE:
+            return f"the view is {pose.yaw:g} / {pose.pitch:g}, not {self.yaw:g} / {self.pitch:g}"
+        if abs(pose.xyz[1] - self.height) > HEIGHT_TOLERANCE:
+            return f"the feet are at y = {pose.xyz[1]:g}, not {self.height:g} (the floor must be level, auto-jump off)"
+        return None
+
+
 class PoseObserver:
     """Looks at the game, and notes when steps are first seen.
 
     Raises (every look): UnreadableError if the debug screen can't be read for the profile's patience; what the input
-    controller raises. A checked look: NotConfirmedError if the view or the height isn't the arena's.
+    controller raises. A checked look: NotConfirmedError if the view or the height isn't the frame's.
     """
 
-    def __init__(self, profile: Profile, connection: GameConnection) -> None:
-        self._arena = profile.marked_arena()
-        self._limits = profile.body
+    def __init__(self, profile: Profile, connection: GameConnection, frame: PoseFrame) -> None:
+        self._frame = frame
+        self._reader = PoseReader(connection, profile.body.patience_s)
         self._controller = connection.controller
         self._screen = connection.screen
         self._clock = connection.devices.clock
         self._timed_look = 0.0
-        self._last_look: tuple[float, PoseEstimate] | None = None
+        self._last: PoseEstimate | None = None
         self.tick_phase = TickPhase(profile.walk.capture_latency_s)
 
     def look(self) -> PoseEstimate:
         """What is seen now, or as soon as the screen can be read."""
-        patience = Deadline(self._clock, self._limits.patience_s)
-        while True:
-            now = self._clock.now()
-            if self._last_look is not None and now - self._last_look[0] < SAME_FRAME_S:
-                return self._last_look[1]
-            reading = self._screen.read()
-            if reading.xyz is not None and reading.yaw is not None and reading.pitch is not None:
-                problem = self._problem(reading.xyz[1], reading.yaw, reading.pitch)
-                pose = PoseEstimate(self._arena.position_of(reading.xyz), problem, reading.target)
-                self._record(now, pose)
-                return pose
-            self._last_look = None
-            # A window in front of the game can't be read, but it is the reason.
-            self._controller.check_front()
-            if patience.has_passed:
-                reason = reading.problem or "it shows no Facing line"
-                raise UnreadableError(f"the debug screen was unreadable for {self._limits.patience_s:g} s: {reason}")
-            self._controller.wait(FRAME_S)
+        if self._last is not None and self._clock.now() - self._last.at < SAME_FRAME_S:
+            return self._last
+        at, world_pose, target = self._reader.read()
+        position = self._frame.position_of(world_pose.xyz)
+        pose = PoseEstimate(position, self._frame.problem(world_pose), target, at)
+        last, self._last = self._last, pose
+        if last is not None and not self._reader.is_delayed and pose != last and at - last.at < 1.5 * FRAME_S:
+            self.tick_phase.saw_step(last.at, at)
+        return pose
 
     def look_and_check(self) -> PoseEstimate:
-        """The same, and the view and the height are the arena's."""
+        """The same, and the view and the height are the frame's."""
         return check_pose(self.look())
 
     def watch(self, is_done: Callable[[PoseEstimate], bool], seconds: float) -> PoseEstimate:
@@ -101,12 +118,12 @@ class PoseObserver:
     def read_position(self) -> GroundVector | None:
         """The agent's position, in one quick look, while a key is down; None if it can't be read."""
         xyz = self._screen.read_position()
-        return self._arena.position_of(xyz) if xyz else None
+        return self._frame.position_of(xyz) if xyz else None
 
     def permit_press(self) -> None:
         """Check that the next press goes into the world, and permit it; the debug screen must just have been read."""
         if self._screen.is_chat_open():
-            raise NotConfirmedError("the chat is open: leave mouse and keys alone while the agent plays")
+            raise NotConfirmedError("the chat is open: leave mouse and keys alone")
         self._controller.confirm_screen("world")
 
     def wait_for_step(self, tick: float) -> None:
@@ -119,24 +136,12 @@ class PoseObserver:
 
         Otherwise only steps that are seen late would count.
         """
-        if self._last_look is not None and self._last_look[0] == self._timed_look:
+        if self._last is not None and self._last.at == self._timed_look:
             self.tick_phase.saw_step(self._timed_look - FRAME_S, self._timed_look)
-
-    def _record(self, now: float, pose: PoseEstimate) -> None:
-        if self._last_look is not None and pose != self._last_look[1] and now - self._last_look[0] < 1.5 * FRAME_S:
-            self.tick_phase.saw_step(self._last_look[0], now)
-        self._last_look = now, pose
-
-    def _problem(self, height: float, yaw: float, pitch: float) -> str | None:
-        if turn_between(yaw, self._arena.yaw) > VIEW_TOLERANCE or abs(pitch - self._limits.pitch) > VIEW_TOLERANCE:
-            return f"the agent looks {yaw:g} / {pitch:g}, not {self._arena.yaw:g} / {self._limits.pitch:g}"
-        if abs(height - self._arena.origin[1]) > HEIGHT_TOLERANCE:
-            return f"its feet are at y = {height:g}, not {self._arena.origin[1]}"
-        return None
 
 
 def check_pose(pose: PoseEstimate) -> PoseEstimate:
     """The pose; NotConfirmedError if something is wrong with it."""
     if pose.problem is not None:
-        raise NotConfirmedError(f"{pose.problem}: leave mouse and keys alone while the agent plays")
+        raise NotConfirmedError(f"{pose.problem}: leave mouse and keys alone")
     return pose

@@ -1,20 +1,18 @@
 """WalkTracker: follows a hold from reading to reading, so that its end is known long before the walker stands still.
 
-In each of a walker's ticks (FACTS: Walking) its velocity grows by the push of a held key, its position moves by the
-velocity, and the velocity is multiplied by the inertia, 0.546 on stone. So from a known position and velocity only few
-positions can be seen later: so many ticks before the key was felt, so many with it, so many coasting. If a position
-matches exactly one of them, to the decimals on the screen, the walker's end is known. If it matches none, or several
-that end apart, nothing is known, and the walker is watched until it stands still.
+From a known position and velocity, a walker (model/kinematics.py) can reach only few positions: after so many ticks
+before the key was felt, so many with it, so many coasting. If a position matches exactly one of them, to the decimals
+on the screen, the walker's end is known. If it matches none, or several that end apart, nothing is known, and the
+walker is watched until it stands still.
 """
 
-import math
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
 from mc_nested.live.model.coordinates import GroundVector
-from mc_nested.live.model.kinematics import INERTIA, STANDSTILL
+from mc_nested.live.model.kinematics import INERTIA, STANDSTILL, coasting_distance, step_of
 
 MATCH = 0.0016
 """Blocks that a position may lie off a path: two roundings to three decimals, and a little."""
@@ -146,15 +144,6 @@ class WalkTracker:
         return min(points, key=lambda point: abs(point.covered - covered)).velocity * sign
 
 
-def coasting_distance(velocity: float, inertia: float = INERTIA) -> float:
-    """Blocks that a walker with this velocity still covers until it stops."""
-    if abs(velocity) < STANDSTILL:
-        return 0.0
-    # The steps shrink to the first one below the standstill, which isn't taken.
-    steps = math.floor(math.log(STANDSTILL / abs(velocity)) / math.log(inertia)) + 1
-    return velocity * (1 - inertia**steps) / (1 - inertia)
-
-
 @lru_cache(256)
 def _coasting_path(velocity: float, inertia: float) -> _Path:
     return _Path(_coasting_points(0.0, velocity, inertia))
@@ -168,7 +157,7 @@ def _hold_path(velocity: float, ticks: int, push: float, inertia: float) -> _Pat
         covered, speed = before.covered, before.velocity
         points.append(_PathPoint(covered, covered, speed, False, 0))
         for held in range(1, ticks + (MORE_TICKS if waits else LAG_TICKS) + 1):
-            step = (speed if abs(speed) >= STANDSTILL else 0.0) + push
+            step = step_of(speed, push)
             covered, speed = covered + step, step * inertia
             points.append(_PathPoint(covered, covered, speed, False, held))
             if held >= ticks - MORE_TICKS:

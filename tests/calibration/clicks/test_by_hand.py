@@ -94,7 +94,7 @@ class NoKeys:
     release = type = press
 
 
-def record_point(player: Player, names: Iterable[str]) -> dict[str, tuple[float, float]]:
+def recorded(player: Player, names: Iterable[str]) -> dict[str, tuple[float, float]]:
     wanted = {name: f"{name} somewhere" for name in names}
     points = record_by_hand(wanted, player, Mouse(player), player.next_key, skip="f9", say=player.say)
     return {point.name: point.at for point in points}
@@ -103,14 +103,14 @@ def record_point(player: Player, names: Iterable[str]) -> dict[str, tuple[float,
 @given(st.integers(0, 3839), st.integers(0, 2159))
 def test_a_recorded_fraction_leads_back_to_within_a_pixel(x: int, y: int) -> None:
     player = Player([("f8", (x, y), True)], window=(3840, 2160))
-    across, down = record_point(player, ["respawn"])["respawn"]
+    across, down = recorded(player, ["respawn"])["respawn"]
     assert abs(across * 3840 - x) < 1
     assert abs(down * 2160 - y) < 1
 
 
 def test_each_name_takes_the_place_that_the_mouse_was_over_at_its_key() -> None:
     player = Player([("f8", (100, 75), True), ("f9", (0, 0), True), ("f8", (200, 30), True)])
-    assert record_point(player, ["singleplayer", "world", "respawn"]) == {
+    assert recorded(player, ["singleplayer", "world", "respawn"]) == {
         "singleplayer": (0.25, 0.25),
         "respawn": (0.5, 0.1),
     }
@@ -129,7 +129,7 @@ def test_a_press_that_means_no_place_in_the_game_is_told_and_waits_for_another(
     place: tuple[int, int], in_front: bool, complaint: str
 ) -> None:
     player = Player([("f8", place, in_front), ("f8", (100, 75), True)])
-    assert record_point(player, ["world"]) == {"world": (0.25, 0.25)}
+    assert recorded(player, ["world"]) == {"world": (0.25, 0.25)}
     assert complaint in player.told[-1]
 
 
@@ -212,7 +212,7 @@ def test_each_point_leaves_its_own_picture(tmp_path: Path) -> None:
 
 def test_a_place_where_nothing_is_drawn_is_told_and_waits_for_another() -> None:
     player = Player([("f8", (300, 200), True), ("f8", (100, 75), True)])
-    assert record_point(player, ["world"]) == {"world": (0.25, 0.25)}
+    assert recorded(player, ["world"]) == {"world": (0.25, 0.25)}
     assert "nothing is drawn" in player.told[-1]
 
 

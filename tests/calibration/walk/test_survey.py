@@ -4,26 +4,26 @@ import pytest
 
 from calibration.walk.directions import Direction
 from calibration.walk.survey import SurveyHold
-from calibration.walk.walker import RecordedHold, Sighting, WorldPose
+from calibration.walk.walker import RecordedHold, Sighting
+from mc_nested.live.model.coordinates import GroundVector
 
-NORTH = WorldPose((10.5, 64.0, -3.5), 180.0, 65.0)
-"""Looking north: forward is -Z, right is +X."""
+BEGIN = GroundVector(0.5, -0.25)
 
 
 def recorded(*offsets: tuple[float, float]) -> RecordedHold:
-    """A hold of 0.2 seconds with these positions, east and south of where it began, seen 50 ms apart."""
+    """A hold of 0.2 seconds with these positions, right and forward of where it began, seen 50 ms apart."""
     sightings = [
-        Sighting(1.05 + 0.05 * index, 1.058 + 0.05 * index, (10.5 + east, 64.0, -3.5 + south))
-        for index, (east, south) in enumerate(offsets)
+        Sighting(1.05 + 0.05 * index, 1.058 + 0.05 * index, GroundVector(0.5 + right, -0.25 + forward))
+        for index, (right, forward) in enumerate(offsets)
     ]
-    return RecordedHold(1.0, 1.2, NORTH, tuple(sightings))
+    return RecordedHold(1.0, 1.2, BEGIN, tuple(sightings))
 
 
 @pytest.mark.parametrize(
-    ("direction", "east", "south"), [("forward", 0, -1), ("back", 0, 1), ("right", 1, 0), ("left", -1, 0)]
+    ("direction", "right", "forward"), [("forward", 0, 1), ("back", 0, -1), ("right", 1, 0), ("left", -1, 0)]
 )
-def test_a_trace_runs_along_the_holds_direction(direction: Direction, east: int, south: int) -> None:
-    hold = SurveyHold(direction, "walk", 4, recorded((0.1 * east, 0.1 * south), (0.3 * east, 0.3 * south)))
+def test_a_trace_runs_along_the_holds_direction(direction: Direction, right: int, forward: int) -> None:
+    hold = SurveyHold(direction, "walk", 4, recorded((0.1 * right, 0.1 * forward), (0.3 * right, 0.3 * forward)))
     trace = hold.trace
     assert trace is not None
     assert trace.gait == "walk"
@@ -33,18 +33,18 @@ def test_a_trace_runs_along_the_holds_direction(direction: Direction, east: int,
 
 
 def test_positions_that_go_back_are_left_out_of_a_trace() -> None:
-    trace = SurveyHold("forward", "sneak", 4, recorded((0, -0.1), (0, -0.05), (0, -0.1), (0, -0.2))).trace
+    trace = SurveyHold("forward", "sneak", 4, recorded((0, 0.1), (0, 0.05), (0, 0.1), (0, 0.2))).trace
     assert trace is not None
     assert trace.covered == pytest.approx((0.1, 0.2))
 
 
 def test_a_hold_that_moved_nothing_or_the_other_way_has_no_trace() -> None:
     assert SurveyHold("forward", "walk", 4, recorded()).trace is None
-    assert SurveyHold("forward", "walk", 4, recorded((0.0, 0.1))).trace is None
+    assert SurveyHold("forward", "walk", 4, recorded((0.0, -0.1))).trace is None
 
 
 def test_the_largest_sideways_distance_counts() -> None:
-    assert SurveyHold("forward", "walk", 4, recorded((0.0, -0.1), (-0.07, -0.2), (0.02, -0.3))).aside == pytest.approx(
+    assert SurveyHold("forward", "walk", 4, recorded((0.0, 0.1), (-0.07, 0.2), (0.02, 0.3))).aside == pytest.approx(
         0.07
     )
     assert SurveyHold("right", "walk", 4, recorded((0.1, 0.04))).aside == pytest.approx(0.04)
@@ -52,7 +52,7 @@ def test_the_largest_sideways_distance_counts() -> None:
 
 
 def test_the_timing_pairs_each_position_with_its_tick_and_leaves_out_the_beginning() -> None:
-    hold = SurveyHold("forward", "walk", 4, recorded((0.0, 0.0), (0.0, -0.1), (0.0, -0.3)))
+    hold = SurveyHold("forward", "walk", 4, recorded((0.0, 0.0), (0.0, 0.1), (0.0, 0.3)))
     timing = hold.timing((0, 1, 2), 2)
     assert (timing.pressed, timing.released, timing.ticks) == (1.0, 1.2, 2)
     assert [step[0] for step in timing.steps] == [1, 2]

@@ -8,11 +8,12 @@ import pytest
 from calibration.walk.gait_fit import GaitModel
 from calibration.walk.survey import SurveyHold
 from calibration.walk.walk_model import WalkModel, fit_walk_model
-from calibration.walk.walker import RecordedHold, Sighting, WorldPose
+from calibration.walk.walker import RecordedHold, Sighting
 from mc_nested.errors import NotConfirmedError
+from mc_nested.live.model.coordinates import GroundVector
 from mc_nested.live.model.kinematics import INERTIA, PUSH, SNEAKING, TICK_S, Gait, walk_response
 
-HOME = WorldPose((0.5, 64.0, 0.5), 0.0, 65.0)
+HOME = GroundVector(0.5, -0.5)
 INPUT_S, CAPTURE_S = 0.0125, 0.0275
 """Latencies of the synthetic game, which ticks at whole multiples of 50 ms and is looked at every 4 ms."""
 
@@ -21,11 +22,11 @@ SNEAKED = GaitModel(PUSH * SNEAKING, INERTIA)
 
 
 def hold_of(model: GaitModel, gait: Gait, pressed: float, held_s: float) -> SurveyHold:
-    """A hold forward, which is south, as it is seen on the screen."""
+    """A hold forward, as it is seen on the screen."""
     first = math.ceil((pressed + INPUT_S) / TICK_S)
     ticks = math.ceil((pressed + held_s + INPUT_S) / TICK_S) - first
     sightings = [
-        Sighting(at - 0.002, at + 0.002, (0.5, 64.0, 0.5 + covered))
+        Sighting(at - 0.002, at + 0.002, GroundVector(0.5, covered - 0.5))
         for tick, covered in enumerate(model.path(ticks)[1:])
         for at in [(first + tick) * TICK_S + CAPTURE_S]
     ]
@@ -82,9 +83,9 @@ def moved(hold: SurveyHold, *, aside: float = 0.0, later_s: float = 0.0, further
     """A hold whose last positions are pushed aside or on, or seen later."""
     sightings = list(hold.recorded.sightings)
     for index in range(len(sightings) - 3, len(sightings)):
-        x, y, z = sightings[index].xyz
+        right, forward = sightings[index].position
         since, at = sightings[index].since + later_s, sightings[index].at + later_s
-        sightings[index] = Sighting(since, at, (x + aside, y, z + further))
+        sightings[index] = Sighting(since, at, GroundVector(right + aside, forward + further))
     return replace(hold, recorded=replace(hold.recorded, sightings=tuple(sightings)))
 
 

@@ -3,7 +3,8 @@
 import pytest
 
 from mc_nested.errors import NotConfirmedError
-from mc_nested.live.menus.chat import LOOK_S, PATIENCE_S, Chat
+from mc_nested.live.menus.chat import PATIENCE_S, Chat
+from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import InputTable, Profile
 from tests.live.fake_game import FakeGame, FakeScreen, connection_to
 
@@ -73,7 +74,7 @@ def test_a_chat_that_does_not_open_is_an_error_after_the_patience_and_nothing_is
         chat_in(game, screen).send(LINE)
     assert game.typed() == ""
     waited = game.clock.now() - 100.0 - 0.05
-    assert PATIENCE_S <= waited <= PATIENCE_S + LOOK_S + 0.001
+    assert PATIENCE_S <= waited <= PATIENCE_S + TYPING_LOOK_S + 0.001
 
 
 def test_a_chat_that_opens_with_text_in_it_is_not_typed_into() -> None:

@@ -8,8 +8,9 @@ from mc_nested.errors import NotInFrontError, UnreadableError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.menus.wait_for_player import LOOK_S, PATIENCE_S, wait_for_front, wait_until_standing_still
+from mc_nested.live.menus.wait_for_player import PATIENCE_S, wait_for_front, wait_until_standing_still
 from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.timing import PERSON_LOOK_S
 from mc_nested.live.profile.tables import Profile
 from tests.live.fake_game import FakeGame, FakeScreen, devices_of
 
@@ -104,7 +105,7 @@ def test_the_front_is_waited_for_a_minute_at_most() -> None:
     clock = SkippingClock()
     devices = devices_of(FakeGame(Profile()))
     wait_for_front(dataclasses.replace(devices, display=Window(3), clock=clock))
-    assert clock.now() == 3 * LOOK_S
+    assert clock.now() == 3 * PERSON_LOOK_S
     with pytest.raises(NotInFrontError, match="click on it"):
         wait_for_front(dataclasses.replace(devices, display=Window(10**6), clock=clock))
-    assert clock.now() == 3 * LOOK_S + PATIENCE_S
+    assert clock.now() == 3 * PERSON_LOOK_S + PATIENCE_S

@@ -1,4 +1,4 @@
-"""How far a held key walks, against the facts' table."""
+"""The recurrence of walking against the facts' table, and which hold is planned for a distance."""
 
 import pytest
 from hypothesis import given
@@ -7,10 +7,13 @@ from hypothesis import strategies as st
 from mc_nested.live.model.kinematics import (
     PUSH,
     HoldPlan,
+    coasting_distance,
     displacement,
+    hold_path,
     nearest_ticks,
     plan_hold,
     push_of,
+    step_of,
     walk_response,
 )
 
@@ -71,3 +74,39 @@ def test_a_tie_between_walking_and_sneaking_is_walked() -> None:
     # Walking ends at 1.0, sneaking at 0.5: both are 0.25 off.
     assert plan_hold(0.75, [1.0], 0.1, 0.5) == HoldPlan("walk", 1)
     assert plan_hold(0.74, [1.0], 0.1, 0.5) == HoldPlan("sneak", 1)
+
+
+@pytest.mark.parametrize(
+    ("velocity", "push", "step"),
+    [
+        (0.1, 0.05, 0.15),
+        (0.1, 0.0, 0.1),
+        (0.0029, 0.0, 0.0),
+        (0.003, 0.0, 0.003),
+        (-0.0029, 0.05, 0.05),
+        (-0.1, 0.0, -0.1),
+    ],
+)
+def test_a_step_is_the_velocity_and_the_push_and_a_velocity_below_the_standstill_is_none(
+    velocity: float, push: float, step: float
+) -> None:
+    assert step_of(velocity, push) == pytest.approx(step)
+
+
+def test_a_path_holds_each_ticks_position_until_standstill() -> None:
+    # Steps of a hold of two ticks with push 0.1 and inertia 0.1: 0.1, 0.11, 0.011; then 0.0011 is a standstill.
+    assert hold_path(2, 0.1, 0.1) == pytest.approx((0.0, 0.1, 0.21, 0.221))
+    assert hold_path(0) == (0.0,)
+
+
+def test_other_ground_covers_another_distance() -> None:
+    # A step of 0.098 with inertia 0.1 leaves 0.0098, then 0.00098 is a standstill.
+    assert displacement(1, 0.1) == pytest.approx(PUSH * 1.1)
+
+
+@given(st.floats(-0.3, 0.3))
+def test_the_coasting_distance_is_the_sum_of_the_steps_until_standstill(velocity: float) -> None:
+    position, left = 0.0, velocity
+    while abs(left) >= 0.003:
+        position, left = position + left, left * 0.546
+    assert coasting_distance(velocity) == pytest.approx(position, abs=1e-9)

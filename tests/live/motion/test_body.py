@@ -214,8 +214,8 @@ def test_an_agent_that_passes_by_the_middle_does_not_click() -> None:
 @pytest.mark.parametrize(
     ("change", "complaint"),
     [
-        ({"yaw": 12.0}, "looks 12 / 65, not 0 / 65"),
-        ({"pitch": 20.0}, "looks 0 / 20, not 0 / 65"),
+        ({"yaw": 12.0}, "view is 12 / 65, not 0 / 65"),
+        ({"pitch": 20.0}, "view is 0 / 20, not 0 / 65"),
         ({"xyz": (7.5, 65.0, 7.5)}, "feet are at y = 65, not 64"),
     ],
 )

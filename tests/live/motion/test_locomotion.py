@@ -11,7 +11,7 @@ from mc_nested.live.model.coordinates import GroundVector
 from mc_nested.live.model.kinematics import displacement
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.motion.locomotion import Locomotion
-from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
+from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver
 from mc_nested.live.motion.walk_tracker import CoastingState
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import Profile, WalkTable
@@ -46,7 +46,7 @@ class Walk:
     def __init__(self, profile: Profile = PROFILE, phase: float = 0.02) -> None:
         self.game = LateGame(profile, xyz=(7.5, 64.0, 7.5), yaw=0.0, pitch=65.0, phase=phase)
         self.connection = connection_to(self.game)
-        self.observer = PoseObserver(profile, self.connection)
+        self.observer = PoseObserver(profile, self.connection, PoseFrame.of_arena(profile))
         self.locomotion = Locomotion(profile, self.connection, self.observer)
 
     def know_ticks(self) -> None:
@@ -129,7 +129,7 @@ def test_an_agent_that_goes_on_has_its_keys_released_again_and_is_an_error_in_bo
     devices = devices_of(game, keyboard)
     drift = FakeScreen(game, lambda: Reading((7.5, 64.0, game.clock.now() % 15), 0.0, 65.0))
     connection = GameConnection(devices, InputController(devices, PROFILE.input), drift)
-    observer = PoseObserver(PROFILE, connection)
+    observer = PoseObserver(PROFILE, connection, PoseFrame.of_arena(PROFILE))
     pose = observer.look()
     observer.permit_press()
     connection.controller.hold("w", 1)
@@ -137,8 +137,8 @@ def test_an_agent_that_goes_on_has_its_keys_released_again_and_is_an_error_in_bo
     with pytest.raises(NotConfirmedError, match="does not stand still"):
         Locomotion(PROFILE, connection, observer).follow_to_end(pose)
     assert game.clock.now() - began == pytest.approx(PROFILE.body.patience_s, abs=0.02)
-    # Every 20th look, and three looks of the first few are half a frame apart.
-    assert keyboard.releases - before == pytest.approx(5.0 * 60 / 20, abs=1)
+    # Every 20th look, and all but the first three come a frame apart.
+    assert keyboard.releases - before == (5 * 60 + 1) // 20
 
 
 def test_an_agent_whose_position_fits_no_path_is_watched_until_it_stands_still() -> None:

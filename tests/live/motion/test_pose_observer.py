@@ -5,8 +5,9 @@ from collections.abc import Callable
 import pytest
 
 from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
-from mc_nested.live.model.reading import Reading, Target
-from mc_nested.live.motion.pose_observer import FRAME_S, PoseObserver, check_pose
+from mc_nested.live.model.reading import Reading, Target, WorldPose
+from mc_nested.live.model.timing import FRAME_S
+from mc_nested.live.motion.pose_observer import PoseFrame, PoseObserver, check_pose
 from mc_nested.live.motion.tick_phase import TickPhase
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import Profile
@@ -35,7 +36,7 @@ class Observed:
         self.reading = Reading((7.5, 64.0, 7.5), 0.0, 65.0, Target((7, 63, 8), "stone"))
         self.looks = 0
         self.connection = connection_to(self.game, FakeScreen(self.game, self._read))
-        self.observer = PoseObserver(PROFILE, self.connection)
+        self.observer = PoseObserver(PROFILE, self.connection, PoseFrame.of_arena(PROFILE))
         self.steps = self.observer.tick_phase = Steps()
 
     def _read(self) -> Reading:
@@ -77,10 +78,10 @@ def test_within_one_frame_the_screen_is_looked_at_once(observed: Observed) -> No
     [
         ((7.5, 64.04, 7.5), 0.5, 64.5, None),
         ((7.5, 64.0, 7.5), 359.6, 65.5, None),
-        ((7.5, 64.0, 7.5), 0.6, 65.0, "the agent looks 0.6 / 65, not 0 / 65"),
-        ((7.5, 64.0, 7.5), 0.0, 65.6, "the agent looks 0 / 65.6, not 0 / 65"),
-        ((7.5, 64.0, 7.5), 0.0, 64.4, "the agent looks 0 / 64.4, not 0 / 65"),
-        ((7.5, 63.94, 7.5), 0.0, 65.0, "its feet are at y = 63.94, not 64"),
+        ((7.5, 64.0, 7.5), 0.6, 65.0, "the view is 0.6 / 65, not 0 / 65"),
+        ((7.5, 64.0, 7.5), 0.0, 65.6, "the view is 0 / 65.6, not 0 / 65"),
+        ((7.5, 64.0, 7.5), 0.0, 64.4, "the view is 0 / 64.4, not 0 / 65"),
+        ((7.5, 63.94, 7.5), 0.0, 65.0, "the feet are at y = 63.94, not 64 (the floor must be level, auto-jump off)"),
     ],
 )
 def test_a_turned_view_or_another_height_is_a_problem(
@@ -125,7 +126,7 @@ def test_a_step_after_a_longer_time_or_an_unreadable_frame_is_no_sighting(observ
     observed.observer.look()
     readings = iter([Reading(problem="covered"), Reading((7.5, 64.0, 7.7), 0.0, 65.0)])
     screen = FakeScreen(observed.game, lambda: next(readings, None))
-    observer = PoseObserver(PROFILE, connection_to(observed.game, screen))
+    observer = PoseObserver(PROFILE, connection_to(observed.game, screen), PoseFrame.of_arena(PROFILE))
     observer.tick_phase = observed.steps
     observer.look()
     assert observed.steps.seen == []
@@ -176,3 +177,11 @@ def test_a_press_is_permitted_only_while_the_chat_is_closed(observed: Observed) 
     observed.pass_time(0.1)
     with pytest.raises(NotConfirmedError, match="the chat is open"):
         observed.observer.permit_press()
+
+
+def test_a_frame_around_a_pose_measures_from_there_and_expects_its_view_and_height() -> None:
+    frame = PoseFrame.around(WorldPose((10.5, 70.0, -3.5), 90.0, 20.0))
+    # Yaw 90 looks west, which is -X; right of it is north, which is -Z.
+    assert frame.position_of((9.5, 70.0, -5.5)) == pytest.approx((2.0, 1.0))
+    assert frame.problem(WorldPose((0.0, 70.04, 0.0), 90.4, 20.4)) is None
+    assert frame.problem(WorldPose((0.0, 70.0, 0.0), 91.0, 20.0)) == "the view is 91 / 20, not 90 / 20"

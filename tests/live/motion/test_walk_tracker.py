@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from mc_nested.live.model.coordinates import GroundVector
 from mc_nested.live.model.kinematics import PUSH, displacement
-from mc_nested.live.motion.walk_tracker import CoastingState, Hold, WalkTracker, coasting_distance
+from mc_nested.live.motion.walk_tracker import CoastingState, Hold, WalkTracker
 
 AT_REST = CoastingState(GroundVector(3.0, 5.0), GroundVector(0.0, 0.0))
 
@@ -94,11 +94,3 @@ def test_during_a_hold_the_position_tells_how_many_ticks_felt_the_key(position: 
 
 def test_without_a_hold_no_tick_felt_one() -> None:
     assert WalkTracker(AT_REST).ticks_held(GroundVector(3.0, 5.0)) is None
-
-
-@given(st.floats(-0.3, 0.3))
-def test_the_coasting_distance_is_the_sum_of_the_steps_until_standstill(velocity: float) -> None:
-    position, left = 0.0, velocity
-    while abs(left) >= 0.003:
-        position, left = position + left, left * 0.546
-    assert coasting_distance(velocity) == pytest.approx(position, abs=1e-9)

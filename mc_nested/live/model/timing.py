@@ -1,0 +1,24 @@
+"""How often the screen is looked at, in seconds, and why: one interval for each kind of change that is awaited."""
+
+from mc_nested.live.model.kinematics import TICK_S
+
+FRAME_S = 1 / 60
+"""While the agent moves: a frame of the game, so that no wait is much longer than it must be."""
+
+HALF_FRAME_S = FRAME_S / 2
+"""While a step is to be timed: two looks a frame, so that it is seen within a frame of being drawn."""
+
+SAME_FRAME_S = 0.005
+"""After a look: another one within this time would see the same frame."""
+
+TYPING_LOOK_S = 0.02
+"""While typing and waiting for answers: about a frame of the game, and less than half a tick."""
+
+KEY_LOOK_S = TICK_S
+"""While the effect of a key or an overdue release is awaited: the game takes keys once a tick."""
+
+MENU_LOOK_S = 0.1
+"""In menus: the time from moving the mouse until the button under it is drawn highlighted."""
+
+PERSON_LOOK_S = 0.25
+"""While a person acts: a few frames of the game, so that a position seen twice is one where the player stands."""

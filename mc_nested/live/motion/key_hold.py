@@ -1,0 +1,91 @@
+"""KeyHold, for play and calibration: keys down until a time, with looks meanwhile; then looks until the walk is over.
+
+press |-- look -- look --| release |-- look -- look -- ... -- the walk is over
+         may end it early              keys are released again at a player that goes on
+"""
+
+import math
+from collections.abc import Callable, Iterable
+
+from mc_nested.errors import NotConfirmedError
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.deadline import Deadline
+from mc_nested.live.model.timing import FRAME_S, HALF_FRAME_S
+from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
+
+FAST_LOOKS = 3
+"""Looks that come twice a frame at first: a click that goes out a little sooner is felt a tick sooner."""
+
+EVERY_LOOK = math.inf
+"""``fast_looks`` for a walk that is recorded: every look comes twice a frame."""
+
+RELEASE_AGAIN_LOOKS = 20
+"""Looks at a player that goes on, after which its keys are released once more: a release may have been lost."""
+
+
+class KeyHold:
+    """Holds keys and follows what comes of it.
+
+    Raises (everything): what the pose observer and the input controller raise; every key is up then.
+    """
+
+    def __init__(self, connection: GameConnection, observer: PoseObserver, patience_s: float) -> None:
+        self._controller = connection.controller
+        self._clock = connection.devices.clock
+        self._observer = observer
+        self._patience_s = patience_s
+
+    def hold(
+        self,
+        release_at: float,
+        *keys: str,
+        look_times: Iterable[float] = (),
+        on_look: Callable[[], float | None] = lambda: None,
+    ) -> float:
+        """Hold keys of the world until a time; returns the time that was last planned for the release.
+
+        Args:
+            release_at: when they go up, in seconds of the clock.
+            keys: which, together.
+            look_times: when to look meanwhile. The first one that could make the release late ends the looks.
+            on_look: called at each; gives another time for the release, or None to keep it.
+        """
+        try:
+            self._controller.press(release_at, *keys)
+            for at in look_times:
+                # A look takes a while: the last one must not make the release late.
+                if at + HALF_FRAME_S >= release_at:
+                    break
+                self._controller.wait_until(at)
+                if (changed := on_look()) is not None:
+                    release_at = changed
+                    self._controller.keep_until(release_at, *keys)
+            self._controller.wait_until(release_at)
+        except BaseException:
+            self._controller.release_all()
+            raise
+        return release_at
+
+    def follow(
+        self, pose: PoseEstimate, is_over: Callable[[PoseEstimate], bool], fast_looks: float = FAST_LOOKS
+    ) -> PoseEstimate:
+        """Look, with every key up, until the walk is over; the last pose.
+
+        Args:
+            pose: the first pose, seen after the release.
+            is_over: called with every pose.
+            fast_looks: how many of the looks come twice a frame.
+        """
+        patience = Deadline(self._clock, self._patience_s)
+        looks = 0
+        while not is_over(pose):
+            if patience.has_passed:
+                raise NotConfirmedError(
+                    f"the player does not stand still, it is at {pose}: does something push it, or is a key held down?"
+                )
+            looks += 1
+            if looks % RELEASE_AGAIN_LOOKS == 0:
+                self._controller.release_again()
+            self._controller.wait(HALF_FRAME_S if looks <= fast_looks else FRAME_S)
+            pose = self._observer.look_and_check()
+        return pose

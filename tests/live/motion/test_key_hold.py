@@ -1,0 +1,138 @@
+"""KeyHold: keys down for exactly as long as planned or changed, looks meanwhile, and looks until the walk is over."""
+
+import itertools
+from collections.abc import Iterator
+
+import pytest
+
+from mc_nested.errors import NotConfirmedError
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.model.timing import FRAME_S, HALF_FRAME_S
+from mc_nested.live.motion.key_hold import EVERY_LOOK, KeyHold
+from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.tables import Profile
+from tests.live.fake_game import FakeGame, FakeKeyboard, FakeScreen, devices_of
+
+PROFILE = Profile(arena=Arena.around((14, 64, 0), "south"))
+
+
+class TimedKeyboard(FakeKeyboard):
+    """Notes when each key goes down and up, in seconds from the beginning."""
+
+    def __init__(self, game: FakeGame) -> None:
+        super().__init__(game)
+        self._clock = game.clock
+        self.events: list[tuple[str, float]] = []
+
+    def press(self, key: str) -> None:
+        self.events.append((f"{key} down", self._clock.now() - 100.0))
+        super().press(key)
+
+    def release(self, key: str) -> None:
+        self.events.append((f"{key} up", self._clock.now() - 100.0))
+        super().release(key)
+
+
+class Holding:
+    """An agent at rest on a clock that begins at 100 seconds."""
+
+    def __init__(self) -> None:
+        self.game = FakeGame(PROFILE, xyz=(7.5, 64.0, 7.5), pitch=65.0)
+        self.keyboard = TimedKeyboard(self.game)
+        devices = devices_of(self.game, self.keyboard)
+        connection = GameConnection(devices, InputController(devices, PROFILE.input), FakeScreen(self.game))
+        self.observer = PoseObserver(PROFILE, connection, PoseFrame.of_arena(PROFILE))
+        self.key_hold = KeyHold(connection, self.observer, 5.0)
+        self.observer.look()
+        self.observer.permit_press()
+
+    def now(self) -> float:
+        return self.game.clock.now() - 100.0
+
+    def every(self, seconds: float) -> Iterator[float]:
+        while True:
+            yield self.game.clock.now() + seconds
+
+
+@pytest.fixture
+def holding() -> Holding:
+    return Holding()
+
+
+def test_keys_are_down_until_the_release_time(holding: Holding) -> None:
+    assert holding.key_hold.hold(100.2, "left.shift", "w") == 100.2
+    downs, ups = holding.keyboard.events[:2], holding.keyboard.events[2:]
+    assert downs == [("left.shift down", 0.0), ("w down", 0.0)]
+    assert {name for name, _ in ups} == {"left.shift up", "w up"}
+    assert [at for _, at in ups] == [pytest.approx(0.2)] * 2
+
+
+def test_looks_come_at_their_times_and_none_comes_so_late_that_it_could_delay_the_release(holding: Holding) -> None:
+    looks: list[float] = []
+    holding.key_hold.hold(100.1, "w", look_times=holding.every(0.03), on_look=lambda: looks.append(holding.now()))
+    assert looks == pytest.approx([0.03, 0.06, 0.09])
+    looks.clear()
+    began = holding.now()
+    holding.observer.look()
+    holding.observer.permit_press()
+    release_at = 100.0 + began + 0.06 + HALF_FRAME_S / 2
+    holding.key_hold.hold(release_at, "w", look_times=holding.every(0.03), on_look=lambda: looks.append(holding.now()))
+    assert looks == pytest.approx([began + 0.03])
+    assert holding.now() == pytest.approx(release_at - 100.0)
+
+
+def test_a_look_may_change_the_release_time(holding: Holding) -> None:
+    later = iter([None, 100.4])
+    assert holding.key_hold.hold(100.2, "w", look_times=(100.05, 100.1), on_look=lambda: next(later)) == 100.4
+    name, at = holding.keyboard.events[-1]
+    assert name == "w up"
+    assert at == pytest.approx(0.4)
+
+
+def test_a_look_may_end_the_hold_at_once(holding: Holding) -> None:
+    holding.key_hold.hold(100.5, "w", look_times=holding.every(0.05), on_look=holding.game.clock.now)
+    name, at = holding.keyboard.events[-1]
+    assert name == "w up"
+    assert at == pytest.approx(0.05)
+
+
+def test_a_look_that_fails_leaves_no_key_down(holding: Holding) -> None:
+    def fail() -> float | None:
+        raise NotConfirmedError("turned")
+
+    with pytest.raises(NotConfirmedError, match="turned"):
+        holding.key_hold.hold(100.5, "w", look_times=(100.1,), on_look=fail)
+    assert holding.game.down == set()
+    assert holding.now() == pytest.approx(0.1)
+
+
+def test_the_first_looks_come_twice_a_frame_and_all_of_them_for_a_recorded_walk(holding: Holding) -> None:
+    for fast_looks, gaps in ((3, [HALF_FRAME_S] * 3 + [FRAME_S] * 2), (EVERY_LOOK, [HALF_FRAME_S] * 5)):
+        times: list[float] = []
+
+        def is_over(pose: PoseEstimate, times: list[float] = times) -> bool:
+            times.append(holding.now())
+            return len(times) == 6 and pose.problem is None
+
+        last = holding.key_hold.follow(holding.observer.look(), is_over, fast_looks)
+        assert [after - before for before, after in itertools.pairwise(times)] == pytest.approx(gaps)
+        assert last.position == (7.0, 7.0)
+
+
+def test_a_walk_that_is_over_at_the_first_pose_needs_no_look(holding: Holding) -> None:
+    pose = holding.observer.look()
+    assert holding.key_hold.follow(pose, lambda _: True) is pose
+    assert holding.now() == 0.0
+
+
+def test_keys_are_released_again_at_every_twentieth_look_until_the_patience_ends(holding: Holding) -> None:
+    holding.key_hold.hold(100.1, "w")
+    with pytest.raises(NotConfirmedError, match="does not stand still"):
+        holding.key_hold.follow(holding.observer.look(), lambda _: False)
+    again = [at for name, at in holding.keyboard.events[2:] if name == "w up"]
+    # 19 looks, three of them half a frame after the one before; then 20 looks a frame apart.
+    assert again[0] == pytest.approx(0.1 + 17.5 * FRAME_S)
+    assert again[1] == pytest.approx(again[0] + 20 * FRAME_S)
+    assert holding.now() == pytest.approx(5.1, abs=FRAME_S)
