@@ -59,5 +59,5 @@ def run_acceptance_test(context: CalibrationContext, profile: Profile) -> StepRe
             f"{seconds:.2f} s an action (median), {repeats} moves and clicks repeated",
         ),
         len(ACTIONS),
-        (ReportPicture("What the proof built", picture, "cleared again afterwards"),),
+        (ReportPicture("What the acceptance test built", picture, "cleared again afterwards"),),
     )

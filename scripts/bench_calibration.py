@@ -3,7 +3,7 @@
     python scripts/bench_calibration.py [--clients 50] [--actions 200] [--seed 0] [--json]
 
 Each client (scripts/calibration_clients.py) is as a person leaves it: in a world, the player looking roughly along an
-axis, the debug screen on, no profile. `calibrate all --yes` runs with nobody there. Then ``actions`` random actions are
+axis, the debug screen on, no profile. `calibrate all --yes` runs unattended. Then ``actions`` random actions are
 played with the new profile, each checked against the client's world. A client counts as unattended if it got a profile.
 Seconds are the game's; ``longest_game_s`` and ``median_game_s`` are those of the calibration alone. ``walk_rms_blocks``
 is the worst client's error of the profile's walk against the client's physics; ``click_off_gui_px_max`` is the largest

@@ -93,7 +93,7 @@ def play(count: int, rate: float, seed: int, scenario: Scenario) -> PlayCounts:
 
 
 class WorldTruth(Protocol):
-    """What the game's world really holds, known otherwise than from its screen."""
+    """What the game's world really holds, known without its screen."""
 
     def cell(self) -> Cell:
         """The cell that the player stands on."""

@@ -29,7 +29,7 @@ class Standin:
 
     @property
     def env(self) -> dict[str, str]:
-        """The environment of a program that shall play in its window."""
+        """The environment of a program that plays in its window."""
         return {**os.environ, "DISPLAY": self.display}
 
     def position(self) -> tuple[float, float, float]:
@@ -38,7 +38,7 @@ class Standin:
         return x, y, z
 
     def blocks(self, low: Block, high: Block) -> dict[Block, str]:
-        """The blocks, not air, that the server has between two corners, both inside, by their place."""
+        """The blocks, not air, that the server has between two corners, both inside, by position."""
         return standin_oracle.blocks(self.oracle, low, high)
 
     def errors(self) -> list[str]:

@@ -1,4 +1,4 @@
-"""Atomic writes: the new file, or the old one and nothing else; what a killed process leaves is told apart."""
+"""Atomic writes: the new file, or the old one and nothing else; what a killed process leaves is recognised."""
 
 import os
 from pathlib import Path
@@ -56,7 +56,7 @@ def test_the_file_is_on_the_disk_before_it_replaces_the_old_one(
     assert seen == [(6, "old")]
 
 
-def test_what_a_killed_process_left_can_be_told_and_removed(tmp_path: Path) -> None:
+def test_what_a_killed_process_left_is_recognised_and_removed(tmp_path: Path) -> None:
     kept = tmp_path / "state.pt"
     kept.write_text("whole")
     with atomic_write(kept) as unfinished:

@@ -1,4 +1,4 @@
-"""From the command line to the pixels and back: trained in the simulator, built in a real window, told by its server.
+"""From the command line to the pixels: trained in the simulator, built in a real window, checked on its server.
 
 The window is the stand-in's (scripts/standin.py); its oracle knows the world without looking at the screen.
 """

@@ -102,7 +102,7 @@ def calibrate_clicks(
 def find_clicks(context: CalibrationContext, profile: Profile, by_hand: ByHand | None = None) -> StepResult:
     """Find the menus' points by their labels. Afterwards the world is on the screen again.
 
-    The menus of another program, as the window's title tells, are left alone: its keys may do something else. The title
+    The menus of another program, by the window's title, are left alone: its keys may do something else. The title
     and the list of worlds are visited only if this is surely a single player's world and the person says yes. Points
     that are not found are recorded by hand, if ``by_hand`` is given. The death screen is never visited.
 

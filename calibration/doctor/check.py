@@ -1,4 +1,4 @@
-"""A check of the doctor's, one row of its table: what was looked at, its status, what was found, and what to do."""
+"""A check of the doctor's, one row of its table: what was checked, its status, what was found, and what to do."""
 
 from dataclasses import dataclass
 from enum import Enum

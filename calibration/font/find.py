@@ -124,7 +124,7 @@ def _on_screen(
         context.controller,
         profile.keys.debug,
     )
-    # The debug screen may be off, or something without labels be open. What had no effect is pressed back.
+    # The debug screen may be off, or a screen without labels may be open. A key without effect is pressed again.
     presses = iter(((debug,), (debug, "esc"), ("esc",)))
     began, unknown_since, unknown = clock.now(), clock.now(), [display.grab()]
     while True:

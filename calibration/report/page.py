@@ -30,7 +30,7 @@ TITLES: Mapping[str, str] = {
     "walk": "Walk",
     "clicks": "Click points",
     "cross-check": "F3+C against the reader",
-    "proof": "Proof",
+    "proof": "Acceptance test",
 }
 """The steps' titles, in the order of the guided run; any other step has its name as title."""
 

@@ -55,7 +55,7 @@ class Names:
         return re.compile(rf"{USER}|(?<!{_LETTER})(?:{alone})(?!{_LETTER})", re.IGNORECASE)
 
     def removed_from(self, text: str) -> str:
-        """The text without them; one from which they were removed stays as it is."""
+        """The text without them. Removing them twice is the same as removing them once."""
         if self._home is not None:
             text = self._home.sub(HOME, text)
         text = _ELSEWHERE.sub(lambda found: (found["windows"] or found["unix"]) + USER, text)

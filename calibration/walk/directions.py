@@ -36,8 +36,8 @@ def corrected_keys(keys: KeysTable, observed: Mapping[Direction, Direction | Non
     for direction, found in observed.items():
         if found is None:
             raise UserError(
-                f"the key {getattr(keys, direction)} moves nobody {direction}: write the game's own keys into the "
-                "profile's [keys], and leave a block of free floor on every side"
+                f"the key {getattr(keys, direction)} doesn't move the player {direction}: write the game's own keys "
+                "into the profile's [keys], and leave a block of free floor on every side"
             )
     found_keys = {str(found): getattr(keys, direction) for direction, found in observed.items()}
     if set(found_keys) != set(DIRECTIONS):

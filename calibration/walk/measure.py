@@ -44,7 +44,7 @@ ARRIVAL_TOLERANCE = 0.01
 """Blocks that a player may be off the position of a teleport."""
 
 MAX_HOLDS_BACK = 6
-"""Holds per axis that the way back may take."""
+"""Holds per axis that the return to the start may take."""
 
 
 def calibrate_walk(profile_name: str | Path, context_of: OpenContext) -> tuple[StepResult, Path]:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mc_nested.live.model.kinematics import TICK_S
-from mc_nested.live.motion.tick_phase import CAPTURE_LATENCY_S, INPUT_LATENCY_S
+from mc_nested.live.model.timing import CAPTURE_LATENCY_S, INPUT_LATENCY_S
 
 LATE_S = 0.045
 """Seconds that a step may be seen off its hold's tick phase: late frames are off by less, late ticks by more."""

@@ -19,7 +19,7 @@ from mc_nested.live.model.kinematics import TICK_S, Gait
 from mc_nested.live.profile.tables import KeysTable
 
 REACH = 2.0
-"""Blocks from the starting point that are walked in: nine ticks of walking."""
+"""How far from the starting point it walks, in blocks: nine ticks of walking."""
 
 NEEDED = 1.6
 """Blocks that have to be free on each side: seven ticks, and a little that a lost key may lead on."""

@@ -29,7 +29,7 @@ OTHER_SPEED, OTHER_INERTIA = 0.015, 0.01
 """How far speed (relative) and inertia (absolute) may be off the plain walker's before a warning says so."""
 
 LAGGING = 0.1
-"""The share of all holds that lag may spoil or delay before a warning says so."""
+"""The share of all holds that may be outliers or late before a warning says so."""
 
 
 @dataclass(frozen=True)

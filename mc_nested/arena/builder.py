@@ -1,7 +1,7 @@
-"""The scripted builder: the upper limit in every plot, and the proof that every design's optimum can be reached.
+"""The scripted builder: the upper limit in every plot. It shows that every design's optimum can be reached.
 
-Farthest row first, each row from its nearer end: all rows nearer than the current one are still free, so nothing is
-ever in the way, and no state (x, y, b) repeats between two blocks.
+It builds the farthest row first, and each row from its nearer end. So all nearer rows are still free, nothing is ever
+in the way, and no state (x, y, b) repeats between two blocks.
 """
 
 from itertools import groupby

@@ -132,7 +132,7 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
         return self if self.game.resumable else None
 
     def snapshot(self) -> Arrays:
-        """The episode as it stands, for ``restore``, the game's included; of a resumable game."""
+        """The current episode, the game's part included, for ``restore``. The game must be resumable."""
         stands_at = np.array([self._material, *self._cell, self._steps, self._running])
         game = self.game.resumable.snapshot() if self.game.resumable else {}
         return {**game, "env_stands_at": stands_at, "env_placed": grid_of(self._placed)}

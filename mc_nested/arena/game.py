@@ -22,7 +22,7 @@ class Resumable(Protocol):
     """Something whose episode can be saved half-way and continued later."""
 
     def snapshot(self) -> Arrays:
-        """The episode as it stands, for ``restore``; an array's shape never changes."""
+        """The current episode, for ``restore``; an array's shape never changes."""
 
     def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
         """Put the episode back as it stood at ``snapshot``."""

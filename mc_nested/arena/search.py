@@ -2,7 +2,7 @@
 
 A state is (which blocks are placed, where the agent is). Only states without a wasted block count, so the blocks are
 one of the 2^n subsets of the design. For each subset, the cells that the agent can be in after t steps are 15 rows of
-15 bits, so that one step of every subset at once is a few shifts over an array of shape (2^n, 15).
+15 bits. So one step of every subset at once is a few shifts over an array of shape (2^n, 15).
 """
 
 from dataclasses import dataclass

@@ -58,7 +58,7 @@ class Lines:
         self.seconds = 0.0
 
     def doctor_done(self, checks: Sequence[Check]) -> None:
-        """How the doctor's rows stand, and those that want something."""
+        """How many of the doctor's rows have each status, and the rows where something is to be done."""
         counts = [(status, sum(check.status == status for check in checks)) for status in ("pass", "warn", "fail")]
         typer.echo(f"doctor: {', '.join(f'{count} {status}' for status, count in counts if count)}")
         for check in checks:

@@ -21,7 +21,7 @@ def report(
     out: Annotated[Path | None, typer.Option(metavar="FILE", help="the HTML file [beside the profile]")] = None,
     no_images: Annotated[bool, typer.Option("--no-images", help="leave the pictures out")] = False,
 ) -> None:
-    """Make one HTML file of a profile and of what its calibration saw; it says itself what is in it."""
+    """Make one HTML file of a profile and of what its calibration saw; the file lists what is in it."""
     name = DEFAULT_PROFILE if profile is None else profile
     path = profile_path(name)
     write_report(name, out or report_path(path), with_pictures=not no_images)

@@ -23,7 +23,7 @@ Outcomes = list[tuple[Job, JobOutcome]]
 
 SeedOption = Annotated[int | None, typer.Option(min=0, help="the same seed gives the same results [0]")]
 JobsOption = Annotated[
-    int | None, typer.Option(min=1, max=MOST_JOBS, help="processes to share it out to [as many as there are cores]")
+    int | None, typer.Option(min=1, max=MOST_JOBS, help="processes to train in [as many as there are cores]")
 ]
 OutOption = Annotated[Path | None, typer.Option(metavar="DIR", help="a new or empty folder for all of it")]
 ResumeOption = Annotated[Path | None, typer.Option(metavar="DIR", help="go on where it was stopped or killed")]

@@ -97,7 +97,7 @@ class JobProcesses:
         elif heard.failed:
             self._failed = self._failed or heard.failed
         elif not (heard.finished or process.asked_to_stop):
-            self._lost = self._lost or "a training process was told to stop"
+            self._lost = self._lost or "a training process was asked to stop"
         if isinstance(heard, JobEnded) and heard.finished and not process.asked_to_stop:
             self._idle.append(process)
         else:

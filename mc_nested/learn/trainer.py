@@ -2,8 +2,8 @@
 
 A tick is one step of every run that isn't finished: choose, step, store, update. Every run is in an episode of its own:
 a training episode, or a greedy evaluation that is neither learned from nor counted. The trainer sees the arenas only as
-a gymnasium VectorEnv with autoreset disabled, so it can't tell a simulated from a live game; whether episodes can be
-saved half-way, the arenas say themselves.
+a gymnasium VectorEnv with autoreset disabled, so a simulated and a live game look the same to it. The arenas
+themselves say whether episodes can be saved half-way.
 """
 
 from collections.abc import Mapping, Sequence
@@ -183,7 +183,7 @@ class Trainer:
     def abandon_episodes(self) -> None:
         """Start every unfinished episode over: its env is gone or in an unknown state.
 
-        With a single arena, what its episode had taught is undone, so that nothing is learned from a mishap.
+        With a single arena, what was learned in its episode is undone: nothing is learned from a mishap.
         """
         if self._rollback and not self._runs.between_episodes.all():
             self._rollback.restore(self.agent, self._explorer)

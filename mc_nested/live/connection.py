@@ -13,7 +13,7 @@ from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
 
 
 class GameConnection:
-    """What everything that plays, types or reads works with. As a context manager it releases every key at the end.
+    """A running game, for all code that plays, types or reads. As a context manager it releases every key at the end.
 
     Args:
         devices: the game window's display, keyboard, pointer, clock and clipboard.

@@ -1,4 +1,4 @@
-"""How many failed live episodes a training puts up with: they are thrown away and counted, up to a limit."""
+"""How many failed live episodes a training accepts: they are thrown away and counted, up to a limit."""
 
 from typing import Any
 

@@ -15,7 +15,7 @@ from mc_nested.live.menus.click_points import ClickPoints
 from mc_nested.live.menus.commands import reset_commands, teleport_command
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.world_folder import restore_world
-from mc_nested.live.motion.body import Body
+from mc_nested.live.motion.move_and_place import Body
 from mc_nested.live.profile.tables import Profile, WorldTable
 from mc_nested.live.vision.last_frames import LastFrames
 
@@ -86,7 +86,7 @@ class LiveGame:
     def reset(self, material: int) -> Cell:
         """Clear the marked blocks, stand on the start cell, select the material; position and view are read back.
 
-        Whatever screen the last action left is left first.
+        If the last action left another screen open, that is left first.
         """
         self._cell = None
         for tries_left in reversed(range(RESET_TRIES)):

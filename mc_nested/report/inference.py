@@ -1,8 +1,8 @@
 """Tests and intervals over trials, as pure functions: the same trials give the same figures to the bit.
 
 The trials of two agents are independent samples: a shared seed gives both the same random numbers, but they are spent
-on other networks and other choices, so nothing pairs them. The tests permute trials between the agents; with equally
-many trials of both, that stands unequal spreads well.
+on other networks and other choices, so nothing pairs them. The tests permute trials between the agents. With equally
+many trials of both, they tolerate unequal spreads well.
 """
 
 from collections.abc import Sequence

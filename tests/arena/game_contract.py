@@ -1,4 +1,4 @@
-"""What every Game must do, whatever is behind it; test_game_contract proves that liars fail it."""
+"""What every Game must do, whatever is behind it; test_game_contract checks that wrong Games fail it."""
 
 from collections.abc import Callable, Sequence
 
@@ -15,13 +15,13 @@ BUMPS = (
 
 
 Truth = Callable[[], tuple[Cell, set[Cell]]]
-"""Where the agent stands and which cells hold a block, by somebody who knows."""
+"""The agent's true cell, and the cells that truly hold a block."""
 
 
 def check_game(game: Game, scenario: Scenario, actions: Sequence[Action], truth: Truth | None = None) -> None:
-    """AssertionError where the game's outcomes aren't those of the rules, over one episode after a spoiled one.
+    """AssertionError where the game's outcomes aren't those of the rules, over one episode after an abandoned one.
 
-    Where somebody knows the ``truth``, the outcomes must be that too. A resumable game must come back to what it was.
+    With a ``truth``, the outcomes must agree with it too. A resumable game must return to the state it was saved in.
     """
     assert game.reset(0) == scenario.start, "a reset leads to the start cell"
     game.act(Action.BD)

@@ -1,4 +1,4 @@
-"""The contract suite: the simulator passes it, and Games that lie don't."""
+"""The contract suite: the simulator passes it, and Games with wrong outcomes don't."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -104,12 +104,12 @@ LIARS = [
 
 
 @pytest.mark.parametrize("liar", LIARS)
-def test_a_game_that_lies_fails(liar: Callable[..., GridGame]) -> None:
+def test_a_game_with_wrong_outcomes_fails(liar: Callable[..., GridGame]) -> None:
     with pytest.raises(AssertionError):
         check_game(liar(LINE), LINE, BUMPS)
 
 
-def test_a_game_that_tells_the_rules_and_not_the_world_fails_before_somebody_who_knows() -> None:
+def test_a_game_that_returns_the_rules_instead_of_its_world_fails_against_the_truth() -> None:
     game = NeverLooks(LINE)
     check_game(game, LINE, BUMPS)
     with pytest.raises(AssertionError, match="did what was said"):

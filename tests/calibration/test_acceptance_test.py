@@ -51,7 +51,7 @@ def test_its_actions_are_the_eight_and_fill_the_design_by_the_rules() -> None:
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
-def test_a_good_profile_is_proven_and_the_arena_left_empty(version: str, font: Path) -> None:
+def test_a_good_profile_passes_and_the_arena_is_left_empty(version: str, font: Path) -> None:
     client = VirtualClient(version=version)
     found = run_acceptance_test(context_of(client), profile_of(client, font))
     assert found.lines[0] == "8 actions, 4 blocks: each where it should be"
@@ -99,7 +99,7 @@ def test_the_blocks_are_truly_there_before_they_are_cleared(font: Path) -> None:
         {"blocks": BlocksTable(shown_prefix="")},
     ],
 )
-def test_a_profile_that_is_wrong_is_not_proven(wrong: dict[str, object], font: Path) -> None:
+def test_a_wrong_profile_fails(wrong: dict[str, object], font: Path) -> None:
     client = VirtualClient()
     with pytest.raises(LiveError):
         run_acceptance_test(context_of(client), profile_of(client, font).model_copy(update=wrong))

@@ -171,7 +171,7 @@ def test_a_game_that_others_may_share_is_refused_before_any_step(
 
 
 @pytest.mark.parametrize("name", ["dir.toml", "file/mine.toml"])
-def test_a_place_that_no_profile_can_be_written_to_is_said_before_the_window_is_looked_for(
+def test_a_path_that_can_not_be_written_is_reported_before_the_window_is_looked_for(
     name: str, client: VirtualClient, tmp_path: Path
 ) -> None:
     (tmp_path / "dir.toml").mkdir()
@@ -265,7 +265,7 @@ def all_of_it(client: VirtualClient, folder: Path) -> CalibrationResult:
 
 
 @pytest.mark.slow
-def test_from_nothing_to_a_proven_profile_without_a_hand(tmp_path: Path) -> None:
+def test_a_tested_profile_is_made_unattended(tmp_path: Path) -> None:
     client = VirtualClient(seed=5, version="1.21.9", size=(1000, 700), scale=0, pitch=35.0, yaw=-86.0, swaps_sides=True)
     began = client.clock.now()
     result = all_of_it(client, tmp_path)

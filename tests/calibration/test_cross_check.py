@@ -63,7 +63,7 @@ def test_the_keys_are_up_again_within_two_ticks(profile: Profile) -> None:
     assert 0.05 < max(longest) <= 0.1
 
 
-def test_1_12_is_told_that_it_has_no_such_key_and_nothing_is_pressed(profile: Profile) -> None:
+def test_1_12_has_no_such_key_and_nothing_is_pressed(profile: Profile) -> None:
     client = started(VirtualClient(version="1.12.2"))
     client.clipboard.write("mine")
     found = cross_check(context_over(client), profile)
@@ -145,7 +145,7 @@ def test_a_picture_on_the_clipboard_is_left_there_and_nothing_is_pressed(profile
     assert client.game.chat.lines(client.game.ticks) == ()
 
 
-def test_a_game_that_copies_nothing_is_told_and_the_clipboard_put_back(
+def test_a_game_that_copies_nothing_is_reported_and_the_clipboard_put_back(
     profile: Profile, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = started(VirtualClient())
@@ -165,7 +165,7 @@ def test_what_somebody_else_copies_meanwhile_is_theirs(profile: Profile, monkeyp
     assert client.clipboard.read() == "theirs"
 
 
-def test_a_player_who_is_moved_meanwhile_is_told(profile: Profile) -> None:
+def test_a_player_who_is_moved_meanwhile_is_reported(profile: Profile) -> None:
     client = started(VirtualClient())
     context = context_over(client)
     write = client.controls._write_clipboard

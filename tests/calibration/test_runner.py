@@ -126,7 +126,7 @@ def test_a_step_that_nothing_stands_on_is_skipped_and_the_world_found_again(erro
 
 
 @pytest.mark.parametrize("error", [NotInFrontError("behind"), StoppedError("the panic key was pressed")])
-def test_whoever_takes_the_game_away_ends_the_run_whatever_the_step(error: McNestedError) -> None:
+def test_losing_the_game_ends_the_run_in_any_step(error: McNestedError) -> None:
     with pytest.raises(type(error), match="clicks: "):
         Room().run(
             CalibrationStep("clicks", fails(error), is_needed=False), CalibrationStep("never", fails(AssertionError()))

@@ -1,4 +1,4 @@
-"""A calibration's bench on a virtual client, and a profile whose font that client's window is drawn with."""
+"""A calibration's context on a virtual client, and a profile whose font that client's window is drawn with."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

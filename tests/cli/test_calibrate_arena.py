@@ -1,4 +1,4 @@
-"""``calibrate arena``: what it prints and writes. Like ``calibrate walk``, it refuses a game that others may share."""
+"""``calibrate arena``: what it prints and writes, and that it refuses a game that others may share."""
 
 from collections.abc import Callable
 from functools import partial
@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from calibration.open_context import OpenContext
-from mc_nested.cli import calibrate_arena, calibrate_walk
+from mc_nested.cli import calibrate_arena
 from mc_nested.cli.app import main
 from mc_nested.live.profile.store import load_profile, save_profile
 from sim.client.client import VirtualClient
@@ -19,8 +19,7 @@ def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
     """The game on this desktop, shared with others."""
     client = VirtualClient()
     monkeypatch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
-    for verb in (calibrate_arena, calibrate_walk):
-        monkeypatch.setattr(verb, "context_opener", partial(context_of, client))
+    monkeypatch.setattr(calibrate_arena, "context_opener", partial(context_of, client))
     return client
 
 
@@ -36,11 +35,10 @@ def code_of(*words: str | Path) -> int | str | None:
     return ended.value.code
 
 
-@pytest.mark.parametrize("verb", ["arena", "walk"])
-def test_it_is_refused(verb: str, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_it_is_refused(client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "mine.toml"
     save_profile(profile_of(client, tmp_path), file)
-    assert code_of("calibrate", verb, "--profile", file) == 2
+    assert code_of("calibrate", "arena", "--profile", file) == 2
     assert capsys.readouterr().err.endswith("or allow it with --server-allowed\n")
     assert client.built == {}
     assert client.realm.player.feet == (0.5, 64.0, 0.5)

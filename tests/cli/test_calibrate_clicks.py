@@ -47,12 +47,10 @@ def test_from_a_bare_profile_to_points_that_are_shown(
     ("words", "message"),
     [
         (("clicks",), "run mc-nested calibrate font first"),
-        (("walk",), "run mc-nested calibrate font first"),
         (("arena", "--mark-only", "--undo"), "choose one of them"),
         (("clicks", "--show", "--dry-run"), "choose one of them"),
         (("clicks", "--show"), "has no points with pictures"),
         (("clicks", "--hotkey", "f9"), "can't both record and skip"),
-        (("font", "--font", "nowhere.jar"), "there is no nowhere.jar"),
     ],
 )
 def test_a_mistake_is_one_line_and_nothing_is_written(

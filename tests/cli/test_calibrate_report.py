@@ -42,7 +42,7 @@ def test_the_report_lies_beside_the_profile_and_its_list_is_printed(
     assert "~/.minecraft/1.20.1.jar" in html.replace("\\", "/")
 
 
-def test_without_images_and_somewhere_else(profile: Path, tmp_path: Path) -> None:
+def test_without_images_and_with_another_file(profile: Path, tmp_path: Path) -> None:
     out = tmp_path / "new" / "folder" / "report.html"
     assert code_of("--profile", profile, "--out", out, "--no-images") in (0, None)
     assert "data:image" not in out.read_text("utf-8").replace("img-src data:", "")

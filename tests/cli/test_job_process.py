@@ -85,7 +85,7 @@ def test_ctrl_c_is_left_to_the_parent(pipe: tuple[Connection, Connection], tmp_p
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_checkpoint_of_something_else_is_said(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+def test_a_checkpoint_of_something_else_is_reported(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
     ours, theirs = pipe
     ours.send((one_job("nested", [DOT], 3), tmp_path))
     ours.send(None)

@@ -13,22 +13,15 @@ from pathlib import Path
 import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.cli.app import main
 from mc_nested.cli.reproduce import builders_score
 from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.report.results import read_evaluations
+from tests.cli.running import run
 from tests.learn.made_experiments import BAR, DOT, scenario_text, small_preset_text
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals for other processes")
 
 WRITTEN = ("results.csv", "figure5.png", "figure5.svg", "report.md")
-
-
-def run(*arguments: str | Path) -> int:
-    with pytest.raises(SystemExit) as caught:
-        main([str(argument) for argument in arguments])
-    code = caught.value.code
-    return code if isinstance(code, int) else 0
 
 
 @pytest.fixture(scope="module")
@@ -208,7 +201,7 @@ def test_ctrl_c_saves_and_says_how_to_resume(
     ("number", "says"),
     [
         (signal.SIGKILL, "a training process was killed (SIGKILL)"),
-        (signal.SIGTERM, "a training process was told to stop"),
+        (signal.SIGTERM, "a training process was asked to stop"),
     ],
 )
 def test_a_lost_process_is_one_line_and_costs_nothing(

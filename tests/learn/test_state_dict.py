@@ -1,4 +1,4 @@
-"""The parts of a saved state are told apart by their names alone."""
+"""The parts of a saved state are distinguished by their names alone."""
 
 import numpy as np
 

@@ -379,7 +379,7 @@ LIVE = load_preset("live").model_copy(update={"episodes": 20})
     ("spec", "preset"),
     [(NESTED, SHORT), (HIERARCHICAL, SHORT), (SINGLE, SHORT), (NESTED, LIVE), (HIERARCHICAL, LIVE)],
 )
-def test_an_episode_that_is_spoiled_is_never_learnt_from(spec: AgentSpec, preset: Preset) -> None:
+def test_an_abandoned_episode_is_never_learnt_from(spec: AgentSpec, preset: Preset) -> None:
     agent = Agent(spec, [LINE], preset, 0)
     trainer = Trainer(view_of(spec, ArenaVectorEnv([ArenaEnv(Spoils(LINE), LINE)]), [LINE]), [LINE], agent, preset, 0)
     known: list[tuple[Arrays, Arrays]] = []

@@ -13,7 +13,7 @@ from tests.standin_fixture import Standin
 def x_server(standin: Standin) -> Iterator[dict[str, str]]:  # noqa: ARG001 - where the stand-in is up, there is an Xvfb
     """The environment of an empty X screen of 1024 x 768."""
     read, write = os.pipe()
-    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x768x24", "-nolisten", "tcp"]
+    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x768x24", "-nolisten", "tcp", "-noreset"]
     server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
     os.close(write)
     try:

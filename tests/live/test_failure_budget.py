@@ -1,4 +1,4 @@
-"""Failed episodes: counted, put up with for a while, but never after a person stopped the game."""
+"""Failed episodes: counted, accepted up to a limit, but never after a person stopped the game."""
 
 import pytest
 

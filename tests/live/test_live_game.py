@@ -305,7 +305,7 @@ def test_behind_another_window_nothing_is_pressed() -> None:
 def test_nothing_is_typed_where_no_debug_screen_is_to_be_seen() -> None:
     world = _world()
     world.unreadable = True
-    with pytest.raises(LiveError, match="way back into the world was not found"):
+    with pytest.raises(LiveError, match="the world was not reached"):
         _play(world).reset(STONE)
     assert set(world.presses) == {"f3", "esc"}
 

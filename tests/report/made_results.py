@@ -54,7 +54,7 @@ def level(score: float, trials: int = 6, early: float = 5.0, spread: float = 1.0
 
 
 def scattered(score: float, early: float = 5.0) -> list[Trial]:
-    """Trials from six blocks below ``score`` to six above: little can be told from them."""
+    """Trials from six blocks below ``score`` to six above: they decide little."""
     return [Trial(early + off, score + off, spread=4 + off / 2) for off in (-6, 6, -3, 3, -1, 1)]
 
 

@@ -1,4 +1,4 @@
-"""The paper's claims on made-up results in which they hold, fail, or can't be told: every verdict can be reached."""
+"""The paper's claims on made-up results in which they hold, fail, or stay undecided: every verdict can be reached."""
 
 from dataclasses import replace
 
@@ -24,7 +24,7 @@ def solved(*final_scores: float) -> list[Trial]:
     return [Trial(5, score) for score in final_scores]
 
 
-def test_results_like_the_papers_bear_out_what_it_claims_of_them() -> None:
+def test_results_like_the_papers_confirm_its_claims() -> None:
     assert verdicts(made(the_papers())) == {
         "a": HOLDS,
         "b": HOLDS,
@@ -157,7 +157,7 @@ def test_two_trials_are_too_few_for_any_verdict() -> None:
     assert {verdicts(results)[letter] for letter in "abcd"} == {UNDECIDED}
 
 
-def test_one_scenario_bears_on_the_claims_that_it_is_part_of() -> None:
+def test_one_scenario_counts_in_the_claims_that_it_is_part_of() -> None:
     assert verdicts(made(the_papers("zigzag"))) == {
         "a": NOT_RUN,
         "b": UNDECIDED,  # the diamond is missing
@@ -169,7 +169,7 @@ def test_one_scenario_bears_on_the_claims_that_it_is_part_of() -> None:
     }
 
 
-def test_a_users_scenario_bears_on_the_claims_about_every_scenario() -> None:
+def test_a_users_scenario_counts_in_the_claims_about_every_scenario() -> None:
     agents = {("nested", "hut"): 14.0, ("hierarchical", "hut"): 10.0, ("single", "hut"): 6.0}
     spreads = {"nested": 0.5, "hierarchical": 2.0, "single": 3.0}
     results = made({key: level(score, spread=spreads[key[0]]) for key, score in agents.items()})
@@ -178,7 +178,7 @@ def test_a_users_scenario_bears_on_the_claims_about_every_scenario() -> None:
     assert (found["c"], found["d"], found["e1"]) == (HOLDS, HOLDS, HOLDS)
 
 
-def test_one_agent_alone_bears_on_nothing() -> None:
+def test_one_agent_alone_counts_in_no_claim() -> None:
     results = made({key: trials for key, trials in the_papers().items() if key[0] == "nested"})
     assert set(verdicts(results).values()) == {NOT_RUN}
 

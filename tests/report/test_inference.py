@@ -33,7 +33,7 @@ def test_splits_that_tie_count_as_extreme() -> None:
     assert exceeds(of(2, 2), of(1, 3)) == pytest.approx(4 / 6)
 
 
-def test_trials_that_are_all_the_same_tell_nothing() -> None:
+def test_identical_trials_decide_nothing() -> None:
     assert exceeds(of(21, 21, 21), of(21, 21, 21)) == 1
 
 
@@ -75,7 +75,7 @@ def test_two_blocks_apart_is_not_alike_either_way_round() -> None:
     assert alike(of(5, 5, 5), of(7, 7, 7), margin=1) == apart
 
 
-def test_a_block_apart_is_neither() -> None:
+def test_a_difference_of_exactly_the_margin_is_undecided() -> None:
     assert alike(of(6, 6, 6), of(5, 5, 5), margin=1) == (1, 1)
 
 

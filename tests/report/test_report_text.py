@@ -107,3 +107,10 @@ def test_a_scenarios_name_can_not_break_the_tables() -> None:
         )
     )
     assert "| a\\|b | nested |" in text
+
+
+def test_the_costs_are_listed_scenario_by_scenario() -> None:
+    text = report_text(made(the_papers("line", "zigzag")), judge(made(the_papers("line", "zigzag"))))
+    costs = text[text.index("| scenario | agent | networks |") :].splitlines()[2:]
+    rows = [row.split(" | ")[0].removeprefix("| ") for row in costs if row.startswith("|")]
+    assert rows == ["line"] * 3 + ["zigzag"] * 3

@@ -19,7 +19,7 @@ def test_a_line_has_the_figures_of_its_variant() -> None:
     assert line_of(sweep_text(made_sweep()), "rate")[10:] == ["2 of 3", "60"]
 
 
-def test_a_base_is_beside_nothing() -> None:
+def test_a_base_is_compared_with_nothing() -> None:
     assert line_of(sweep_text(made_sweep()), r"**base**")[:6] == ["nested", "**base**", "", "20.67", "", ""]
 
 

@@ -55,3 +55,21 @@ def test_it_is_off_where_it_is_not_installed(monkeypatch: pytest.MonkeyPatch) ->
     assert tensorboard.is_installed()
     monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
     assert not tensorboard.is_installed()
+
+
+def test_the_rate_is_the_updates_since_the_last_write_by_the_seconds_since_then(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    times = iter([100.0, 102.0, 105.0])
+    monkeypatch.setattr("mc_nested.report.tensorboard.time.monotonic", lambda: next(times))
+    trainer = trainer_of([LINE])
+    board = TensorBoard([tmp_path], trainer)
+    updates = [trainer.agent.updates]
+    for _ in range(2):
+        goal = len(trainer.evaluation_rows) + 1
+        while len(trainer.evaluation_rows) < goal:
+            trainer.tick()
+        updates.append(trainer.agent.updates)
+        board.write()
+    rates = [event.value for event in read(tmp_path).Scalars("updates a second, all runs")]
+    assert rates == pytest.approx([(updates[1] - updates[0]) / 2, (updates[2] - updates[1]) / 3])

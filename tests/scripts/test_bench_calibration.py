@@ -1,4 +1,4 @@
-"""The bench of calibrations: its clients, its figures, and a few clients from nothing to two dozen actions played."""
+"""The calibration benchmark: its clients, its figures, and a few clients from nothing to two dozen actions played."""
 
 from collections import Counter
 from pathlib import Path
@@ -78,7 +78,7 @@ def test_the_report_counts_what_went_wrong() -> None:
 
 
 @pytest.mark.slow
-def test_clients_as_people_have_them_are_calibrated_without_a_hand_and_played_in_without_a_wrong_cell(
+def test_realistic_clients_are_calibrated_unattended_and_played_without_a_wrong_cell(
     tmp_path: Path,
 ) -> None:
     for number, settings in enumerate(clients(3, 11)):

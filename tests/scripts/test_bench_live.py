@@ -1,4 +1,4 @@
-"""The bench of the live path: what its counts hold against a client's world, and which actions it draws."""
+"""The benchmark of the live path: what its counts hold against a client's world, and which actions it draws."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The loop of the stand-in's bench, played on a virtual client: what it counts as wrong."""
+"""The loop of the stand-in's benchmark, played on a virtual client: what it counts as wrong."""
 
 import dataclasses
 

@@ -80,7 +80,7 @@ def test_another_process_with_the_same_pid_is_left_alone(state: State) -> None:
     assert process.is_alive
 
 
-def test_a_pid_that_is_free_is_nobody() -> None:
+def test_a_free_pid_is_no_process() -> None:
     child = subprocess.Popen([sys.executable, "-c", ""])
     child.wait(30)
     assert start_time(child.pid) is None

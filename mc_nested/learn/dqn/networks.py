@@ -5,7 +5,7 @@ one operation on one array (networks, parameters). Hidden layers use tanh, the l
 hyper-parameters).
 
 The states of a batch are columns. Below the last feature and the last node of every hidden layer is a 1 that multiplies
-the biases, the last column of each weight: a layer is one matrix product forward and two backward.
+the biases, the last column of each weight. So a layer is one matrix product forward and two backward.
 """
 
 from collections.abc import Sequence

@@ -1,6 +1,6 @@
 """The target networks' values of every possible state.
 
-A target network is fixed for hundreds of updates, and there are a few thousand states: computing all their values once
+A target network is fixed for hundreds of updates, and there are a few thousand states. Computing all their values once
 a period takes less than a third of the time of computing those of a batch at every update.
 """
 

@@ -68,7 +68,7 @@ class Job:
 
 
 def _spec_on_disk(spec: AgentSpec) -> dict[str, bool]:
-    """The spec under the keys that identities have always been made of."""
+    """The spec under the keys that identities have always used."""
     return {
         "has_main": spec.has_main,
         "appends_material": spec.appends_material,

@@ -21,7 +21,7 @@ from mc_nested.errors import RunError
 FILE, WHOLE_JOURNAL = "state.pt", "journal.pt"
 
 FORMAT = 1
-"""Version of the files; one without a version is older than versions are, and of this one."""
+"""Version of the files. A file without one was written before there were versions, and has this one."""
 
 MOST_JOURNALS = 64
 """Journals kept side by side before they are merged into one."""

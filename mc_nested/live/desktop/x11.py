@@ -113,7 +113,7 @@ def _connect() -> Display:
         raise DesktopError(
             f"no display (DISPLAY={name} can't be reached): run this in the desktop session that shows the game"
         ) from error
-    # The session's variables alone don't tell: a separate X server may run inside a Wayland session.
+    # The session's variables alone are not enough: a separate X server may run inside a Wayland session.
     if _is_xwayland(display):
         display.close()
         raise DesktopError(_WAYLAND)

@@ -24,8 +24,8 @@ LEAST_ALIKE = 0.8
 button, or another screen, at most 0.32."""
 
 MOST_OFF = 0.4
-"""How far any pixel may differ from the picture's, as a part of the picture's range from dark to bright, after
-brightness and contrast are taken out: the same button gave 0.16, greyed 0.32; another letter gives about 1."""
+"""How far any pixel may differ from the picture's, as a part of the picture's range from dark to bright. Brightness and
+contrast are taken out first. The same button gave 0.16, greyed 0.32; another letter gives about 1."""
 
 SLACK = 2
 """Pixels that it may have moved by: a fraction of the window leads back to within one."""

@@ -27,7 +27,7 @@ NOT_ON_A_SERVER: frozenset[ScreenName] = frozenset({"title", "worlds", "disconne
 class Recovery:
     """Leads back into the world that was left.
 
-    If the window's title said Multiplayer when this was made, a recovery stops at the title screen: otherwise it would
+    If the window's title said Multiplayer when this was made, a recovery stops at the title screen. Otherwise it would
     enter one's own world instead (FACTS: Input and windows; to 1.14 no title says so).
 
     Raises (everything): NotInFrontError where the game's window stays behind another; LiveError where the world was
@@ -64,7 +64,7 @@ class Recovery:
                 return tuple(passed)
             if deadline.has_passed:
                 raise LiveError(
-                    f"the way back into the world was not found in {PATIENCE_S:g} s, the screen is {name} "
+                    f"the world was not reached in {PATIENCE_S:g} s, the screen is {name} "
                     f"({reason or problem}): open the world, with the debug screen on, and start again"
                 )
             if not passed or passed[-1] != name:

@@ -1,6 +1,12 @@
-"""How often the screen is looked at, in seconds, and why: one interval for each kind of change that is awaited."""
+"""Seconds: the usual latencies, and how often the screen is looked at, an interval for each kind of awaited change."""
 
 from mc_nested.live.model.kinematics import TICK_S
+
+CAPTURE_LATENCY_S = 0.028
+"""From a tick until its step is on the screen, on average: half a frame, and 10 to 30 ms for the picture."""
+
+INPUT_LATENCY_S = 0.0125
+"""From a press until the game has it, on average: 5 to 20 ms."""
 
 FRAME_S = 1 / 60
 """While the agent moves: a frame of the game, so that no wait is much longer than it must be."""

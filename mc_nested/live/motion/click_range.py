@@ -4,15 +4,15 @@ from mc_nested.arena.rules import Cell, is_inside
 from mc_nested.live.model.coordinates import GroundVector
 
 COASTING_CLICK = 0.19
-"""Blocks off the middle from which a click is right, if the agent comes to a stop within the tolerance: from 0.2 on the
-game refuses a block (FACTS: Standing, looking, placing), and at 65 degrees the next cell's floor is hit from there."""
+"""Blocks off the middle from which a click is right, if the agent comes to a stop within the tolerance. From 0.2 on the
+game refuses a block (FACTS: Standing, looking, placing). At 65 degrees the next cell's floor is hit from there."""
 
 BESIDE, BEHIND = 0.4, 0.2
 """Blocks off the middle, to a side and back, from which the same floor is hit: at 65 degrees it is hit from up to 0.5
 and 0.25 (FACTS: Standing, looking, placing)."""
 
 STRAY_CELLS = 2
-"""How many cells too far an agent that is carried on may click: an early click is only right if those are arena."""
+"""Cells that a late release may carry an agent too far: an early click is only right if they are in the arena."""
 
 
 def is_near(position: GroundVector, cell: Cell, tolerance: float) -> bool:

@@ -24,7 +24,7 @@ RELEASE_AGAIN_LOOKS = 20
 
 
 class KeyHold:
-    """Holds keys and follows what comes of it.
+    """Holds keys and watches their effect.
 
     Raises (everything): what the pose observer and the input controller raise; every key is up then.
     """

@@ -21,7 +21,7 @@ SURELY_SEEN_S = 0.053
 """Seconds after a tick at which its step is certainly on the screen, and the next one's can't be."""
 
 MAX_SHIFT_S = 1.2 * TICK_S
-"""Seconds that a look during a hold may move its release by: a tick felt more or less, never what a stall hid."""
+"""Seconds that a look during a hold may move its release by: a tick felt more or less, not the length of a stall."""
 
 
 class Locomotion:
@@ -131,6 +131,6 @@ class Locomotion:
         self._observer.wait_for_step(release_at - mid_tick + TICK_S)
 
     def _ticks_held(self) -> int | None:
-        """How many ticks have felt the key that is down, by a look at the screen; None if that can't be told."""
+        """How many ticks have felt the key that is down, by a look at the screen; None if that isn't certain."""
         position = self._observer.read_position()
         return self._tracker.ticks_held(position) if position else None

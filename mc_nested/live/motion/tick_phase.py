@@ -9,12 +9,7 @@ import cmath
 import math
 
 from mc_nested.live.model.kinematics import TICK_S
-
-CAPTURE_LATENCY_S = 0.028
-"""From a tick until its step is on the screen, on average: half a frame, and 10 to 30 ms for the picture."""
-
-INPUT_LATENCY_S = 0.0125
-"""From a press until the game has it, on average: 5 to 20 ms."""
+from mc_nested.live.model.timing import CAPTURE_LATENCY_S
 
 DECAY = 0.9
 """The weight that earlier observations keep with each new one: about the last ten count."""

@@ -12,7 +12,7 @@ from pydantic import AliasChoices, Field, field_validator
 from mc_nested.errors import ProfileError
 from mc_nested.live.model.key_names import check_key
 from mc_nested.live.model.kinematics import INERTIA, SNEAKING, walk_response
-from mc_nested.live.motion.tick_phase import CAPTURE_LATENCY_S, INPUT_LATENCY_S
+from mc_nested.live.model.timing import CAPTURE_LATENCY_S, INPUT_LATENCY_S
 from mc_nested.live.profile.arena import Arena, ProfileTable
 from mc_nested.live.vision.layout import LayoutName
 
@@ -280,7 +280,7 @@ class Profile(ProfileTable):
     def marked_arena(self) -> Arena:
         """The arena; ProfileError if none is marked yet."""
         if self.arena is None:
-            raise ProfileError("the profile has no arena: stand where it shall be and run mc-nested calibrate arena")
+            raise ProfileError("the profile has no arena: stand where it should be and run mc-nested calibrate arena")
         return self.arena
 
     def block_name(self, block: str) -> str:

@@ -1,7 +1,7 @@
 """Where the chat lies on a picture of the game's window, and the picture without it: what others said is private.
 
 Lines of nine GUI pixels, 320 wide, end 40 above the lower edge, in 1.12 48; what is being typed stands in a bar at the
-very bottom (FACTS: Answers; Screens and their buttons). Blanked is what any of these versions may have used.
+very bottom (FACTS: Answers; Screens and their buttons). Everything that any of these versions may use is blanked.
 """
 
 from collections.abc import Sequence

@@ -101,7 +101,7 @@ def load_font(path: Path) -> Font:
     if picture is None:
         raise FontError(f"{path} is not a picture: {_GIVE}")
     if picture.ndim != 3 or picture.shape[2] != 4 or picture.dtype.kind != "u":
-        raise FontError(f"{path} has no transparency, so its glyphs can't be told from the ground: give the game's jar")
+        raise FontError(f"{path} has no transparency, so glyphs and background can't be separated: give the game's jar")
     return font_of(cast("Atlas", picture), str(path))
 
 

@@ -32,7 +32,7 @@ class GameScreen(Protocol):
         """What the debug screen says."""
 
     def read_position(self) -> tuple[float, float, float] | None:
-        """Where the player is, and nothing else: faster than ``read``; None where only the whole screen tells."""
+        """Where the player is, and nothing else: faster than ``read``; None where the whole screen has to be read."""
 
     def is_chat_open(self) -> bool:
         """Whether the chat's input line is seen."""

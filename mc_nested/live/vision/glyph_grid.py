@@ -26,8 +26,8 @@ GridPosition = tuple[int, int]
 class GlyphGrid:
     """A frame (height, width, 3) at one GUI scale, as ink where green is ``least`` or more.
 
-    Green alone tells text from the ground of its box (FACTS: The F3 debug screen), and looking at one channel is three
-    times faster; which colour it is is seen when a line is read. Lines are looked for at each ``pitch``-th row from
+    Green alone distinguishes text from the ground of its box (FACTS: The F3 debug screen), and one channel is three
+    times faster. The colour itself is checked when a line is read. Lines are looked for at each ``pitch``-th row from
     ``first`` on.
     """
 

@@ -28,8 +28,8 @@ class ScreenLayout:
         text_colour: of the text, where a profile names no other.
         box: behind each line.
         has_one_grid: an empty line is as high as any other, so lines stand at each ``pitch``-th row of a screen.
-        right_edge: columns from the last ink of the right column to the window's side; None where the first line of
-            that column tells.
+        right_edge: columns from the last ink of the right column to the window's side; None where it is found
+            from the first line of that column.
         has_target_column: the right column holds nothing but its first line and the block looked at.
     """
 

@@ -1,7 +1,7 @@
 """Menus read by their labels: a button is found by the shadowed text on it. Never a guess.
 
-A label counts where each of its dots has a label's colour and its shadow, nothing beside it has that colour, and the
-outline of a button lies 6 dots above it and 5 below (FACTS: Screens and their buttons).
+A label counts where each of its dots has a label's colour and its shadow, and nothing beside it has that colour. The
+outline of a button must lie 6 dots above it and 5 below (FACTS: Screens and their buttons).
 """
 
 from dataclasses import dataclass

@@ -47,7 +47,7 @@ def find_overlay(frame: Frame, font: Font) -> Overlay | None:
 
 
 def find_debug_screen(frame: Frame, font: Font, overlay: Overlay | None = None) -> FoundScreen | None:
-    """Find the debug screen: by its position line if there is one, else by any other line that it begins to show."""
+    """Find the debug screen: by its position line if there is one, else by any other line whose beginning is known."""
     scales, least = ((overlay.scale,), _least(overlay)) if overlay else (SCALES, _LEAST)
     left = [GlyphGrid(frame[:, : _LEFT_COLUMN * scale], scale, least) for scale in scales]
     whole = [GlyphGrid(frame, scale, least) for scale in scales]

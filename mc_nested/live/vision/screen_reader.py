@@ -1,7 +1,7 @@
 """Reads one window's debug screen repeatedly, and looks first where the lines of the last reading stood.
 
 Then only the rows of the window that hold these lines are captured, which is faster. If anything differs (a line moved,
-no block is looked at, something lies over the text), the whole window is captured and searched in the same call, so the
+no block is looked at, something lies over the text), the whole window is captured and searched in the same call. So the
 reading is the same either way.
 """
 
@@ -69,7 +69,7 @@ class ScreenReader:
             return None
         dots = GlyphGrid(frame, stood.overlay.scale, min(stood.overlay.colour), 0, stood.pitch)
         reading = read_lines(ScreenLines(dots, self._font, stood.overlay, stood.positions))
-        # Only the whole screen tells that no block is looked at: its lines may have moved elsewhere.
+        # Only the whole screen can show that no block is looked at: its lines may have moved elsewhere.
         return reading if reading.target else None
 
     def _read_whole(self) -> Reading:

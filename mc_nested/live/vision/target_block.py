@@ -94,8 +94,8 @@ def _id_in_right_column(lines: DebugLines) -> str:
 
 
 def _id_of(lines: DebugLines, line: Line) -> str:
-    # Bright specks of the world may stand just left of the box, where a glyph could be: the game's own namespace tells
-    # where the id begins, and a part of it that some of it is covered.
+    # Bright specks of the world may stand just left of the box, where a glyph could be: the game's own namespace shows
+    # where the id begins, and a part of that namespace shows that the id is partly covered.
     before = max(0, line.text.rfind("minecraft:"))
     form = _ID.fullmatch(line.text, before)
     if form is None or (form[2] != "minecraft" and "minecraft".endswith(form[2])):

@@ -284,7 +284,7 @@ class VirtualGame:
             ground=self._ground,
             sneaks=player.is_sneaking,
         )
-        # A player at rest on the ground stays there until a key or the world changes.
+        # A player who stands still on the ground stays there until a key or the world changes.
         self._rested_at = (world.revision, before) if player.on_ground and player.feet == before else None
 
     def _f3(self) -> F3Screen:

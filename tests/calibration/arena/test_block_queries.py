@@ -69,7 +69,7 @@ def test_pitches_are_used_again_only_after_forty_questions() -> None:
     assert pitches[41] == 21
 
 
-def test_1_12_knows_of_one_block_whether_it_is_air_and_else_nothing() -> None:
+def test_1_12_answers_only_whether_one_block_is_air() -> None:
     console = ScriptedConsole(turns)
     assert queries(console, "1.12.2").is_air((1, 2, 3)) is True
     assert console.sent == ["/execute @s ~ ~ ~ detect 1 2 3 minecraft:air 0 tp @s ~ ~ ~ 90 20"]

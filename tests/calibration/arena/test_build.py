@@ -135,7 +135,7 @@ def test_a_game_that_can_neither_compare_nor_copy_says_so_and_asks(
         undo_arena(context, found.profile)
 
 
-def test_building_again_at_the_same_place_keeps_the_first_copy(tmp_path: Path) -> None:
+def test_building_again_at_the_same_position_keeps_the_first_copy(tmp_path: Path) -> None:
     client = VirtualClient()
     spoil(client)
     before = client.built
@@ -181,7 +181,7 @@ def no_cheats(client: VirtualClient) -> None:
 @pytest.mark.parametrize(
     ("prepare", "message"), [(far_away, "part of the ground isn't loaded"), (no_cheats, "allow cheats")]
 )
-def test_a_place_that_is_not_loaded_or_a_world_without_cheats_is_said_before_anything_is_asked(
+def test_ground_that_is_not_loaded_or_a_world_without_cheats_is_reported_before_the_question(
     prepare: Callable[[VirtualClient], None], message: str, tmp_path: Path
 ) -> None:
     client = VirtualClient()
@@ -283,7 +283,7 @@ def test_an_arena_that_was_left_early_is_not_copied_in_part(tmp_path: Path) -> N
     assert client.built == after
 
 
-def test_in_another_world_the_note_of_a_copy_is_not_believed(tmp_path: Path) -> None:
+def test_in_another_world_the_note_of_a_copy_is_not_used(tmp_path: Path) -> None:
     profile, file = left_early(VirtualClient(), tmp_path)
     client = VirtualClient()
     spoil(client)
@@ -386,7 +386,7 @@ def test_ctrl_c_or_a_closed_window_at_any_time_leaves_keys_up_and_the_profile_as
 
 @pytest.mark.parametrize("after_s", [1.5, 4.0, 7.0])
 @pytest.mark.parametrize("kind", ["lost_focus", "pause", "chat", "death"])
-def test_a_hand_in_between_is_one_line_and_the_profile_as_it_was(kind: Kind, after_s: float, tmp_path: Path) -> None:
+def test_interference_is_one_line_and_the_profile_as_it_was(kind: Kind, after_s: float, tmp_path: Path) -> None:
     client = VirtualClient()
     file = tmp_path / "mine.toml"
     save_profile(profile_of(client, tmp_path), file)
@@ -402,7 +402,7 @@ def test_a_hand_in_between_is_one_line_and_the_profile_as_it_was(kind: Kind, aft
     assert client.window.strays == []
 
 
-def test_a_world_without_commands_is_told_the_whole_command_that_marks_it(tmp_path: Path) -> None:
+def test_a_world_without_commands_is_refused_with_the_whole_command_that_marks_it(tmp_path: Path) -> None:
     client = VirtualClient()
     world = WorldTable(folder=str(tmp_path / "arena"), template=str(tmp_path / "template"), name="arena")
     profile = profile_of(client, tmp_path).model_copy(update={"world": world})

@@ -1,4 +1,4 @@
-"""Marking the arena: where the corner lies for every stand and facing, what is asked, and what leaves no trace.
+"""Marking the arena: where the corner lies for every position and facing, what is asked, and what leaves no trace.
 
 The debug screen's own reading is tested in tests/live; here one is drawn with a made-up font, as a game would show it.
 """
@@ -58,7 +58,7 @@ def test_a_player_at_the_near_edge_has_the_arena_before_and_beside_them() -> Non
         (-120.0, "turn 30 degrees to the right to face east"),
     ],
 )
-def test_a_view_between_two_axes_is_told_how_to_turn(yaw: float, message: str) -> None:
+def test_a_view_between_two_axes_is_refused_with_how_to_turn(yaw: float, message: str) -> None:
     with pytest.raises(UserError, match=message):
         arena_from_reading(Reading((0.5, 64.0, 0.5), yaw, 30.0), NEAR_MIDDLE)
 
@@ -69,7 +69,7 @@ def test_feet_off_a_whole_blocks_top_mark_nothing(height: float) -> None:
         arena_from_reading(Reading((0.5, height, 0.5), 0.0, 30.0), NEAR_MIDDLE)
 
 
-def test_the_question_names_the_corners_and_that_nobody_knows_what_stands_there() -> None:
+def test_the_question_names_the_corners_and_says_that_what_stands_there_is_unknown() -> None:
     question = mark_question(Arena.around((10, 64, -20), "north"))
     assert "(10, 64, -34) to (24, 65, -20)" in question
     assert "15 x 15 x 2 high" in question
@@ -287,7 +287,7 @@ def refused(title: str) -> AbstractContextManager[Devices]:
     raise DesktopError(f"no window's title matches {title!r}")
 
 
-def test_what_is_wrong_is_told_before_a_window_is_looked_for(tmp_path: Path, font_file: Path) -> None:
+def test_mistakes_are_reported_before_a_window_is_looked_for(tmp_path: Path, font_file: Path) -> None:
     broken = tmp_path / "broken.toml"
     broken.write_text("[arena\n", "utf-8")
     for file, standing, font, error, message in (

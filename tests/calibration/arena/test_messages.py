@@ -1,4 +1,4 @@
-"""What a person is asked before an arena is built, and told after it."""
+"""The question before an arena is built, and the summary after it."""
 
 import pytest
 

@@ -108,7 +108,7 @@ def test_a_recorded_fraction_leads_back_to_within_a_pixel(x: int, y: int) -> Non
     assert abs(down * 2160 - y) < 1
 
 
-def test_each_name_takes_the_place_that_the_mouse_was_over_at_its_key() -> None:
+def test_each_name_gets_the_position_of_the_mouse_at_its_key() -> None:
     player = Player([("f8", (100, 75), True), ("f9", (0, 0), True), ("f8", (200, 30), True)])
     assert recorded(player, ["singleplayer", "world", "respawn"]) == {
         "singleplayer": (0.25, 0.25),
@@ -125,7 +125,7 @@ def test_each_name_takes_the_place_that_the_mouse_was_over_at_its_key() -> None:
         ((20, 20), False, "front"),
     ],
 )
-def test_a_press_that_means_no_place_in_the_game_is_told_and_waits_for_another(
+def test_a_press_outside_the_game_is_reported_and_waits_for_another(
     place: tuple[int, int], in_front: bool, complaint: str
 ) -> None:
     player = Player([("f8", place, in_front), ("f8", (100, 75), True)])
@@ -210,7 +210,7 @@ def test_each_point_leaves_its_own_picture(tmp_path: Path) -> None:
     assert [each.parent for each in (tmp_path / "mine-points").iterdir()] == [tmp_path / "mine-points"]
 
 
-def test_a_place_where_nothing_is_drawn_is_told_and_waits_for_another() -> None:
+def test_a_spot_where_nothing_is_drawn_is_reported_and_waits_for_another() -> None:
     player = Player([("f8", (300, 200), True), ("f8", (100, 75), True)])
     assert recorded(player, ["world"]) == {"world": (0.25, 0.25)}
     assert "nothing is drawn" in player.told[-1]
@@ -221,7 +221,7 @@ def test_one_key_can_not_both_record_and_skip(tmp_path: Path) -> None:
         calibrate_clicks(tmp_path / "new.toml", context_of(Player([])), hotkey="f8", skip="f8")
 
 
-def test_a_profile_that_can_not_be_used_is_told_before_a_window_is_looked_for(tmp_path: Path) -> None:
+def test_a_profile_that_can_not_be_used_is_reported_before_a_window_is_looked_for(tmp_path: Path) -> None:
     file = tmp_path / "broken.toml"
     file.write_text("[points]\nworld = [7, 0.2]\n", "utf-8")
     player = Player([])
@@ -230,7 +230,7 @@ def test_a_profile_that_can_not_be_used_is_told_before_a_window_is_looked_for(tm
     assert player.told == []
 
 
-def test_a_picture_that_can_not_be_written_is_told(tmp_path: Path) -> None:
+def test_a_picture_that_can_not_be_written_is_reported(tmp_path: Path) -> None:
     (tmp_path / "mine-clicks.png").mkdir()
     with pytest.raises(ProfileError, match="picture can't be written"):
         calibrated(tmp_path / "mine.toml", Player([("f8", (100, 75), True)]), ["world"])

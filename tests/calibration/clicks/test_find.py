@@ -74,7 +74,7 @@ def test_every_button_is_found_within_two_gui_pixels_of_its_middle(version: str,
 @pytest.mark.slow
 @pytest.mark.parametrize("version", VERSIONS)
 @pytest.mark.parametrize("scale", [1, 2, 3, 4])
-def test_and_so_it_is_in_every_version_at_every_scale_and_size(version: str, scale: int, tmp_path: Path) -> None:
+def test_every_button_is_found_in_every_version_scale_and_size(version: str, scale: int, tmp_path: Path) -> None:
     for seed in (VERSIONS.index(version), VERSIONS.index(version) + scale):
         size, world = SIZES[seed % len(SIZES)], WORLDS[seed % len(WORLDS)]
         client = VirtualClient(version=version, scale=scale, size=size, seed=seed, world=world)
@@ -96,7 +96,7 @@ def test_without_a_yes_the_world_is_not_left(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("title", ["Minecraft 1.20.1 - Multiplayer (LAN)", "Minecraft 1.20.1 - Multiplayer (Realms)"])
-def test_a_world_that_others_may_share_is_not_left_and_nobody_is_asked(
+def test_a_world_that_others_may_share_is_not_left_and_nothing_is_asked(
     title: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = started(VirtualClient())
@@ -119,7 +119,7 @@ def test_another_programs_menus_are_left_alone(tmp_path: Path, monkeypatch: pyte
     assert "names no Minecraft" in found.lines[-1]
 
 
-def test_nor_is_one_without_the_button_that_opens_it_to_others(tmp_path: Path) -> None:
+def test_without_the_open_to_lan_button_the_world_is_not_left_either(tmp_path: Path) -> None:
     # 1.12 never says in its title who else may be there (FACTS: Input and windows).
     client = started(VirtualClient(version="1.12.2", words={"Open to LAN": "Player Reporting"}))
     found = find_clicks(context_over(client), profile_in(tmp_path))
@@ -151,7 +151,7 @@ def test_in_another_language_nothing_is_guessed_and_the_rest_is_asked_for_by_han
     assert (client.game.screen, client.window.down) == ("world", set())
 
 
-def test_without_a_hand_no_button_at_all_is_a_step_that_failed(tmp_path: Path) -> None:
+def test_unattended_the_step_fails_if_no_button_is_found(tmp_path: Path) -> None:
     with pytest.raises(
         NotConfirmedError, match=r"^no button was found; .*no English label.*: record them by hand with"
     ):
@@ -162,7 +162,7 @@ def test_a_button_that_a_pack_renames_is_reported(tmp_path: Path, monkeypatch: p
     monkeypatch.setattr(recovery, "PATIENCE_S", 8.0)
     client = started(VirtualClient(words={"Play Selected World": "Upgrade and Play"}))
     profile = profile_in(tmp_path)
-    with pytest.raises(LiveError, match="way back into the world was not found"):
+    with pytest.raises(LiveError, match="the world was not reached"):
         find_clicks(context_over(client), profile)
     assert client.window.down == set()
 
@@ -222,6 +222,6 @@ def test_where_nothing_was_found_nothing_is_written(tmp_path: Path) -> None:
     assert sorted(each.name for each in tmp_path.iterdir()) == ["ascii.png", "mine.toml"]
 
 
-def test_a_profile_without_a_font_is_told_what_comes_first(tmp_path: Path) -> None:
+def test_a_profile_without_a_font_is_refused_with_the_step_to_run_first(tmp_path: Path) -> None:
     with pytest.raises(ProfileError, match="calibrate font first"):
         calibrate_clicks(tmp_path / "new.toml", context_of(VirtualClient()))

@@ -16,7 +16,7 @@ def walk_on(client: VirtualClient, folder: Path) -> tuple[MenuWalk, list[str]]:
     return MenuWalk(context_over(client).connection.for_profile(profile), profile, said.append), said
 
 
-def test_the_pause_menu_has_two_points_and_tells_a_single_players_world(tmp_path: Path) -> None:
+def test_the_pause_menu_has_two_points_and_shows_a_single_players_world(tmp_path: Path) -> None:
     client = started(VirtualClient())
     walk, said = walk_on(client, tmp_path)
     assert (walk.points, walk.notes, walk.is_single_player, walk.scale) == ({}, [], False, 2)

@@ -84,7 +84,7 @@ class Computer:
 
 
 def calibrated() -> CalibratedTable:
-    """What a virtual client is unless told otherwise."""
+    """What a virtual client is unless set otherwise."""
     return CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
 
 

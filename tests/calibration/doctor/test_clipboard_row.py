@@ -50,5 +50,5 @@ def test_a_clipboard_that_fails_midway_holds_what_it_held(fails_at: int) -> None
     assert board.text != PROBE
 
 
-def test_a_clipboard_that_another_program_keeps_is_told() -> None:
+def test_a_clipboard_that_another_program_keeps_is_reported() -> None:
     assert clipboard_row(Board(is_kept=True)).detail == "what is written isn't what is read"

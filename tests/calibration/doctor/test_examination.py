@@ -64,7 +64,7 @@ def test_a_game_that_can_be_played_passes_every_row(
     assert not computer.said
 
 
-def test_what_is_seen_is_said(computer: Computer) -> None:
+def test_each_row_says_what_was_seen(computer: Computer) -> None:
     said = rows(computer.examined(opened(client_in(as_it_was)), clipboard=None))
     assert said["game's window"].detail == "'Minecraft 1.20.1 - Singleplayer'"
     assert said["size and GUI scale"].detail == "854 x 480 pixels, GUI scale 2"
@@ -135,20 +135,20 @@ def test_each_fault_fails_in_its_own_rows_and_nothing_is_pressed_where_it_could_
     assert all(check.fix for check in found.checks if check.status == "fail")
 
 
-def test_a_version_that_hides_the_looked_at_line_is_told_how_to_switch_it_on(computer: Computer) -> None:
+def test_the_remedy_for_a_version_that_hides_the_looked_at_line_switches_it_on(computer: Computer) -> None:
     client = client_in(as_it_was, ClientSettings(pitch=DOWN, version="1.21.9", shows_target=False))
     row = rows(computer.examined(opened(client)))["looked-at line"]
     assert "F3+F6" in row.fix
     assert "65 degrees down" in row.detail
 
 
-def test_who_looks_into_the_sky_is_told_to_look_down(computer: Computer) -> None:
+def test_a_player_who_looks_into_the_sky_is_asked_to_look_down(computer: Computer) -> None:
     client = VirtualClient(pitch=-30.0)
     row = rows(computer.examined(opened(client)))["looked-at line"]
     assert (row.status, row.fix) == ("skip", "look down at the ground, and run this again")
 
 
-def test_the_game_that_comes_to_the_front_in_time_is_looked_at(computer: Computer) -> None:
+def test_the_game_that_comes_to_the_front_in_time_is_examined(computer: Computer) -> None:
     client = client_in(
         lambda client: client.set_front(is_in_front=False), ClientSettings(pitch=DOWN, pauses_unfocused=False)
     )
@@ -177,7 +177,7 @@ def no_session() -> str:
     raise DesktopError("no display (DISPLAY is not set): run this in the desktop session that shows the game")
 
 
-def test_without_a_game_every_row_is_there_and_the_files_are_looked_at(computer: Computer) -> None:
+def test_without_a_game_every_row_is_there_and_the_files_are_checked(computer: Computer) -> None:
     found = computer.examined(no_window)
     seen = statuses(found)
     assert tuple(seen) == tuple(CheckName)
@@ -189,7 +189,7 @@ def test_without_a_game_every_row_is_there_and_the_files_are_looked_at(computer:
     assert found.is_window_closed is True
 
 
-def test_windows_that_can_not_be_told_apart_are_no_closed_game(computer: Computer) -> None:
+def test_ambiguous_windows_are_no_closed_game(computer: Computer) -> None:
     found = computer.examined(several)
     assert (statuses(found)["game's window"], found.is_window_closed) == ("fail", False)
 
@@ -241,7 +241,7 @@ def test_an_unreadable_jar_is_one_row_and_without_any_font_nothing_is_pressed(co
     ("text", "said"),
     [("[window", "not TOML"), ("[calibrated]\nformat = 9\ndate = '2030-01-01'", "a profile of format 9")],
 )
-def test_a_profile_that_can_not_be_used_is_a_row_and_the_rest_is_looked_at_without_it(
+def test_a_profile_that_can_not_be_used_is_a_row_and_the_rest_is_checked_without_it(
     text: str, said: str, computer: Computer
 ) -> None:
     computer.profile.write_text(text, "utf-8")
@@ -287,7 +287,7 @@ def test_a_press_that_is_lost_leaves_the_debug_screen_as_it_was(lost: int, compu
     ],
 )
 @pytest.mark.parametrize("after_s", [0.05, 0.25])
-def test_whatever_happens_midway_no_key_stays_down_and_none_goes_astray(
+def test_whatever_happens_midway_no_key_stays_down_and_none_goes_to_another_window(
     kind: Kind, after_s: float, computer: Computer
 ) -> None:
     client = client_in(as_it_was)
@@ -309,7 +309,7 @@ def test_a_game_played_in_a_folder_of_its_own_is_found_by_its_process(computer: 
     assert found["autoJump"].status == "fail"
 
 
-def test_what_options_txt_reduces_is_told_while_no_debug_screen_is_seen(computer: Computer) -> None:
+def test_what_options_txt_reduces_is_reported_while_no_debug_screen_is_seen(computer: Computer) -> None:
     computer.options.write_text(GOOD.replace("reducedDebugInfo:false", "reducedDebugInfo:true"), "utf-8")
     assert statuses(computer.examined(no_window))["reduced debug info"] == "fail"
     assert statuses(computer.examined(opened(client_in(as_it_was))))["reduced debug info"] == "pass"

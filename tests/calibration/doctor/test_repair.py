@@ -120,7 +120,7 @@ def test_while_its_window_is_there_nothing_is_written(computer: Computer) -> Non
     assert computer.options.read_text("utf-8") == BAD
 
 
-def test_where_nobody_knows_whether_it_is_closed_nothing_is_written(computer: Computer) -> None:
+def test_unless_the_game_is_known_to_be_closed_nothing_is_written(computer: Computer) -> None:
     computer.processes = None
     is_done, said = repaired_in(computer, computer.examined(no_window, session=no_session))
     assert not is_done

@@ -36,7 +36,7 @@ def test_a_debug_screen_that_is_read_passes() -> None:
 
 
 @pytest.mark.parametrize(("is_in_front", "reason"), [(True, "no font to read it with"), (False, "another window")])
-def test_what_can_not_be_looked_at_is_skipped(is_in_front: bool, reason: str) -> None:
+def test_what_can_not_be_checked_is_skipped(is_in_front: bool, reason: str) -> None:
     unseen = WindowSnapshot(Fingerprint("Minecraft", (854, 480), None), (854, 480), None, is_in_front, None)
     checks = screen_rows(unseen)
     assert [check.name for check in checks] == list(SCREEN_CHECKS)

@@ -74,7 +74,7 @@ def test_what_can_be_read_is_not_waited_for() -> None:
     assert said == []
 
 
-def test_a_person_has_half_a_minute_to_come() -> None:
+def test_a_person_has_half_a_minute_to_switch_to_the_game() -> None:
     client = started(VirtualClient())
     client.set_front(is_in_front=False)
     snapshot, seconds, said = waited(client)

@@ -76,7 +76,7 @@ def test_the_font_is_found_among_jars_of_other_versions_and_broken_ones(tmp_path
     ]
 
 
-def test_letters_that_fit_no_jar_are_told_with_the_jars_that_were_tried(tmp_path: Path) -> None:
+def test_letters_that_fit_no_jar_are_reported_with_the_jars_that_were_tried(tmp_path: Path) -> None:
     client = started(VirtualClient(font=flipped()))
     one = jar(tmp_path / "1.20.1.jar", font_file_in(tmp_path))
     with pytest.raises(FontError, match=r"fit none of these fonts: \S*1\.20\.1\.jar: .* Force Unicode Font off$"):
@@ -125,7 +125,7 @@ def test_a_debug_screen_that_is_off_is_switched_on(tmp_path: Path) -> None:
     assert client.game.has_f3
 
 
-def test_without_any_debug_screen_that_is_told_and_nothing_stays_pressed(tmp_path: Path) -> None:
+def test_a_missing_debug_screen_is_reported_and_nothing_stays_pressed(tmp_path: Path) -> None:
     client = started(VirtualClient(has_f3=False, words=SPANISH))
     client.game.hides_hud = True
     with pytest.raises(UnreadableError, match="no debug screen is to be seen, even after its key was pressed"):
@@ -136,14 +136,14 @@ def test_without_any_debug_screen_that_is_told_and_nothing_stays_pressed(tmp_pat
     assert client.window.down == set()
 
 
-def test_a_reduced_debug_screen_is_told(tmp_path: Path) -> None:
+def test_a_reduced_debug_screen_is_reported(tmp_path: Path) -> None:
     client = started(VirtualClient())
     client.realm.rules["reducedDebugInfo"] = "true"
     with pytest.raises(UnreadableError, match="Reduced Debug Info"):
         find_font(context_over(client), Profile(), sources_in(tmp_path))
 
 
-def test_a_game_that_stays_behind_another_window_is_told(tmp_path: Path) -> None:
+def test_a_game_that_stays_behind_another_window_is_reported(tmp_path: Path) -> None:
     client = started(VirtualClient())
     client.set_front(is_in_front=False)
     with pytest.raises(NotInFrontError, match="didn't come to the front"):
@@ -195,7 +195,7 @@ def test_a_jar_that_is_named_is_the_only_one_tried(tmp_path: Path) -> None:
     assert found.profile.screen.font == str(tmp_path / "ascii.png")
 
 
-def test_an_unreadable_jar_that_is_named_is_told_before_a_window_is_looked_for(tmp_path: Path) -> None:
+def test_a_named_jar_that_can_not_be_read_is_reported_before_a_window_is_looked_for(tmp_path: Path) -> None:
     bad = tmp_path / "bad.jar"
     bad.write_bytes(b"PK\3\4")
 

@@ -87,7 +87,7 @@ def test_each_launchers_client_jar_is_found_and_its_version_known(platform: Plat
     assert jar_version(file) == "1.20.1"
 
 
-def test_every_launcher_has_a_place_on_every_platform() -> None:
+def test_every_launcher_has_a_folder_on_every_platform() -> None:
     assert len(LAUNCHERS) == 5
     assert all(launcher.roots[platform] for launcher in LAUNCHERS for platform in ("windows", "macos", "linux"))
 

@@ -1,4 +1,4 @@
-"""Which games run where: told by a command line or a working folder, and never taken for closed where nobody knows."""
+"""Which games run where: by command line or working folder; what is unknown never counts as closed."""
 
 import os
 import shutil
@@ -60,7 +60,7 @@ def test_other_programs_hold_nothing(command: str, games: tuple[Path, Path]) -> 
     assert folders_played([Process(command, folder=games[0])]) == []
 
 
-def test_what_linux_tells_of_its_processes_is_read(tmp_path: Path, games: tuple[Path, Path]) -> None:
+def test_the_processes_of_linux_are_read(tmp_path: Path, games: tuple[Path, Path]) -> None:
     for number, words in ((7, PLAIN.split()), (8, ["bash"]), (9, [])):
         (tmp_path / "proc" / str(number)).mkdir(parents=True)
         (tmp_path / "proc" / str(number) / "cmdline").write_bytes(b"".join(word.encode() + b"\0" for word in words))
@@ -73,7 +73,7 @@ def test_what_linux_tells_of_its_processes_is_read(tmp_path: Path, games: tuple[
     assert folders_played(found) == [games[1]]
 
 
-def test_a_system_that_tells_nothing_is_not_taken_for_one_without_games(
+def test_a_system_that_answers_nothing_is_not_taken_for_one_without_games(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert running_processes("linux", tmp_path / "proc") is None

@@ -36,7 +36,7 @@ def test_what_is_kept_comes_back(tmp_path: Path) -> None:
     assert np.array_equal(red.frame, RED)
 
 
-def test_a_step_done_again_takes_the_place_of_the_old_one_and_of_its_pictures(tmp_path: Path) -> None:
+def test_a_repeated_step_replaces_the_old_one_and_its_pictures(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
     two = (ReportPicture("one", GREY), ReportPicture("two", GREY))
     keep(profile, [found("font", "old", pictures=two), found("walk", "slow", pictures=two[:1])], today="2026-11-20")

@@ -35,7 +35,7 @@ SENTENCES = st.text(st.sampled_from("abn /\\:.\"'~<>\n,_-C1"), max_size=40)
         ("a world of 15 x 15 cells", "a world of 15 x 15 cells"),
     ],
 )
-def test_what_is_left_of_a_text_of_anns(text: str, left: str) -> None:
+def test_the_name_ann_is_removed_from_a_text(text: str, left: str) -> None:
     assert ANN.removed_from(text) == left
 
 

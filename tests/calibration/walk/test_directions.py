@@ -41,8 +41,8 @@ def test_swapped_sides_are_said() -> None:
     assert describe_keys(KEYS, KEYS) == "w goes forward, s goes back, a goes left, d goes right"
 
 
-def test_a_key_that_moves_nobody_and_two_that_go_the_same_way_are_mistakes() -> None:
-    with pytest.raises(UserError, match="the key a moves nobody left"):
+def test_a_key_without_effect_and_two_that_go_the_same_way_are_mistakes() -> None:
+    with pytest.raises(UserError, match="the key a doesn't move the player left"):
         corrected_keys(KEYS, {"forward": "forward", "back": "back", "left": None, "right": "right"})
     with pytest.raises(UserError, match="don't go four ways"):
         corrected_keys(KEYS, {"forward": "forward", "back": "forward", "left": "left", "right": "right"})

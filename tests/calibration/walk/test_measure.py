@@ -134,7 +134,7 @@ def test_other_physics_are_measured_as_they_are_and_said(
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
-def test_lag_spoils_holds_but_not_what_is_found(seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_lag_costs_holds_but_not_accuracy(seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     client = VirtualClient(seed=seed, pitch=65.0)
     client.mishaps.every(0.12, ("lag", "frozen_frame", "late_key"))
     found = measured(client, tmp_path)
@@ -144,7 +144,7 @@ def test_lag_spoils_holds_but_not_what_is_found(seed: int, tmp_path: Path, monke
 
 
 @pytest.mark.slow
-def test_constant_lag_is_said(tmp_path: Path) -> None:
+def test_constant_lag_is_reported(tmp_path: Path) -> None:
     client = VirtualClient(seed=1, pitch=65.0)
     client.mishaps.every(0.35, ("lag",))
     found = measured(client, tmp_path)
@@ -172,10 +172,10 @@ def test_a_block_or_an_edge_in_the_way_is_found_sneaking(
     assert client.window.down == set()
 
 
-def test_wrong_keys_are_told_from_a_floor_that_is_not_free(tmp_path: Path) -> None:
+def test_wrong_keys_are_distinguished_from_a_floor_that_is_not_free(tmp_path: Path) -> None:
     client = VirtualClient(pitch=65.0)
     profile = profile_of(client, tmp_path).model_copy(update={"keys": KeysTable(left="j")})
-    with pytest.raises(UserError, match="the key j moves nobody left"):
+    with pytest.raises(UserError, match="the key j doesn't move the player left"):
         measured(client, tmp_path, profile)
 
 
@@ -226,7 +226,7 @@ def test_what_was_found_is_written_with_its_picture(kept: Path) -> None:
         ("f3_off", McNestedError),
     ],
 )
-def test_a_hand_in_between_is_one_line_and_the_profile_as_it_was(
+def test_interference_is_one_line_and_the_profile_as_it_was(
     kind: Kind, error: type[McNestedError], after_s: float, kept: Path
 ) -> None:
     before = kept.read_bytes()

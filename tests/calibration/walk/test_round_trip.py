@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from calibration.walk.round_trip import HoldTiming, latencies, round_trip_of
 from mc_nested.live.model.kinematics import TICK_S
-from mc_nested.live.motion.tick_phase import CAPTURE_LATENCY_S, INPUT_LATENCY_S
+from mc_nested.live.model.timing import CAPTURE_LATENCY_S, INPUT_LATENCY_S
 
 FRAME_S = 1 / 60
 
@@ -47,7 +47,7 @@ def test_a_few_holds_that_lag_delayed_move_it_little() -> None:
     assert round_trip_of([*holds, *lagged]) == pytest.approx(0.0405, abs=0.004)
 
 
-def test_steps_off_the_beat_of_their_hold_are_late() -> None:
+def test_steps_off_the_tick_phase_of_their_hold_are_late() -> None:
     steady = hold(100.0, 0.3, 0.0125, 0.028)
     assert steady.late_steps == 0
     moved = tuple((tick, since + 0.06 * (tick > 7), at + 0.06 * (tick > 7)) for tick, since, at in steady.steps)
@@ -58,7 +58,7 @@ def test_steps_off_the_beat_of_their_hold_are_late() -> None:
     )
 
 
-def test_what_cannot_be_told_apart_is_shared_as_the_defaults_are() -> None:
+def test_a_round_trip_is_split_in_the_ratio_of_the_default_latencies() -> None:
     assert latencies(INPUT_LATENCY_S + CAPTURE_LATENCY_S) == pytest.approx((INPUT_LATENCY_S, CAPTURE_LATENCY_S))
     felt, seen = latencies(0.1)
     assert felt + seen == pytest.approx(0.1)

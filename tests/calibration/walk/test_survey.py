@@ -1,11 +1,15 @@
 """Survey holds: what one hold says about its direction, its sideways drift and its timing."""
 
+from typing import cast
+
 import pytest
 
 from calibration.walk.directions import Direction
-from calibration.walk.survey import SurveyHold
-from calibration.walk.walker import RecordedHold, Sighting
+from calibration.walk.survey import SHORTEST, Survey, SurveyHold
+from calibration.walk.walker import RecordedHold, Sighting, Walker
 from mc_nested.live.model.coordinates import GroundVector
+from mc_nested.live.profile.tables import KeysTable
+from tests.live.fake_game import FakeClock
 
 BEGIN = GroundVector(0.5, -0.25)
 
@@ -57,3 +61,31 @@ def test_the_timing_pairs_each_position_with_its_tick_and_leaves_out_the_beginni
     assert (timing.pressed, timing.released, timing.ticks) == (1.0, 1.2, 2)
     assert [step[0] for step in timing.steps] == [1, 2]
     assert [step[1:] for step in timing.steps] == [pytest.approx((1.1, 1.108)), pytest.approx((1.15, 1.158))]
+
+
+class FlatWalker:
+    """Every hold covers a tenth of a block a tick, right and forward, and brings the player back to where it began."""
+
+    def __init__(self) -> None:
+        self.held_ticks: list[int] = []
+
+    def stand(self) -> GroundVector:
+        return BEGIN
+
+    def position(self) -> GroundVector:
+        return BEGIN
+
+    def hold(self, seconds: float, *_keys: str, phase: float, max_distance: float) -> RecordedHold:  # noqa: ARG002
+        ticks = seconds / 0.05
+        self.held_ticks.append(round(ticks))
+        end = GroundVector(BEGIN.right + 0.1 * ticks, BEGIN.forward + 0.1 * ticks)
+        return RecordedHold(1.0, 1.0 + seconds, BEGIN, (Sighting(1.0, 1.05, end),))
+
+
+@pytest.mark.parametrize(("reach", "longest"), [(0.0, SHORTEST), (0.75, max(SHORTEST, 7))])
+def test_every_short_hold_is_made_and_longer_ones_as_far_as_the_floor_is_free(reach: float, longest: int) -> None:
+    walker = FlatWalker()
+    survey = Survey(cast("Walker", walker), KeysTable(), FakeClock())
+    survey.reach = reach
+    survey.walk()
+    assert set(walker.held_ticks) == set(range(1, longest + 1))

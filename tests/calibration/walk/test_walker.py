@@ -68,7 +68,7 @@ def test_a_hold_ends_early_at_its_largest_distance() -> None:
     assert recorded.offsets[-1].forward < 1.0 + 3 * 0.216
 
 
-def test_a_key_that_moves_nobody_is_waited_for_a_second() -> None:
+def test_a_key_without_effect_is_watched_for_a_second() -> None:
     game = _game()
     recorded = _walker(game).hold(0.1, "j")
     assert recorded.sightings == ()

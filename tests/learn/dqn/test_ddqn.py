@@ -1,4 +1,4 @@
-"""The DDQN target by hand, an update against torch's own Adam and Huber loss, and rows that never meet."""
+"""The DDQN target by hand, an update against torch's own Adam and Huber loss, and rows that don't affect each other."""
 
 import numpy as np
 import pytest

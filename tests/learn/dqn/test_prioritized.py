@@ -20,7 +20,7 @@ def priorities_of(errors: list[float], alpha: float = 1.0, beta: float = 1.0, ro
 
 
 def counts(priorities: Priorities, kinds: int) -> list[int]:
-    """How often each place comes of 1,000 evenly spread draws."""
+    """How often each index is drawn in 1,000 evenly spread draws."""
     drawn = priorities.sample(ROW, np.full((1, 1000), 0.5))
     return [int(count) for count in np.bincount(drawn[0], minlength=kinds)]
 

@@ -11,7 +11,7 @@ from mc_nested.learn.dqn.replay import Replay, Transitions
 
 
 def transition(*numbers: int) -> Transitions:
-    """A transition for each number, made so that every field tells the number."""
+    """A transition for each number, made so that every field follows from the number."""
     n = np.array(numbers)
     return Transitions(np.stack([n, n + 2]), n % 8, n / 2, n / 4)
 

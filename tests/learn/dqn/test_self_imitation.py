@@ -43,7 +43,7 @@ def test_the_first_transitions_of_a_batch_are_the_best_episodes() -> None:
 
 
 @pytest.mark.parametrize("shorter", [True, False])
-def test_a_better_episode_takes_the_last_ones_place(shorter: bool) -> None:
+def test_a_better_episode_replaces_the_last_one(shorter: bool) -> None:
     best = BestEpisodes(rows=1, longest=10, share=8)
     best.keep(0, transitions(*range(5)))
     best.keep(0, transitions(*range(20, 22 if shorter else 29)))

@@ -29,7 +29,7 @@ def train(job: Job, folder: Path) -> JobOutcome:
     ("agent", "encoding"),
     [("nested", "scaled"), ("hierarchical", "scaled"), ("single", "scaled"), ("nested", "one-hot")],
 )
-def test_what_comes_out_does_not_depend_on_the_cut(agent: str, encoding: str, tmp_path: Path) -> None:
+def test_the_outcome_does_not_depend_on_the_division(agent: str, encoding: str, tmp_path: Path) -> None:
     runs = runs_of([agent], [DOT, BAR], 3, small_preset().model_copy(update={"encoding": encoding}))
     found: list[dict[tuple[str, int], RunOutcome]] = []
     for parts in (1, 4):
@@ -69,7 +69,7 @@ def test_no_run_loses_more_than_an_evaluation_interval(tmp_path: Path) -> None:
     assert own.trainer.episodes_done.max() > 3 * job.preset.evaluate_every
 
 
-def test_stopped_time_and_again_the_same_comes_out(tmp_path: Path) -> None:
+def test_a_job_stopped_repeatedly_has_the_same_outcome(tmp_path: Path) -> None:
     job = one_job("hierarchical", [DOT, BAR], 2)
     straight = train(job, tmp_path / "straight")
     own = training(job, tmp_path / "stopped")

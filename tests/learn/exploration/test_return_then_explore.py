@@ -15,7 +15,7 @@ ALWAYS, NEVER = 0.0, 0.999
 
 
 def step(x: int, y: int, action: int, used: bool = False, reward: float = 0.0, state: int | None = None) -> EpisodeStep:
-    """A step whose state is told by its place, unless given."""
+    """A step whose state, unless given, is its cell's number."""
     number = 15 * x + y if state is None else state
     return EpisodeStep(x, y, number, action, reward, number + 1, False, used)
 
@@ -63,7 +63,7 @@ def test_at_the_chosen_share_it_is_followed_to_its_end() -> None:
     assert actions == [each.action for each in WALK]
 
 
-def test_what_wasted_a_block_at_a_place_is_not_wandered_into_again() -> None:
+def test_an_action_that_wasted_a_block_in_a_cell_is_not_repeated_there() -> None:
     excursions = after([step(7, 14, 4, used=True, reward=0.0), step(7, 14, 6, used=True, reward=0.0)])
     excursions.begin(numbers(NEVER, 0.0, 0.0))
     drawn = {excursions.next_action(7, 14, numbers(NEVER, NEVER, which)) for which in np.arange(0, 1, 0.05)}
@@ -85,7 +85,7 @@ def test_a_placing_known_to_lie_on_the_design_is_repeated_as_often_as_the_rule_s
     assert excursions.next_action(7, 13, numbers(NEVER, 0.81, 0.3)) == 2
 
 
-def test_an_occupied_front_tells_nothing_new_about_a_placing() -> None:
+def test_an_occupied_front_teaches_nothing_about_a_placing() -> None:
     excursions = after([WALK[0], WALK[1], step(7, 13, 5, used=False)])
     excursions.begin(numbers(NEVER, 0.0, 0.0))
     assert excursions.next_action(7, 13, numbers(NEVER, 0.0, 0.0)) == 5

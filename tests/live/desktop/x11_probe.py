@@ -1,6 +1,6 @@
-"""Opens a real X window, drives it through the desktop's devices and prints what came of it as one JSON object.
+"""Opens a real X window, drives it through the desktop's devices and prints the results as one JSON object.
 
-A process of its own, since pyautogui keeps to the display of its import: python x11_probe.py LEFT TOP.
+A process of its own, since pyautogui keeps to the display of its import: python x11_probe.py PART.
 """
 
 import json
@@ -20,13 +20,14 @@ from mc_nested.errors import DesktopError, LiveError
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.desktop.hotkeys import open_hotkeys
 from mc_nested.live.desktop.panic import open_panic_switch
-from mc_nested.live.devices import Devices, Keyboard, Region
-from mc_nested.live.devices import Display as Shown
+from mc_nested.live.devices import Devices, Region
+from mc_nested.live.input.panic import CORNER_REASON, KEY_REASON
 
 if TYPE_CHECKING:
     from Xlib.xobject.drawable import Window
 
 TITLE, SIZE = "Minecraft* 1.20.1 - Singleplayer", (320, 240)
+LEFT, TOP = 60, 40
 RED, BLUE = 0xFF2010, 0x1020FF
 PATIENCE_S = 5.0
 
@@ -137,6 +138,21 @@ def stopped_by(display: Display) -> list[tuple[str, float]]:
 
     code = display.keysym_to_keycode(XK.string_to_keysym("F12"))
     with open_panic_switch("f12", stop):
+        # The listeners begin to hear a moment after they say so.
+        for reason, there, back in (
+            (KEY_REASON, (X.KeyPress, code, 0, 0), (X.KeyRelease, code, 0, 0)),
+            (CORNER_REASON, (X.MotionNotify, 0, 0, 0), (X.MotionNotify, 0, 300, 300)),
+        ):
+            end = time.monotonic() + PATIENCE_S
+            while all(each != reason for each, _ in heard) and time.monotonic() < end:
+                began = time.monotonic()
+                for kind, detail, x, y in (there, back):
+                    xtest.fake_input(display, kind, detail, x=x, y=y)
+                    display.sync()
+                    happened.wait(0.2)
+                happened.clear()
+        time.sleep(0.2)
+        heard.clear()
         for kind, detail, x, y in (
             *((X.KeyPress, code, 0, 0), (X.KeyRelease, code, 0, 0), (X.MotionNotify, 0, 300, 0)),
             *((X.MotionNotify, 0, 0, 0), (X.MotionNotify, 0, 300, 300), (X.MotionNotify, 0, *corner)),
@@ -158,40 +174,26 @@ def error_of_opening(title: str) -> str:
     return error_of(act)
 
 
-def main(left: int, top: int) -> dict[str, Any]:
-    display = Display()
-    probe = Probe(display, left, top, TITLE)
-    report: dict[str, Any] = {"no such window": error_of_opening("^Terraria")}
-    with open_desktop(r"^Minecraft\*? \d") as desktop:
-        probe.focus()
-        probe.draw()
-        report |= picture_report(desktop.display)
-        report |= key_report(probe, desktop.keyboard)
-        report |= pointer_report(probe, desktop)
-        probe.focus()
-        report["hotkeys"] = heard_hotkeys(display)
-        report["stopped by"] = stopped_by(display)
-        probe.window.configure(x=left + 37, y=top + 23)
-        display.sync()
-        probe.draw()
-        report["moved"] = [desktop.display.grab()[0, 0].tolist(), desktop.display.grab()[239, 319].tolist()]
-        report |= window_report(probe, desktop.display)
-    return report
-
-
-def picture_report(shown: Shown) -> dict[str, Any]:
+def camera_report(probe: Probe, desktop: Devices) -> dict[str, Any]:
+    shown = desktop.display
     picture = shown.grab()
-    return {
-        "title": shown.title(),
-        "size": shown.size(),
-        "in front": shown.is_in_front(),
+    report: dict[str, Any] = {
         "shape": picture.shape,
         "corners": [picture[y, x].tolist() for y, x in ((0, 0), (239, 0), (0, 319), (239, 319))],
         "seam": shown.grab(Region(159, 100, 2, 1)).tolist(),
     }
+    probe.window.configure(x=LEFT + 37, y=TOP + 23)
+    probe.display.sync()
+    probe.draw()
+    report["moved"] = [shown.grab()[0, 0].tolist(), shown.grab()[239, 319].tolist()]
+    probe.window.configure(x=-50)
+    probe.until(lambda: bool(error_of(shown.grab)))
+    report["off the screen"] = error_of(shown.grab)
+    return report
 
 
-def key_report(probe: Probe, keyboard: Keyboard) -> dict[str, Any]:
+def key_report(probe: Probe, desktop: Devices) -> dict[str, Any]:
+    keyboard = desktop.keyboard
     probe.events()
     for key in ("w", "f3", "left.shift", "/"):
         keyboard.press(key)
@@ -217,28 +219,29 @@ def pointer_report(probe: Probe, desktop: Devices) -> dict[str, Any]:
 
     probe.until(is_clicked)  # a window manager holds clicks back for a moment
     report["clicks"] = clicks
-    probe.display.set_input_focus(X.PointerRoot, X.RevertToPointerRoot, X.CurrentTime)
-    probe.display.sync()
-    report["keys go to the pointer's window"] = desktop.display.is_in_front()
-    pointer.move(-50, -50)
-    report["keys go elsewhere"] = desktop.display.is_in_front()
     pointer.move(-5000, -5000)
     report["in the corner"] = error_of(lambda: pointer.press("left"))
     return report
 
 
-def window_report(probe: Probe, shown: Shown) -> dict[str, Any]:
-    """Another window in front, a window partly off the screen, a minimised one and a closed one."""
+def window_report(probe: Probe, desktop: Devices) -> dict[str, Any]:
+    """Another window in front, the focus on none, a minimised window and a closed one."""
+    shown, pointer = desktop.display, desktop.pointer
+    report: dict[str, Any] = {"title": shown.title(), "size": shown.size(), "in front": shown.is_in_front()}
+    report["no such window"] = error_of_opening("^Terraria")
     other = Probe(probe.display, 700, 500, "Terraria")
     other.focus()
-    report: dict[str, Any] = {"other in front": shown.is_in_front()}
+    report["other in front"] = shown.is_in_front()
     report["several"] = error_of_opening("Minecraft|Terraria")
     other.window.destroy()
     probe.focus()
     report["again in front"] = shown.is_in_front()
-    probe.window.configure(x=-50)
-    probe.until(lambda: bool(error_of(shown.grab)))
-    report["off the screen"] = error_of(shown.grab)
+    pointer.move(200, 50)
+    probe.display.set_input_focus(X.PointerRoot, X.RevertToPointerRoot, X.CurrentTime)
+    probe.display.sync()
+    report["keys go to the pointer's window"] = shown.is_in_front()
+    pointer.move(-50, -50)
+    report["keys go elsewhere"] = shown.is_in_front()
     probe.window.unmap()
     probe.display.sync()
     report["minimised"] = error_of(shown.grab)
@@ -248,5 +251,23 @@ def window_report(probe: Probe, shown: Shown) -> dict[str, Any]:
     return report
 
 
+PARTS: dict[str, Callable[[Probe, Devices], dict[str, Any]]] = {
+    "camera": camera_report,
+    "keyboard": key_report,
+    "pointer": pointer_report,
+    "hotkeys": lambda probe, _: {"hotkeys": heard_hotkeys(probe.display)},
+    "panic": lambda probe, _: {"stopped by": stopped_by(probe.display)},
+    "window": window_report,
+}
+
+
+def main(part: str) -> dict[str, Any]:
+    probe = Probe(Display(), LEFT, TOP, TITLE)
+    with open_desktop(r"^Minecraft\*? \d") as desktop:
+        probe.focus()
+        probe.draw()
+        return PARTS[part](probe, desktop)
+
+
 if __name__ == "__main__":
-    json.dump(main(int(sys.argv[1]), int(sys.argv[2])), sys.stdout)
+    json.dump(main(sys.argv[1]), sys.stdout)

@@ -11,5 +11,5 @@ def test_the_last_point_of_each_side_is_a_corner(corner: tuple[int, int]) -> Non
 
 
 @pytest.mark.parametrize("point", [(1, 0), (1920, 0), (0, 1080), (960, 540), (1918, 1079)])
-def test_no_other_point_is(point: tuple[int, int]) -> None:
+def test_any_other_point_is_no_corner(point: tuple[int, int]) -> None:
     assert point not in corners_of(1920, 1080)

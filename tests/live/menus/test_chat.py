@@ -48,7 +48,7 @@ def test_a_line_is_typed_and_sent() -> None:
     assert game.typed() is None
 
 
-def test_the_chat_is_looked_at_every_eight_letters() -> None:
+def test_the_chat_is_checked_every_eight_letters() -> None:
     # One look at the open chat, one before each of the three parts of 22 letters, one at the closed chat.
     game = FakeGame(Profile())
     screen = ChatScreen(game)

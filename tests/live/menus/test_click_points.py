@@ -122,7 +122,7 @@ def test_a_name_with_one_letter_more_or_another_is_another_world(other: str) -> 
 
 
 @pytest.mark.parametrize("change", ["black", "white", "noise", "small", "smaller than the picture"])
-def test_whatever_else_is_there_is_not_it(change: str) -> None:
+def test_anything_else_at_the_point_does_not_match(change: str) -> None:
     frame = named("Singleplayer", 0)
     point = record_point("x", frame, (210, 88), 2)
     others = {
@@ -136,7 +136,7 @@ def test_whatever_else_is_there_is_not_it(change: str) -> None:
     assert not looks_the_same(point, others[change])
 
 
-def test_a_bare_place_tells_nothing_and_is_never_known_again() -> None:
+def test_a_bare_spot_is_never_recognised() -> None:
     frame = np.full((240, 400, 3), 60, np.uint8)
     point = record_point("x", frame, (200, 100), 2)
     assert not has_pattern(point.picture)
@@ -208,3 +208,8 @@ def test_behind_another_window_nothing_is_pressed(client: VirtualClient) -> None
     with pytest.raises(NotInFrontError):
         click_on(point, hands_of(client), client.display)
     assert client.window.strays == []
+
+
+def test_a_point_on_the_far_edges_is_the_last_pixel() -> None:
+    point = ClickPoint("corner", (1.0, 1.0), np.zeros((1, 1, 3), np.uint8))
+    assert point.position((854, 480)) == (853, 479)

@@ -93,7 +93,7 @@ def test_after_a_known_screen_an_unknown_one_is_waited_for_as_long_again_and_get
 
 def test_what_never_becomes_the_world_is_an_error_after_the_patience_with_the_screen_and_the_reason() -> None:
     menus = FakeMenus("death", greyed={"Respawn"})
-    with pytest.raises(LiveError, match=rf"not found in 60 s, the screen is death \({PROBLEM}\)"):
+    with pytest.raises(LiveError, match=rf"not reached in 60 s, the screen is death \({PROBLEM}\)"):
         recovery_in(menus).recover("the chat covers it")
     assert PATIENCE_S <= menus.clock.now() - 100.0 < PATIENCE_S + 2 * EFFECT_S
 

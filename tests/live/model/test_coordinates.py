@@ -55,7 +55,7 @@ def test_any_point_over_a_cells_block_is_in_that_cell(
 
 
 @given(facings, st.floats(-44, 44), st.integers(-2, 2))
-def test_somebody_who_looks_roughly_one_way_faces_it(facing: Facing, off: float, turns: int) -> None:
+def test_a_player_who_looks_roughly_along_an_axis_faces_it(facing: Facing, off: float, turns: int) -> None:
     assert facing_of(yaw_of(facing) + off + 360 * turns) == facing
 
 

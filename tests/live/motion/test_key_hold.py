@@ -36,7 +36,7 @@ class TimedKeyboard(FakeKeyboard):
 
 
 class Holding:
-    """An agent at rest on a clock that begins at 100 seconds."""
+    """An agent that stands still, on a clock that begins at 100 seconds."""
 
     def __init__(self) -> None:
         self.game = FakeGame(PROFILE, xyz=(7.5, 64.0, 7.5), pitch=65.0)

@@ -151,3 +151,12 @@ def test_an_agent_whose_position_fits_no_path_is_watched_until_it_stands_still()
     state, _ = walk.locomotion.follow_to_end(walk.observer.look())
     assert state.end == pytest.approx((7.2, 7.0))
     assert walk.game.clock.now() - began == pytest.approx(1.0, abs=0.03)
+
+
+def test_a_press_that_comes_late_moves_the_release_so_that_the_ticks_are_the_same() -> None:
+    walk = Walk()
+    walk.know_ticks()
+    walk.locomotion.set_standing(walk.observer.look())
+    walk.game.late_from, walk.game.late_until = walk.game.clock.now(), walk.game.clock.now() + 0.05
+    walk.walk(displacement(5), 0.0)
+    assert walk.end() == pytest.approx((7.0 + displacement(5), 7.0), abs=0.001)

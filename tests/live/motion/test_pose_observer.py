@@ -18,7 +18,7 @@ PROFILE = Profile(arena=Arena.around((14, 64, 0), "south"))
 
 
 class Steps(TickPhase):
-    """Records the steps that it was told of."""
+    """Records the steps that it is given."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -63,7 +63,7 @@ def test_a_look_gives_the_position_in_cells_and_the_block_looked_at(observed: Ob
     assert str(pose) == "(7.25, 8.00)"
 
 
-def test_within_one_frame_the_screen_is_looked_at_once(observed: Observed) -> None:
+def test_within_one_frame_the_screen_is_read_once(observed: Observed) -> None:
     observed.observer.look()
     observed.pass_time(0.004)
     observed.observer.look()

@@ -20,7 +20,7 @@ def _walked(ticks: int) -> list[float]:
 
 
 def _seconds_until_reached(places: list[float], tick_s: float = 0.05) -> float:
-    """Seconds from the first place until standstill, with the last place staying."""
+    """Seconds from the first position until standstill, with the last position staying."""
     standstill = Standstill((0.0, 0.0), 0.0, SETTLE_S)
     for look in range(1000):
         place = places[min(int(look * 0.01 / tick_s), len(places) - 1)]
@@ -49,5 +49,5 @@ def test_a_game_that_answers_late_is_waited_for() -> None:
     assert _seconds_until_reached(late) >= late.index(late[-1]) * 0.05
 
 
-def test_somebody_who_never_moved_stands_after_a_while() -> None:
+def test_a_walker_that_never_moved_stands_still_after_a_while() -> None:
     assert STALL_S <= _seconds_until_reached([0.0]) <= STALL_S + 0.02

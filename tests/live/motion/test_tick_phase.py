@@ -1,4 +1,4 @@
-"""The beat: ticks are told from sightings that are late by chance, and not where there are none."""
+"""TickPhase: found from sightings that are late by chance, and not found in a game without ticks."""
 
 import random
 
@@ -29,14 +29,14 @@ def test_ticks_are_known_to_a_few_milliseconds_after_some_steps(phase: float, se
     assert abs(off) < 0.008
 
 
-def test_little_is_not_believed() -> None:
+def test_few_sightings_give_no_tick_phase() -> None:
     tick_phase = TickPhase()
     for seen in _sightings(int(ENOUGH) - 1, 0.01, 0):
         tick_phase.saw_step(seen, seen)
     assert not tick_phase.is_known
 
 
-def test_a_game_without_a_beat_has_none() -> None:
+def test_a_game_without_ticks_has_no_phase() -> None:
     tick_phase, rng = TickPhase(), random.Random(1)  # noqa: S311
     for _ in range(60):
         seen = rng.uniform(0, 100)

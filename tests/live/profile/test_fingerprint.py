@@ -67,7 +67,7 @@ def test_whatever_has_changed_is_named_with_the_step_to_repeat(current: Fingerpr
     assert mismatch(CALIBRATED, current, "laptop") == complaint
 
 
-def test_what_nobody_knows_is_not_compared() -> None:
+def test_unknown_values_are_not_compared() -> None:
     assert mismatch(CalibratedTable(date="2026-11-21"), CURRENT, "default") is None
     assert mismatch(CALIBRATED, Fingerprint("All the Mods 9", (854, 480)), "default") is None
 

@@ -229,7 +229,7 @@ def test_no_name_is_no_profile(name: str) -> None:
         load_profile(name)
 
 
-def test_a_profile_that_is_not_there_is_told_what_makes_it(tmp_path: Path) -> None:
+def test_a_missing_profile_is_reported_with_the_command_that_makes_it(tmp_path: Path) -> None:
     with pytest.raises(ProfileError, match="mc-nested calibrate all makes one"):
         load_profile(tmp_path / "none.toml")
 

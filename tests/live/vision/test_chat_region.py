@@ -34,7 +34,7 @@ def test_it_never_reaches_out_of_the_window(width: int, height: int, scale: int)
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.20.1", "26.1"])
 @pytest.mark.parametrize(("size", "scale"), [((854, 480), 1), ((1280, 720), 3)])
-def test_nothing_that_was_said_is_left_on_the_picture(version: str, size: tuple[int, int], scale: int) -> None:
+def test_no_chat_message_is_left_on_the_picture(version: str, size: tuple[int, int], scale: int) -> None:
     def seen(words: str) -> Frame:
         client = VirtualClient(version=version, size=size, scale=scale, capture_latency_s=(0.0, 0.0))
         for line in range(12):
@@ -49,7 +49,7 @@ def test_nothing_that_was_said_is_left_on_the_picture(version: str, size: tuple[
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "26.1"])
-def test_nor_what_is_being_typed(version: str) -> None:
+def test_nothing_that_is_being_typed_is_left_on_the_picture(version: str) -> None:
     def seen(words: str) -> Frame:
         client = VirtualClient(version=version, capture_latency_s=(0.0, 0.0))
         tap(client, "t")

@@ -153,7 +153,7 @@ def test_a_frame_too_small_for_text_is_a_problem(shape: tuple[int, int]) -> None
     assert "press F3" in (read_debug_screen(np.zeros((*shape, 3), np.uint8), FONT).problem or "")
 
 
-def test_reduced_debug_info_is_said() -> None:
+def test_reduced_debug_info_is_reported() -> None:
     reading = read_debug_screen(painted(dataclasses.replace(screen(), reduced=True)), FONT)
     assert reading.xyz is None
     assert "reducedDebugInfo" in (reading.problem or "")
@@ -164,7 +164,7 @@ def test_the_boxed_groups_of_26_4_are_named_as_not_supported(scale: int) -> None
     assert "26.4" in (read_debug_screen(painted(screen("26.4", scale)), FONT).problem or "")
 
 
-def test_a_layout_that_is_not_supported_is_said() -> None:
+def test_a_layout_that_is_not_supported_is_reported() -> None:
     frame = world(2)
     write(frame, 2, "Minecraft 26.4-snapshot-2 (vanilla)", (2, 2), 224)
     assert "26.4" in (read_debug_screen(frame, FONT).problem or "")
@@ -192,7 +192,7 @@ def test_something_over_part_of_a_line_is_a_problem(prefix: str, grey: int) -> N
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
-def test_a_covered_last_digit_of_the_place_is_a_problem(layout: Layout) -> None:
+def test_a_covered_last_digit_of_the_position_is_a_problem(layout: Layout) -> None:
     frame = painted(screen(layout), grey=200)
     text = "-9, 63, 1234" if layout in ("1.16-1.19.2", "1.19.3-1.21.8", "1.21.9-26.3") else "-9 63 1234"
     row, column = start_of(frame, 2, text)
@@ -237,8 +237,8 @@ OVER = ("black", "white", "flat", "noise", "shade", "text")
 
 
 @given(st.sampled_from(LAYOUTS), st.sampled_from(OVER), st.integers(0, 2**32 - 1))
-# Always the same examples: something opaque, flat and of the box's own grey can't be told from the box, and a random
-# run would come upon it one day.
+# Always the same examples: something opaque, flat and of the box's own grey looks like the box, and a random run would
+# find such an example one day.
 @settings(max_examples=150, derandomize=True)
 def test_whatever_lies_over_it_no_wrong_number_is_read(layout: Layout, kind: str, seed: int) -> None:
     rng = np.random.default_rng(seed)

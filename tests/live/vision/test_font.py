@@ -1,4 +1,4 @@
-"""Drives load_font and Font with atlases of the drawn font, whole and spoilt; reading frames is left to others."""
+"""Drives load_font and Font with atlases of the drawn font, whole and damaged; reading frames is left to others."""
 
 import io
 import zipfile
@@ -121,7 +121,7 @@ def test_what_cannot_be_used_is_said_in_one_line(tmp_path: Path, name: str, word
 
 
 @pytest.mark.parametrize("name", ["missing.png", "empty folder"])
-def test_what_is_not_there_is_said(tmp_path: Path, name: str) -> None:
+def test_what_is_not_there_is_reported(tmp_path: Path, name: str) -> None:
     (tmp_path / "empty folder").mkdir()
     with pytest.raises(FontError, match="there is no"):
         load_font(tmp_path / name)

@@ -79,7 +79,7 @@ def test_the_list_of_worlds_says_the_scale_before_any_debug_screen_was_seen(scal
     assert WindowScreen(ShownFrame(frame), FONT).scale() == scale
 
 
-def test_where_nothing_tells_the_scale_it_is_1() -> None:
+def test_an_unknown_scale_is_1() -> None:
     assert WindowScreen(ShownFrame(ground()), FONT).scale() == 1
 
 

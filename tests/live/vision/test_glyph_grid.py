@@ -28,7 +28,7 @@ def test_a_pattern_is_found_where_it_stands(scale: int, position: tuple[int, int
     assert GlyphGrid(frame_with(pattern, *position, scale), scale, 200).find(pattern) == [position]
 
 
-def test_of_a_grid_of_lines_only_each_pitchth_row_from_the_first_on_is_looked_at() -> None:
+def test_in_a_grid_of_lines_only_each_pitchth_row_from_the_first_on_is_searched() -> None:
     pattern = bytes((BAR, CORNER, BAR))
     for row in (2, 10, 11, 20):
         found = GlyphGrid(frame_with(pattern, row, 5, 2), 2, 200, first=2, pitch=9).find(pattern)
@@ -96,7 +96,7 @@ def test_a_strip_is_the_middle_pixel_of_each_of_its_dots() -> None:
 
 
 @given(st.binary(min_size=2, max_size=6), st.integers(1, 3), st.integers(0, 21), st.integers(0, 32))
-def test_whatever_stands_there_is_found_there(pattern: bytes, scale: int, row: int, column: int) -> None:
+def test_a_pattern_is_found_at_its_row_and_column(pattern: bytes, scale: int, row: int, column: int) -> None:
     grid = GlyphGrid(frame_with(pattern, row, column, scale), scale, 200)
     assert (row, column) in grid.find(pattern)
     assert (row, column) in GlyphGrid(grid.frame, scale, 200, row % 9, 9).find(pattern)

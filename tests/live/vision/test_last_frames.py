@@ -1,4 +1,4 @@
-"""The last frames before a failure, over a display of the test's own; which parts are blanked is chat_region's."""
+"""The last frames before a failure, over a display of the test's own; test_chat_region.py has what is blanked."""
 
 from pathlib import Path
 

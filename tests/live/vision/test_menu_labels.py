@@ -79,7 +79,7 @@ def test_each_button_is_found_within_two_gui_pixels_of_its_middle(
 
 
 @pytest.mark.parametrize("scale", [1, 2, 3, 4])
-def test_with_the_gui_scale_given_only_that_one_is_looked_at(scale: int) -> None:
+def test_with_the_gui_scale_given_only_that_one_is_tried(scale: int) -> None:
     menu = painter((1280, 960), 2)
     menu.button("Respawn", 100, 100, 200)
     assert (MenuLabels(menu.frame, FONT, scale).button("Respawn").middle is not None) == (scale == 2)
@@ -148,7 +148,7 @@ def test_a_frame_too_small_for_it_has_no_button(shape: tuple[int, int]) -> None:
     assert MenuLabels(np.full((*shape, 3), 255, np.uint8), FONT).button("Respawn").middle is None
 
 
-def test_a_label_that_the_font_lacks_is_said() -> None:
+def test_a_label_that_the_font_lacks_is_reported() -> None:
     with pytest.raises(FontError, match="é"):
         MenuLabels(np.zeros((100, 100, 3), np.uint8), FONT).button("é")
 

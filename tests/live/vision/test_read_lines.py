@@ -43,7 +43,7 @@ def test_what_the_world_shows_behind_a_complete_position_is_no_part_of_it(behind
         f"XYZ: -8.5{UNKNOWN}0 / 64.00000 / 12345.678",
     ],
 )
-def test_a_position_of_another_form_is_a_problem_and_nothing_else_is_told(text: str) -> None:
+def test_a_position_of_another_form_is_a_problem_and_nothing_else_is_given(text: str) -> None:
     reading = said(text, FACING)
     assert (reading.xyz, reading.yaw, reading.target) == (None, None, None)
     assert (reading.problem or "").startswith("a line reads 'XYZ: ")

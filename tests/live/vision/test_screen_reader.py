@@ -79,7 +79,7 @@ def test_the_block_of_a_mod_is_reread_in_the_oldest_layout() -> None:
     assert None not in pictures.grabbed
 
 
-def test_what_stands_elsewhere_is_read_anew_and_remembered() -> None:
+def test_lines_that_moved_are_found_and_remembered() -> None:
     reader, pictures = opened(screen())
     for change in (screen(x=-10.5), screen("1.13-1.15"), dataclasses.replace(screen(), gui_scale=1)):
         pictures.frame = painted(change)
@@ -92,7 +92,7 @@ def test_what_stands_elsewhere_is_read_anew_and_remembered() -> None:
 
 
 @pytest.mark.parametrize("size", [(1000, 480), (700, 480), (860, 260), (330, 60)])
-def test_a_window_of_another_size_gives_what_reading_it_anew_gives(size: tuple[int, int]) -> None:
+def test_a_window_of_another_size_reads_as_with_a_new_reader(size: tuple[int, int]) -> None:
     reader, pictures = opened(screen())
     pictures.frame = painted(screen(x=9.5), *size)
     assert reader.read() == read_debug_screen(pictures.frame, FONT)
@@ -117,7 +117,7 @@ def spoilt(frame: Frame, name: str) -> Frame:
 
 
 @pytest.mark.parametrize("name", ["black", "dimmed", "covered", "shifted"])
-def test_a_spoilt_frame_gives_what_reading_it_anew_gives_and_the_next_one_is_read(name: str) -> None:
+def test_a_damaged_frame_reads_as_with_a_new_reader_and_the_next_one_is_read(name: str) -> None:
     reader, pictures = opened(screen())
     pictures.frame = spoilt(painted(screen()), name)
     assert reader.read() == read_debug_screen(pictures.frame, FONT)

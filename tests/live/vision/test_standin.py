@@ -69,7 +69,7 @@ def test_a_name_is_looked_for_up_to_12_lines_above(number: int, is_read: bool) -
         assert "the name of the block looked at can't be seen" in why_not(*lines)
 
 
-def test_a_name_that_is_none_is_said() -> None:
+def test_a_name_that_is_none_is_reported() -> None:
     assert "the block's name reads 'oak log'" in why_not(FIRST, written("oak log", 5), LOOKING)
 
 
@@ -82,7 +82,7 @@ def test_a_position_that_ends_elsewhere_than_the_column_is_not_seen_whole() -> N
     assert "the end of 'Looking at: 1 2 3' may be covered" in why_not(FIRST, written("oak_log", 5), short)
 
 
-def test_without_the_columns_first_line_nothing_is_told() -> None:
+def test_without_the_columns_first_line_the_target_is_unknown() -> None:
     assert "the upper right of the debug screen can't be seen" in why_not(written("oak_log", 5), LOOKING)
     assert "the upper right of the debug screen can't be seen" in why_not()
 

@@ -52,7 +52,7 @@ def test_the_id_of_1_8_is_not_the_biomes_on_the_left() -> None:
 
 
 @pytest.mark.parametrize("ids", [[], [ID, written("minecraft:dirt", 6, right=True)]])
-def test_none_or_two_ids_on_the_right_of_1_8_are_told_by_their_count(ids: list[Line]) -> None:
+def test_none_or_two_ids_on_the_right_of_1_8_are_reported_with_their_count(ids: list[Line]) -> None:
     assert f"{len(ids)} lines may be the id" in why_not(written("Looking at: 1 2 3", 9), *ids)
 
 
@@ -103,17 +103,17 @@ def test_what_the_world_shows_behind_an_id_on_the_left_is_no_part_of_it() -> Non
     assert of(label, written(f"minecraft:stone {UNKNOWN}", 5)) == STONE
 
 
-def test_a_label_without_its_id_below_it_is_said() -> None:
+def test_a_label_without_its_id_below_it_is_reported() -> None:
     label = written("Targeted Block: 1, 2, 3", 4, right=True)
     assert "the id below 'Targeted Block' can't be seen" in why_not(label, written("minecraft:stone", 6, right=True))
 
 
-def test_1_13s_label_without_its_position_is_said() -> None:
+def test_1_13s_label_without_its_position_is_reported() -> None:
     problem = why_not(written("Targeted Block", 4, right=True), ID)
     assert problem.startswith("the place of the block looked at can't be seen")
 
 
-def test_1_13s_position_without_its_label_is_said() -> None:
+def test_1_13s_position_without_its_label_is_reported() -> None:
     assert "the 'Targeted Block' lines" in why_not(written("Looking at block: 1 2 3", 9), ID)
 
 

@@ -21,7 +21,7 @@ VERSIONS = ["1.8.9", "1.12.2", "1.14.4", "1.16.5", "1.18.2", "1.20.1", "1.21.8",
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.14.4", "1.20.1", "26.1"])
-def test_blocks_are_built_where_the_agent_was_told_to(version: str) -> None:
+def test_blocks_are_built_where_they_were_asked_for(version: str) -> None:
     client = VirtualClient(version=version)
     arena = arena_of(client)
     with play(client, LINE) as game:

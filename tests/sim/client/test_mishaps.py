@@ -142,7 +142,7 @@ def test_a_knocked_away_player_lands_somewhere_else() -> None:
 
 
 @pytest.mark.parametrize(("kind", "most"), [("refused_placing", 0), ("ghost_block", 1)])
-def test_a_placing_comes_to_nothing(kind: Kind, most: int) -> None:
+def test_a_placing_mishap_leaves_no_block(kind: Kind, most: int) -> None:
     client = struck(kind)
     client.realm.player.hotbar[0] = Stack("stone", 64)
     client.pointer.press("right")
@@ -268,7 +268,7 @@ def test_with_a_rate_of_one_a_mishap_is_planned_within_the_time() -> None:
     assert max(mishap.at for mishap in mishaps.happened) > 0.4
 
 
-def test_with_a_rate_of_zero_none_is() -> None:
+def test_with_a_rate_of_zero_no_mishap_is_planned() -> None:
     target = Target()
     mishaps = Mishaps(target, np.random.default_rng(0))
     assert not any(mishaps.maybe(0.0, 0.5) for _ in range(50))

@@ -1,4 +1,4 @@
-"""The way back in a game whose menus aren't English: by the points that were recorded, and by nothing else."""
+"""Recovery in a game whose menus aren't English: by the recorded points, and by nothing else."""
 
 from pathlib import Path
 
@@ -85,7 +85,7 @@ def test_without_points_the_title_is_unknown_and_nothing_on_it_is_clicked(monkey
     client = VirtualClient(words=SPANISH)
     client.game.open("title")
     client.clock.sleep(0.3)
-    with pytest.raises(LiveError, match="way back into the world was not found"):
+    with pytest.raises(LiveError, match="the world was not reached"):
         way_of(client, {}).recover()
     assert client.game.screen == "title"
 

@@ -1,4 +1,4 @@
-"""Safety on the virtual client: whatever happens, on every way out, no key stays down and none goes elsewhere."""
+"""Safety on the virtual client: whatever happens and however it ends, no key stays down and none goes elsewhere."""
 
 import contextlib
 
@@ -96,7 +96,7 @@ def test_a_screen_has_four_corners() -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_after_every_mishap_a_reset_finds_the_way_back(kind: Kind) -> None:
+def test_after_every_mishap_a_reset_recovers(kind: Kind) -> None:
     client = VirtualClient(seed=4)
     arena = arena_of(client)
     with play(client, LINE) as game:

@@ -1,4 +1,4 @@
-"""The way back from a server: it never leads through Singleplayer into a world that the agent doesn't belong in."""
+"""Recovery from a server: it never leads through Singleplayer into a world that the agent doesn't belong in."""
 
 import pytest
 
@@ -46,7 +46,7 @@ def test_from_a_server_these_screens_lead_nowhere_and_nothing_on_them_is_clicked
 
 
 @pytest.mark.parametrize("screen", ["pause", "chat", "death"])
-def test_on_a_server_the_way_back_from_other_screens_is_the_same(
+def test_on_a_server_recovery_from_other_screens_is_the_same(
     screen: ScreenName, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = VirtualClient()

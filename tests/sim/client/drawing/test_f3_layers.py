@@ -57,7 +57,7 @@ def test_reduced_debug_info_leaves_no_position() -> None:
 
 
 @pytest.mark.parametrize("world", [0, 100, 255])
-def test_the_first_line_lies_at_its_place_in_a_box(world: int) -> None:
+def test_the_first_line_lies_at_its_position_in_a_box(world: int) -> None:
     frame = paint(np.full((480, 854, 3), world, np.uint8), SCREEN, FONT)
     boxed = round(world * (255 - 0x90) / 255 + 0x50 * 0x90 / 255)
     assert (frame[0:2, 0:2] == world).all()

@@ -187,7 +187,7 @@ def test_rules_keep_the_hotbar_and_skip_the_death_screen() -> None:
     assert played.realm.player.hotbar[0] == Stack("stone", 2)
 
 
-def test_whoever_falls_out_of_the_world_dies() -> None:
+def test_a_player_who_falls_out_of_the_world_dies() -> None:
     played = game()
     played.realm.player.go_to((0.5, 1.0, 0.5))
     played.realm.world.fill((0, -10, 0), (0, 63, 0), "air")

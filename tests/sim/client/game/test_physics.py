@@ -116,7 +116,7 @@ def test_every_floor_and_effect_is_walked_on_as_its_displacement_says(
 
 
 @given(st.integers(-1, 1), st.integers(-1, 1), st.floats(-180, 180))
-def test_who_sneaks_never_walks_over_an_edge(forward: int, left: int, yaw: float) -> None:
+def test_a_sneaking_player_never_walks_over_an_edge(forward: int, left: int, yaw: float) -> None:
     def is_solid(x: int, y: int, z: int) -> bool:
         return y < 64 and abs(x) <= 1 and abs(z) <= 1
 
@@ -130,7 +130,7 @@ def test_who_sneaks_never_walks_over_an_edge(forward: int, left: int, yaw: float
     assert max(feet[0], feet[2]) < 2.3
 
 
-def test_who_walks_does() -> None:
+def test_a_walking_player_walks_over_an_edge() -> None:
     def is_solid(_x: int, y: int, z: int) -> bool:
         return y < 64 and z <= 1
 

@@ -155,7 +155,7 @@ def test_a_button_contains_its_upper_left_corner_and_not_its_lower_right_one() -
     assert button.middle == (213.0, 78.0)
 
 
-def test_only_the_way_back_is_active_before_a_world_is_chosen() -> None:
+def test_the_buttons_of_a_world_are_active_only_once_it_is_chosen() -> None:
     inactive = {button.label for button in shown("worlds", "1.20.1").buttons if not button.is_active}
     assert inactive == {"Play Selected World", "Edit", "Delete", "Re-Create"}
     assert all(button.is_active for button in shown("worlds", "1.20.1", is_chosen=True).buttons)

@@ -8,7 +8,7 @@ from mc_nested.arena.rules import SIZE, Cell
 from mc_nested.errors import NotConfirmedError, NotInFrontError, UnreadableError
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.model.reading import Reading, Target
-from mc_nested.live.motion.body import Body
+from mc_nested.live.motion.move_and_place import Body
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import Profile, WalkTable
 from tests.live.fake_game import FLOOR, FakeGame, FakeScreen, connection_to
@@ -161,7 +161,7 @@ def test_a_click_that_the_game_missed_is_repeated() -> None:
     assert (game.built, len(game.presses)) == ({FRONT}, 3)
 
 
-def test_clicks_are_not_repeated_for_ever() -> None:
+def test_clicks_are_repeated_in_bounded_number() -> None:
     game = _game()
     game.hotbar.clear()
     with pytest.raises(NotConfirmedError, match=r"no minecraft:stone was seen at \(7, 64, 8\) after 8 clicks"):
@@ -277,3 +277,19 @@ def test_a_window_that_goes_away_stops_a_move() -> None:
     with pytest.raises(NotInFrontError):
         _body(game).move_to((7, 8))
     assert game.down == set()
+
+
+def test_a_pose_that_does_not_look_at_the_floor_is_never_clicked_from() -> None:
+    game = _game()
+    body = _body(game)
+    game.blocks[FRONT] = "stone"
+    with pytest.raises(NotConfirmedError, match=r"is the cell free"):
+        body.place((7, 7), "minecraft:stone", body.move_to((7, 7)))
+    assert game.presses == []
+
+
+def test_a_cell_two_blocks_away_is_no_neighbour() -> None:
+    game = _game()
+    with pytest.raises(NotConfirmedError, match="is no neighbour of the agent's"):
+        _body(game).move_to((7, 9))
+    assert game.presses == []

@@ -1,0 +1,42 @@
+"""Runs the command in this process, and checks a mistake in its words."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from mc_nested.cli.app import main
+
+TRAIN = ["train", "--episodes", "40", "--trials", "2", "--seed", "3"]
+
+
+def run(*arguments: str | Path) -> int:
+    with pytest.raises(SystemExit) as caught:
+        main([str(argument) for argument in arguments])
+    code = caught.value.code
+    return code if isinstance(code, int) else 0
+
+
+def table(path: Path) -> list[dict[str, str]]:
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def check_mistake(
+    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """These words are refused in one line, and nothing is written.
+
+    In them, NEW stands for a path in ``tmp_path``, where nothing is yet, and TRAINED for a run's folder.
+    """
+    new = tmp_path / "new"
+    words = [word.replace("TRAINED", str(trained)).replace("NEW", str(new)) for word in arguments]
+    before = (trained / "config.toml").read_bytes()
+    assert run(*words) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith("mc-nested: ")
+    assert printed.err.count("\n") == 1
+    assert says.replace("NEW", str(new)) in printed.err
+    assert list(tmp_path.iterdir()) == []
+    assert (trained / "config.toml").read_bytes() == before

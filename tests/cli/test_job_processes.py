@@ -1,0 +1,274 @@
+"""An experiment's processes: who gets which job, and what one that fails, is lost or is stopped leaves to the others.
+
+The processes are threads here, at the ends of real pipes, and train nothing.
+"""
+
+import dataclasses
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from mc_nested.cli import job_processes
+from mc_nested.cli.interrupt import Interrupt
+from mc_nested.cli.job_process import JobEnded, JobReport
+from mc_nested.cli.job_processes import ONE_THREAD_EACH, JobProcesses
+from mc_nested.errors import RunError
+from mc_nested.learn.experiments.jobs import Job
+from tests.learn.made_experiments import DOT, one_job
+
+JOB = one_job("nested", [DOT], 1)
+
+Ending = JobEnded | int
+"""How a job ends: with a message, or with the process, of which this is the exit code."""
+
+Act = Callable[[Connection], Ending]
+
+
+class KeptEnd:
+    """A pipe's end that stays open when the parent closes its copy, as in another process."""
+
+    def __init__(self, pipe: Connection) -> None:
+        self.pipe = pipe
+
+    def close(self) -> None:
+        pass
+
+
+class ThreadProcess:
+    """A process that is a thread; what it saw of its surroundings at its start."""
+
+    def __init__(self, target: Callable[[Connection], int], args: tuple[KeptEnd], daemon: bool) -> None:
+        assert daemon
+        self.exitcode: int | None = None
+        self.was_killed = False
+        self._pipe = args[0].pipe
+        self._target = target
+        self._thread = threading.Thread(target=self._run, daemon=True)
+
+    def start(self) -> None:
+        self.threads = {name: os.environ.get(name) for name in ONE_THREAD_EACH}
+        self.blocked = signal.pthread_sigmask(signal.SIG_BLOCK, []) if sys.platform != "win32" else {signal.SIGINT}
+        self._thread.start()
+
+    def _run(self) -> None:
+        try:
+            code = self._target(self._pipe)
+            if not self.was_killed:
+                self.exitcode = code
+        finally:
+            self._pipe.close()
+
+    def join(self, timeout: float | None = None) -> None:
+        if not self.was_killed:
+            self._thread.join(timeout)
+
+    def kill(self) -> None:
+        self.was_killed = True
+        self.exitcode = -9
+
+
+class Workers:
+    """What the processes do with each job, by its name; a job without an act is finished at once."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.acts: dict[str, Act] = {}
+        self.trained: list[tuple[str, Path]] = []
+        self.processes: list[ThreadProcess] = []
+        context = SimpleNamespace(Pipe=self._pipe, Process=self._process)
+        made = SimpleNamespace(get_context=lambda kind: {"spawn": context}[kind])
+        monkeypatch.setattr(job_processes, "multiprocessing", made)
+        monkeypatch.setattr(job_processes, "train_jobs", self._work)
+
+    def _pipe(self) -> tuple[Connection, KeptEnd]:
+        ours, theirs = Pipe()
+        return ours, KeptEnd(theirs)
+
+    def _process(self, **arguments: object) -> ThreadProcess:
+        self.processes.append(ThreadProcess(**arguments))  # type: ignore[arg-type]  # as they come
+        return self.processes[-1]
+
+    def _work(self, pipe: Connection) -> int:
+        try:
+            while (task := pipe.recv()) is not None:
+                job, folder = task
+                self.trained.append((job.name, folder))
+                ending = self.acts[job.name](pipe) if job.name in self.acts else JobEnded(job.name, finished=True)
+                if isinstance(ending, int):
+                    return ending
+                pipe.send(ending)
+        except (EOFError, ConnectionError):
+            pass
+        return 0
+
+
+@pytest.fixture
+def workers(monkeypatch: pytest.MonkeyPatch) -> Workers:
+    return Workers(monkeypatch)
+
+
+def jobs_of(*names: str) -> list[tuple[Job, Path]]:
+    return [(dataclasses.replace(JOB, name=name), Path(name)) for name in names]
+
+
+def train(count: int, *names: str, interrupt: Interrupt | None = None) -> list[JobReport | JobEnded]:
+    """What is heard of these jobs, until all is over."""
+    heard: list[JobReport | JobEnded] = []
+    with JobProcesses(count) as processes:
+        processes.train(
+            jobs_of(*names), interrupt or Interrupt(), lambda message: heard.append(message) if message else None
+        )
+    return heard
+
+
+def until_asked(name: str) -> Act:
+    """Trains until it is asked to stop, and saves."""
+
+    def act(pipe: Connection) -> Ending:
+        assert pipe.recv() is None
+        return JobEnded(name, finished=False)
+
+    return act
+
+
+def test_each_job_is_trained_once_in_its_folder_and_in_order(workers: Workers) -> None:
+    heard = train(1, "a", "b", "c")
+    assert workers.trained == [("a", Path("a")), ("b", Path("b")), ("c", Path("c"))]
+    assert heard == [JobEnded(name, finished=True) for name in "abc"]
+    assert len(workers.processes) == 1
+
+
+def test_a_process_that_is_free_takes_the_next_job_while_another_trains(workers: Workers) -> None:
+    others_done = threading.Event()
+
+    def wait_for_others(_: Connection) -> Ending:
+        assert others_done.wait(10)
+        return JobEnded("long", finished=True)
+
+    def last(_: Connection) -> Ending:
+        others_done.set()
+        return JobEnded("c", finished=True)
+
+    workers.acts = {"long": wait_for_others, "c": last}
+    heard = train(2, "long", "a", "b", "c")
+    assert [message.job for message in heard[:2]] == ["a", "b"]
+    assert sorted(name for name, _ in workers.trained) == ["a", "b", "c", "long"]
+
+
+def test_all_that_a_process_says_is_passed_on_and_now_and_then_nothing(workers: Workers) -> None:
+    report = JobReport("a", (3,), (None,), 7)
+
+    def act(pipe: Connection) -> Ending:
+        pipe.send(report)
+        return JobEnded("a", finished=True)
+
+    workers.acts["a"] = act
+    heard: list[JobReport | JobEnded | None] = []
+    with JobProcesses(1) as processes:
+        processes.train(jobs_of("a"), Interrupt(), heard.append)
+    assert [message for message in heard if message] == [report, JobEnded("a", finished=True)]
+    assert None in heard
+
+
+def test_a_job_that_fails_ends_it_and_the_others_are_saved(workers: Workers) -> None:
+    # The process that was started last takes the first job.
+    workers.acts = {"a": lambda _: JobEnded("a", finished=False, failed="the disk is full"), "b": until_asked("b")}
+    with pytest.raises(RunError, match=r"^the disk is full$"):
+        train(2, "a", "b", "c")
+    assert {name for name, _ in workers.trained} == {"a", "b"}
+    assert [process.exitcode for process in workers.processes] == [0, 0]
+
+
+@pytest.mark.parametrize(
+    ("ending", "says"),
+    [
+        (-9, r"a training process was killed \(SIGKILL\): if nobody did, memory ran out"),
+        (-15, r"a training process was killed \(SIGTERM\)"),
+        (3, r"a training process ended before its work was done \(exit code 3\)"),
+        (0, r"a training process ended before its work was done \(exit code 0\)"),
+        (JobEnded("a", finished=False), "a training process was asked to stop"),
+    ],
+)
+def test_a_process_that_is_lost_ends_it_and_the_others_are_saved(ending: Ending, says: str, workers: Workers) -> None:
+    if sys.platform == "win32" and isinstance(ending, int) and ending < 0:
+        pytest.skip("Windows has no signals for other processes")
+    workers.acts = {"a": lambda _: ending, "b": until_asked("b")}
+    with pytest.raises(RunError, match=f"^{says}"):
+        train(2, "a", "b", "c")
+    assert {name for name, _ in workers.trained} == {"a", "b"}
+
+
+def test_a_failure_is_reported_before_a_loss(workers: Workers) -> None:
+    def fail_when_asked(pipe: Connection) -> Ending:
+        pipe.recv()
+        return JobEnded("b", finished=False, failed="the disk is full")
+
+    workers.acts = {"a": lambda _: 3, "b": fail_when_asked}
+    with pytest.raises(RunError, match="the disk is full"):
+        train(2, "a", "b")
+
+
+def test_asked_to_stop_all_are_saved_and_that_is_no_error(workers: Workers) -> None:
+    interrupt = Interrupt()
+
+    def interrupted(pipe: Connection) -> Ending:
+        interrupt.requested = True
+        return until_asked("a")(pipe)
+
+    workers.acts = {"a": interrupted, "b": until_asked("b")}
+    heard = train(2, "a", "b", "c", interrupt=interrupt)
+    assert sorted(heard, key=lambda ended: ended.job) == [JobEnded(name, finished=False) for name in "ab"]
+
+
+def test_a_process_that_is_lost_while_all_are_asked_to_stop_is_no_error(workers: Workers) -> None:
+    interrupt = Interrupt()
+
+    def stopped_with_its_parent(_: Connection) -> Ending:
+        interrupt.requested = True
+        return -2
+
+    workers.acts["a"] = stopped_with_its_parent
+    assert train(1, "a", "b", interrupt=interrupt) == []
+    assert workers.trained == [("a", Path("a"))]
+
+
+def test_a_process_that_does_not_end_is_killed(workers: Workers, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(job_processes, "PATIENCE_S", 0.05)
+    end = threading.Event()
+
+    def never_saves(pipe: Connection) -> Ending:
+        pipe.send(JobReport("a", (), (), 0))
+        end.wait(10)
+        return 0
+
+    def give_up(_: object) -> None:
+        raise KeyboardInterrupt
+
+    workers.acts["a"] = never_saves
+    with pytest.raises(KeyboardInterrupt), JobProcesses(2) as processes:
+        processes.train(jobs_of("a"), Interrupt(), give_up)
+    end.set()
+    assert sorted(process.was_killed for process in workers.processes) == [False, True]
+    assert all(process.exitcode is not None for process in workers.processes)
+
+
+def test_they_start_with_one_thread_each_and_never_get_ctrl_c(
+    workers: Workers, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, second, _ = ONE_THREAD_EACH
+    monkeypatch.setenv(first, "5")
+    monkeypatch.delenv(second, raising=False)
+    train(2, "a")
+    for process in workers.processes:
+        assert set(process.threads.values()) == {"1"}
+        assert signal.SIGINT in process.blocked
+    assert (os.environ[first], second in os.environ) == ("5", False)
+    if sys.platform != "win32":
+        assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])

@@ -1,0 +1,80 @@
+"""``mc-nested play``: an episode that is watched, in the simulator and in a live game that fails."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from mc_nested.errors import LiveError, NotInFrontError, StoppedError
+from tests.cli.fragile_game import open_live
+from tests.cli.running import check_mistake, run
+
+
+def test_play_shows_the_arena_and_the_score(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("play", trained, "--trial", "1") == 0
+    printed = capsys.readouterr().out
+    score = json.loads((trained / "summary.json").read_text())["final_scores"][1]
+    assert f"score {score:g} of 21" in printed
+    assert "still to build" in printed
+
+
+def test_play_takes_the_best_trial_by_itself(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("play", trained) == 0
+    best = max(json.loads((trained / "summary.json").read_text())["final_scores"])
+    assert f"score {best:g} of 21" in capsys.readouterr().out
+
+
+def test_the_pictures_of_an_episode_are_of_that_episode_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("train", "--episodes", "1", "--out", tmp_path / "run") == 0
+    pictures = tmp_path / "run" / "screenshots"
+    pictures.mkdir()
+    (pictures / "999.png").touch()
+    open_live(monkeypatch, float("inf"))
+    assert run("play", tmp_path / "run", "--backend", "live", "--profile", "mine", "--screenshots") == 0
+    steps = int(capsys.readouterr().out.split(" steps")[0].split()[-1])
+    assert [path.name for path in sorted(pictures.iterdir())] == [f"{step:03d}.png" for step in range(1, steps + 1)]
+
+
+@pytest.mark.parametrize(("failures", "code"), [(1, 0), (2, 0), (3, 2)])
+def test_an_episode_that_is_watched_begins_anew_twice_where_mishaps_spoil_it(
+    failures: int, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("train", "--episodes", "1", "--out", tmp_path / "run") == 0
+    open_live(monkeypatch, 5, LiveError("it lagged"), failures)
+    capsys.readouterr()
+    assert run("play", tmp_path / "run", "--backend", "live", "--profile", "mine") == code
+    told = capsys.readouterr().err.splitlines()
+    assert told.count("  it lagged; the episode starts over") == min(failures, 2)
+    assert ("mc-nested: it lagged" in told) is (code == 2)
+
+
+@pytest.mark.parametrize("error", [StoppedError("stopped by f12"), NotInFrontError("another window")])
+def test_an_episode_that_a_person_stops_does_not_begin_anew(
+    error: LiveError, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("train", "--episodes", "1", "--out", tmp_path / "run") == 0
+    open_live(monkeypatch, 5, error, 1)
+    capsys.readouterr()
+    assert run("play", tmp_path / "run", "--backend", "live", "--profile", "mine") == 2
+    assert capsys.readouterr().err == f"mc-nested: {error}\n"
+
+
+def test_the_simulator_has_no_window_to_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("train", "--episodes", "1", "--out", tmp_path / "run") == 0
+    assert run("play", tmp_path / "run", "--screenshots") == 2
+    assert "leave out --screenshots" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["play", "TRAINED", "--trial", "2"], "has no trial 2: choose 0 to 1"),
+        (["play", "TRAINED", "--backend", "live", "--profile", "NEW.toml"], "no profile"),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_code_2(
+    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    check_mistake(arguments, says, trained, tmp_path, capsys)

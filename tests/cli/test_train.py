@@ -1,0 +1,259 @@
+"""``mc-nested train``: what it leaves behind, begins from and resumes, and what it refuses."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from importlib import resources
+from pathlib import Path
+
+import pytest
+
+from mc_nested.errors import DesktopError, LiveError, McNestedError
+from mc_nested.learn.runs.checkpoint import FILE
+from tests.cli.fragile_game import open_live
+from tests.cli.running import TRAIN, check_mistake, run, table
+
+
+def test_a_training_leaves_everything_behind(trained: Path) -> None:
+    found = {path.name for path in trained.iterdir()}
+    left = {"config.toml", "episodes.csv", "evaluations.csv", "curve.png", "checkpoint", "summary.json", "tensorboard"}
+    assert found == left
+    assert {path.name for path in (trained / "tensorboard").iterdir()} == {"trial-0", "trial-1"}
+    summary = json.loads((trained / "summary.json").read_text())
+    expected = {
+        "scenario": "line",
+        "agent": "nested",
+        "preset": "paper",
+        "backend": "sim",
+        "trials": 2,
+        "episodes": 40,
+        "optimum": 21.0,
+        "networks": 2,
+        "parameters": 2730,
+    }
+    assert {key: summary[key] for key in expected} == expected
+    assert len(summary["final_scores"]) == len(summary["episodes_to_optimum"]) == 2
+    assert [row["episode"] for row in table(trained / "evaluations.csv") if row["trial"] == "0"] == ["30", "40"]
+    episodes = table(trained / "episodes.csv")
+    assert len(episodes) == 80
+    assert summary["env_steps"] == sum(int(row["steps"]) for row in episodes)
+
+
+def test_the_preset_live_reaches_the_optimum_on_the_line_in_few_episodes(optimal: Path) -> None:
+    summary = json.loads((optimal / "summary.json").read_text())
+    assert summary["final_scores"] == [21.0, 21.0]
+    for trial, first in enumerate(summary["episodes_to_optimum"]):
+        assert first <= 200
+        # Every 5 episodes a greedy one, which counts as played.
+        assert summary["played_to_optimum"][trial]["episodes"] == first + first // 5
+        rows = [row for name in ("episodes", "evaluations") for row in table(optimal / f"{name}.csv")]
+        steps = sum(int(row["steps"]) for row in rows if row["trial"] == str(trial))
+        assert summary["played_to_optimum"][trial]["steps"] == steps
+
+
+def test_a_training_begun_from_another_has_its_policy_before_the_first_episode(optimal: Path, tmp_path: Path) -> None:
+    live = ("train", "--preset", "live", "--episodes", "6", "--trials", "2", "--seed", "9")
+    assert run(*live, "--from", optimal, "--out", tmp_path / "on") == 0
+    summary = json.loads((tmp_path / "on" / "summary.json").read_text())
+    assert summary["episodes_to_optimum"] == [0, 0]
+    assert summary["final_scores"] == [21.0, 21.0]
+    assert summary["played_to_optimum"] == [{"episodes": 1, "steps": rows} for rows in _first_steps(tmp_path / "on")]
+
+
+def _first_steps(folder: Path) -> list[int]:
+    rows = [row for row in table(folder / "evaluations.csv") if row["episode"] == "0"]
+    return [int(row["steps"]) for row in sorted(rows, key=lambda row: row["trial"])]
+
+
+@pytest.mark.parametrize("other", [("--preset", "paper"), ("--agent", "hierarchical"), ("--scenario", "diamond")])
+def test_networks_that_do_not_fit_are_one_line(
+    optimal: Path, tmp_path: Path, other: tuple[str, str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    base = [] if other[0] == "--preset" else ["--preset", "live"]
+    assert run("train", *base, *other, "--from", optimal, "--out", tmp_path / "new") == 2
+    assert "has other networks than this" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_training_begun_from_another_that_can_not_be_saved_is_not_begun(
+    optimal: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def full_disk(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    words = ("train", "--preset", "live", "--episodes", "6", "--from", optimal, "--out", tmp_path / "new")
+    with monkeypatch.context() as patch:
+        patch.setattr("os.fsync", full_disk)
+        assert run(*words) == 2
+    assert "make room and begin again" in capsys.readouterr().err
+    assert run(*words) == 0
+    assert json.loads((tmp_path / "new" / "summary.json").read_text())["episodes_to_optimum"] == [0]
+
+
+def test_excursions_of_a_single_agent_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("train", "--preset", "tuned", "--agent", "single", "--out", tmp_path / "new") == 2
+    assert "take nested or hierarchical" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
+def test_the_same_seed_gives_the_same_files(trained: Path, tmp_path: Path) -> None:
+    assert run(*TRAIN, "--out", tmp_path / "again") == 0
+    for name in ("episodes.csv", "evaluations.csv", "config.toml", "curve.png"):
+        assert (tmp_path / "again" / name).read_bytes() == (trained / name).read_bytes(), name
+    one, other = (json.loads((folder / "summary.json").read_text()) for folder in (trained, tmp_path / "again"))
+    assert {**one, "wall_s": 0} == {**other, "wall_s": 0}
+    assert (tmp_path / "again" / "checkpoint" / FILE).read_bytes() == (trained / "checkpoint" / FILE).read_bytes()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for another process")
+def test_ctrl_c_saves_and_resume_goes_on_to_the_same_files(trained: Path, tmp_path: Path) -> None:
+    out = tmp_path / "stopped"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "mc_nested.cli", *TRAIN, "--out", str(out)], stderr=subprocess.PIPE, text=True
+    )
+    deadline = time.monotonic() + 60
+    while not (out / "config.toml").exists() and time.monotonic() < deadline:
+        os.sched_yield()
+    process.send_signal(signal.SIGINT)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert said.strip() == f"mc-nested: stopped and saved: go on with mc-nested train --resume {out}"
+    assert len(table(out / "episodes.csv")) < 80
+    assert json.loads((out / "summary.json").read_text())["final_scores"] == [None, None]
+    assert run("train", "--resume", out) == 0
+    for name in ("episodes.csv", "evaluations.csv", f"checkpoint/{FILE}"):
+        assert (out / name).read_bytes() == (trained / name).read_bytes(), name
+
+
+def test_a_training_killed_before_its_first_checkpoint_begins_again(trained: Path, tmp_path: Path) -> None:
+    (tmp_path / "config.toml").write_bytes((trained / "config.toml").read_bytes())
+    assert run("train", "--resume", tmp_path) == 0
+    assert (tmp_path / "episodes.csv").read_bytes() == (trained / "episodes.csv").read_bytes()
+
+
+def test_a_lost_checkpoint_does_not_cost_the_tables(
+    trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("config.toml", "episodes.csv"):
+        (tmp_path / name).write_bytes((trained / name).read_bytes())
+    assert run("train", "--resume", tmp_path) == 2
+    assert "no checkpoint yet" in capsys.readouterr().err
+    assert (tmp_path / "episodes.csv").read_bytes() == (trained / "episodes.csv").read_bytes()
+
+
+def test_a_disk_that_fills_up_costs_one_line_and_not_the_last_checkpoint(
+    trained: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "run"
+    shutil.copytree(trained, out)
+
+    def full(*_: object, **__: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("mc_nested.cli.train.draw_curve", full)
+    assert run("train", "--resume", out) == 2
+    said = capsys.readouterr().err
+    assert "No space left on device" in said
+    assert f"make room, then mc-nested train --resume {out}" in said
+    assert said.count("\n") == 1
+    assert {path.name for path in out.iterdir()} == {path.name for path in trained.iterdir()}
+    assert (out / "curve.png").read_bytes() == (trained / "curve.png").read_bytes()
+
+
+def test_a_pipe_that_does_not_know_epsilon_is_no_error(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "mc_nested.cli", "train", "--episodes", "1", "--out", str(tmp_path / "run")]
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    subprocess.run(command, capture_output=True, check=True, env=environment)
+
+
+def test_resuming_a_finished_training_changes_nothing(trained: Path) -> None:
+    before = (trained / "episodes.csv").read_bytes()
+    wall_s = json.loads((trained / "summary.json").read_text())["wall_s"]
+    assert run("train", "--resume", trained) == 0
+    assert (trained / "episodes.csv").read_bytes() == before
+    assert json.loads((trained / "summary.json").read_text())["wall_s"] >= wall_s
+
+
+def test_episodes_to_optimum_is_the_first_evaluation_at_the_optimum(tmp_path: Path) -> None:
+    text = (resources.files("mc_nested.arena") / "designs" / "line.toml").read_text("utf-8")
+    # One block, three cells in front of the start: the optimum is met early in every trial.
+    grid = "\n".join(["." * 15] + ["." * 7 + "#" + "." * 7] + ["." * 15] * 13)
+    head, _, tail = text.split('"""')
+    dot = f'{head}"""\n{grid}\n"""{tail}'.replace("[7, 14]", "[7, 11]").replace("= 60", "= 4")
+    (tmp_path / "dot.toml").write_text(dot)
+    out = tmp_path / "run"
+    assert run("train", "--scenario", tmp_path / "dot.toml", "--episodes", "300", "--trials", "2", "--out", out) == 0
+    firsts = []
+    for trial in ("0", "1"):
+        rows = [row for row in table(out / "evaluations.csv") if row["trial"] == trial]
+        firsts.append(next((int(row["episode"]) for row in rows if float(row["score"]) == 11.0), None))
+    assert any(first is not None and first > 0 for first in firsts)
+    assert json.loads((out / "summary.json").read_text())["episodes_to_optimum"] == firsts
+
+
+def test_a_truncated_checkpoint_is_refused(trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    broken = tmp_path / "broken"
+    (broken / "checkpoint").mkdir(parents=True)
+    (broken / "config.toml").write_bytes((trained / "config.toml").read_bytes())
+    whole = (trained / "checkpoint" / FILE).read_bytes()
+    (broken / "checkpoint" / FILE).write_bytes(whole[: len(whole) // 2])
+    assert run("train", "--resume", broken) == 2
+    assert "damaged or cut short" in capsys.readouterr().err
+    assert (broken / "checkpoint" / FILE).read_bytes() == whole[: len(whole) // 2]
+
+
+@pytest.mark.parametrize("error", [LiveError("it lagged"), DesktopError("the window has closed")])
+def test_a_training_whose_game_fails_is_saved_and_goes_on(
+    error: McNestedError, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    open_live(monkeypatch, 30, error)
+    live = ("--backend", "live", "--profile", "mine", "--episodes", "2")
+    assert run("train", *live, "--out", tmp_path / "run") == 2
+    told = capsys.readouterr().err.splitlines()
+    assert told[-1] == f"mc-nested: {error}; saved: go on with mc-nested train --resume {tmp_path / 'run'}"
+    open_live(monkeypatch, float("inf"))
+    assert run("train", "--resume", tmp_path / "run") == 0
+
+
+def test_a_training_bears_an_episode_that_a_mishap_spoils(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    open_live(monkeypatch, 30, LiveError("it lagged"), failures=3)
+    live = ("--backend", "live", "--profile", "mine", "--episodes", "3")
+    assert run("train", *live, "--out", tmp_path / "run") == 0
+    rows = (tmp_path / "run" / "episodes.csv").read_text(encoding="utf-8").splitlines()
+    assert [row.split(",")[1] for row in rows[1:]] == ["1", "2", "3"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["train"], "name a new folder for the run with --out DIR"),
+        (["train", "--out", "NEW", "--scenario", "pyramid"], "no scenario 'pyramid'"),
+        (
+            ["train", "--out", "NEW", "--agent", "double"],
+            "no agent 'double': choose one of nested, hierarchical, single",
+        ),
+        (["train", "--out", "NEW", "--preset", "fast"], "no preset 'fast'"),
+        (["train", "--out", "NEW", "--trials", "0"], "'--trials'"),
+        (["train", "--out", "NEW", "--episodes", "0"], "'--episodes'"),
+        (["train", "--out", "NEW", "--episodes", "1" + "0" * 30], "'--episodes'"),
+        (["train", "--out", "NEW", "--trials", "1" + "0" * 9], "'--trials'"),
+        (["train", "--out", "NEW", "--scenario", ""], "no scenario ''"),
+        (["train", "--out", "NEW" + "x" * 300], "File name too long"),
+        (["train", "--out", "NEW", "--seed", "-1"], "'--seed'"),
+        (["train", "--out", "NEW", "--backend", "cloud"], "'--backend'"),
+        (["train", "--out", "NEW", "--backend", "live", "--trials", "2"], "one trial at a time"),
+        (["train", "--out", "NEW", "--backend", "live", "--profile", "NEW.toml"], "no profile"),
+        (["train", "--out", "TRAINED"], "is not empty: name a new folder, nothing was overwritten"),
+        (["train", "--resume", "TRAINED", "--seed", "0"], "leave out --seed"),
+        (["train", "--resume", "NEW"], "no config.toml there"),
+        (["train", "--frobnicate"], "No such option"),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_code_2(
+    arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    check_mistake(arguments, says, trained, tmp_path, capsys)

@@ -1,0 +1,147 @@
+"""Made-up pynput and pyautogui: the real ones can't be imported without a display."""
+
+import enum
+import sys
+from collections.abc import Callable
+from types import ModuleType, SimpleNamespace
+from typing import Any, ClassVar
+
+import pytest
+
+from mc_nested.live.desktop.lost_display import LOST
+from mc_nested.live.model.key_names import WORDS
+
+
+class KeyCode:
+    """A key without a name of its own."""
+
+    def __init__(self, vk: int | None = None, char: str | None = None) -> None:
+        self.vk, self.char = vk, char
+
+    @classmethod
+    def from_vk(cls, vk: int) -> "KeyCode":
+        return cls(vk=vk)
+
+    @classmethod
+    def from_char(cls, char: str) -> "KeyCode":
+        return cls(char=char)
+
+
+_MEMBERS = {name: KeyCode(vk=1000 + index) for index, name in enumerate(sorted(set(WORDS.values())))}
+Key: Any = enum.Enum("Key", _MEMBERS)  # type: ignore[misc]  # made from a table
+
+
+class Listener:
+    """A thread that hears keys or the mouse; here the test says what it hears."""
+
+    started: ClassVar[list["Listener"]]
+    is_silent = False
+    """Whether the desktop lets no program listen."""
+
+    def __init__(self, **heard: Callable[..., None]) -> None:
+        self.heard = heard
+        self.is_running = False
+        self.joined: list[float] = []
+
+    def __enter__(self) -> "Listener":
+        self.is_running = not type(self).is_silent
+        type(self).started.append(self)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.is_running = False
+
+    def wait(self) -> None:
+        pass
+
+    def is_alive(self) -> bool:
+        return self.is_running
+
+    def join(self, timeout: float) -> None:
+        self.joined.append(timeout)
+
+
+class Controller:
+    """A keyboard with a few keys on its layout."""
+
+    class InvalidCharacterException(Exception):  # noqa: N818 - pynput's name
+        """A character that can't be typed."""
+
+    def __init__(self) -> None:
+        self.sent: list[tuple[str, Any]] = []
+        self.keyboard_mapping = {ord("w"), ord("/"), *(code.vk for code in _MEMBERS.values())}
+        self.has_display = True
+
+    def press(self, key: Any) -> None:
+        self._send("press", key)
+
+    def release(self, key: Any) -> None:
+        self._send("release", key)
+
+    def type(self, text: str) -> None:
+        if "木" in text:
+            raise self.InvalidCharacterException
+        self._send("type", text)
+
+    def _send(self, kind: str, what: Any) -> None:
+        if not self.has_display:
+            raise LOST[0]("gone")
+        self.sent.append((kind, what))
+
+
+class Mouse(ModuleType):
+    """The module pyautogui over a screen of 1024 x 768."""
+
+    def __init__(self) -> None:
+        super().__init__("pyautogui")
+        self.FAILSAFE_POINTS = [(0, 0), (1023, 767)]
+        self.PAUSE, self.FAILSAFE = 0.1, True
+        self.at: tuple[float, float] = (500, 300)
+        self.sent: list[tuple[str, str]] = []
+        self.has_display = True
+
+    def size(self) -> tuple[int, int]:
+        return 1024, 768
+
+    def position(self) -> tuple[float, float]:
+        return self.at
+
+    def moveTo(self, x: float, y: float, *, _pause: bool) -> None:  # noqa: N802 - pyautogui's name
+        assert not _pause
+        self.at = x, y
+
+    def mouseDown(self, *, button: str, _pause: bool) -> None:  # noqa: N802 - pyautogui's name
+        self._send("down", button, _pause)
+
+    def mouseUp(self, *, button: str, _pause: bool) -> None:  # noqa: N802 - pyautogui's name
+        self._send("up", button, _pause)
+
+    def _send(self, kind: str, button: str, pause: bool) -> None:
+        assert not pause
+        if not self.has_display:
+            raise LOST[0]("gone")
+        self.sent.append((kind, button))
+
+
+def install_mouse(patch: pytest.MonkeyPatch) -> Mouse:
+    """From here on ``import pyautogui`` gives this."""
+    mouse = Mouse()
+    patch.setitem(sys.modules, "pyautogui", mouse)
+    return mouse
+
+
+def install_pynput(patch: pytest.MonkeyPatch) -> tuple[list[Listener], list[Listener]]:
+    """From here on ``import pynput`` gives this; the listeners of the keyboard and of the mouse that are started."""
+
+    class KeyListener(Listener):
+        started: ClassVar[list[Listener]] = []
+
+    class MoveListener(Listener):
+        started: ClassVar[list[Listener]] = []
+
+    keyboard: Any = SimpleNamespace(Key=Key, KeyCode=KeyCode, Listener=KeyListener, Controller=Controller)
+    mouse: Any = SimpleNamespace(Listener=MoveListener)
+    pynput: Any = SimpleNamespace(keyboard=keyboard, mouse=mouse)
+    for name, module in (("pynput", pynput), ("pynput.keyboard", keyboard), ("pynput.mouse", mouse)):
+        patch.setitem(sys.modules, name, module)
+    return KeyListener.started, MoveListener.started

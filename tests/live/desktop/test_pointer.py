@@ -1,0 +1,83 @@
+"""The real mouse: with a made-up pyautogui, and over a real window under Xvfb."""
+
+import sys
+
+import pytest
+
+from mc_nested.errors import DesktopError, LiveError
+from mc_nested.live.desktop.lost_display import LOST
+from mc_nested.live.desktop.pointer import DesktopPointer, load_pyautogui
+from mc_nested.live.desktop.window import ClientArea
+from tests.live.desktop.fake_devices import Mouse, install_mouse
+from tests.live.desktop.moving_window import MovingWindow
+from tests.live.desktop.probed import probed
+
+
+@pytest.fixture
+def mouse(monkeypatch: pytest.MonkeyPatch) -> Mouse:
+    return install_mouse(monkeypatch)
+
+
+def pointer_over(area: ClientArea, ratio: float = 1.0) -> DesktopPointer:
+    return DesktopPointer(MovingWindow(area), lambda: ratio)
+
+
+def test_positions_are_the_client_areas_pixels(mouse: Mouse) -> None:
+    pointer = pointer_over(ClientArea(60, 40, 320, 240))
+    pointer.move(200, 50)
+    assert mouse.at == (260, 90)
+    assert pointer.position() == (200, 50)
+
+
+def test_where_a_point_is_two_pixels_positions_are_still_pixels(mouse: Mouse) -> None:
+    pointer = pointer_over(ClientArea(60, 40, 320, 240), ratio=2.0)
+    pointer.move(201, 50)
+    assert mouse.at == (160.5, 65)
+    assert pointer.position() == (201, 50)
+
+
+def test_a_button_is_pressed_and_released(mouse: Mouse) -> None:
+    pointer = pointer_over(ClientArea(60, 40, 320, 240))
+    pointer.press("right")
+    pointer.release("right")
+    assert mouse.sent == [("down", "right"), ("up", "right")]
+
+
+@pytest.mark.parametrize("corner", [(0, 0), (1023, 767)])
+def test_in_a_corner_of_the_screen_nothing_is_pressed_and_all_is_released(
+    corner: tuple[int, int], mouse: Mouse
+) -> None:
+    mouse.at = corner
+    pointer = pointer_over(ClientArea(60, 40, 320, 240))
+    with pytest.raises(LiveError, match="means stop: nothing was clicked"):
+        pointer.press("left")
+    pointer.release("left")
+    assert mouse.sent == [("up", "left")]
+
+
+@pytest.mark.skipif(not LOST, reason="the display of an X server")
+def test_without_a_display_a_press_is_an_error_and_a_release_is_none(mouse: Mouse) -> None:
+    mouse.has_display = False
+    pointer = pointer_over(ClientArea(60, 40, 320, 240))
+    with pytest.raises(DesktopError, match="display has closed"):
+        pointer.press("left")
+    pointer.release("left")
+
+
+def test_pyautogui_neither_pauses_nor_refuses_and_its_extras_are_importable_again(
+    mouse: Mouse, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("mouseinfo", "pyscreeze"):
+        monkeypatch.setitem(sys.modules, name, sys)
+        del sys.modules[name]
+    assert load_pyautogui() is mouse
+    assert (mouse.PAUSE, mouse.FAILSAFE) == (0, False)
+    assert not {"mouseinfo", "pyscreeze"} & set(sys.modules)
+
+
+@pytest.mark.standin
+def test_a_real_window_is_pointed_at_and_clicked(x_server: dict[str, str]) -> None:
+    report = probed(x_server, "pointer")
+    assert report["pointer"] == [200, 50]
+    assert report["clicks"] == [["down", 3, False, 200, 50], ["up", 3, False, 200, 50]]
+    assert "means stop" in report["in the corner"]

@@ -1,0 +1,137 @@
+"""Where the debug screen is found on painted frames: by which line, at which scale, in which colour and layout."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from mc_nested.live.devices import Frame
+from mc_nested.live.model.reading import Target
+from mc_nested.live.vision.font import Font, font_of
+from mc_nested.live.vision.glyph_grid import GlyphGrid
+from mc_nested.live.vision.layout import VANILLA, Overlay
+from mc_nested.live.vision.overlay import find_debug_screen, find_overlay
+from mc_nested.live.vision.standin import STANDIN
+from mc_nested.live.vision.text_lines import positions_of
+from sim.client.drawing.f3_layers import paint
+from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.scenery import WORLDS, random_world
+from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+
+FONT = font_of(drawn_atlas())
+VANILLA_INK, STANDIN_INK = (224, 224, 224), (255, 255, 255)
+
+
+def screen(layout: Layout = "1.16-1.19.2", scale: int = 2) -> F3Screen:
+    name = "stone" if layout == "standin" else "minecraft:stone"
+    return F3Screen(layout, scale, (-8.5, 64.0, 12.25), 90.0, 65.0, Target((-9, 63, 12), name))
+
+
+def painted(shown: F3Screen) -> Frame:
+    scale = shown.gui_scale
+    return paint(np.full((240 * scale, 430 * scale, 3), 120, np.uint8), shown, FONT)
+
+
+def start_of(frame: Frame, scale: int, text: str) -> tuple[int, int]:
+    return positions_of(GlyphGrid(frame, scale, 200), FONT, text)[0]
+
+
+def cover_line(frame: Frame, scale: int, text: str) -> None:
+    row, _ = start_of(frame, scale, text)
+    frame[scale * row : scale * (row + 8), : frame.shape[1] // 2] = 0
+
+
+@pytest.mark.parametrize("scale", [1, 2, 3, 4])
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_every_layout_is_found_at_every_scale_by_its_position_line(layout: Layout, scale: int) -> None:
+    found = find_debug_screen(painted(screen(layout, scale)), FONT)
+    assert found is not None
+    is_standin = layout == "standin"
+    drawn = Overlay(scale, STANDIN if is_standin else VANILLA, STANDIN_INK if is_standin else VANILLA_INK)
+    assert (found.overlay, found.label) == (drawn, "XYZ:")
+
+
+@pytest.mark.parametrize("layout", ["1.16-1.19.2", "standin"])
+def test_without_its_position_line_another_line_shows_it(layout: Layout) -> None:
+    frame = painted(screen(layout))
+    cover_line(frame, 2, "XYZ:")
+    found = find_debug_screen(frame, FONT)
+    assert found is not None
+    assert (found.overlay.layout, found.label) == (STANDIN if layout == "standin" else VANILLA, "Facing")
+
+
+def test_a_reduced_screen_is_found_by_its_own_line() -> None:
+    found = find_debug_screen(painted(dataclasses.replace(screen(), reduced=True)), FONT)
+    assert found is not None
+    assert found.label == "Chunk-relative:"
+
+
+def test_a_screen_whose_left_column_is_covered_is_found_by_the_right_one() -> None:
+    frame = painted(screen())
+    frame[:, : frame.shape[1] // 3] = 0
+    found = find_debug_screen(frame, FONT)
+    assert found is not None
+    assert found.overlay == Overlay(2, VANILLA, VANILLA_INK)
+
+
+def test_a_position_line_in_the_right_column_is_found_there() -> None:
+    frame = painted(screen())
+    moved = np.roll(frame, 2 * 200, axis=1)
+    found = find_debug_screen(moved, FONT)
+    assert found is not None
+    assert (found.overlay.scale, found.label) == (2, "XYZ:")
+
+
+def test_the_colour_is_the_inks_own_as_red_green_and_blue() -> None:
+    frame = painted(screen())
+    frame[(frame == 224).all(axis=2)] = (222, 223, 221)
+    assert find_overlay(frame, FONT) == Overlay(2, VANILLA, (221, 223, 222))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("kind", [*WORLDS, "bright", "dark"])
+def test_there_is_none_in_noise(kind: str, seed: int) -> None:
+    world = random_world(np.random.default_rng(seed), kind, 854, 480)
+    assert find_debug_screen(world, FONT) is None
+    assert find_overlay(world, FONT) is None
+
+
+def test_another_font_finds_none() -> None:
+    other = Font({char: columns[::-1] + b"\7" for char, columns in FONT.glyphs.items()})
+    assert find_overlay(painted(screen()), other) is None
+
+
+def test_a_known_overlay_is_kept_as_it_is() -> None:
+    known = Overlay(2, VANILLA, (223, 224, 222))
+    found = find_debug_screen(painted(screen()), FONT, known)
+    assert found is not None
+    assert found.overlay is known
+
+
+@pytest.mark.parametrize(
+    "known",
+    [Overlay(3, VANILLA, VANILLA_INK), Overlay(1, VANILLA, VANILLA_INK), Overlay(2, VANILLA, STANDIN_INK)],
+    ids=["a larger scale", "a smaller scale", "a brighter ink"],
+)
+def test_with_a_known_overlay_nothing_that_is_drawn_otherwise_is_found(known: Overlay) -> None:
+    assert find_debug_screen(painted(screen()), FONT, known) is None
+
+
+def test_ink_is_a_little_darker_than_the_known_colour_at_most() -> None:
+    # 4 below 228 is 224; 4 below 229 is more than that.
+    frame = painted(screen())
+    assert find_debug_screen(frame, FONT, Overlay(2, VANILLA, (255, 228, 255))) is not None
+    assert find_debug_screen(frame, FONT, Overlay(2, VANILLA, (255, 229, 255))) is None
+
+
+@pytest.mark.parametrize(
+    ("layout", "label", "is_found"), [("1.16-1.19.2", "Targeted ", False), ("standin", "Looking at:", True)]
+)
+def test_a_line_outside_the_grid_is_passed_over_in_vanilla_alone(layout: Layout, label: str, is_found: bool) -> None:
+    frame = painted(screen(layout))
+    right = frame[:, 2 * 215 :]
+    right[:] = np.roll(right, 2, axis=0)  # a dot lower
+    found = find_debug_screen(frame, FONT)
+    assert found is not None
+    assert bool(positions_of(found.dots, FONT, label)) is is_found
+    assert positions_of(found.dots, FONT, "XYZ:") == [start_of(frame, 2, "XYZ:")]
