@@ -3,39 +3,17 @@
 import numpy as np
 import pytest
 
-from mc_nested.live.devices import Frame, Region
+from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.game_screen import WORLDS_TITLE, WindowScreen
 from mc_nested.live.vision.layout import VANILLA, Overlay
+from scripts.bench_reader import OneFrameDisplay
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.font import drawn_atlas
 from sim.client.game.f3_text import F3Screen
 from tests.live.vision.menu_painter import GREY, MenuPainter
 
 FONT = font_of(drawn_atlas())
-
-
-class ShownFrame:
-    """A Display that shows ``frame``, and counts the pictures of the whole window."""
-
-    def __init__(self, frame: Frame) -> None:
-        self.frame = frame
-        self.whole_grabs = 0
-
-    def size(self) -> tuple[int, int]:
-        return self.frame.shape[1], self.frame.shape[0]
-
-    def title(self) -> str:
-        return "Minecraft 1.20.1"
-
-    def is_in_front(self) -> bool:
-        return True
-
-    def grab(self, region: Region | None = None) -> Frame:
-        if region is None:
-            self.whole_grabs += 1
-            return self.frame
-        return self.frame[region.top : region.top + region.height, region.left : region.left + region.width]
 
 
 def ground(width: int = 860, height: int = 480) -> Frame:
@@ -51,7 +29,7 @@ def painter(frame: Frame, scale: int) -> MenuPainter:
 
 
 def test_the_scale_is_measured_once_for_each_size_of_the_window() -> None:
-    display = ShownFrame(debug_screen(2, ground()))
+    display = OneFrameDisplay(debug_screen(2, ground()))
     screen = WindowScreen(display, FONT)
     assert [screen.scale(), screen.scale(), display.whole_grabs] == [2, 2, 1]
     display.frame = debug_screen(3, ground(960, 720))
@@ -59,7 +37,7 @@ def test_the_scale_is_measured_once_for_each_size_of_the_window() -> None:
 
 
 def test_without_a_debug_screen_the_scale_stays_what_it_was() -> None:
-    display = ShownFrame(debug_screen(2, ground()))
+    display = OneFrameDisplay(debug_screen(2, ground()))
     screen = WindowScreen(display, FONT)
     screen.scale()
     display.frame = ground(960, 720)
@@ -67,7 +45,7 @@ def test_without_a_debug_screen_the_scale_stays_what_it_was() -> None:
 
 
 def test_the_overlay_that_is_given_says_the_scale_and_no_picture_is_taken() -> None:
-    display = ShownFrame(ground())
+    display = OneFrameDisplay(ground())
     assert WindowScreen(display, FONT, Overlay(3, VANILLA, (224, 224, 224))).scale() == 3
     assert display.whole_grabs == 0
 
@@ -76,11 +54,11 @@ def test_the_overlay_that_is_given_says_the_scale_and_no_picture_is_taken() -> N
 def test_the_list_of_worlds_says_the_scale_before_any_debug_screen_was_seen(scale: int) -> None:
     frame = ground()
     painter(frame, scale).text(WORLDS_TITLE, 50, 10)
-    assert WindowScreen(ShownFrame(frame), FONT).scale() == scale
+    assert WindowScreen(OneFrameDisplay(frame), FONT).scale() == scale
 
 
 def test_an_unknown_scale_is_1() -> None:
-    assert WindowScreen(ShownFrame(ground()), FONT).scale() == 1
+    assert WindowScreen(OneFrameDisplay(ground()), FONT).scale() == 1
 
 
 @pytest.mark.parametrize("scale", [1, 2])
@@ -89,7 +67,7 @@ def test_a_white_text_is_found_by_its_middle_the_uppermost_first(scale: int) -> 
     wide = len(FONT.columns("New World"))
     for top in (70, 30):
         painter(frame, scale).text("New World", 40, top)
-    assert WindowScreen(ShownFrame(frame), FONT).position_of("New World") == (
+    assert WindowScreen(OneFrameDisplay(frame), FONT).position_of("New World") == (
         int((40 + wide / 2) * scale),
         34 * scale,
     )
@@ -99,12 +77,12 @@ def test_a_text_with_something_behind_it_or_of_another_colour_is_not_found() -> 
     frame = ground()
     painter(frame, 2).text("New World2", 40, 30)
     painter(frame, 2).text("New World", 40, 60, GREY)
-    assert WindowScreen(ShownFrame(frame), FONT).position_of("New World") is None
+    assert WindowScreen(OneFrameDisplay(frame), FONT).position_of("New World") is None
 
 
 def test_the_chat_is_open_where_its_line_begins_with_a_letter_and_holds_what_stands_there() -> None:
     frame = ground()
-    screen = WindowScreen(ShownFrame(frame), FONT, Overlay(2, VANILLA, (224, 224, 224)))
+    screen = WindowScreen(OneFrameDisplay(frame), FONT, Overlay(2, VANILLA, (224, 224, 224)))
     assert not screen.is_chat_open()
     assert screen.is_typed("")
     painter(frame, 2).text("/tp 1 2 3_", 4, 240 - 12, (224, 224, 224))
@@ -116,7 +94,7 @@ def test_the_chat_is_open_where_its_line_begins_with_a_letter_and_holds_what_sta
 def test_a_menus_texts_and_buttons_are_those_on_the_screen() -> None:
     frame = ground()
     middle = painter(frame, 2).button("Respawn", 115, 60, 200)
-    menu = WindowScreen(ShownFrame(frame), FONT).menu()
+    menu = WindowScreen(OneFrameDisplay(frame), FONT).menu()
     assert menu.shows("Respawn")
     assert not menu.shows("Title Screen")
     found = menu.button("Respawn").middle
@@ -125,7 +103,7 @@ def test_a_menus_texts_and_buttons_are_those_on_the_screen() -> None:
 
 
 def test_what_the_debug_screen_says_is_read_whole_and_then_its_position_alone() -> None:
-    display = ShownFrame(debug_screen(2, ground()))
+    display = OneFrameDisplay(debug_screen(2, ground()))
     screen = WindowScreen(display, FONT)
     assert screen.read_position() is None, "it isn't known yet where the line stands"
     assert screen.read().xyz == (8.5, 64.0, 3.5)
