@@ -10,14 +10,17 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from scripts import environment
 
+OTHERS = "slow or standin or realtime or window or wine"
+"""The markers of the tests that the unit suite leaves out."""
+
 CHECKS = {
     "lint": ["ruff", "check", "."],
     "format": ["ruff", "format", "--check", "."],
     "types": ["mypy"],
     "import contracts": ["lint-imports"],
-    "unit tests": ["pytest", "-n", "2", "-m", "not slow and not standin and not realtime", "--cov", "--cov-report="],
+    "unit tests": ["pytest", "-n", "2", "-m", f"not ({OTHERS})", "--cov", "--cov-report="],
     "branch coverage": ["coverage", "report", "--skip-covered"],
-    "other tests": ["pytest", "-m", "slow or standin or realtime"],
+    "other tests": ["pytest", "-m", OTHERS],
 }
 
 
