@@ -1,7 +1,7 @@
 """A virtual Minecraft client on a virtual clock: the game, its window and its devices, put together.
 
-keyboard, pointer -> window (focus, latency) -> controls -> game, 20 ticks a second
-game -> views, each with the time it appeared (60 frames a second) -> display, 10 to 30 ms later
+keyboard, pointer -> window (focus, latency) -> controls -> game, 20 ticks a second, run on its frames
+game -> views, each with the time of its frame (60 a second) -> display, 10 to 30 ms later
 """
 
 import dataclasses
@@ -19,7 +19,8 @@ from mc_nested.live.profile.arena import Arena
 from mc_nested.live.vision.font import Font, font_of
 from sim.client.desktop.clipboard import VirtualClipboard
 from sim.client.desktop.clock import VirtualClock
-from sim.client.desktop.display import FrameTiming, VirtualDisplay
+from sim.client.desktop.display import VirtualDisplay
+from sim.client.desktop.frames import Frames
 from sim.client.desktop.keyboard import VirtualKeyboard
 from sim.client.desktop.pointer import VirtualPointer
 from sim.client.desktop.window import VirtualWindow
@@ -60,7 +61,8 @@ class VirtualClient:
         inputs, captures, phases, mishaps = (np.random.default_rng(seed) for seed in seeds)
         self.clock = VirtualClock()
         self.clipboard = VirtualClipboard()
-        self.window = VirtualWindow(self.clock, inputs, settings.size, settings.input_latency_s)
+        self._frames = Frames(settings.fps, self.clock.now() + float(phases.uniform(0, 1 / settings.fps)))
+        self.window = VirtualWindow(self.clock, self._frames, inputs, settings.size, settings.input_latency_s)
         self.game = VirtualGame(
             self._new_realm(),
             keys=GameKeys(SIDES_SWAPPED if settings.swaps_sides else BINDINGS),
@@ -75,10 +77,15 @@ class VirtualClient:
         self.mishaps = Mishaps(self, mishaps)
 
         self._font = settings.font or _drawn_font()
-        phase_s = self.clock.now() + float(phases.uniform(0, 1 / settings.fps))
-        timing = FrameTiming(settings.fps, phase_s, settings.capture_latency_s)
         self.display = VirtualDisplay(
-            self.clock, self.window, captures, timing, self._new_painter(), self._title, self.game.view()
+            self.clock,
+            self.window,
+            captures,
+            self._frames,
+            settings.capture_latency_s,
+            self._new_painter(),
+            self._title,
+            self.game.view(),
         )
         self.keyboard = VirtualKeyboard(self.window, self.controls)
         self.pointer = VirtualPointer(self.clock, self.window, self.game, self.controls, lambda: self.scale)
@@ -87,7 +94,7 @@ class VirtualClient:
         self._missed: int | None = None
         self._unfocused_since = math.inf
         self._next_tick = self.clock.now() + float(phases.uniform(0, TICK_S))
-        self.clock.call_at(self._next_tick, self._tick)
+        self.clock.call_at(self._frames.at_or_after(self._next_tick), self._tick)
 
     # What a test asks.
 
@@ -176,7 +183,8 @@ class VirtualClient:
 
     def _tick(self) -> None:
         self._next_tick += TICK_S
-        self.clock.call_at(self._next_tick, self._tick)
+        self.clock.call_at(self._frames.at_or_after(self._next_tick), self._tick)
+        self.window.poll()
         if self._missed is not None:
             self._missed += 1
             return

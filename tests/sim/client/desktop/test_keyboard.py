@@ -1,6 +1,9 @@
+import math
+
 import numpy as np
 
 from sim.client.desktop.clock import VirtualClock
+from sim.client.desktop.frames import Frames
 from sim.client.desktop.keyboard import VirtualKeyboard
 from sim.client.desktop.window import VirtualWindow
 from sim.client.game.controls import Controls
@@ -12,7 +15,7 @@ from sim.client.game.world import VirtualWorld
 
 def test_keys_reach_the_game_after_the_windows_latency() -> None:
     clock = VirtualClock(0.0)
-    window = VirtualWindow(clock, np.random.default_rng(0), (80, 60), (0.01, 0.01))
+    window = VirtualWindow(clock, Frames(math.inf), np.random.default_rng(0), (80, 60), (0.01, 0.01))
     game = VirtualGame(Realm(Edition("1.20.1"), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5))))
     keyboard = VirtualKeyboard(window, Controls(game, lambda: "", lambda _: None))
     keyboard.press("w")
