@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from mc_nested.arena.rules import Cell
-from mc_nested.live.devices import Devices
+from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena
@@ -26,6 +26,7 @@ from sim.client.desktop.pointer import VirtualPointer
 from sim.client.desktop.window import VirtualWindow
 from sim.client.drawing.font import drawn_atlas
 from sim.client.drawing.painter import Painter
+from sim.client.drawing.view_layers import ViewLayers
 from sim.client.game.controls import Controls
 from sim.client.game.edition import Edition
 from sim.client.game.game import VirtualGame
@@ -51,16 +52,19 @@ class VirtualClient:
 
     Args:
         settings: how it is set up.
+        clipboard: the desktop's clipboard; None for one of its own.
         choices: settings by name, in place of those in ``settings``: ``VirtualClient(seed=3, version="1.12.2")``.
     """
 
-    def __init__(self, settings: ClientSettings | None = None, **choices: Any) -> None:
+    def __init__(
+        self, settings: ClientSettings | None = None, clipboard: Clipboard | None = None, **choices: Any
+    ) -> None:
         self.settings = settings = dataclasses.replace(settings or ClientSettings(), **choices)
         self.edition = Edition(settings.version)
         seeds = np.random.SeedSequence(settings.seed).spawn(4)
         inputs, captures, phases, mishaps = (np.random.default_rng(seed) for seed in seeds)
         self.clock = VirtualClock()
-        self.clipboard = VirtualClipboard()
+        self.clipboard: Clipboard = clipboard or VirtualClipboard()
         self._frames = Frames(settings.fps, self.clock.now() + float(phases.uniform(0, 1 / settings.fps)))
         self.window = VirtualWindow(self.clock, self._frames, inputs, settings.size, settings.input_latency_s)
         self.game = VirtualGame(
@@ -122,7 +126,21 @@ class VirtualClient:
         """The GUI scale that the window gets."""
         return gui_scale(self.window.size, self.settings.scale)
 
+    @property
+    def holds_pointer(self) -> bool:
+        """Whether the game keeps the mouse to itself: its world is played, in front."""
+        return self.window.is_in_front and self.game.screen == "world"
+
+    def new_layers(self) -> ViewLayers:
+        """What a view's GUI is made of, in the window's present size."""
+        settings = self.settings
+        return ViewLayers(self.window.size, self.scale, self._font, self.edition, settings.words)
+
     # What can happen to it.
+
+    def turn(self, right: float, down: float) -> None:
+        """Turn the view: the mouse was moved by so many pixels while the game holds it."""
+        self.window.deliver(lambda: self.controls.turn(right, down))
 
     def set_front(self, *, is_in_front: bool) -> None:
         """Bring the window to the front, or another one; the game then releases every key, and may pause."""
