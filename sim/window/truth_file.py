@@ -10,8 +10,8 @@ from sim.client.client import VirtualClient
 class TruthFile:
     """One JSON object, written anew at each frame in which something has changed, before that frame is shown.
 
-    ``screen``, ``feet`` (blocks), ``yaw`` and ``pitch`` (degrees), ``block_in_hand``, ``keys_down``, ``is_in_front``, and
-    ``built``: x, y, z and the name of each block that differs from the bare floor.
+    ``screen``, ``feet`` (blocks), ``yaw`` and ``pitch`` (degrees), ``block_in_hand``, ``keys_down``, ``is_in_front``,
+    and ``built``: x, y, z and the name of each block that differs from the bare floor.
     """
 
     def __init__(self, path: Path, client: VirtualClient) -> None:
