@@ -11,7 +11,7 @@ from calibration.clicks.recorded_point import RecordedPoint
 from mc_nested.errors import LiveError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import Frame, Region
+from mc_nested.live.devices import SWITCH_KEYS, Frame, Region
 from mc_nested.live.menus.click_points import record_point
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.screens import BACK, ENTER, LABELS, LEAVE, PLAY, PLAY_IT, QUIT, WORLD
@@ -60,7 +60,7 @@ class MenuWalk:
         self.points: dict[str, RecordedPoint] = {}
         self.notes: list[str] = []
         self.is_single_player = False
-        say("Switch to the game. Its menus are gone through now: leave mouse and keys alone.")
+        say(f"Switch to the game with {SWITCH_KEYS}. Its menus are gone through now: leave mouse and keys alone.")
         wait_for_front(connection.devices)
         self._recovery.recover()
         self._before = wait_until_standing_still(connection)

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import Devices, Frame
+from mc_nested.live.devices import SWITCH_KEYS, Devices, Frame
 from mc_nested.live.menus.screens import LABELS, ScreenName
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.timing import PERSON_LOOK_S
@@ -90,7 +90,8 @@ def wait_until_readable(
     snapshot = take_snapshot(devices, font, overlay)
     if not _is_readable(snapshot):
         say(
-            "Switch to the game now, close its menus, and turn the debug screen on (F3): "
+            f"Switch to the game now with {SWITCH_KEYS}, not by a click, close its menus, "
+            "and turn the debug screen on (F3): "
             f"the doctor looks for {READABLE_S if snapshot.is_in_front else FRONT_S:.0f} s."
         )
     while not _is_readable(snapshot):

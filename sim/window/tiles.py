@@ -6,7 +6,7 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from sim.client.drawing.layers import Rect
+from sim.client.drawing.layers import Rect, intersection
 
 TILE = 16
 """The side of a tile, in pixels: a tile with anything in it is covered whole."""
@@ -19,10 +19,10 @@ def triangles(rects: Sequence[Rect], size: tuple[int, int]) -> NDArray[np.float3
     """
     width, height = size
     is_covered = np.zeros((-(-height // TILE), -(-width // TILE)), bool)
-    for left, top, right, bottom in rects:
-        rows, columns = slice(max(top, 0) // TILE, -(-bottom // TILE)), slice(max(left, 0) // TILE, -(-right // TILE))
-        if right > max(left, 0) and bottom > max(top, 0):
-            is_covered[rows, columns] = True
+    for rect in rects:
+        if (inside := intersection(rect, (0, 0, width, height))) is not None:
+            left, top, right, bottom = inside
+            is_covered[top // TILE : -(-bottom // TILE), left // TILE : -(-right // TILE)] = True
     corners = [corner for row, tiles in enumerate(is_covered) for corner in _row_corners(row, tiles.tolist())]
     ends = np.array(corners, np.float32).reshape(-1, 2) * (2 * TILE)
     return np.asarray(ends / (width, height) * (1, -1) + (-1, 1), np.float32)

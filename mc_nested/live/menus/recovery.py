@@ -3,6 +3,7 @@
 from mc_nested.errors import LiveError, NotInFrontError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
+from mc_nested.live.devices import SWITCH_KEYS
 from mc_nested.live.menus.click_points import ClickPoints
 from mc_nested.live.menus.menu_navigator import MenuNavigator
 from mc_nested.live.menus.screens import ScreenName, identify_screen
@@ -120,7 +121,8 @@ class Recovery:
         while not self._display.is_in_front():
             if deadline.has_passed:
                 raise NotInFrontError(
-                    "the game's window is not in front, so no key is pressed: click on it, then start again"
+                    "the game's window is not in front, so no key is pressed: "
+                    f"switch to it with {SWITCH_KEYS}, not by a click, then start again"
                 )
             self._sleep(EFFECT_S)
 

@@ -118,7 +118,7 @@ def test_another_window_in_front_is_waited_for() -> None:
 
 def test_another_window_that_stays_in_front_is_an_error_and_nothing_is_pressed() -> None:
     menus = FakeMenus("pause", front_from=1000.0)
-    with pytest.raises(NotInFrontError, match="click on it"):
+    with pytest.raises(NotInFrontError, match="not by a click"):
         recovery_in(menus).recover()
     assert menus.pressed == []
     assert FRONT_PATIENCE_S <= menus.clock.now() - 100.0 < FRONT_PATIENCE_S + 2 * EFFECT_S
