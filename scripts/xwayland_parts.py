@@ -1,0 +1,33 @@
+"""What the tests on Xwayland need, with apt: a Wayland compositor, its X server, and a screen and a hand for it.
+
+Standard library only. The versions are the distribution's.
+"""
+
+import shutil
+import subprocess
+from pathlib import Path
+
+from scripts.standin_parts import XDOTOOL, XVFB, Program, Say, apt_install
+
+WESTON = Program(("weston",), "weston")
+WAYLAND_WINDOW = Program(("weston-terminal",), "weston")
+XWAYLAND = Program(("Xwayland",), "xwayland")
+PROGRAMS = (WESTON, WAYLAND_WINDOW, XWAYLAND, XVFB, XDOTOOL)
+OPENGL = ("libgl1", "libgl1-mesa-dri")
+
+
+def install_programs(say: Say, log: Path) -> None:
+    """Install missing programs with apt; MissingError where that is impossible."""
+    packages = {program.package for program in PROGRAMS if program.path() is None}
+    packages |= {package for package in OPENGL if not _is_installed(package)}
+    if packages:
+        apt_install("a test on Xwayland", sorted(packages), say, log)
+
+
+def _is_installed(package: str) -> bool:
+    """Whether Debian's package is installed. Other systems aren't checked: a missing one shows in the window."""
+    if shutil.which("dpkg-query") is None:
+        return True
+    asked = ["dpkg-query", "--show", "--showformat", "${Status}", package]
+    answer = subprocess.run(asked, capture_output=True, text=True, timeout=30, check=False)  # noqa: S603 - fixed
+    return answer.stdout == "install ok installed"
