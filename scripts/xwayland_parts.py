@@ -1,4 +1,4 @@
-"""What the tests on Xwayland need, with apt: a Wayland compositor, its X server, and a screen and a hand for it.
+"""What the tests on Xwayland need, with apt: Wayland compositors, their X server, and a screen and a hand for them.
 
 Standard library only. The versions are the distribution's.
 """
@@ -10,9 +10,13 @@ from pathlib import Path
 from scripts.standin_parts import XDOTOOL, XVFB, Program, Say, apt_install
 
 WESTON = Program(("weston",), "weston")
+MUTTER = Program(("mutter",), "mutter")
+"""GNOME's compositor."""
+
+DBUS = Program(("dbus-daemon",), "dbus-daemon")
 WAYLAND_WINDOW = Program(("weston-terminal",), "weston")
 XWAYLAND = Program(("Xwayland",), "xwayland")
-PROGRAMS = (WESTON, WAYLAND_WINDOW, XWAYLAND, XVFB, XDOTOOL)
+PROGRAMS = (WESTON, MUTTER, DBUS, WAYLAND_WINDOW, XWAYLAND, XVFB, XDOTOOL)
 OPENGL = ("libgl1", "libgl1-mesa-dri")
 
 

@@ -39,7 +39,7 @@ def test_what_is_missing_is_installed_by_its_package(
     xwayland_parts.install_programs(print, tmp_path / "log")
     assert asked.read_text().splitlines() == [
         "update",
-        "install -y --no-install-recommends libgl1-mesa-dri weston xwayland",
+        "install -y --no-install-recommends dbus-daemon libgl1-mesa-dri mutter weston xwayland",
     ]
 
 
@@ -50,7 +50,7 @@ def test_where_apt_is_missing_the_line_says_what_to_install(tmp_path: Path, prog
 
 
 def test_nothing_is_asked_of_apt_where_all_is_there(tmp_path: Path, programs: Path) -> None:
-    for name in ("weston", "weston-terminal", "Xwayland", "Xvfb", "xdotool"):
+    for name in ("weston", "weston-terminal", "mutter", "dbus-daemon", "Xwayland", "Xvfb", "xdotool"):
         write_program(programs, name)
     xwayland_parts.install_programs(print, tmp_path / "log")
     assert not (tmp_path / "log").exists()

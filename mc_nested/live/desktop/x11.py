@@ -20,6 +20,7 @@ from mc_nested.live.desktop.window import (
 from mc_nested.live.desktop.x11_camera import WindowCamera
 from mc_nested.live.desktop.x11_clipboard import X11Clipboard
 from mc_nested.live.desktop.xwayland import (
+    ALLOW,
     is_rootless,
     is_wayland_session,
     is_xwayland,
@@ -56,10 +57,14 @@ def session_kind() -> str:
     """What this session is, in words; DesktopError where there is no X server."""
     display = _connect()
     try:
-        kind = "X11" if not is_xwayland(display) else "Xwayland" if is_rootless(display) else "Xwayland in one window"
+        is_one, is_pictured = is_xwayland(display), not is_rootless(display)
     finally:
         display.close()
-    return f"{kind}, display {os.environ['DISPLAY']}"
+    if not is_one:
+        return f"X11, display {os.environ['DISPLAY']}"
+    if is_pictured:
+        return f"Xwayland in one window, display {os.environ['DISPLAY']}"
+    return f"Xwayland, display {os.environ['DISPLAY']}; {ALLOW}"
 
 
 def open_clipboard() -> X11Clipboard:

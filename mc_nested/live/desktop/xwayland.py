@@ -15,6 +15,9 @@ from mc_nested.errors import DesktopError, NoWindowError
 
 ALL_PLANES = 0xFFFFFFFF
 
+ALLOW = "where the desktop asks whether to allow remote interaction, allow it"
+"""GNOME and KDE may ask at the first key that isn't pressed by hand (FACTS: Input and windows)."""
+
 _AS_X11 = "env -u WAYLAND_DISPLAY SDL_VIDEO_DRIVER=x11"
 """Before a launcher's command, makes GLFW and SDL 3 open X11 windows."""
 

@@ -17,6 +17,7 @@ if not sys.platform.startswith("linux"):
 from Xlib.error import BadMatch
 
 from mc_nested.live.desktop.xwayland import (
+    ALLOW,
     is_rootless,
     is_wayland_session,
     is_xwayland,
@@ -24,12 +25,12 @@ from mc_nested.live.desktop.xwayland import (
     no_x_server_error,
 )
 from tests.live.desktop.probed import probed
-from tests.live.desktop.xwayland_fixtures import compositor, rootful, rootless
+from tests.live.desktop.xwayland_fixtures import compositors, rootful, rootless
 
 if TYPE_CHECKING:
     from Xlib.display import Display
 
-__all__ = ["compositor", "rootful", "rootless"]
+__all__ = ["compositors", "rootful", "rootless"]
 
 RED, GREEN, BLUE, YELLOW = [0, 0, 255], [0, 255, 0], [255, 0, 0], [0, 255, 255]
 QUARTERS = [RED, GREEN, BLUE, YELLOW]
@@ -50,7 +51,7 @@ def rootless_report(environment: dict[str, str], part: str) -> dict[str, Any]:
 @pytest.mark.window
 def test_the_games_own_window_is_pictured_whatever_covers_it(rootless: dict[str, str]) -> None:
     report = rootless_report(rootless, "camera")
-    assert report["session"] == f"Xwayland, display {rootless['DISPLAY']}"
+    assert report["session"] == f"Xwayland, display {rootless['DISPLAY']}; {ALLOW}"
     assert (report["shape"], report["corners"]) == ([400, 640, 3], QUARTERS)
     assert (report["seam"], report["below"]) == ([[RED, GREEN]], [[RED], [BLUE]])
     assert report["covered"] == QUARTERS

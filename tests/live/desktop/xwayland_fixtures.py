@@ -12,7 +12,7 @@ from tests.live.desktop.xwayland_desktop import rootful_desktop, rootless_deskto
 
 
 @pytest.fixture(scope="session")
-def compositor(tmp_path_factory: pytest.TempPathFactory) -> None:
+def compositors(tmp_path_factory: pytest.TempPathFactory) -> None:
     """The programs are there. A machine that lacks them skips the test and says how; with CI set, that is a failure."""
     if sys.platform != "linux":
         pytest.skip("Xwayland is for Linux")
@@ -25,14 +25,14 @@ def compositor(tmp_path_factory: pytest.TempPathFactory) -> None:
 
 
 @pytest.fixture(scope="module")
-def rootful(compositor: None) -> Iterator[dict[str, str]]:  # noqa: ARG001 - its programs
+def rootful(compositors: None) -> Iterator[dict[str, str]]:  # noqa: ARG001 - its programs
     """The environment of an Xwayland that is one window of a Wayland desktop."""
     with rootful_desktop() as environment:
         yield environment
 
 
-@pytest.fixture(scope="module")
-def rootless(compositor: None) -> Iterator[dict[str, str]]:  # noqa: ARG001 - its programs
-    """The environment of an Xwayland whose windows are a Wayland desktop's own."""
-    with rootless_desktop() as environment:
+@pytest.fixture(scope="module", params=["weston", "mutter"])
+def rootless(compositors: None, request: pytest.FixtureRequest) -> Iterator[dict[str, str]]:  # noqa: ARG001 - its programs
+    """The environment of an Xwayland whose windows are a Wayland desktop's own; mutter is GNOME's."""
+    with rootless_desktop(request.param) as environment:
         yield environment
