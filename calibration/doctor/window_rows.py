@@ -29,7 +29,7 @@ def front_row(snapshot: WindowSnapshot) -> Check:
         CheckName.IN_FRONT,
         "fail",
         "another window is in front, so nothing was pressed",
-        "click on the game, run this again",
+        "switch to the game (Alt+Tab), run this again",
     )
 
 

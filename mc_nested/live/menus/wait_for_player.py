@@ -17,7 +17,9 @@ def wait_for_front(devices: Devices) -> None:
     deadline = Deadline(clock, PATIENCE_S)
     while not devices.display.is_in_front():
         if deadline.has_passed:
-            raise NotInFrontError("the game's window didn't come to the front: click on it, and run this again")
+            raise NotInFrontError(
+                "the game's window didn't come to the front: run this again, and switch to it (Alt+Tab)"
+            )
         clock.sleep_until(clock.now() + PERSON_LOOK_S)
 
 
@@ -40,5 +42,5 @@ def wait_until_standing_still(connection: GameConnection) -> Reading:
         problem = (reading.problem or "the player keeps moving") if reading else None
         clock.sleep_until(clock.now() + PERSON_LOOK_S)
     if problem is None:
-        raise NotInFrontError("the game's window didn't come to the front: click on it, and run this again")
+        raise NotInFrontError("the game's window didn't come to the front: run this again, and switch to it (Alt+Tab)")
     raise UnreadableError(f"the debug screen can't be read ({problem}): mend that, and run this again")
