@@ -20,9 +20,9 @@ from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.coordinates import block_of, facing_of, turn_between, yaw_of
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.profile.arena import Arena
-from mc_nested.live.profile.fingerprint import version_in
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import GameVersion, Profile
+from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.font import load_font
 
 NEAR_MIDDLE: Cell = (SIZE // 2, 0)

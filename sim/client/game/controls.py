@@ -138,11 +138,11 @@ class Controls:
                 game.chat.is_selected = True
 
     def _escape(self) -> None:
-        """Esc closes a screen over the world, and the list of worlds; after a death it does nothing."""
+        """Esc closes a screen over the world, and the lists; after a death or a disconnection it does nothing."""
         game = self._game
         if game.screen in ("pause", "inventory"):
             game.open("world")
-        elif game.screen == "worlds":
+        elif game.screen in ("worlds", "servers"):
             game.open("title")
 
     def _click(self, position: tuple[int, int], size: tuple[int, int], now: float) -> None:
