@@ -1,7 +1,7 @@
 """A virtual Minecraft client on a virtual clock: the game, its window and its devices, put together.
 
-keyboard, pointer -> window (focus, latency) -> controls -> game, 20 ticks a second
-game -> views, each with the time it appeared (60 frames a second) -> display, 10 to 30 ms later
+keyboard, pointer -> window (focus, latency) -> at the next frame: controls, then the ticks that are due -> game
+game -> views, each with the time of its frame (60 a second) -> display, 10 to 30 ms later
 """
 
 import dataclasses
@@ -60,7 +60,12 @@ class VirtualClient:
         inputs, captures, phases, mishaps = (np.random.default_rng(seed) for seed in seeds)
         self.clock = VirtualClock()
         self.clipboard = VirtualClipboard()
-        self.window = VirtualWindow(self.clock, inputs, settings.size, settings.input_latency_s)
+        self._frames = FrameTiming(
+            settings.fps,
+            self.clock.now() + float(phases.uniform(0, 1 / settings.fps)),
+            settings.capture_latency_s,
+        )
+        self.window = VirtualWindow(self.clock, inputs, settings.size, settings.input_latency_s, self._frames.next)
         self.game = VirtualGame(
             self._new_realm(),
             keys=GameKeys(SIDES_SWAPPED if settings.swaps_sides else BINDINGS),
@@ -75,10 +80,8 @@ class VirtualClient:
         self.mishaps = Mishaps(self, mishaps)
 
         self._font = settings.font or _drawn_font()
-        phase_s = self.clock.now() + float(phases.uniform(0, 1 / settings.fps))
-        timing = FrameTiming(settings.fps, phase_s, settings.capture_latency_s)
         self.display = VirtualDisplay(
-            self.clock, self.window, captures, timing, self._new_painter(), self._title, self.game.view()
+            self.clock, self.window, captures, self._frames, self._new_painter(), self._title, self.game.view()
         )
         self.keyboard = VirtualKeyboard(self.window, self.controls)
         self.pointer = VirtualPointer(self.clock, self.window, self.game, self.controls, lambda: self.scale)
@@ -87,7 +90,7 @@ class VirtualClient:
         self._missed: int | None = None
         self._unfocused_since = math.inf
         self._next_tick = self.clock.now() + float(phases.uniform(0, TICK_S))
-        self.clock.call_at(self._next_tick, self._tick)
+        self._await_tick()
 
     # What a test asks.
 
@@ -174,9 +177,15 @@ class VirtualClient:
     def _title(self) -> str:
         return self.edition.title(in_world=self.game.is_in_world)
 
+    def _await_tick(self) -> None:
+        """Let the next tick happen in the first frame from its time on, after its events (FACTS: Walking)."""
+        frame = self._frames.next(self._next_tick)
+        # What is called at a time, at that time, comes behind everything else that was to happen then.
+        self.clock.call_at(frame, lambda: self.clock.call_at(frame, self._tick))
+
     def _tick(self) -> None:
         self._next_tick += TICK_S
-        self.clock.call_at(self._next_tick, self._tick)
+        self._await_tick()
         if self._missed is not None:
             self._missed += 1
             return

@@ -17,12 +17,28 @@ GRAB_S = 0.001
 """Seconds that taking a picture takes. Without them, a loop that only looks would never end."""
 
 
+_ROUNDING = 1e-6
+"""Frames that a time may be off a frame's and still be the same."""
+
+
 class FrameTiming(NamedTuple):
     """When frames appear: ``fps`` a second, one of them at ``phase_s``, each seen after a latency from and to."""
 
     fps: float
     phase_s: float
     latency_s: tuple[float, float]
+
+    def frame(self, number: int) -> float:
+        """When that frame appears, in seconds."""
+        return self.phase_s + number / self.fps
+
+    def latest(self, at: float) -> float:
+        """When the latest frame appeared that is no later than ``at``."""
+        return self.frame(math.floor((at - self.phase_s) * self.fps + _ROUNDING))
+
+    def next(self, at: float) -> float:
+        """When the first frame appears that is no earlier than ``at``."""
+        return self.frame(math.ceil((at - self.phase_s) * self.fps - _ROUNDING))
 
 
 class VirtualDisplay:
@@ -66,13 +82,12 @@ class VirtualDisplay:
         return self._window.is_in_front
 
     def grab(self, region: Region | None = None) -> Frame:
-        now, (fps, phase_s, (least, most)) = self._clock.now(), self._timing
+        now, (least, most) = self._clock.now(), self._timing.latency_s
         seen = now - least - (most - least) * float(self._rng.random())
         if now < self._frozen_until:
             seen = min(seen, self._frozen_at)
-        frame_at = phase_s + math.floor((seen - phase_s) * fps) / fps
         # A desktop never shows an older frame than before.
-        self._shown_at = max(self._shown_at, frame_at)
+        self._shown_at = max(self._shown_at, self._timing.latest(seen))
         frame = self.painter.grab(self._view_at(self._shown_at), region)
         if now < self._black_until:
             frame = np.zeros_like(frame)

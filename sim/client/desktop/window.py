@@ -1,5 +1,6 @@
 """The game's window on its desktop: whether it is in front, and how late keys reach it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,12 +25,18 @@ class VirtualWindow:
         rng: draws the latencies.
         size: width and height in framebuffer pixels.
         latency_s: the shortest and the longest latency.
+        taken_at: when the game takes an event that arrives at a time: at its next frame. Default: at once.
     """
 
     def __init__(
-        self, clock: VirtualClock, rng: np.random.Generator, size: Size, latency_s: tuple[float, float]
+        self,
+        clock: VirtualClock,
+        rng: np.random.Generator,
+        size: Size,
+        latency_s: tuple[float, float],
+        taken_at: Callable[[float], float] = lambda arrival: arrival,
     ) -> None:
-        self._clock, self._rng, self._latency_s = clock, rng, latency_s
+        self._clock, self._rng, self._latency_s, self._taken_at = clock, rng, latency_s, taken_at
         self.size = size
         self.is_in_front = True
         self.pointer = (size[0] // 2, size[1] // 2)
@@ -89,7 +96,7 @@ class VirtualWindow:
         least, most = self._latency_s
         arrival = self._clock.now() + late + least + (most - least) * float(self._rng.random())
         self._last_arrival = max(self._last_arrival, arrival)
-        self._clock.call_at(self._last_arrival, lambda: self._arrive(event))
+        self._clock.call_at(self._taken_at(self._last_arrival), lambda: self._arrive(event))
 
     def _arrive(self, event: Event) -> None:
         if self._stalled is None:

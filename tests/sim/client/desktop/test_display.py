@@ -37,6 +37,15 @@ class Shown:
         return bool(np.array_equal(self.display.grab(), other.grab(view)))
 
 
+def test_the_frame_at_a_time_is_the_same_looking_back_and_ahead() -> None:
+    timing = FrameTiming(30.0, 100.007, (0.0, 0.0))
+    for number in range(1000):
+        frame = timing.frame(number)
+        assert timing.latest(frame) == timing.next(frame) == frame
+        assert timing.next(frame + 0.001) == timing.frame(number + 1)
+        assert timing.latest(frame + 0.001) == frame
+
+
 def test_it_describes_its_window() -> None:
     shown = Shown()
     assert shown.display.size() == SIZE

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from sim.client.desktop.clock import VirtualClock
+from sim.client.desktop.display import FrameTiming
 from sim.client.desktop.window import Stray, VirtualWindow
 
 
@@ -115,3 +116,16 @@ def test_a_stalled_game_takes_its_events_when_it_resumes() -> None:
     desktop.press("a")
     desktop.clock.sleep(1.0)
     assert desktop.names() == ["w", "-w", "a"]
+
+
+def test_a_game_that_takes_events_at_its_frames_takes_them_in_order_at_the_next_one() -> None:
+    desktop = Desktop()
+    frames = FrameTiming(10.0, 0.03, (0.0, 0.0))
+    latency_s = (0.01, 0.01)
+    desktop.window = VirtualWindow(desktop.clock, np.random.default_rng(0), (80, 60), latency_s, frames.next)
+    desktop.press("w")
+    desktop.clock.sleep(0.025)
+    desktop.press("a")
+    desktop.release("w")
+    desktop.clock.sleep(0.5)
+    assert desktop.arrived == [("w", 0.03), ("a", pytest.approx(0.13)), ("-w", pytest.approx(0.13))]
