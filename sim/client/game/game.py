@@ -9,6 +9,7 @@ from sim.client.game.chat import VirtualChat
 from sim.client.game.commands import chat_line
 from sim.client.game.edition import Edition
 from sim.client.game.f3_text import F3Screen
+from sim.client.game.gaits import Gaits
 from sim.client.game.keys import GameKeys
 from sim.client.game.realm import SLOTS, Realm
 from sim.client.game.screens import DEATH_WAIT, IN_WORLD, Effect, MenuState, ScreenName
@@ -68,6 +69,8 @@ class VirtualGame:
         self._sent: deque[str] = deque()
         self._ghosts: list[tuple[int, tuple[int, int, int]]] = []
         self._refusals_to_come, self._ghosts_to_come = 0, 0
+        self._gaits = Gaits(realm.edition)
+        self._is_at_wall = False
         self._rested_at: tuple[int, physics.Vector] | None = None
         self._looked: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
 
@@ -268,13 +271,18 @@ class VirtualGame:
         player.is_sneaking = keys.is_held("sneak")
         forward = keys.is_held("forward") - keys.is_held("back")
         left = keys.is_held("left") - keys.is_held("right")
+        gait = self._gaits.tick(
+            is_forward=forward > 0,
+            sneaks=player.is_sneaking,
+            may_sprint=player.on_ground and not self._is_at_wall,
+        )
         is_pushed = forward or left or keys.is_held("jump")
         rests = player.on_ground and max(abs(player.velocity[0]), abs(player.velocity[2])) < physics.STANDSTILL
         if rests and not is_pushed and self._rested_at == (world.revision, player.feet):
             return
         if keys.is_held("jump") and player.on_ground:
             player.velocity = (player.velocity[0], physics.JUMP, player.velocity[2])
-        push = physics.wish(forward, left, "sneak" if player.is_sneaking else "walk", player.yaw)
+        push = physics.wish(forward, left, gait, player.yaw)
         before = player.feet
         player.feet, player.velocity, player.on_ground = physics.step(
             before,
@@ -283,9 +291,10 @@ class VirtualGame:
             self.realm.size()[0],
             world.is_solid,
             on_ground=player.on_ground,
-            ground=self._ground,
+            ground=self._ground.under(gait),
             sneaks=player.is_sneaking,
         )
+        self._is_at_wall = bool(is_pushed) and not (player.velocity[0] or player.velocity[2])
         # A player who stands still on the ground stays there until a key or the world changes.
         self._rested_at = (world.revision, before) if player.on_ground and player.feet == before else None
 
