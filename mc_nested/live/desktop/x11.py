@@ -21,6 +21,7 @@ from mc_nested.live.desktop.x11_camera import WindowCamera
 from mc_nested.live.desktop.x11_clipboard import X11Clipboard
 from mc_nested.live.desktop.xwayland import (
     ALLOW,
+    PANIC,
     is_rootless,
     is_wayland_session,
     is_xwayland,
@@ -63,7 +64,7 @@ def session_kind() -> str:
     if not is_one:
         return f"X11, display {os.environ['DISPLAY']}"
     if is_pictured:
-        return f"Xwayland in one window, display {os.environ['DISPLAY']}"
+        return f"Xwayland in one window, display {os.environ['DISPLAY']}; {PANIC}"
     return f"Xwayland, display {os.environ['DISPLAY']}; {ALLOW}"
 
 

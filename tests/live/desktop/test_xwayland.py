@@ -18,6 +18,7 @@ from Xlib.error import BadMatch
 
 from mc_nested.live.desktop.xwayland import (
     ALLOW,
+    PANIC,
     is_rootless,
     is_wayland_session,
     is_xwayland,
@@ -117,7 +118,7 @@ def test_an_xwayland_in_one_window_is_an_ordinary_x_server(rootful: dict[str, st
 def test_an_xwayland_in_one_window_says_so(rootful: dict[str, str]) -> None:
     code = "from mc_nested.live.desktop import session_kind; print(session_kind())"
     done = subprocess.run([sys.executable, "-c", code], env=rootful, capture_output=True, text=True, check=True)
-    assert done.stdout == f"Xwayland in one window, display {rootful['DISPLAY']}\n"
+    assert done.stdout == f"Xwayland in one window, display {rootful['DISPLAY']}; {PANIC}\n"
 
 
 class Server:
