@@ -13,6 +13,7 @@ from sim.client.drawing.hud_layers import HudLayers
 from sim.client.drawing.layers import Layer
 from sim.client.drawing.letters import Letters
 from sim.client.drawing.menu_layers import MenuLayers
+from sim.client.drawing.notice_layers import NoticeLayers
 from sim.client.drawing.picture import LayeredPicture
 from sim.client.drawing.scenery import random_world
 from sim.client.game.edition import Edition
@@ -60,6 +61,8 @@ class Painter:
         self._f3 = F3Layers(letters, width)
         self._hud = HudLayers(letters, gui, edition)
         self._menu = MenuLayers(letters, gui, edition, words or {})
+        # The same layers again, so that what doesn't change isn't drawn again.
+        self._notices = lru_cache(8)(NoticeLayers(letters, gui[0]).of)
         self._scene = lru_cache(2 * _SHIFTS)(self._moved)
         self._shown: View | None = None
         self._picture = LayeredPicture(self._dirt)
@@ -86,7 +89,7 @@ class Painter:
             layers += self._hud.of(view)
             layers += self._f3.of(view.f3) if view.f3 else []
             layers += self._hud.chat(view.chat, view.typed) if view.chat or view.typed is not None else []
-        return layers + self._menu.of(view)
+        return layers + self._menu.of(view) + self._notices(view.notices)
 
 
 def _shift(block: Block) -> tuple[int, int]:

@@ -34,9 +34,23 @@ def test_the_scaling_is_measured_on_the_picture(
     assert bool(row.fix) == (status in ("warn", "fail"))
 
 
+@pytest.mark.parametrize(
+    ("size", "scale", "status"),
+    [((854, 480), 2, "warn"), ((1280, 720), 3, "warn"), ((959, 540), 2, "pass"), ((958, 540), 2, "warn")],
+)
+def test_below_480_gui_pixels_of_width_a_blocks_line_may_cover_the_facing_line(
+    size: Size, scale: int, status: str
+) -> None:
+    row = size_row(snapshot(size, None, scale), None)
+    assert row.status == status
+    assert row.fix == (
+        "" if status == "pass" else f"make the window at least {480 * scale} pixels wide, or set a smaller GUI scale"
+    )
+
+
 def test_a_window_smaller_than_the_games_screens_fails() -> None:
     assert size_row(snapshot((319, 480), None), None).status == "fail"
-    assert size_row(snapshot((320, 240), None), None).status == "pass"
+    assert size_row(snapshot((320, 240), None, gui_scale=1), None).status == "warn"
     assert size_row(snapshot((320, 240), None, gui_scale=None), None).status == "skip"
     assert size_row(snapshot((320, 239), None), None).fix == "make the window larger than 320 x 240"
 
