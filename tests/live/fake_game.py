@@ -138,6 +138,8 @@ class FakeGame:
         keys = self.profile.keys
         if not is_down:
             self._game_keys.discard(name)
+        elif self._chat is not None and name == "esc":
+            self._chat = None
         elif self._chat is not None:
             if name == "enter":
                 self._run(self._chat)

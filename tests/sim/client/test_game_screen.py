@@ -104,6 +104,35 @@ def test_a_letter_that_is_lost_keeps_the_line_from_being_sent() -> None:
     assert client.realm.day_time == 6000
 
 
+class ElsewhereScreen(WindowScreen):
+    """What reads a game that draws its chat where the game itself doesn't."""
+
+    def is_chat_open(self) -> bool:
+        return False
+
+
+def test_a_chat_that_is_drawn_elsewhere_is_closed_and_the_error_names_what_to_set() -> None:
+    client = VirtualClient()
+    client.clock.sleep(0.2)
+    connection = _connection(client).with_screen(ElsewhereScreen(client.display, FONT))
+    connection.controller.confirm_screen("world")
+    with pytest.raises(NotConfirmedError, match=r"the chat did not open, empty: .*set reads_chat = false"):
+        Chat(Profile(), connection).send("/time set 1")
+    assert client.game.screen == "world"
+    assert (client.realm.day_time, client.window.down) == (6000, set())
+
+
+def test_where_no_chat_opened_the_menu_that_esc_opens_is_closed_again() -> None:
+    client = VirtualClient()
+    client.clock.sleep(0.2)
+    connection = _connection(client)
+    connection.controller.confirm_screen("world")
+    client.window.drop_next()
+    with pytest.raises(NotConfirmedError, match="the chat did not open"):
+        Chat(Profile(), connection).send("/time set 1")
+    assert client.game.screen == "world"
+
+
 @pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.9"])
 @pytest.mark.parametrize("name", ["chat", "pause", "death", "disconnected", "servers", "title", "worlds", "inventory"])
 def test_every_screen_leads_back_into_the_world(version: str, name: str) -> None:

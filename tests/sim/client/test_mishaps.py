@@ -276,8 +276,8 @@ def test_with_a_rate_of_zero_no_mishap_is_planned() -> None:
     assert mishaps.happened == []
 
 
-def test_ghost_blocks_come_only_where_they_are_asked_for() -> None:
-    assert set(KINDS) - set(DRAWN) == {"ghost_block"}
+def test_ghost_blocks_and_notices_come_only_where_they_are_asked_for() -> None:
+    assert set(KINDS) - set(DRAWN) == {"ghost_block", "notices"}
 
 
 def test_the_first_of_many_mishaps_waits_for_its_time_too() -> None:
