@@ -264,6 +264,9 @@ class FakeScreen:
     def scale(self) -> int:
         return 2
 
+    def seen_scale(self) -> int | None:
+        return 2
+
 
 class FakeDisplay:
     """The fake game's window; it has no picture, since tests read the world itself."""

@@ -14,7 +14,7 @@ from mc_nested.live.menus import recovery, screens
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.vision.chat_region import OPEN_LINES, without_chat
+from mc_nested.live.vision.chat_region import without_chat
 from mc_nested.live.vision.game_screen import WindowScreen
 from mc_nested.live.vision.last_frames import LastFrames
 from sim.client.client import VirtualClient
@@ -194,7 +194,7 @@ def test_the_chat_is_blanked_on_a_saved_frame(tmp_path: Path) -> None:
     (path,) = last.save()
     saved = cv2.imread(str(path))
     assert saved is not None
-    np.testing.assert_array_equal(saved, without_chat(client.display.grab(), client.scale, lines=OPEN_LINES))
+    np.testing.assert_array_equal(saved, without_chat(client.display.grab(), client.scale))
 
 
 def test_another_window_is_never_pictured(tmp_path: Path) -> None:
