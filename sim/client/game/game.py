@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from mc_nested.live.model.reading import Target
 from sim.client.game import physics, ray
+from sim.client.game.block_tags import tags_of
 from sim.client.game.chat import VirtualChat
 from sim.client.game.commands import chat_line
 from sim.client.game.edition import Edition
@@ -26,7 +27,6 @@ _REACH = {"creative": 5.0, "survival": 4.5}
 _LOADING_TICKS = {"loading": 40, "saving": 20}
 _VOID = 64
 """Blocks below the floor at which a falling player dies."""
-_TAGS = {"oak_planks": ("minecraft:planks", "minecraft:mineable/axe"), "stone": ("minecraft:mineable/pickaxe",)}
 
 
 class VirtualGame:
@@ -62,6 +62,7 @@ class VirtualGame:
         self.pointer = (-1, -1)
         self.is_world_chosen = False
         self.reason = ""
+        self.notices: tuple[str, ...] = ()
         self._shows_target = shows_target
         self._on_leave, self._on_enter = on_leave, on_enter
         self._since = 0
@@ -176,11 +177,11 @@ class VirtualGame:
         is_ready = self.screen != "death" or self.ticks - self._since >= DEATH_WAIT
         state = MenuState(self.screen, is_ready, self.is_world_chosen, self.reason)
         if not self.is_in_world:
-            return View(state, (0, 0, 0), pointer=self.pointer)
+            return View(state, (0, 0, 0), pointer=self.pointer, notices=self.notices)
         pointer = (-1, -1) if self.screen == "world" else self.pointer
         scene = block_of(player.feet)
         if self.hides_hud:
-            return View(state, scene, pointer=pointer)
+            return View(state, scene, pointer=pointer, notices=self.notices)
         return View(
             state,
             scene,
@@ -191,6 +192,7 @@ class VirtualGame:
             self.chat.typed,
             player.mode == "creative",
             pointer,
+            self.notices,
         )
 
     def target_block(self, reach: float) -> ray.Hit | None:
@@ -310,7 +312,7 @@ class VirtualGame:
             (player.yaw + 180.0) % 360.0 - 180.0,
             player.pitch,
             target=Target(hit.block, edition.shown_id(name)) if hit else None,
-            tags=_TAGS.get(name, ()) if edition.since(1, 13) else (),
+            tags=tags_of(name, edition),
             reduced=realm.rule("reducedDebugInfo", "reduced_debug_info", False),
             version=edition.version,
         )
