@@ -74,6 +74,8 @@ class VirtualGame:
         self._is_at_wall = False
         self._rested_at: tuple[int, physics.Vector] | None = None
         self._looked: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
+        self._looked_on_f3: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
+        self._before = self._aim()
 
     @property
     def edition(self) -> Edition:
@@ -166,6 +168,7 @@ class VirtualGame:
                 self.chat.say(answer.text, self.ticks, is_error=answer.is_error)
         if self.screen == "world":
             self._handle_keys()
+        self._before = self._aim()
         if self.screen != "death":
             self._move()
             if self.realm.player.feet[1] < self.realm.world.floor - _VOID:
@@ -203,6 +206,21 @@ class VirtualGame:
             self._looked = (now, ray.cast(self.realm.eye(), player.yaw, player.pitch, SIGHT, world.is_solid))
         hit = self._looked[1]
         return hit if hit is not None and hit.distance <= reach else None
+
+    def target_on_f3(self) -> ray.Hit | None:
+        """The block that the debug screen names, from where the eyes were a tick ago (FACTS: The F3 debug screen)."""
+        eye, yaw, pitch = self._before
+        world, reach = self.realm.world, SIGHT if self.edition.since(1, 13) else self.reach()
+        now = (self._before, world.revision)
+        if self._looked_on_f3[0] != now:
+            self._looked_on_f3 = (now, ray.cast(eye, yaw, pitch, SIGHT, world.is_solid))
+        hit = self._looked_on_f3[1]
+        return hit if hit is not None and hit.distance <= reach else None
+
+    def _aim(self) -> tuple[physics.Vector, float, float]:
+        """The eyes' position and the view, in blocks and degrees."""
+        player = self.realm.player
+        return self.realm.eye(), player.yaw, player.pitch
 
     def reach(self) -> float:
         """Blocks from the eye within which blocks can be placed."""
@@ -303,7 +321,7 @@ class VirtualGame:
     def _f3(self) -> F3Screen:
         realm = self.realm
         player, edition = realm.player, self.edition
-        hit = self.target_block(SIGHT if edition.since(1, 13) else self.reach()) if self._shows_target else None
+        hit = self.target_on_f3() if self._shows_target else None
         name = realm.world.block_at(hit.block) if hit else ""
         return F3Screen(
             edition.layout,
