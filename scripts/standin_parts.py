@@ -89,20 +89,21 @@ def install_programs(say: Say, log: Path) -> None:
     packages = [program.package for program in PROGRAMS if program.path() is None]
     packages += [] if _has_opengl() else [SOFTWARE_OPENGL]
     if packages:
-        _apt_install(packages, say, log)
+        apt_install("the stand-in", packages, say, log)
     check_node()
 
 
-def _apt_install(packages: Sequence[str], say: Say, log: Path) -> None:
+def apt_install(who: str, packages: Sequence[str], say: Say, log: Path) -> None:
+    """Install Debian packages; MissingError, which says that ``who`` needs them, where that is impossible."""
     by_hand = f"sudo apt-get install --no-install-recommends {' '.join(packages)}"
     if shutil.which("apt-get") is None:
-        raise MissingError(f"the stand-in needs programs that it can only get with apt; on Debian or Ubuntu: {by_hand}")
+        raise MissingError(f"{who} needs programs that it can only get with apt; on Debian or Ubuntu: {by_hand}")
     if os.geteuid() != 0:
-        raise MissingError(f"the stand-in needs programs that only root can install: {by_hand}")
+        raise MissingError(f"{who} needs programs that only root can install: {by_hand}")
     say(f"installing with apt: {' '.join(packages)}")
     quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
     for arguments in (["update"], ["install", "-y", "--no-install-recommends", *packages]):
-        if not _run(["apt-get", *arguments], log, env=quiet):
+        if not run_logged(["apt-get", *arguments], log, env=quiet):
             raise MissingError(f"apt-get {arguments[0]} failed (see {log}); run it by hand: {by_hand}")
 
 
@@ -127,7 +128,7 @@ def install_server(cache: Path, say: Say, log: Path) -> Path:
         folder.mkdir(parents=True)
         for name in ("package.json", "package-lock.json"):
             shutil.copy(NODE_FOLDER / name, folder / name)
-        if not _run([NPM.required(), "ci", "--ignore-scripts", "--no-audit", "--no-fund"], log, cwd=folder):
+        if not run_logged([NPM.required(), "ci", "--ignore-scripts", "--no-audit", "--no-fund"], log, cwd=folder):
             raise MissingError(f"npm could not install the game server (see {log}): can the registry be reached?")
         done.write_bytes(lock)
     return folder / "node_modules"
@@ -142,7 +143,7 @@ def fetch(pack: Pack, cache: Path, say: Say, log: Path) -> Path:
     part = cache / f"{pack.folder}.part"
     shutil.rmtree(part, ignore_errors=True)
     part.mkdir(parents=True)
-    if not _run([NPM.required(), "pack", f"{pack.name}@{pack.version}"], log, cwd=part):
+    if not run_logged([NPM.required(), "pack", f"{pack.name}@{pack.version}"], log, cwd=part):
         raise MissingError(f"npm could not fetch {pack.name} {pack.version} (see {log}): can the registry be reached?")
     archive = next(part.glob("*.tgz"))
     check_integrity(archive, pack)
@@ -183,13 +184,15 @@ def _has_opengl() -> bool:
     return answer.stdout == "install ok installed"
 
 
-def _run(command: Sequence[str], log: Path, *, cwd: Path | None = None, env: dict[str, str] | None = None) -> bool:
+def run_logged(
+    command: Sequence[str], log: Path, *, cwd: Path | None = None, env: dict[str, str] | None = None
+) -> bool:
     """Run a command, its output into ``log``; whether it succeeded in time."""
     with log.open("ab") as output:
         output.write(f"$ {' '.join(command)}\n".encode())
         output.flush()
         try:
-            done = subprocess.run(  # noqa: S603 - fixed commands of the stand-in
+            done = subprocess.run(  # noqa: S603 - fixed commands of the scripts
                 command,
                 cwd=cwd,
                 env=env,
