@@ -176,7 +176,7 @@ def open_screen(log: Path) -> Iterator[str]:
 
 @contextmanager
 def open_wineserver(env: Mapping[str, str], log: Path) -> Iterator[None]:
-    """Wine's server in the foreground, kept between programs. Asked to end, it ends all programs of its prefix first."""
+    """Wine's server in the foreground, kept between programs. At its end it ends every program of its prefix."""
     command = [WINESERVER.required(), "--foreground", "--persistent"]
     with running(command, env, log) as server:
         try:
