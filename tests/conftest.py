@@ -6,8 +6,9 @@ import pytest
 from hypothesis import settings
 
 from tests.standin_fixture import standin
+from tests.window_fixture import display, window_programs
 
-__all__ = ["standin"]
+__all__ = ["display", "standin", "window_programs"]
 
 # How long an example takes says something of the machine, not of the code.
 settings.register_profile("any machine", deadline=None)

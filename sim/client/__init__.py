@@ -15,5 +15,5 @@ drawing/     from a view to pixels: only what changed, only what is grabbed
     f3_layers.py  f3_groups.py  hud_layers.py  menu_layers.py  scenery.py
     letters.py  font.py                             texts in any font, and a font drawn for this project
     f3_cases.py                                     random debug screens, to test a reader on
-desktop/     clock.py  window.py (focus, latency)  display.py  keyboard.py  pointer.py  clipboard.py
+desktop/     clock.py  frames.py  window.py (focus, latency)  display.py  keyboard.py  pointer.py  clipboard.py
 """

@@ -1,7 +1,7 @@
 """A virtual Minecraft client on a virtual clock: the game, its window and its devices, put together.
 
-keyboard, pointer -> window (focus, latency) -> controls -> game, 20 ticks a second
-game -> views, each with the time it appeared (60 frames a second) -> display, 10 to 30 ms later
+keyboard, pointer -> window (focus, latency) -> controls -> game, 20 ticks a second, run on its frames
+game -> views, each with the time of its frame (60 a second) -> display, 10 to 30 ms later
 """
 
 import dataclasses
@@ -12,19 +12,21 @@ from typing import Any
 import numpy as np
 
 from mc_nested.arena.rules import Cell
-from mc_nested.live.devices import Devices
+from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.vision.font import Font, font_of
 from sim.client.desktop.clipboard import VirtualClipboard
 from sim.client.desktop.clock import VirtualClock
-from sim.client.desktop.display import FrameTiming, VirtualDisplay
+from sim.client.desktop.display import VirtualDisplay
+from sim.client.desktop.frames import Frames
 from sim.client.desktop.keyboard import VirtualKeyboard
 from sim.client.desktop.pointer import VirtualPointer
 from sim.client.desktop.window import VirtualWindow
 from sim.client.drawing.font import drawn_atlas
 from sim.client.drawing.painter import Painter
+from sim.client.drawing.view_layers import ViewLayers
 from sim.client.game.controls import Controls
 from sim.client.game.edition import Edition
 from sim.client.game.game import VirtualGame
@@ -50,17 +52,21 @@ class VirtualClient:
 
     Args:
         settings: how it is set up.
+        clipboard: the desktop's clipboard; None for one of its own.
         choices: settings by name, in place of those in ``settings``: ``VirtualClient(seed=3, version="1.12.2")``.
     """
 
-    def __init__(self, settings: ClientSettings | None = None, **choices: Any) -> None:
+    def __init__(
+        self, settings: ClientSettings | None = None, clipboard: Clipboard | None = None, **choices: Any
+    ) -> None:
         self.settings = settings = dataclasses.replace(settings or ClientSettings(), **choices)
         self.edition = Edition(settings.version)
         seeds = np.random.SeedSequence(settings.seed).spawn(4)
         inputs, captures, phases, mishaps = (np.random.default_rng(seed) for seed in seeds)
         self.clock = VirtualClock()
-        self.clipboard = VirtualClipboard()
-        self.window = VirtualWindow(self.clock, inputs, settings.size, settings.input_latency_s)
+        self.clipboard: Clipboard = clipboard or VirtualClipboard()
+        self._frames = Frames(settings.fps, self.clock.now() + float(phases.uniform(0, 1 / settings.fps)))
+        self.window = VirtualWindow(self.clock, self._frames, inputs, settings.size, settings.input_latency_s)
         self.game = VirtualGame(
             self._new_realm(),
             keys=GameKeys(SIDES_SWAPPED if settings.swaps_sides else BINDINGS),
@@ -75,10 +81,15 @@ class VirtualClient:
         self.mishaps = Mishaps(self, mishaps)
 
         self._font = settings.font or _drawn_font()
-        phase_s = self.clock.now() + float(phases.uniform(0, 1 / settings.fps))
-        timing = FrameTiming(settings.fps, phase_s, settings.capture_latency_s)
         self.display = VirtualDisplay(
-            self.clock, self.window, captures, timing, self._new_painter(), self._title, self.game.view()
+            self.clock,
+            self.window,
+            captures,
+            self._frames,
+            settings.capture_latency_s,
+            self._new_painter(),
+            self._title,
+            self.game.view(),
         )
         self.keyboard = VirtualKeyboard(self.window, self.controls)
         self.pointer = VirtualPointer(self.clock, self.window, self.game, self.controls, lambda: self.scale)
@@ -87,7 +98,7 @@ class VirtualClient:
         self._missed: int | None = None
         self._unfocused_since = math.inf
         self._next_tick = self.clock.now() + float(phases.uniform(0, TICK_S))
-        self.clock.call_at(self._next_tick, self._tick)
+        self.clock.call_at(self._frames.at_or_after(self._next_tick), self._tick)
 
     # What a test asks.
 
@@ -115,7 +126,21 @@ class VirtualClient:
         """The GUI scale that the window gets."""
         return gui_scale(self.window.size, self.settings.scale)
 
+    @property
+    def holds_pointer(self) -> bool:
+        """Whether the game keeps the mouse to itself: its world is played, in front."""
+        return self.window.is_in_front and self.game.screen == "world"
+
+    def new_layers(self) -> ViewLayers:
+        """What a view's GUI is made of, in the window's present size."""
+        settings = self.settings
+        return ViewLayers(self.window.size, self.scale, self._font, self.edition, settings.words)
+
     # What can happen to it.
+
+    def turn(self, right: float, down: float) -> None:
+        """Turn the view: the mouse was moved by so many pixels while the game holds it."""
+        self.window.deliver(lambda: self.controls.turn(right, down))
 
     def set_front(self, *, is_in_front: bool) -> None:
         """Bring the window to the front, or another one; the game then releases every key, and may pause."""
@@ -176,7 +201,8 @@ class VirtualClient:
 
     def _tick(self) -> None:
         self._next_tick += TICK_S
-        self.clock.call_at(self._next_tick, self._tick)
+        self.clock.call_at(self._frames.at_or_after(self._next_tick), self._tick)
+        self.window.poll()
         if self._missed is not None:
             self._missed += 1
             return

@@ -3,26 +3,18 @@
 import math
 from collections import deque
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
 from mc_nested.live.devices import Frame, Region
 from sim.client.desktop.clock import VirtualClock
+from sim.client.desktop.frames import Frames
 from sim.client.desktop.window import VirtualWindow
 from sim.client.drawing.painter import Painter
 from sim.client.game.view import View
 
 GRAB_S = 0.001
 """Seconds that taking a picture takes. Without them, a loop that only looks would never end."""
-
-
-class FrameTiming(NamedTuple):
-    """When frames appear: ``fps`` a second, one of them at ``phase_s``, each seen after a latency from and to."""
-
-    fps: float
-    phase_s: float
-    latency_s: tuple[float, float]
 
 
 class VirtualDisplay:
@@ -32,7 +24,8 @@ class VirtualDisplay:
         clock: the time of the frames.
         window: the window that is shown.
         rng: draws the capture latencies.
-        timing: when frames appear.
+        frames: when the game draws.
+        latency_s: the shortest and the longest time until a frame is seen, in seconds.
         painter: draws a view.
         title: gives the window's title.
         view: what is seen at first.
@@ -43,12 +36,14 @@ class VirtualDisplay:
         clock: VirtualClock,
         window: VirtualWindow,
         rng: np.random.Generator,
-        timing: FrameTiming,
+        frames: Frames,
+        latency_s: tuple[float, float],
         painter: Painter,
         title: Callable[[], str],
         view: View,
     ) -> None:
-        self._clock, self._window, self._rng, self._timing = clock, window, rng, timing
+        self._clock, self._window, self._rng = clock, window, rng
+        self._frames, self._latency_s = frames, latency_s
         self.painter = painter
         self._title = title
         self._views: deque[tuple[float, View]] = deque([(-math.inf, view)])
@@ -66,18 +61,25 @@ class VirtualDisplay:
         return self._window.is_in_front
 
     def grab(self, region: Region | None = None) -> Frame:
-        now, (fps, phase_s, (least, most)) = self._clock.now(), self._timing
-        seen = now - least - (most - least) * float(self._rng.random())
-        if now < self._frozen_until:
-            seen = min(seen, self._frozen_at)
-        frame_at = phase_s + math.floor((seen - phase_s) * fps) / fps
-        # A desktop never shows an older frame than before.
-        self._shown_at = max(self._shown_at, frame_at)
-        frame = self.painter.grab(self._view_at(self._shown_at), region)
-        if now < self._black_until:
+        frame = self.painter.grab(self.seen(), region)
+        if self.is_black():
             frame = np.zeros_like(frame)
         self._clock.sleep(GRAB_S)
         return frame
+
+    def seen(self) -> View:
+        """What the desktop shows now, of what the game drew."""
+        now, (least, most) = self._clock.now(), self._latency_s
+        seen = now - least - (most - least) * float(self._rng.random())
+        if now < self._frozen_until:
+            seen = min(seen, self._frozen_at)
+        # A desktop never shows an older frame than before.
+        self._shown_at = max(self._shown_at, self._frames.at_or_before(seen))
+        return self._view_at(self._shown_at)
+
+    def is_black(self) -> bool:
+        """Whether the desktop shows a black picture now."""
+        return self._clock.now() < self._black_until
 
     def show(self, view: View) -> None:
         """The game draws this view from now on."""

@@ -1,10 +1,12 @@
 """The game's window on its desktop: whether it is in front, and how late keys reach it."""
 
+from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
 
 from sim.client.desktop.clock import Event, VirtualClock
+from sim.client.desktop.frames import Frames
 from sim.client.settings import Size
 
 
@@ -17,19 +19,25 @@ class Stray:
 
 
 class VirtualWindow:
-    """Delivers events to the game in order, each after its own latency; or to another window.
+    """Brings events to the game in order, each after its own latency, at the game's next frame; or to another window.
 
     Args:
         clock: the time of the events.
+        frames: when the game takes events.
         rng: draws the latencies.
         size: width and height in framebuffer pixels.
         latency_s: the shortest and the longest latency.
     """
 
     def __init__(
-        self, clock: VirtualClock, rng: np.random.Generator, size: Size, latency_s: tuple[float, float]
+        self,
+        clock: VirtualClock,
+        frames: Frames,
+        rng: np.random.Generator,
+        size: Size,
+        latency_s: tuple[float, float],
     ) -> None:
-        self._clock, self._rng, self._latency_s = clock, rng, latency_s
+        self._clock, self._frames, self._rng, self._latency_s = clock, frames, rng, latency_s
         self.size = size
         self.is_in_front = True
         self.pointer = (size[0] // 2, size[1] // 2)
@@ -40,7 +48,8 @@ class VirtualWindow:
         """Key events that will be lost on the way."""
         self._next_late_s = 0.0
         self._last_arrival = 0.0
-        self._stalled: list[Event] | None = None
+        self._arriving: deque[tuple[float, Event]] = deque()
+        self._is_stalled = False
 
     def press(self, name: str, event: Event) -> None:
         """A key or button goes down on the desktop; ``event`` passes it to the game."""
@@ -70,13 +79,17 @@ class VirtualWindow:
 
     def stall(self) -> None:
         """The game takes no events for now; they wait."""
-        self._stalled = []
+        self._is_stalled = True
 
     def resume(self) -> None:
         """The game takes the events that waited."""
-        waiting, self._stalled = self._stalled or [], None
-        for event in waiting:
-            event()
+        self._is_stalled = False
+        self.poll()
+
+    def poll(self) -> None:
+        """Let the game take every event that has arrived by now, as it does at the beginning of a frame."""
+        while not self._is_stalled and self._arriving and self._arriving[0][0] <= self._clock.now():
+            self._arriving.popleft()[1]()
 
     def _send_input(self, event: Event) -> None:
         if self.to_drop:
@@ -89,10 +102,5 @@ class VirtualWindow:
         least, most = self._latency_s
         arrival = self._clock.now() + late + least + (most - least) * float(self._rng.random())
         self._last_arrival = max(self._last_arrival, arrival)
-        self._clock.call_at(self._last_arrival, lambda: self._arrive(event))
-
-    def _arrive(self, event: Event) -> None:
-        if self._stalled is None:
-            event()
-        else:
-            self._stalled.append(event)
+        self._arriving.append((self._last_arrival, event))
+        self._clock.call_at(self._frames.at_or_after(self._last_arrival), self.poll)

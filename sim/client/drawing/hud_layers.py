@@ -1,8 +1,8 @@
 """Drawn over the world while it is played: crosshair, hotbar, chat (FACTS: Screens and their buttons; Answers)."""
 
-import zlib
 from functools import lru_cache
 
+from sim.client.drawing.block_colours import block_colour
 from sim.client.drawing.layers import Blend, Layer, Rect
 from sim.client.drawing.letters import Letters
 from sim.client.game.chat import ChatLine
@@ -67,7 +67,7 @@ class HudLayers:
             if stack is None:
                 continue
             x, y = left + 3 + 20 * index, top + 3
-            layers.append(self._fill((x, y, x + 16, y + 16), _icon_colour(stack.block)))
+            layers.append(self._fill((x, y, x + 16, y + 16), block_colour(stack.block)))
             if stack.count > 1:
                 count = str(stack.count)
                 left_of_count = x + 17 - self._letters.width(count)
@@ -100,8 +100,3 @@ class HudLayers:
             self._fill((2, self._height - 14, self._width - 2, self._height - 2), (0, 0, 0), 128),
             self._letters.text(shown, 4, self._height - 12, (224, 224, 224), shadow=True),
         ]
-
-
-def _icon_colour(block: str) -> Colour:
-    shade = zlib.crc32(block.encode())
-    return 60 + shade % 120, 60 + (shade >> 8) % 120, 60 + (shade >> 16) % 120

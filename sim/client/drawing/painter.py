@@ -1,4 +1,4 @@
-"""A view of the game as layers, from the world at the back to the menu in front."""
+"""A view of the game as a picture: a random world, and the view's layers over it."""
 
 from collections.abc import Mapping
 from functools import lru_cache
@@ -8,13 +8,9 @@ import numpy as np
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Block
 from mc_nested.live.vision.font import Font
-from sim.client.drawing.f3_layers import F3Layers
-from sim.client.drawing.hud_layers import HudLayers
-from sim.client.drawing.layers import Layer
-from sim.client.drawing.letters import Letters
-from sim.client.drawing.menu_layers import MenuLayers
 from sim.client.drawing.picture import LayeredPicture
 from sim.client.drawing.scenery import random_world
+from sim.client.drawing.view_layers import ViewLayers
 from sim.client.game.edition import Edition
 from sim.client.game.screens import IN_WORLD
 from sim.client.game.view import View
@@ -55,11 +51,7 @@ class Painter:
         self._world = random_world(rng, kind, width + _SHIFTS, height + _SHIFTS)
         tile = rng.integers(0, _DIRT, (_TILE, _TILE, 3), np.uint8)
         self._dirt: Frame = np.tile(tile, (-(-height // _TILE), -(-width // _TILE), 1))[:height, :width]
-        letters = Letters(font, scale)
-        gui = (-(-width // scale), -(-height // scale))
-        self._f3 = F3Layers(letters, width)
-        self._hud = HudLayers(letters, gui, edition)
-        self._menu = MenuLayers(letters, gui, edition, words or {})
+        self._layers = ViewLayers(size, scale, font, edition, words or {})
         self._scene = lru_cache(2 * _SHIFTS)(self._moved)
         self._shown: View | None = None
         self._picture = LayeredPicture(self._dirt)
@@ -68,7 +60,7 @@ class Painter:
         """The picture of a view, or a region of it."""
         if view is not self._shown:
             self._shown = view
-            self._picture.show(self._background(view), self._layers(view))
+            self._picture.show(self._background(view), self._layers.of(view))
         return self._picture.grab(region)
 
     def _background(self, view: View) -> Frame:
@@ -79,14 +71,6 @@ class Painter:
     def _moved(self, right: int, down: int) -> Frame:
         width, height = self._size
         return self._world[down : down + height, right : right + width]
-
-    def _layers(self, view: View) -> list[Layer]:
-        layers: list[Layer] = []
-        if view.menu.name in IN_WORLD:
-            layers += self._hud.of(view)
-            layers += self._f3.of(view.f3) if view.f3 else []
-            layers += self._hud.chat(view.chat, view.typed) if view.chat or view.typed is not None else []
-        return layers + self._menu.of(view)
 
 
 def _shift(block: Block) -> tuple[int, int]:

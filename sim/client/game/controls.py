@@ -56,6 +56,11 @@ class Controls:
         if key == "f3":
             self._f3_used = game.screen != "world"
 
+    def character(self, character: str) -> None:
+        """A character arrives, made by the keyboard's layout from a key, or sent without one: text for the chat."""
+        if self._game.screen == "chat":
+            self._game.chat.insert(character)
+
     def button(
         self, button: str, position: tuple[int, int], size: tuple[int, int], now: float, *, is_down: bool
     ) -> None:
@@ -71,7 +76,7 @@ class Controls:
         elif button == "left":
             self._click(position, size, now)
 
-    def turn(self, right: int, down: int) -> None:
+    def turn(self, right: float, down: float) -> None:
         """Turn the view: the mouse moved by so many pixels while the game holds it."""
         player = self._game.realm.player
         player.look(player.yaw + right * DEGREES_A_PIXEL, player.pitch + down * DEGREES_A_PIXEL)
@@ -131,8 +136,6 @@ class Controls:
                 game.chat.insert(self._read_clipboard())
             elif key == "a":
                 game.chat.is_selected = True
-        elif len(key) == 1 or key == "space":
-            game.chat.insert(" " if key == "space" else key)
 
     def _escape(self) -> None:
         """Esc closes a screen over the world, and the list of worlds; after a death it does nothing."""

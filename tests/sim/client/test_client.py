@@ -62,6 +62,19 @@ def test_a_hold_of_so_many_ticks_gives_as_many_or_one_more_or_less(seed: int, he
     assert any(way == pytest.approx(displacement(ticks, "walk"), abs=1e-6) for ticks in (held - 1, held, held + 1))
 
 
+def test_at_ten_frames_a_second_a_key_is_felt_by_two_ticks_at_a_time() -> None:
+    client = VirtualClient(fps=10.0, input_latency_s=(0.0, 0.0))
+    for _ in range(8):
+        client.clock.sleep(0.5)
+        before = client.realm.player.feet[2]
+        client.keyboard.press("w")
+        client.clock.sleep(TAP_S)
+        client.keyboard.release("w")
+        client.clock.sleep(1.5)
+        way = client.realm.player.feet[2] - before
+        assert any(way == pytest.approx(displacement(ticks, "walk"), abs=1e-6) for ticks in (0, 2))
+
+
 def test_sneaking_is_slower_and_lowers_the_eyes() -> None:
     client = VirtualClient(pitch=65.0)
     for key in ("left.shift", "w"):

@@ -1,8 +1,11 @@
+import math
+
 import numpy as np
 import pytest
 
 from sim.client.client import VirtualClient
 from sim.client.desktop.clock import VirtualClock
+from sim.client.desktop.frames import Frames
 from sim.client.desktop.window import VirtualWindow
 from sim.client.game.edition import Edition
 from sim.client.game.game import VirtualGame
@@ -178,7 +181,7 @@ class Target:
     def __init__(self) -> None:
         self.clock = VirtualClock(0.0)
         self.game = VirtualGame(Realm(Edition("1.20.1"), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5))))
-        self.window = VirtualWindow(self.clock, np.random.default_rng(0), SIZES[0], (0.0, 0.0))
+        self.window = VirtualWindow(self.clock, Frames(math.inf), np.random.default_rng(0), SIZES[0], (0.0, 0.0))
         self.noted: list[tuple[str, float]] = []
         self.fronts: list[tuple[bool, float]] = []
         self.sizes: list[tuple[int, int]] = []

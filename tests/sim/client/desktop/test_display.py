@@ -1,9 +1,12 @@
+import math
+
 import numpy as np
 import pytest
 
 from mc_nested.live.devices import Region
 from sim.client.desktop.clock import VirtualClock
-from sim.client.desktop.display import GRAB_S, FrameTiming, VirtualDisplay
+from sim.client.desktop.display import GRAB_S, VirtualDisplay
+from sim.client.desktop.frames import Frames
 from sim.client.desktop.window import VirtualWindow
 from sim.client.drawing.painter import Painter
 from sim.client.game.edition import Edition
@@ -26,11 +29,13 @@ class Shown:
     def __init__(self, least: float = 0.05, most: float = 0.05) -> None:
         self.clock = VirtualClock(0.0)
         rng = np.random.default_rng(0)
-        self.window = VirtualWindow(self.clock, rng, SIZE, (0.0, 0.0))
+        self.window = VirtualWindow(self.clock, Frames(math.inf), rng, SIZE, (0.0, 0.0))
         self.painter = Painter(SIZE, 1, FONT, Edition("1.20.1"), "noise", 0)
-        timing = FrameTiming(10.0, 0.03, (least, most))
+        frames = Frames(10.0, 0.03)
         title = "Minecraft 1.20.1"
-        self.display = VirtualDisplay(self.clock, self.window, rng, timing, self.painter, lambda: title, PLAIN)
+        self.display = VirtualDisplay(
+            self.clock, self.window, rng, frames, (least, most), self.painter, lambda: title, PLAIN
+        )
 
     def shows(self, view: View) -> bool:
         other = Painter(SIZE, 1, FONT, Edition("1.20.1"), "noise", 0)

@@ -1,6 +1,9 @@
+import math
+
 import numpy as np
 
 from sim.client.desktop.clock import VirtualClock
+from sim.client.desktop.frames import Frames
 from sim.client.desktop.keyboard import VirtualKeyboard
 from sim.client.desktop.window import VirtualWindow
 from sim.client.game.controls import Controls
@@ -12,7 +15,7 @@ from sim.client.game.world import VirtualWorld
 
 def test_keys_reach_the_game_after_the_windows_latency() -> None:
     clock = VirtualClock(0.0)
-    window = VirtualWindow(clock, np.random.default_rng(0), (80, 60), (0.01, 0.01))
+    window = VirtualWindow(clock, Frames(math.inf), np.random.default_rng(0), (80, 60), (0.01, 0.01))
     game = VirtualGame(Realm(Edition("1.20.1"), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5))))
     keyboard = VirtualKeyboard(window, Controls(game, lambda: "", lambda _: None))
     keyboard.press("w")
@@ -29,3 +32,20 @@ def test_keys_reach_the_game_after_the_windows_latency() -> None:
     assert window.down == set()
     clock.sleep(0.01)
     assert game.chat.typed == "/tp"
+
+
+def test_a_key_makes_the_character_of_a_keyboard_of_the_united_states_but_none_with_control() -> None:
+    clock = VirtualClock(0.0)
+    window = VirtualWindow(clock, Frames(math.inf), np.random.default_rng(0), (80, 60), (0.01, 0.01))
+    game = VirtualGame(Realm(Edition("1.20.1"), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5))))
+    keyboard = VirtualKeyboard(window, Controls(game, lambda: "pasted", lambda _: None))
+    game.open("chat")
+    for key in ("h", "space", "f5", "left.shift"):
+        keyboard.press(key)
+        keyboard.release(key)
+    clock.sleep(0.02)
+    assert game.chat.typed == "h "
+    for key in ("left.control", "x"):
+        keyboard.press(key)
+    clock.sleep(0.02)
+    assert game.chat.typed == "h "

@@ -1,7 +1,10 @@
+import math
+
 import numpy as np
 import pytest
 
 from sim.client.desktop.clock import VirtualClock
+from sim.client.desktop.frames import Frames
 from sim.client.desktop.pointer import VirtualPointer
 from sim.client.desktop.window import VirtualWindow
 from sim.client.game.controls import Controls
@@ -17,7 +20,7 @@ class Desktop:
 
     def __init__(self, screen: ScreenName = "world") -> None:
         self.clock = VirtualClock(0.0)
-        self.window = VirtualWindow(self.clock, np.random.default_rng(0), (855, 481), (0.01, 0.01))
+        self.window = VirtualWindow(self.clock, Frames(math.inf), np.random.default_rng(0), (855, 481), (0.01, 0.01))
         self.game = VirtualGame(Realm(Edition("1.20.1"), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5))))
         self.game.open(screen)
         controls = Controls(self.game, lambda: "", lambda _: None)

@@ -1,16 +1,21 @@
+import math
+
 import numpy as np
 import pytest
 
 from sim.client.desktop.clock import VirtualClock
+from sim.client.desktop.frames import Frames
 from sim.client.desktop.window import Stray, VirtualWindow
+
+EVER = Frames(math.inf)
 
 
 class Desktop:
     """A window, and the events that reached its game, with their times."""
 
-    def __init__(self, least: float = 0.01, most: float = 0.01, seed: int = 0) -> None:
+    def __init__(self, least: float = 0.01, most: float = 0.01, seed: int = 0, frames: Frames = EVER) -> None:
         self.clock = VirtualClock(0.0)
-        self.window = VirtualWindow(self.clock, np.random.default_rng(seed), (80, 60), (least, most))
+        self.window = VirtualWindow(self.clock, frames, np.random.default_rng(seed), (80, 60), (least, most))
         self.arrived: list[tuple[str, float]] = []
 
     def press(self, name: str) -> None:
@@ -115,3 +120,26 @@ def test_a_stalled_game_takes_its_events_when_it_resumes() -> None:
     desktop.press("a")
     desktop.clock.sleep(1.0)
     assert desktop.names() == ["w", "-w", "a"]
+
+
+def test_the_game_takes_events_at_its_next_frame() -> None:
+    desktop = Desktop(0.01, 0.01, frames=Frames(10.0, 0.03))
+    desktop.press("w")
+    desktop.release("w")
+    desktop.clock.sleep_until(0.025)
+    desktop.press("s")
+    desktop.clock.sleep(1.0)
+    # Arrived at 0.01, 0.01 and 0.035 s; frames are at 0.03 and 0.13 s.
+    assert desktop.arrived == [("w", 0.03), ("-w", 0.03), ("s", pytest.approx(0.13))]
+
+
+def test_an_event_that_has_arrived_is_taken_when_asked_for_and_once() -> None:
+    desktop = Desktop(0.01, 0.01, frames=Frames(1.0, 0.5))
+    desktop.press("w")
+    desktop.window.poll()
+    assert desktop.names() == []
+    desktop.clock.sleep(0.02)
+    desktop.window.poll()
+    assert desktop.names() == ["w"]
+    desktop.clock.sleep(2.0)
+    assert desktop.names() == ["w"]

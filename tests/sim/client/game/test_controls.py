@@ -189,18 +189,23 @@ def test_e_closes_the_inventory_and_no_other_screen() -> None:
     assert paused.game.screen == "pause"
 
 
-def test_typed_keys_go_into_the_chat() -> None:
+def test_characters_go_into_the_chat_and_nowhere_else() -> None:
     played = Played(screen="chat")
-    for key in ("h", "i", "space", "x", "backspace", "f5", "left.shift"):
-        played.tap(key)
-    assert played.game.chat.typed == "hi "
+    for character in "Hi é":
+        played.controls.character(character)
+    played.tap("x")
+    assert played.game.chat.typed == "Hi é"
+    played.tap("backspace")
+    assert played.game.chat.typed == "Hi "
+    played.game.open("world")
+    played.controls.character("x")
+    played.game.open("chat")
+    assert played.game.chat.typed == ""
 
 
-def test_control_pastes_and_selects_but_types_no_letter() -> None:
+def test_control_pastes_and_selects() -> None:
     played = Played(screen="chat")
-    played.tap("a")
-    played.tap("left.control", "x")
-    assert played.game.chat.typed == "a"
+    played.controls.character("a")
     played.tap("left.control", "a")
     assert played.game.chat.is_selected
     played.tap("left.control", "v")
@@ -209,13 +214,13 @@ def test_control_pastes_and_selects_but_types_no_letter() -> None:
 
 def test_enter_sends_the_line_and_an_empty_one_is_not_sent() -> None:
     played = Played(screen="chat")
-    played.tap("h")
+    played.controls.character("h")
     played.tap("enter")
     assert played.game.screen == "world"
     played.game.tick()
     assert played.said() == ["<Player> h"]
     played.game.open("chat")
-    played.tap("space")
+    played.controls.character(" ")
     played.tap("enter")
     played.game.tick()
     assert played.said() == ["<Player> h"]

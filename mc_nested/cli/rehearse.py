@@ -1,0 +1,100 @@
+"""``mc-nested rehearse``: a window to learn in and to test in, without Minecraft."""
+
+import re
+from pathlib import Path
+from typing import Annotated
+
+import cv2
+import typer
+from platformdirs import user_data_path
+
+from mc_nested.errors import DesktopError, NoWindowError, UserError
+from mc_nested.live.desktop.system import this_system
+from mc_nested.live.vision.font import font_of, load_font
+from sim.client.drawing.font import drawn_atlas
+from sim.client.game.edition import Edition
+from sim.client.settings import ClientSettings, Size
+
+SMALLEST: Size = (320, 240)
+"""A smaller window has no room for the GUI, at any scale."""
+
+LARGEST_SCALE = 8
+LOWEST_FPS, HIGHEST_FPS = 5.0, 300.0
+LONGEST_LAG_MS = 500.0
+_VERSION = re.compile(r"1\.(8|9|1\d|2[01])(\.\d+)?|2\d\.\d+(\.\d+)?")
+
+
+def rehearse(
+    version: Annotated[str, typer.Option(help="the Minecraft version to be like, 1.12 to 26.3")] = "1.20.1",
+    size: Annotated[str, typer.Option(metavar="WxH", help="width and height in pixels")] = "854x480",
+    gui_scale: Annotated[int, typer.Option(min=0, max=LARGEST_SCALE, help="the GUI scale; 0 is auto")] = 2,
+    fps: Annotated[
+        float | None, typer.Option(min=LOWEST_FPS, max=HIGHEST_FPS, help="frames a second (default: the monitor's)")
+    ] = None,
+    lag: Annotated[
+        float, typer.Option(min=0.0, max=LONGEST_LAG_MS, help="milliseconds that keys, and pictures, come late")
+    ] = 0.0,
+    mishaps: Annotated[
+        float, typer.Option(min=0.0, max=60.0, help="how often a minute something goes wrong: a death, a menu, lag ...")
+    ] = 0.0,
+    font: Annotated[
+        Path | None, typer.Option(help="a font picture ascii.png, or a client jar (default: a font of our own)")
+    ] = None,
+    truth: Annotated[
+        Path | None, typer.Option(help="keep the world as it truly is in this JSON file, for tests")
+    ] = None,
+) -> None:
+    """Open a window that looks and acts like the game, to calibrate and train in without Minecraft; close it to end."""
+    settings = ClientSettings(
+        version=_version(version),
+        size=_size(size),
+        scale=gui_scale,
+        font=load_font(font) if font else font_of(drawn_atlas()),
+        floor_block="grass_block" if Edition(version).since(1, 13) else "stone",
+    )
+    # Loaded only here: where GLFW or OpenGL is missing, that is said in one line.
+    from sim.window.rehearsal import Rehearsal, rehearse
+
+    _check_alone()
+    picture = font or _font_picture()
+    typer.echo(f"Rehearsing Minecraft {version}: in another terminal, with this window in front,")
+    typer.echo(f"  mc-nested calibrate all --profile rehearsal --font {picture}")
+    typer.echo("Press F3+P first, or the game pauses while another window is in front. Close the window to end.")
+    rehearse(Rehearsal(settings, fps, lag / 1000, mishaps, truth))
+
+
+def _version(name: str) -> str:
+    if not _VERSION.fullmatch(name):
+        raise UserError(f"no version {name!r} can be rehearsed: name one from 1.12 to 26.3, such as 1.20.1")
+    return name
+
+
+def _size(text: str) -> Size:
+    parts = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text)
+    if parts is None:
+        raise UserError(f"no window has the size {text!r}: write width x height in pixels, such as 854x480")
+    width, height = int(parts[1]), int(parts[2])
+    if width < SMALLEST[0] or height < SMALLEST[1]:
+        raise UserError(f"a window of {text} has no room for the game: at least {SMALLEST[0]}x{SMALLEST[1]}")
+    return width, height
+
+
+def _check_alone() -> None:
+    """UserError where a window of the game is open already: an agent could not tell the two apart."""
+    try:
+        with this_system().open_window("^Minecraft"):
+            pass
+    except NoWindowError:
+        return
+    except DesktopError as error:
+        if "windows' titles match" not in str(error):
+            return
+    raise UserError("a window of Minecraft, or another rehearsal, is open: close it first")
+
+
+def _font_picture() -> Path:
+    """The project's own font as a picture on disk, for calibrating."""
+    path = user_data_path("mc-nested") / "rehearsal-font.png"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    cv2.imwrite(str(path), drawn_atlas())
+    return path

@@ -1,0 +1,137 @@
+"""Measures how exactly and how fast the live path plays in a real window, the rehearsal's; its client checks it.
+
+    python scripts/bench_rehearsal.py [--actions 1000] [--each 100] [--only NAME ...] [--json]
+
+First `calibrate all` from nothing, and ``--actions`` actions, at 60 frames a second. Then, one factor at a time, another
+calibration and ``--each`` actions: at 10, 20, 30 and 144 frames a second; on the keyboards of France, Germany and Russia,
+and on Dvorak's; with a window manager. Actions are drawn uniformly from those that the rules don't void. Seconds are of
+wall-clock time, an action's from its call to its confirmation on the screen. Linux, on a display of its own; the same
+computer draws without a graphics card. Exit code 1 if a cell or a block was wrong, a calibration failed, or a target was
+missed.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from scripts.rehearsal_window import ROOT, mc_nested, open_rehearsal
+from scripts.standin_parts import MissingError
+from scripts.window_display import install_programs, open_display
+
+MOST_MEDIAN_S = 0.36
+MOST_CALIBRATION_S = 100.0
+COLUMNS = (
+    *("calibration_s", "actions", "wrong_cells", "wrong_blocks", "failed_actions", "corrections"),
+    *("median_action_s", "p95_action_s"),
+)
+
+
+@dataclass(frozen=True)
+class Condition:
+    """One way to rehearse: all as usual but for one factor."""
+
+    name: str
+    fps: float = 60.0
+    layout: str = "us"
+    has_window_manager: bool = False
+
+
+USUAL = Condition("60 fps")
+CONDITIONS = (
+    USUAL,
+    *(Condition(f"{fps} fps", fps=fps) for fps in (10, 20, 30, 144)),
+    *(Condition(layout, layout=layout) for layout in ("fr", "de", "dvorak", "ru")),
+    Condition("openbox", has_window_manager=True),
+)
+
+
+def measure(condition: Condition, actions: int, seed: int) -> dict[str, Any]:
+    """Calibrate and play under one condition; ``problem`` says what failed."""
+    with (
+        tempfile.TemporaryDirectory(prefix="mc-nested-rehearsal-") as temporary,
+        open_display(layout=condition.layout, has_window_manager=condition.has_window_manager) as env,
+        open_rehearsal(env, Path(temporary), "--fps", str(condition.fps)) as window,
+    ):
+        profile = Path(temporary) / "profile.toml"
+        began = time.monotonic()
+        try:
+            mc_nested("calibrate", "all", "--yes", "--profile", profile, "--font", window.font, env=env)
+            figures = {"calibration_s": round(time.monotonic() - began, 1)}
+            return figures | play(profile, window.truth_file, actions, seed, env)
+        except RuntimeError as error:
+            return {"problem": str(error).strip().splitlines()[-1]}
+
+
+def play(profile: Path, truth: Path, actions: int, seed: int, env: dict[str, str]) -> dict[str, Any]:
+    """Play so many actions in the window on that display; RuntimeError with what was said where that fails."""
+    script = [sys.executable, str(ROOT / "scripts" / "rehearsal_play.py"), str(profile), str(truth)]
+    options = ["--actions", str(actions), "--seed", str(seed)]
+    done = subprocess.run([*script, *options], env=env, capture_output=True, text=True, check=False)  # noqa: S603 - ours
+    if not done.stdout:
+        raise RuntimeError(done.stderr or "nothing was said")
+    figures: dict[str, Any] = json.loads(done.stdout)
+    return figures
+
+
+def is_right(condition: Condition, figures: dict[str, Any]) -> bool:
+    """Whether nothing was wrong, and the usual condition is within its targets."""
+    if "problem" in figures or figures["wrong_cells"] or figures["wrong_blocks"]:
+        return False
+    if condition != USUAL:
+        return True
+    return bool(figures["median_action_s"] <= MOST_MEDIAN_S and figures["calibration_s"] <= MOST_CALIBRATION_S)
+
+
+def main() -> int:
+    """Measure every condition and print the figures; 1 if anything was wrong."""
+    parser = argparse.ArgumentParser(description="How exactly and how fast the live path plays in a rehearsal window.")
+    parser.add_argument("--actions", type=int, default=1000, help="at 60 frames a second")
+    parser.add_argument("--each", type=int, default=100, help="under each other condition")
+    parser.add_argument("--only", nargs="+", choices=[each.name for each in CONDITIONS], help="these conditions alone")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--json", action="store_true")
+    options = parser.parse_args()
+    say = Console(stderr=True).print
+    with tempfile.TemporaryDirectory(prefix="mc-nested-apt-") as logs:
+        try:
+            install_programs(say, Path(logs) / "apt.log")
+        except MissingError as error:
+            say(f"bench_rehearsal: {error}")
+            return 2
+    found: dict[str, dict[str, Any]] = {}
+    all_right = True
+    for condition in CONDITIONS:
+        if options.only and condition.name not in options.only:
+            continue
+        count = options.actions if condition == USUAL else options.each
+        say(f"{condition.name}: a calibration, then {count} actions")
+        found[condition.name] = figures = measure(condition, count, options.seed)
+        all_right &= is_right(condition, figures)
+        say(str(figures))
+    if options.json:
+        print(json.dumps(found))
+    else:
+        _show(found)
+    return 0 if all_right else 1
+
+
+def _show(found: dict[str, dict[str, Any]]) -> None:
+    table = Table("", *COLUMNS, "problem")
+    for name, figures in found.items():
+        table.add_row(name, *(str(figures.get(column, "")) for column in COLUMNS), figures.get("problem", ""))
+    Console().print(table)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

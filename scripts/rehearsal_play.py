@@ -1,0 +1,41 @@
+"""Plays random actions in a rehearsal window, each checked against what its client says, and prints the figures.
+
+    python scripts/rehearsal_play.py PROFILE TRUTH [--actions 100] [--seed 0]
+
+A process of its own for scripts/bench_rehearsal.py: a program keeps to the display that it was started on.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.live.profile.store import load_profile
+from mc_nested.live.session import open_live_game
+from scripts.bench_live import figures
+from scripts.bench_standin import play
+from scripts.rehearsal_window import RehearsalTruth
+
+
+def main() -> int:
+    """Play, and print one JSON object; 1 if anything was wrong."""
+    parser = argparse.ArgumentParser(description="Random actions in a rehearsal window, each checked.")
+    parser.add_argument("profile")
+    parser.add_argument("truth", type=Path)
+    parser.add_argument("--actions", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=0)
+    options = parser.parse_args()
+    scenario = load_scenario("diamond")
+    arena = load_profile(options.profile).marked_arena()
+    truth = RehearsalTruth(options.truth, arena)
+    with open_live_game(scenario, options.profile, lambda line: print(line, file=sys.stderr)) as (game, _):
+        played = play(game, scenario, truth, options.actions, options.seed)
+    print(json.dumps(figures(played)))
+    return 1 if played.wrong_cells or played.wrong_blocks else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,121 @@
+"""A rehearsal window for tests and benchmarks, with the world's truth as its client writes it."""
+
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from mc_nested.arena.rules import Cell
+from mc_nested.live.model.coordinates import cell_at
+from mc_nested.live.model.reading import Block
+from mc_nested.live.profile.arena import Arena
+from scripts.window_display import running
+from sim.client.game.world import AIR
+
+ROOT = Path(__file__).resolve().parent.parent
+START_S = 30.0
+
+
+class TruthReader:
+    """The world as the client says it is (sim/window/truth_file.py)."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+
+    def now(self) -> dict[str, Any]:
+        """All that the client says."""
+        found: dict[str, Any] = json.loads(self._path.read_text(encoding="utf-8"))
+        return found
+
+    def built(self) -> dict[Block, str]:
+        """Every block that differs from the bare floor."""
+        return {(x, y, z): name for x, y, z, name in self.now()["built"]}
+
+    def standing(self, arena: Arena) -> dict[Block, str]:
+        """The blocks in the region that a reset of the arena clears."""
+        low, high = arena.region
+        return {
+            at: name
+            for at, name in self.built().items()
+            if name != AIR and all(low[axis] <= at[axis] <= high[axis] for axis in range(3))
+        }
+
+
+class RehearsalTruth:
+    """What the client says: the player's cell, and the blocks. What was built before, such as a border, must stay."""
+
+    def __init__(self, path: Path, arena: Arena) -> None:
+        self._truth, self._arena = TruthReader(path), arena
+        inside = self._truth.standing(arena)
+        self._before = {block: name for block, name in self._truth.built().items() if block not in inside}
+
+    def cell(self) -> Cell:
+        """The cell that the player stands on."""
+        x, y, z = self._truth.now()["feet"]
+        return cell_at(self._arena.position_of((x, y, z)))
+
+    def is_built(self, placed: set[Cell]) -> bool:
+        """Whether these cells hold a block, and everything else is as before."""
+        cells = {self._arena.block_of(cell) for cell in placed}
+        built = self._truth.built()
+        return cells <= built.keys() and {at: name for at, name in built.items() if at not in cells} == self._before
+
+
+@dataclass(frozen=True)
+class RehearsalWindow:
+    """A rehearsal that is open: the environment of programs that play in it, its process, and what its client says."""
+
+    env: dict[str, str]
+    process: "subprocess.Popen[bytes]"
+    font: Path
+    truth_file: Path
+    log: Path
+
+    @property
+    def truth(self) -> TruthReader:
+        """The world as it truly is."""
+        return TruthReader(self.truth_file)
+
+
+@contextmanager
+def open_rehearsal(env: dict[str, str], folder: Path, *options: str) -> Iterator[RehearsalWindow]:
+    """A rehearsal on the display of ``env``, in front, with ``mc-nested rehearse``'s options; closed after the block.
+
+    What it writes is in ``folder``. RuntimeError with what it said if it doesn't open.
+    """
+    truth, log, font = (folder / name for name in ("truth.json", "rehearsal.log", "font.png"))
+    truth.unlink(missing_ok=True)
+    write_font(font)
+    command = [sys.executable, "-m", "mc_nested.cli", "rehearse", "--truth", str(truth), "--font", str(font), *options]
+    with running(command, env={**env, "PYTHONPATH": str(ROOT)}, log=log) as process:
+        end = time.monotonic() + START_S
+        while not truth.exists():
+            if process.poll() is not None or time.monotonic() > end:
+                raise RuntimeError(f"the rehearsal window didn't open: {log.read_text(encoding='utf-8')}")
+            time.sleep(0.05)
+        yield RehearsalWindow(env, process, font, truth, log)
+
+
+def write_font(path: Path) -> None:
+    """Write the project's own font as a picture."""
+    import cv2
+
+    from sim.client.drawing.font import drawn_atlas
+
+    cv2.imwrite(str(path), drawn_atlas())
+
+
+def mc_nested(*arguments: str | Path, env: dict[str, str], timeout_s: float = 600.0) -> str:
+    """What the command prints; RuntimeError with what it says where it doesn't succeed."""
+    command = [sys.executable, "-m", "mc_nested.cli", *map(str, arguments)]
+    done = subprocess.run(  # noqa: S603 - our own
+        command, env={**env, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, timeout=timeout_s, check=False
+    )
+    if done.returncode:
+        raise RuntimeError(done.stderr or done.stdout)
+    return done.stdout

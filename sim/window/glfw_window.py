@@ -1,0 +1,153 @@
+"""A window of GLFW with an OpenGL context, and the desktop around it: its clipboard, its monitor, its time."""
+
+import os
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from mc_nested.errors import DesktopError
+
+if sys.platform.startswith("linux"):
+    # Windows of X11 can be pictured and driven by other programs, those of Wayland can't.
+    os.environ.setdefault("PYGLFW_LIBRARY_VARIANT", "x11")
+
+try:
+    import glfw
+except ImportError as missing:
+    raise DesktopError(
+        f"the rehearsal window needs GLFW ({missing}): pip install -c constraints.txt -e '.[rehearse]'"
+    ) from missing
+
+OPENGL = (3, 3)
+
+SPIN_S = 0.002
+"""The end of a wait, in seconds, in which events are asked for again and again: a wait may last that much too long."""
+
+USUAL_RATE = 60.0
+"""Frames a second on a monitor that doesn't say its rate, as a virtual one."""
+
+
+class GlfwWindow:
+    """An open window. ``handle`` is GLFW's, for its own functions."""
+
+    def __init__(self, handle: Any) -> None:
+        self.handle = handle
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height in framebuffer pixels; 0 while it is minimised on some systems."""
+        width, height = glfw.get_framebuffer_size(self.handle)
+        return width, height
+
+    @property
+    def pixels_a_point(self) -> float:
+        """Framebuffer pixels to a point of the desktop, in which the cursor's position is given."""
+        points = glfw.get_window_size(self.handle)[0]
+        return self.size[0] / points if points else 1.0
+
+    @property
+    def is_closing(self) -> bool:
+        """Whether somebody has asked it to close."""
+        return bool(glfw.window_should_close(self.handle))
+
+    def resize(self, size: tuple[int, int]) -> None:
+        """Ask for another size, in framebuffer pixels."""
+        ratio = self.pixels_a_point
+        glfw.set_window_size(self.handle, round(size[0] / ratio), round(size[1] / ratio))
+
+    def shift(self, right: int, down: int) -> None:
+        """Move it by some points of the desktop, but not above or left of it."""
+        x, y = glfw.get_window_pos(self.handle)
+        glfw.set_window_pos(self.handle, max(0, x + right), max(0, y + down))
+
+    def set_front(self, *, is_in_front: bool) -> None:
+        """Minimise it, or bring it back to the front."""
+        if is_in_front:
+            glfw.restore_window(self.handle)
+            glfw.focus_window(self.handle)
+        else:
+            glfw.iconify_window(self.handle)
+
+    def set_title(self, title: str) -> None:
+        glfw.set_window_title(self.handle, title)
+
+    def wait_until(self, at: float) -> None:
+        """Take events as they come, until the time ``at`` of ``now``; at least once."""
+        glfw.poll_events()
+        while (left := at - now()) > 0:
+            if left > SPIN_S:
+                glfw.wait_events_timeout(left - SPIN_S)
+            else:
+                glfw.poll_events()
+
+    def show(self) -> None:
+        """Show what was drawn."""
+        glfw.swap_buffers(self.handle)
+
+    # The desktop's clipboard.
+
+    def read(self) -> str:
+        """The clipboard's text; empty where it holds none."""
+        try:
+            text: Any = glfw.get_clipboard_string(self.handle) or b""  # bytes, whatever its type says
+            return str(text, "utf-8", "replace")
+        except glfw.GLFWError:
+            return ""
+
+    def write(self, text: str) -> None:
+        """Put a text on the clipboard."""
+        glfw.set_clipboard_string(self.handle, text)
+
+
+def now() -> float:
+    """The real time in seconds, on a scale that never goes back."""
+    return time.perf_counter()
+
+
+def refresh_rate() -> float:
+    """The main monitor's frames a second."""
+    monitor = glfw.get_primary_monitor()
+    mode = glfw.get_video_mode(monitor) if monitor else None
+    return float(mode.refresh_rate) if mode and mode.refresh_rate else USUAL_RATE
+
+
+@contextmanager
+def open_glfw_window(title: str, size: tuple[int, int]) -> Iterator[GlfwWindow]:
+    """A window with an OpenGL context, current in this thread; it is closed after the block.
+
+    Frames are shown at once: whoever draws decides when. DesktopError without a display, or without OpenGL 3.3.
+    """
+    before, glfw.ERROR_REPORTING = glfw.ERROR_REPORTING, "exception"
+    try:
+        try:
+            if sys.platform.startswith("linux") and hasattr(glfw, "PLATFORM"):
+                glfw.init_hint(glfw.PLATFORM, glfw.PLATFORM_X11)
+            glfw.init()
+        except glfw.GLFWError as error:
+            raise DesktopError(
+                f"no window can be opened ({error}): run this in the desktop session of this computer"
+            ) from error
+        try:
+            yield GlfwWindow(_created(title, size))
+        finally:
+            glfw.terminate()
+    finally:
+        glfw.ERROR_REPORTING = before
+
+
+def _created(title: str, size: tuple[int, int]) -> Any:
+    glfw.window_hint(glfw.CONTEXT_VERSION_MAJOR, OPENGL[0])
+    glfw.window_hint(glfw.CONTEXT_VERSION_MINOR, OPENGL[1])
+    glfw.window_hint(glfw.OPENGL_PROFILE, glfw.OPENGL_CORE_PROFILE)
+    glfw.window_hint(glfw.OPENGL_FORWARD_COMPAT, True)
+    try:
+        handle: Any = glfw.create_window(*size, title, None, None)
+        glfw.make_context_current(handle)
+        glfw.swap_interval(0)
+    except glfw.GLFWError as error:
+        raise DesktopError(
+            f"this display offers no OpenGL 3.3 ({error}): update the graphics driver, or install Mesa's"
+        ) from error
+    return handle

@@ -1,0 +1,87 @@
+"""GLFW's events, passed on to the virtual client as the game takes them (FACTS: Keys; Input and windows)."""
+
+from typing import Any
+
+import glfw
+
+from mc_nested.live.devices import Button
+from sim.client.client import VirtualClient
+from sim.window.glfw_window import GlfwWindow
+from sim.window.places import PLACES
+
+_BUTTONS: dict[int, Button] = {0: "left", 1: "right", 2: "middle"}
+
+
+class InputEvents:
+    """Keys by their place, characters, the mouse, the focus and the size of a window, for a client.
+
+    While the client's world is played, the cursor is disabled and, where GLFW offers it, moved by raw motion.
+    """
+
+    def __init__(self, window: GlfwWindow, client: VirtualClient) -> None:
+        self._window, self._client = window, client
+        self._is_grabbed: bool | None = None
+        self._last: tuple[float, float] | None = None
+        handle = window.handle
+        glfw.set_key_callback(handle, self._on_key)
+        glfw.set_char_callback(handle, self._on_character)
+        glfw.set_mouse_button_callback(handle, self._on_button)
+        glfw.set_cursor_pos_callback(handle, self._on_cursor)
+        glfw.set_window_focus_callback(handle, self._on_focus)
+        glfw.set_framebuffer_size_callback(handle, self._on_size)
+        if glfw.raw_mouse_motion_supported():
+            glfw.set_input_mode(handle, glfw.RAW_MOUSE_MOTION, glfw.TRUE)
+
+    def follow_screen(self) -> None:
+        """Grab the cursor or free it, as the client's screen wants it now."""
+        is_grabbed = self._client.holds_pointer
+        if is_grabbed == self._is_grabbed:
+            return
+        self._is_grabbed = is_grabbed
+        handle = self._window.handle
+        width, height = glfw.get_window_size(handle)
+        # The first movement after the game has taken the mouse is lost (FACTS: Keys).
+        self._last = None
+        glfw.set_input_mode(handle, glfw.CURSOR, glfw.CURSOR_DISABLED if is_grabbed else glfw.CURSOR_NORMAL)
+        glfw.set_cursor_pos(handle, width / 2, height / 2)
+
+    def _on_key(self, _window: Any, key: int, _scancode: int, action: int, _modifiers: int) -> None:
+        name = PLACES.get(key)
+        if name is None:
+            return
+        client = self._client
+        if action == glfw.RELEASE:
+            client.window.release(name, lambda: client.controls.key(name, is_down=False))
+        elif action == glfw.PRESS:
+            client.window.press(name, lambda: client.controls.key(name, is_down=True))
+        elif name == "backspace":  # a held key repeats in a text alone
+            client.window.deliver(lambda: client.controls.key(name, is_down=True))
+
+    def _on_character(self, _window: Any, character: int) -> None:
+        controls = self._client.controls
+        self._client.window.deliver(lambda: controls.character(chr(character)))
+
+    def _on_button(self, _window: Any, button: int, action: int, _modifiers: int) -> None:
+        name = _BUTTONS.get(button)
+        if name is None:
+            return
+        if action == glfw.PRESS:
+            self._client.pointer.press(name)
+        else:
+            self._client.pointer.release(name)
+
+    def _on_cursor(self, _window: Any, x: float, y: float) -> None:
+        if not self._is_grabbed:
+            ratio = self._window.pixels_a_point
+            self._client.pointer.move(int(x * ratio), int(y * ratio))
+            return
+        last, self._last = self._last, (x, y)
+        if last is not None:
+            self._client.turn(x - last[0], y - last[1])
+
+    def _on_focus(self, _window: Any, is_focused: int) -> None:
+        self._client.set_front(is_in_front=bool(is_focused))
+
+    def _on_size(self, _window: Any, width: int, height: int) -> None:
+        if width and height:
+            self._client.resize((width, height))
