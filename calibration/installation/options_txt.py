@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mc_nested.errors import ProfileError
-from mc_nested.live.model.key_names import WORDS
+from mc_nested.live.model.key_names import canonical, is_key
+from mc_nested.live.model.key_places import EXTENDED, PLACES
 
 SAFE: Mapping[str, str] = {
     "pauseOnLostFocus": "false",
@@ -51,19 +52,11 @@ _MARKS = {
     "slash": "/",
 }
 
-_ROWS = ((2, "1234567890-="), (16, "qwertyuiop[]"), (30, "asdfghjkl;'`"), (43, "\\zxcvbnm,./"))
-_NAMED = (
-    "esc=1 backspace=14 tab=15 enter=28 left.control=29 left.shift=42 right.shift=54 left.alt=56 space=57 caps.lock=58 "
-    "f11=87 f12=88 f13=100 f14=101 f15=102 right.control=157 right.alt=184 home=199 up=200 page.up=201 left=203 "
-    "right=205 end=207 down=208 page.down=209 insert=210 delete=211 left.win=219 right.win=220"
-)
 _NUMBERS = {
-    **{first + index: char for first, row in _ROWS for index, char in enumerate(row)},
-    **{int(number): name for name, number in (pair.split("=") for pair in _NAMED.split())},
-    **{58 + number: f"f{number}" for number in range(1, 11)},
+    **{place.scan & 0x7F | (0x80 if place.scan & EXTENDED else 0): name for name, place in PLACES.items()},
     **{index - 100: f"{name} button" for index, name in enumerate(("left", "right", "middle"))},
 }
-"""LWJGL 2's key numbers; the mouse's buttons are their own numbers minus 100."""
+"""LWJGL 2's numbers: a key's scancode, 128 more behind the prefix E0; a mouse button's own number minus 100."""
 
 _OPTION = re.compile(rb"[A-Za-z][\w. -]*:")
 
@@ -141,12 +134,12 @@ def key_name(value: str) -> str | None:
     if word == name:
         return None
     known = _MARKS.get(word, word)
-    return known if len(known) == 1 or known in WORDS else None
+    return known if is_key(known) else None
 
 
 def is_same_key(one: str, other: str) -> bool:
     """Whether two names mean the same key, as ``esc`` and ``escape``, ``w`` and ``W`` do."""
-    return WORDS.get(one, one.lower()) == WORDS.get(other, other.lower())
+    return canonical(one) == canonical(other)
 
 
 def _text(line: bytes) -> str:

@@ -51,14 +51,18 @@ class Display(Protocol):
 
 
 class Keyboard(Protocol):
-    """Keys by name: one character ("w", "/") or a word ("enter", "esc", "f3", "left.shift", "space")."""
+    """Keys by their place, text by its characters.
+
+    A key is named by what a US keyboard has at its place: one character ("w", "/") or a word ("enter", "esc", "f3",
+    "left.shift", "space"). Whatever the layout, the game takes it as that key (FACTS: Input and windows).
+    """
 
     def press(self, key: str) -> None: ...
 
     def release(self, key: str) -> None: ...
 
     def type(self, text: str) -> None:
-        """Type a line of text into whatever has the focus."""
+        """Type a line of text into whatever has the focus; nothing stays down, whatever happens."""
 
 
 class Pointer(Protocol):

@@ -1,17 +1,19 @@
 """What the tests of the real devices share: an X server of their own."""
 
 import os
+import shutil
 import subprocess
 from collections.abc import Iterator
+from contextlib import contextmanager
 
 import pytest
 
 from tests.standin_fixture import Standin
 
 
-@pytest.fixture
-def x_server(standin: Standin) -> Iterator[dict[str, str]]:  # noqa: ARG001 - where the stand-in is up, there is an Xvfb
-    """The environment of an empty X screen of 1024 x 768."""
+@contextmanager
+def _x_screen() -> Iterator[dict[str, str]]:
+    """The environment of an empty X screen of 1024 x 768, whose server ends with the context."""
     read, write = os.pipe()
     command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x768x24", "-nolisten", "tcp", "-noreset"]
     server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
@@ -22,3 +24,22 @@ def x_server(standin: Standin) -> Iterator[dict[str, str]]:  # noqa: ARG001 - wh
     finally:
         server.terminate()
         server.wait(10)
+
+
+@pytest.fixture
+def x_server(standin: Standin) -> Iterator[dict[str, str]]:  # noqa: ARG001 - where the stand-in is up, there is an Xvfb
+    """The environment of an empty X screen of 1024 x 768."""
+    with _x_screen() as environment:
+        yield environment
+
+
+@pytest.fixture
+def x_screen() -> Iterator[dict[str, str]]:
+    """The same, without the stand-in; a machine that lacks a part skips the test, or fails it with CI set."""
+    lacking = [program for program in ("Xvfb", "setxkbmap", "xkbcomp") if shutil.which(program) is None]
+    if lacking:
+        (pytest.fail if os.environ.get("CI") else pytest.skip)(
+            f"{', '.join(lacking)} missing: apt-get install xvfb x11-xkb-utils"
+        )
+    with _x_screen() as environment:
+        yield environment

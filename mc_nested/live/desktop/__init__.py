@@ -26,14 +26,14 @@ def open_desktop(title: str) -> Iterator[Devices]:
     with system.open_window(title) as window:
         # Without a display these imports fail, so the window comes first: it says what is missing.
         from mc_nested.live.desktop.camera import open_camera
-        from mc_nested.live.desktop.keyboard import DesktopKeyboard
+        from mc_nested.live.desktop.keyboard import open_keyboard
         from mc_nested.live.desktop.pointer import DesktopPointer
 
-        with open_camera() as camera:
+        with open_camera() as camera, open_keyboard() as keyboard:
             display = WindowDisplay(window, camera)
             pointer = DesktopPointer(window, display.ratio)
             clipboard = system.open_clipboard()
-            yield Devices(display, DesktopKeyboard(), pointer, MonotonicClock(), clipboard, display.points)
+            yield Devices(display, keyboard, pointer, MonotonicClock(), clipboard, display.points)
 
 
 def open_clipboard() -> Clipboard:

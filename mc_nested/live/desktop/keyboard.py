@@ -1,58 +1,63 @@
-"""The real keyboard, through pynput."""
+"""The real keyboard: keys by their places, text by its characters. How both are sent is each system's own."""
 
 import sys
-from contextlib import suppress
-from typing import Any
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager, suppress
+from typing import Protocol
 
-from pynput.keyboard import Controller, Key, KeyCode
-
-from mc_nested.errors import DesktopError
 from mc_nested.live.desktop.lost_display import LOST, raise_when_display_lost
-from mc_nested.live.model.key_names import WORDS, check_key
+from mc_nested.live.model.key_names import place_of
+from mc_nested.live.model.key_places import KeyPlace
+
+
+class KeySender(Protocol):
+    """Sends keys and characters to whatever window is in front."""
+
+    def send(self, place: KeyPlace, *, is_down: bool) -> None:
+        """The key at a place goes down or up."""
+
+    def type(self, character: str) -> None:
+        """Write a character, and hold nothing afterwards. DesktopError where this desktop has no way to."""
 
 
 class DesktopKeyboard:
     """Presses keys into whatever window is in front; the caller checks which window that is.
 
-    Raises (every method): ProfileError for a name that no key has, DesktopError for a key that this keyboard's
-    layout lacks; a press also where the display has closed.
+    Raises (every method): ProfileError for a name that no key has; a press and text also DesktopError, for a character
+    that this keyboard's layout lacks, and where the display has closed.
     """
 
-    def __init__(self) -> None:
-        self._controller: Any = Controller()
+    def __init__(self, sender: KeySender) -> None:
+        self._sender = sender
 
     def press(self, key: str) -> None:
+        place = place_of(key)
         with raise_when_display_lost():
-            self._controller.press(self._on_layout(key))
+            self._sender.send(place, is_down=True)
 
     def release(self, key: str) -> None:
+        place = place_of(key)
         with suppress(*LOST):
-            self._controller.release(self._on_layout(key))
+            self._sender.send(place, is_down=False)
 
     def type(self, text: str) -> None:
-        try:
-            with raise_when_display_lost():
-                self._controller.type(text)
-        except Controller.InvalidCharacterException as error:
-            raise DesktopError(f"{text!r} can't be typed with this keyboard layout: switch to a Latin one") from error
-
-    def _on_layout(self, name: str) -> Key | KeyCode:
-        key = pynput_key(name)
-        code: Any = key.value if isinstance(key, Key) else key
-        # Checked first: the X server's own error for a missing key comes too late.
-        if sys.platform.startswith("linux") and code.vk not in self._controller.keyboard_mapping:
-            raise DesktopError(f"this keyboard's layout has no key {name!r}: switch to a Latin one")
-        return key
+        with raise_when_display_lost():
+            for character in text:
+                self._sender.type(character)
 
 
-def pynput_key(name: str) -> Key | KeyCode:
-    """The key of that name; ProfileError where there is none."""
-    check_key(name)
-    if name in WORDS:
-        return Key[WORDS[name]]
-    if sys.platform.startswith("linux"):
-        # pynput sends a plain character as an event without a time (XSendEvent). GLFW, which takes the game's keys
-        # before 26.3, compares times and drops such a press as a double once the key was pressed by hand. Given as its
-        # keysym, which for Latin 1 is the character's own number, the key is pressed through XTEST, as named keys are.
-        return KeyCode.from_vk(ord(name.lower()))
-    return KeyCode.from_char(name)
+@contextmanager
+def open_keyboard() -> Iterator[DesktopKeyboard]:
+    """The keyboard of this desktop. Needs a display: open the window first."""
+    with _open_sender() as sender:
+        yield DesktopKeyboard(sender)
+
+
+def _open_sender() -> AbstractContextManager[KeySender]:
+    if sys.platform == "win32":
+        from mc_nested.live.desktop.win32_keyboard import open_sender
+    elif sys.platform == "darwin":
+        from mc_nested.live.desktop.quartz_keyboard import open_sender
+    else:
+        from mc_nested.live.desktop.x11_keyboard import open_sender
+    return open_sender()

@@ -1,43 +1,46 @@
-"""The real panic switch, through pynput's listeners: threads that notice keys and mouse in any window."""
+"""The real panic switch: threads that notice a key, and the mouse in a corner, whichever window is in front.
 
+The key stops always. The corner stops while the mouse is free, as in menus and other windows: in its world the game
+holds the mouse in the middle of its window, and a push only turns the view (FACTS: Keys).
+"""
+
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from mc_nested.live.desktop.key_listener import CLOSE_S, Listen, listening
 from mc_nested.live.desktop.pointer import load_pyautogui
 from mc_nested.live.input.panic import CORNER_REASON, KEY_REASON, Stop, corners_of
-from mc_nested.live.model.key_names import WORDS, check_key
-
-CLOSE_S = 1.0
-"""Seconds that a listener gets to close its connection to the display."""
+from mc_nested.live.model.key_names import canonical, check_key
 
 
 @contextmanager
-def open_panic_switch(key: str, stop: Stop) -> Iterator[None]:
-    """While the context lasts, ``stop`` is called as soon as the key goes down or the mouse is in a corner.
+def open_panic_switch(key: str, stop: Stop, listen: Listen = listening) -> Iterator[None]:
+    """While the context lasts, ``stop`` is called as soon as the key goes down or the free mouse is in a corner.
 
     Needs a display: open the desktop first. Raises ProfileError for a name that no key has.
     """
     check_key(key)
-    from pynput import keyboard, mouse
+    from pynput import mouse
 
-    corners = corners_of(*load_pyautogui().size())
+    pyautogui, panic_key = load_pyautogui(), canonical(key)
+    width, height = pyautogui.size()
+    corners = corners_of(width, height)
 
-    def on_press(pressed: keyboard.Key | keyboard.KeyCode | None) -> None:
-        if isinstance(pressed, keyboard.Key):
-            is_it = key in WORDS and pressed is keyboard.Key[WORDS[key]]
-        else:
-            is_it = pressed is not None and pressed.char == key
-        if is_it:
+    def on_key(name: str, is_down: bool) -> None:
+        if is_down and name == panic_key:
             stop(KEY_REASON)
 
-    def on_move(x: int, y: int) -> None:
-        if (x, y) in corners:
+    def on_move(x: float, y: float) -> None:
+        at = math.floor(x), math.floor(y)
+        if not (0 <= at[0] < width and 0 <= at[1] < height):
+            # Windows reports where a push would lead, beyond the edge: so the mouse is asked where it is.
+            at = pyautogui.position()
+        if tuple(at) in corners:
             stop(CORNER_REASON)
 
-    with keyboard.Listener(on_press=on_press) as keys, mouse.Listener(on_move=on_move) as moves:
-        keys.wait()
+    with listen(on_key), mouse.Listener(on_move=on_move) as moves:
         moves.wait()
         yield
-    # They close their connection to the display some time after they are stopped.
-    for listener in (keys, moves):
-        listener.join(CLOSE_S)
+    # It closes its connection to the display some time after it is stopped.
+    moves.join(CLOSE_S)

@@ -1,4 +1,8 @@
-"""The real mouse, through pyautogui."""
+"""The real mouse: pyautogui moves it and asks where it is, pynput presses its buttons.
+
+pyautogui's own presses also move the mouse to where it is. A game that holds the mouse takes that as a turn: with raw
+motion on, of some 70 to 100 degrees (FACTS: Input and windows).
+"""
 
 import sys
 from collections.abc import Callable
@@ -18,6 +22,10 @@ class DesktopPointer:
         self._window = window
         self._ratio = ratio
         self._mouse = load_pyautogui()
+        from pynput import mouse  # needs a display when it is imported
+
+        self._buttons: Any = mouse.Controller()
+        self._named: Any = mouse.Button
 
     def position(self) -> tuple[int, int]:
         area, ratio = self._window.client_area(), self._ratio()
@@ -32,11 +40,11 @@ class DesktopPointer:
         with raise_when_display_lost():
             if tuple(self._mouse.position()) in self._mouse.FAILSAFE_POINTS:
                 raise LiveError("the mouse is in a corner of the screen, which means stop: nothing was clicked")
-            self._mouse.mouseDown(button=button, _pause=False)
+            self._buttons.press(self._named[button])
 
     def release(self, button: Button) -> None:
         with suppress(*LOST):
-            self._mouse.mouseUp(button=button, _pause=False)
+            self._buttons.release(self._named[button])
 
 
 def load_pyautogui() -> Any:

@@ -193,17 +193,9 @@ class InputController:
             raise WrongScreenError(f"the {screen} was not just seen on the screen, so nothing is pressed: look first")
 
     def _type(self, letter: str) -> None:
-        name = f"letter {letter}"
         with self._lock:
             self._check_press("chat")
-            self._held[name] = _Held(partial(self._keyboard.release, letter), self._clock.now())
-            try:
-                self._keyboard.type(letter)
-            except BaseException:
-                # It may have been interrupted between the letter's press and its release.
-                self._release([name])
-                raise
-            del self._held[name]
+            self._keyboard.type(letter)
 
     def _press_key(self, key: str, until: float, on: PressTarget) -> None:
         self._press(f"key {key}", partial(self._keyboard.press, key), partial(self._keyboard.release, key), until, on)

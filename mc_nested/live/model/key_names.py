@@ -1,34 +1,32 @@
-"""The names of keys, as in profiles and in the game's own options, and pynput's names for them."""
+"""The names of keys, as in profiles and in the game's own options. A name means a place (key_places.py)."""
 
 from mc_nested.errors import ProfileError
+from mc_nested.live.model.key_places import PLACES, KeyPlace
 
-_SAME = (
-    *("space", "tab", "enter", "esc", "backspace", "delete", "insert", "home", "end"),
-    *("up", "down", "left", "right", "caps_lock", "page_up", "page_down"),
-    *(f"f{number}" for number in range(1, 21)),
-)
-_OTHER = {
-    "escape": "esc",
-    "caps.lock": "caps_lock",
-    "page.up": "page_up",
-    "page.down": "page_down",
-    "left.shift": "shift_l",
-    "right.shift": "shift_r",
-    "left.control": "ctrl_l",
-    "right.control": "ctrl_r",
-    "left.alt": "alt_l",
-    "right.alt": "alt_r",
-    "left.win": "cmd_l",
-    "right.win": "cmd_r",
-}
-WORDS = {name: name for name in _SAME} | _OTHER
-"""Words that name keys, and their members of ``pynput.keyboard.Key``."""
+_ALIASES = {"escape": "esc", "caps_lock": "caps.lock", "page_up": "page.up", "page_down": "page.down"}
+
+
+def canonical(name: str) -> str:
+    """The one name of what ``name`` means: "esc" for "escape", "w" for "W". Any other name stays as it is."""
+    return name.lower() if len(name) == 1 else _ALIASES.get(name, name)
+
+
+def is_key(name: str) -> bool:
+    """Whether a key has this name."""
+    return canonical(name) in PLACES
 
 
 def check_key(name: str) -> None:
-    """ProfileError where ``name`` is neither one character nor a word that names a key."""
-    if len(name) != 1 and name not in WORDS:
+    """ProfileError where no key has this name."""
+    if not is_key(name):
+        words = ", ".join(sorted(word for word in PLACES if len(word) > 1 and "." in word))
         raise ProfileError(
-            f"no key is named {name!r}: write one character, or one of {', '.join(sorted(_OTHER))}, "
-            "space, tab, enter, f1 to f20 and so on"
+            f"no key is named {name!r}: write what a US keyboard types there without Shift, or one of {words}, "
+            "space, tab, enter, esc, f1 to f20 and so on"
         )
+
+
+def place_of(name: str) -> KeyPlace:
+    """The key of that name; ProfileError where there is none."""
+    check_key(name)
+    return PLACES[canonical(name)]

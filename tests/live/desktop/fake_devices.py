@@ -1,6 +1,7 @@
 """Made-up pynput and pyautogui: the real ones can't be imported without a display."""
 
 import enum
+import importlib
 import sys
 from collections.abc import Callable
 from types import ModuleType, SimpleNamespace
@@ -9,7 +10,6 @@ from typing import Any, ClassVar
 import pytest
 
 from mc_nested.live.desktop.lost_display import LOST
-from mc_nested.live.model.key_names import WORDS
 
 
 class KeyCode:
@@ -27,8 +27,8 @@ class KeyCode:
         return cls(char=char)
 
 
-_MEMBERS = {name: KeyCode(vk=1000 + index) for index, name in enumerate(sorted(set(WORDS.values())))}
-Key: Any = enum.Enum("Key", _MEMBERS)  # type: ignore[misc]  # made from a table
+_MODIFIERS = [f"{name}_{side}" for name in ("alt", "cmd", "ctrl", "shift") for side in "lr"]
+Key: Any = enum.Enum("Key", {name: KeyCode(vk=1000 + index) for index, name in enumerate(_MODIFIERS)})  # type: ignore[misc]
 
 
 class Listener:
@@ -62,31 +62,49 @@ class Listener:
 
 
 class Controller:
-    """A keyboard with a few keys on its layout."""
+    """A keyboard that notes what is sent."""
+
+    class InvalidKeyException(Exception):  # noqa: N818 - pynput's name
+        """A key that can't be pressed."""
 
     class InvalidCharacterException(Exception):  # noqa: N818 - pynput's name
         """A character that can't be typed."""
 
     def __init__(self) -> None:
         self.sent: list[tuple[str, Any]] = []
-        self.keyboard_mapping = {ord("w"), ord("/"), *(code.vk for code in _MEMBERS.values())}
-        self.has_display = True
+        self.is_interrupted = False
 
     def press(self, key: Any) -> None:
         self._send("press", key)
+        if self.is_interrupted:
+            raise KeyboardInterrupt
 
     def release(self, key: Any) -> None:
         self._send("release", key)
 
-    def type(self, text: str) -> None:
-        if "木" in text:
-            raise self.InvalidCharacterException
-        self._send("type", text)
-
     def _send(self, kind: str, what: Any) -> None:
+        if what == "木":
+            raise self.InvalidKeyException
+        self.sent.append((kind, what))
+
+
+class Buttons:
+    """The mouse's buttons, as long as there is a display."""
+
+    def __init__(self) -> None:
+        self.sent: list[tuple[str, str]] = []
+        self.has_display = True
+
+    def press(self, button: str) -> None:
+        self._send("down", button)
+
+    def release(self, button: str) -> None:
+        self._send("up", button)
+
+    def _send(self, kind: str, button: str) -> None:
         if not self.has_display:
             raise LOST[0]("gone")
-        self.sent.append((kind, what))
+        self.sent.append((kind, button))
 
 
 class Mouse(ModuleType):
@@ -97,8 +115,6 @@ class Mouse(ModuleType):
         self.FAILSAFE_POINTS = [(0, 0), (1023, 767)]
         self.PAUSE, self.FAILSAFE = 0.1, True
         self.at: tuple[float, float] = (500, 300)
-        self.sent: list[tuple[str, str]] = []
-        self.has_display = True
 
     def size(self) -> tuple[int, int]:
         return 1024, 768
@@ -110,18 +126,6 @@ class Mouse(ModuleType):
         assert not _pause
         self.at = x, y
 
-    def mouseDown(self, *, button: str, _pause: bool) -> None:  # noqa: N802 - pyautogui's name
-        self._send("down", button, _pause)
-
-    def mouseUp(self, *, button: str, _pause: bool) -> None:  # noqa: N802 - pyautogui's name
-        self._send("up", button, _pause)
-
-    def _send(self, kind: str, button: str, pause: bool) -> None:
-        assert not pause
-        if not self.has_display:
-            raise LOST[0]("gone")
-        self.sent.append((kind, button))
-
 
 def install_mouse(patch: pytest.MonkeyPatch) -> Mouse:
     """From here on ``import pyautogui`` gives this."""
@@ -130,7 +134,7 @@ def install_mouse(patch: pytest.MonkeyPatch) -> Mouse:
     return mouse
 
 
-def install_pynput(patch: pytest.MonkeyPatch) -> tuple[list[Listener], list[Listener]]:
+def install_pynput(patch: pytest.MonkeyPatch, buttons: Buttons | None = None) -> tuple[list[Listener], list[Listener]]:
     """From here on ``import pynput`` gives this; the listeners of the keyboard and of the mouse that are started."""
 
     class KeyListener(Listener):
@@ -140,8 +144,18 @@ def install_pynput(patch: pytest.MonkeyPatch) -> tuple[list[Listener], list[List
         started: ClassVar[list[Listener]] = []
 
     keyboard: Any = SimpleNamespace(Key=Key, KeyCode=KeyCode, Listener=KeyListener, Controller=Controller)
-    mouse: Any = SimpleNamespace(Listener=MoveListener)
+    named = {name: name for name in ("left", "right", "middle")}
+    mouse: Any = SimpleNamespace(Listener=MoveListener, Controller=lambda: buttons, Button=named)
     pynput: Any = SimpleNamespace(keyboard=keyboard, mouse=mouse)
     for name, module in (("pynput", pynput), ("pynput.keyboard", keyboard), ("pynput.mouse", mouse)):
         patch.setitem(sys.modules, name, module)
     return KeyListener.started, MoveListener.started
+
+
+def reloaded(name: str, patch: pytest.MonkeyPatch) -> Any:
+    """The module, loaded again over what ``import pynput`` gives; what was loaded comes back afterwards."""
+    package, _, last = name.rpartition(".")
+    patch.setattr(importlib.import_module(package), last, None, raising=False)
+    patch.setitem(sys.modules, name, sys)
+    del sys.modules[name]
+    return importlib.import_module(name)

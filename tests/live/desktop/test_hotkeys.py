@@ -4,55 +4,64 @@ import pytest
 
 from mc_nested.errors import DesktopError, ProfileError
 from mc_nested.live.desktop.hotkeys import open_hotkeys
-from tests.live.desktop.fake_devices import Key, KeyCode, Listener, install_pynput
+from tests.live.desktop.heard_keys import HeardKeys
 from tests.live.desktop.probed import probed
 
 
-@pytest.fixture
-def listeners(monkeypatch: pytest.MonkeyPatch) -> list[Listener]:
-    return install_pynput(monkeypatch)[0]
-
-
-def test_keys_are_heard_in_order_each_once_however_long_it_is_held(listeners: list[Listener]) -> None:
-    with open_hotkeys(("f9", "k")) as next_key:
-        press, release = (listeners[0].heard[name] for name in ("on_press", "on_release"))
+def test_keys_are_heard_in_order_each_once_however_long_it_is_held() -> None:
+    keys = HeardKeys()
+    with open_hotkeys(("f9", "k"), keys.listening) as next_key:
         for _ in range(3):
-            press(Key["f9"])
-        release(Key["f9"])
-        press(KeyCode(char="k"))
-        press(Key["f9"])
+            keys.press("f9")
+        keys.release("f9")
+        keys.press("k")
+        keys.press("f9")
         assert [next_key() for _ in range(3)] == ["f9", "k", "f9"]
 
 
-def test_other_keys_are_not_heard(listeners: list[Listener]) -> None:
-    with open_hotkeys(("f9", "k")) as next_key:
-        for key in (Key["f8"], KeyCode(char="w"), KeyCode(vk=107), None, KeyCode(char="k")):
-            listeners[0].heard["on_press"](key)
+def test_a_key_is_heard_by_any_of_its_names_and_called_as_it_was_asked_for() -> None:
+    keys = HeardKeys()
+    with open_hotkeys(("escape", "K"), keys.listening) as next_key:
+        keys.press("esc")
+        keys.press("k")
+        assert [next_key() for _ in range(2)] == ["escape", "K"]
+
+
+def test_other_keys_are_not_heard() -> None:
+    keys = HeardKeys()
+    with open_hotkeys(("f9", "k"), keys.listening) as next_key:
+        for name in ("f8", "w", "k"):
+            keys.press(name)
         assert next_key() == "k"
-        listeners[0].is_running = False
+        keys.is_listening = False
         with pytest.raises(DesktopError):
             next_key()
 
 
-def test_a_desktop_that_lets_no_program_listen_is_an_error(
-    listeners: list[Listener], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(Listener, "is_silent", True)
-    with open_hotkeys(("f9",)) as next_key, pytest.raises(DesktopError, match="lets no program listen"):
+def test_a_desktop_that_lets_no_program_listen_is_an_error() -> None:
+    keys = HeardKeys(is_silent=True)
+    with (
+        open_hotkeys(("f9",), keys.listening) as next_key,
+        pytest.raises(DesktopError, match="lets no program listen"),
+    ):
         next_key()
-    assert len(listeners) == 1
 
 
-def test_it_listens_for_as_long_as_the_context_lasts(listeners: list[Listener]) -> None:
-    with open_hotkeys(("f9",)):
-        assert listeners[0].is_alive()
-    assert not listeners[0].is_alive()
+def test_it_listens_for_as_long_as_the_context_lasts() -> None:
+    keys = HeardKeys()
+    with open_hotkeys(("f9",), keys.listening):
+        assert keys.is_listening
+    assert not keys.is_listening
 
 
-def test_a_name_that_no_key_has_is_an_error_before_anything_listens(listeners: list[Listener]) -> None:
-    with pytest.raises(ProfileError, match="no key is named 'shift'"), open_hotkeys(("f9", "shift")):
+def test_a_name_that_no_key_has_is_an_error_before_anything_listens() -> None:
+    keys = HeardKeys()
+    with (
+        pytest.raises(ProfileError, match="no key is named 'shift'"),
+        open_hotkeys(("f9", "shift"), keys.listening),
+    ):
         pass
-    assert listeners == []
+    assert not keys.is_listening
 
 
 @pytest.mark.standin

@@ -1,104 +1,104 @@
-"""The real keyboard: with a made-up pynput, and in a real window under Xvfb."""
+"""The real keyboard: what it sends, and what of it reaches a real GLFW window under each layout."""
 
-import importlib
-import os
 import subprocess
 import sys
-from typing import Any
 
 import pytest
 
 from mc_nested.errors import DesktopError, ProfileError
-from mc_nested.live import desktop
-from tests.live.desktop.fake_devices import Controller, Key, install_pynput
-from tests.live.desktop.probed import probed
+from mc_nested.live.desktop.keyboard import DesktopKeyboard
+from mc_nested.live.desktop.lost_display import LOST
+from mc_nested.live.model.key_places import PLACES, KeyPlace
+from tests.live.desktop.probed import glfw_probed, probed
 
-MODULE = "mc_nested.live.desktop.keyboard"
+LAYOUTS = ("us", "fr", "de", "dvorak", "ru")
+COMMAND = "/execute if block ~ ~-1 ~ minecraft:oak_planks[axis=x] run tp @s 1.5 64 -3 {\"A\":'!#$%&*()+;<>?^`|\\\\J'}"
 
-on_linux = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="how keys are sent to an X server")
-
-
-@pytest.fixture
-def module(monkeypatch: pytest.MonkeyPatch) -> Any:
-    """The module over a made-up pynput; whatever of it was loaded comes back afterwards."""
-    install_pynput(monkeypatch)
-    monkeypatch.setattr(desktop, "keyboard", None, raising=False)
-    monkeypatch.setitem(sys.modules, MODULE, sys)
-    del sys.modules[MODULE]
-    return importlib.import_module(MODULE)
-
-
-@pytest.fixture
-def keyboard(module: Any) -> Any:
-    return module.DesktopKeyboard()
-
-
-def sent(keyboard: Any) -> list[tuple[str, Any]]:
-    controller: Controller = keyboard._controller
-    return controller.sent
+_PRESSED, _RELEASED = 1, 0
+_WORDS = {
+    name: first + index
+    for first, names in (
+        (32, "space"),
+        (256, "esc enter tab backspace insert delete right left down up page.up page.down home end"),
+        (280, "caps.lock"),
+        (290, " ".join(f"f{number}" for number in range(1, 21))),
+        (340, "left.shift left.control left.alt left.win right.shift right.control right.alt right.win"),
+    )
+    for index, name in enumerate(names.split())
+}
+"""GLFW's keys (glfw3.h); those of characters are the capital's number."""
 
 
-@pytest.mark.parametrize(("name", "key"), [("f3", "f3"), ("left.shift", "shift_l"), ("escape", "esc")])
-def test_a_word_is_pynputs_key_of_that_meaning(name: str, key: str, module: Any) -> None:
-    assert module.pynput_key(name) is Key[key]
+class Sender:
+    """Notes what is sent, as long as there is a display."""
+
+    def __init__(self) -> None:
+        self.sent: list[tuple[KeyPlace, bool] | str] = []
+        self.has_display = True
+
+    def send(self, place: KeyPlace, *, is_down: bool) -> None:
+        self._note((place, is_down))
+
+    def type(self, character: str) -> None:
+        self._note(character)
+
+    def _note(self, what: tuple[KeyPlace, bool] | str) -> None:
+        if not self.has_display:
+            raise LOST[0]("gone")
+        self.sent.append(what)
 
 
-@on_linux
-@pytest.mark.parametrize(("name", "keysym"), [("w", 0x77), ("W", 0x77), ("/", 0x2F)])
-def test_a_character_is_pressed_as_its_keysym(name: str, keysym: int, module: Any) -> None:
-    key = module.pynput_key(name)
-    assert (key.vk, key.char) == (keysym, None)
+def test_keys_are_sent_by_their_places_and_text_by_its_characters_in_order() -> None:
+    sender = Sender()
+    keyboard = DesktopKeyboard(sender)
+    keyboard.press("f3")
+    keyboard.press("W")
+    keyboard.release("w")
+    keyboard.type("/Tp")
+    assert sender.sent == [(PLACES["f3"], True), (PLACES["w"], True), (PLACES["w"], False), "/", "T", "p"]
 
 
-def test_a_name_that_no_key_has_is_an_error(module: Any, keyboard: Any) -> None:
-    for act in (module.pynput_key, keyboard.press, keyboard.release):
+def test_a_name_that_no_key_has_is_an_error_before_anything_is_sent() -> None:
+    sender = Sender()
+    keyboard = DesktopKeyboard(sender)
+    for act in (keyboard.press, keyboard.release):
         with pytest.raises(ProfileError, match="no key is named 'shift'"):
             act("shift")
-    assert sent(keyboard) == []
+    assert sender.sent == []
 
 
-@on_linux
-def test_keys_are_pressed_released_and_typed_in_order(keyboard: Any) -> None:
-    keyboard.press("f3")
-    keyboard.press("w")
-    keyboard.release("w")
-    keyboard.type("/tp")
-    (kind, key), (_, pressed), (other, released), typed = sent(keyboard)
-    assert (kind, key, pressed.vk) == ("press", Key["f3"], ord("w"))
-    assert (other, released.vk, typed) == ("release", ord("w"), ("type", "/tp"))
-
-
-@on_linux
-def test_a_key_that_the_layout_lacks_is_an_error_before_anything_is_sent(keyboard: Any) -> None:
-    for act in (keyboard.press, keyboard.release):
-        with pytest.raises(DesktopError, match="layout has no key 'é': switch to a Latin one"):
-            act("é")
-    assert sent(keyboard) == []
-
-
-def test_a_text_that_can_not_be_typed_is_an_error(keyboard: Any) -> None:
-    with pytest.raises(DesktopError, match="'木' can't be typed with this keyboard layout"):
-        keyboard.type("木")
-
-
-@on_linux
-def test_without_a_display_a_press_is_an_error_and_a_release_is_none(keyboard: Any) -> None:
-    keyboard._controller.has_display = False
+@pytest.mark.skipif(not LOST, reason="the display of an X server")
+def test_without_a_display_a_press_is_an_error_and_a_release_is_none() -> None:
+    sender = Sender()
+    sender.has_display = False
+    keyboard = DesktopKeyboard(sender)
     for act in (keyboard.press, keyboard.type):
         with pytest.raises(DesktopError, match="display has closed"):
             act("w")
     keyboard.release("w")
 
 
-def test_every_word_for_a_key_is_known_to_pynput() -> None:
-    code = (
-        "from pynput.keyboard import Key\n"
-        "from mc_nested.live.model.key_names import WORDS\n"
-        "print(set(WORDS.values()) - set(Key.__members__))"
-    )
-    environment = {**os.environ, "PYNPUT_BACKEND": "dummy"}
-    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
-    assert done.stdout == "set()\n", done.stderr
+if sys.platform.startswith("linux"):
+
+    @pytest.mark.window
+    @pytest.mark.parametrize("layout", LAYOUTS)
+    def test_each_place_reaches_a_real_window_as_the_key_of_that_place(layout: str, x_screen: dict[str, str]) -> None:
+        subprocess.run(["setxkbmap", layout], env=x_screen, check=True)
+        expected = {name: _WORDS.get(name) or ord(name.upper()) for name in PLACES}
+        events = {name: [[key, _PRESSED], [key, _RELEASED]] for name, key in expected.items()}
+        assert glfw_probed(x_screen, "keys", list(PLACES)) == events
+
+    @pytest.mark.window
+    @pytest.mark.parametrize("layout", LAYOUTS)
+    def test_a_command_reaches_a_real_window_to_the_letter(layout: str, x_screen: dict[str, str]) -> None:
+        subprocess.run(["setxkbmap", layout], env=x_screen, check=True)
+        assert glfw_probed(x_screen, "text", COMMAND) == {"text": COMMAND}
+
+    @pytest.mark.window
+    def test_a_character_that_the_layout_lacks_is_an_error_of_one_line(x_screen: dict[str, str]) -> None:
+        assert glfw_probed(x_screen, "text", "木") == {
+            "error": "'木' can't be typed with this keyboard layout: switch to a Latin one"
+        }
 
 
 @pytest.mark.standin
@@ -107,5 +107,5 @@ def test_keys_reach_a_real_window_as_a_keyboards_own(x_server: dict[str, str]) -
     keys = [(event[0], event[2]) for event in report["keys"]]
     assert keys == [("press", False), ("release", False)] * 4, "as a keyboard's own, not as synthetic events"
     assert [event[1] for event in report["keys"] if event[0] == "press"] == [ord("w"), 0xFFC0, 0xFFE1, ord("/")]
-    assert "no key 'é'" in report["no such key"]
+    assert "no key is named 'é'" in report["no such key"]
     assert report["typed"] == "/Tp @s"

@@ -3,66 +3,91 @@
 import pytest
 
 from mc_nested.errors import ProfileError
-from mc_nested.live.desktop.panic import CLOSE_S, open_panic_switch
+from mc_nested.live.desktop.key_listener import CLOSE_S
+from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.input.panic import CORNER_REASON, KEY_REASON
-from tests.live.desktop.fake_devices import Key, KeyCode, Listener, install_mouse, install_pynput
+from tests.live.desktop.fake_devices import Listener, Mouse, install_mouse, install_pynput
+from tests.live.desktop.heard_keys import HeardKeys
 from tests.live.desktop.probed import probed
-
-Listeners = tuple[list[Listener], list[Listener]]
 
 
 @pytest.fixture
-def listeners(monkeypatch: pytest.MonkeyPatch) -> Listeners:
-    """Those of the keyboard and of the mouse, over a screen of 1024 x 768."""
-    install_mouse(monkeypatch)
-    return install_pynput(monkeypatch)
+def mouse(monkeypatch: pytest.MonkeyPatch) -> Mouse:
+    """Over a screen of 1024 x 768."""
+    return install_mouse(monkeypatch)
 
 
+@pytest.fixture
+def moves(mouse: Mouse, monkeypatch: pytest.MonkeyPatch) -> list[Listener]:  # noqa: ARG001 - the mouse that is asked
+    """The listeners of the mouse."""
+    return install_pynput(monkeypatch)[1]
+
+
+@pytest.mark.usefixtures("moves")
 @pytest.mark.parametrize(
-    ("name", "key"), [("f12", Key["f12"]), ("left.shift", Key["shift_l"]), ("p", KeyCode(char="p"))]
+    ("name", "heard"), [("f12", "f12"), ("left.shift", "left.shift"), ("P", "p"), ("escape", "esc")]
 )
-def test_the_panic_key_stops_as_soon_as_it_goes_down(name: str, key: object, listeners: Listeners) -> None:
-    stopped: list[str] = []
-    with open_panic_switch(name, stopped.append):
-        listeners[0][0].heard["on_press"](key)
+def test_the_panic_key_stops_as_soon_as_it_goes_down(name: str, heard: str) -> None:
+    keys, stopped = HeardKeys(), list[str]()
+    with open_panic_switch(name, stopped.append, keys.listening):
+        keys.press(heard)
         assert stopped == [KEY_REASON]
+        keys.release(heard)
+    assert stopped == [KEY_REASON]
 
 
-def test_no_other_key_stops(listeners: Listeners) -> None:
-    stopped: list[str] = []
-    with open_panic_switch("f12", stopped.append):
-        for key in (Key["f11"], KeyCode(char="w"), KeyCode(vk=5), None):
-            listeners[0][0].heard["on_press"](key)
-    with open_panic_switch("p", stopped.append):
-        for key in (Key["f12"], KeyCode(char="q"), None):
-            listeners[0][1].heard["on_press"](key)
+@pytest.mark.usefixtures("moves")
+def test_no_other_key_stops() -> None:
+    keys, stopped = HeardKeys(), list[str]()
+    with open_panic_switch("f12", stopped.append, keys.listening):
+        for name in ("f11", "w", "left.shift"):
+            keys.press(name)
     assert stopped == []
 
 
-def test_the_mouse_in_any_corner_stops_and_nowhere_else(listeners: Listeners) -> None:
+def test_the_mouse_in_any_corner_stops_and_nowhere_else(moves: list[Listener]) -> None:
     stopped: list[str] = []
-    with open_panic_switch("f12", stopped.append):
-        move = listeners[1][0].heard["on_move"]
-        for at in ((1, 0), (0, 1), (1024, 768), (1022, 767), (512, 0)):
-            move(*at)
+    outside_or_beside = ((1, 0), (0, 1), (1024, 768), (1022, 767), (512, 0))
+    with open_panic_switch("f12", stopped.append, HeardKeys().listening):
+        move = moves[0].heard["on_move"]
+        for x, y in outside_or_beside:
+            move(x, y)
         assert stopped == []
-        for at in ((0, 0), (1023, 0), (0, 767), (1023, 767)):
-            move(*at)
+        for left, top in ((0.0, 0.0), (1023.0, 0.0), (0.0, 767.0), (1023.99, 767.99)):
+            move(left, top)
     assert stopped == [CORNER_REASON] * 4
 
 
-def test_it_listens_for_as_long_as_the_context_lasts_and_waits_for_its_listeners(listeners: Listeners) -> None:
-    with open_panic_switch("f12", lambda _: None):
-        assert all(listener.is_alive() for (listener,) in listeners)
-    for (listener,) in listeners:
-        assert not listener.is_alive()
-        assert listener.joined == [CLOSE_S]
+def test_a_push_that_is_reported_beyond_the_edge_stops_once_the_mouse_is_in_the_corner(
+    moves: list[Listener], mouse: Mouse
+) -> None:
+    stopped: list[str] = []
+    with open_panic_switch("f12", stopped.append, HeardKeys().listening):
+        move = moves[0].heard["on_move"]
+        move(-15, -15)
+        assert stopped == []
+        mouse.at = (0, 0)
+        move(-15, -15)
+        assert stopped == [CORNER_REASON]
+        mouse.at = (0, 300)
+        move(-15, 300)
+    assert stopped == [CORNER_REASON]
 
 
-def test_a_name_that_no_key_has_is_an_error_before_anything_listens(listeners: Listeners) -> None:
+def test_it_listens_for_as_long_as_the_context_lasts_and_waits_for_its_listeners(moves: list[Listener]) -> None:
+    keys = HeardKeys()
+    with open_panic_switch("f12", lambda _: None, keys.listening):
+        assert keys.is_listening
+        assert moves[0].is_alive()
+    assert not keys.is_listening
+    assert not moves[0].is_alive()
+    assert moves[0].joined == [CLOSE_S]
+
+
+def test_a_name_that_no_key_has_is_an_error_before_anything_listens(moves: list[Listener]) -> None:
     with pytest.raises(ProfileError, match="no key is named 'shift'"), open_panic_switch("shift", lambda _: None):
         pass
-    assert listeners == ([], [])
+    assert moves == []
 
 
 @pytest.mark.standin

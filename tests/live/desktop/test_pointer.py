@@ -1,4 +1,4 @@
-"""The real mouse: with a made-up pyautogui, and over a real window under Xvfb."""
+"""The real mouse: with a made-up pyautogui and pynput, and over a real window under Xvfb."""
 
 import sys
 
@@ -8,9 +8,9 @@ from mc_nested.errors import DesktopError, LiveError
 from mc_nested.live.desktop.lost_display import LOST
 from mc_nested.live.desktop.pointer import DesktopPointer, load_pyautogui
 from mc_nested.live.desktop.window import ClientArea
-from tests.live.desktop.fake_devices import Mouse, install_mouse
+from tests.live.desktop.fake_devices import Buttons, Mouse, install_mouse, install_pynput
 from tests.live.desktop.moving_window import MovingWindow
-from tests.live.desktop.probed import probed
+from tests.live.desktop.probed import glfw_probed, probed
 
 
 @pytest.fixture
@@ -18,10 +18,18 @@ def mouse(monkeypatch: pytest.MonkeyPatch) -> Mouse:
     return install_mouse(monkeypatch)
 
 
+@pytest.fixture
+def buttons(monkeypatch: pytest.MonkeyPatch) -> Buttons:
+    buttons = Buttons()
+    install_pynput(monkeypatch, buttons)
+    return buttons
+
+
 def pointer_over(area: ClientArea, ratio: float = 1.0) -> DesktopPointer:
     return DesktopPointer(MovingWindow(area), lambda: ratio)
 
 
+@pytest.mark.usefixtures("buttons")
 def test_positions_are_the_client_areas_pixels(mouse: Mouse) -> None:
     pointer = pointer_over(ClientArea(60, 40, 320, 240))
     pointer.move(200, 50)
@@ -29,6 +37,7 @@ def test_positions_are_the_client_areas_pixels(mouse: Mouse) -> None:
     assert pointer.position() == (200, 50)
 
 
+@pytest.mark.usefixtures("buttons")
 def test_where_a_point_is_two_pixels_positions_are_still_pixels(mouse: Mouse) -> None:
     pointer = pointer_over(ClientArea(60, 40, 320, 240), ratio=2.0)
     pointer.move(201, 50)
@@ -36,28 +45,30 @@ def test_where_a_point_is_two_pixels_positions_are_still_pixels(mouse: Mouse) ->
     assert pointer.position() == (201, 50)
 
 
-def test_a_button_is_pressed_and_released(mouse: Mouse) -> None:
+@pytest.mark.usefixtures("mouse")
+def test_a_button_is_pressed_and_released_by_pynput_which_moves_nothing(buttons: Buttons) -> None:
     pointer = pointer_over(ClientArea(60, 40, 320, 240))
     pointer.press("right")
     pointer.release("right")
-    assert mouse.sent == [("down", "right"), ("up", "right")]
+    assert buttons.sent == [("down", "right"), ("up", "right")]
 
 
 @pytest.mark.parametrize("corner", [(0, 0), (1023, 767)])
 def test_in_a_corner_of_the_screen_nothing_is_pressed_and_all_is_released(
-    corner: tuple[int, int], mouse: Mouse
+    corner: tuple[int, int], mouse: Mouse, buttons: Buttons
 ) -> None:
     mouse.at = corner
     pointer = pointer_over(ClientArea(60, 40, 320, 240))
     with pytest.raises(LiveError, match="means stop: nothing was clicked"):
         pointer.press("left")
     pointer.release("left")
-    assert mouse.sent == [("up", "left")]
+    assert buttons.sent == [("up", "left")]
 
 
 @pytest.mark.skipif(not LOST, reason="the display of an X server")
-def test_without_a_display_a_press_is_an_error_and_a_release_is_none(mouse: Mouse) -> None:
-    mouse.has_display = False
+@pytest.mark.usefixtures("mouse")
+def test_without_a_display_a_press_is_an_error_and_a_release_is_none(buttons: Buttons) -> None:
+    buttons.has_display = False
     pointer = pointer_over(ClientArea(60, 40, 320, 240))
     with pytest.raises(DesktopError, match="display has closed"):
         pointer.press("left")
@@ -81,3 +92,10 @@ def test_a_real_window_is_pointed_at_and_clicked(x_server: dict[str, str]) -> No
     assert report["pointer"] == [200, 50]
     assert report["clicks"] == [["down", 3, False, 200, 50], ["up", 3, False, 200, 50]]
     assert "means stop" in report["in the corner"]
+
+
+if sys.platform.startswith("linux"):
+
+    @pytest.mark.window
+    def test_a_hundred_clicks_move_nothing_where_a_game_holds_the_mouse(x_screen: dict[str, str]) -> None:
+        assert glfw_probed(x_screen, "clicks") == {"has raw motion": True, "button": 200, "cursor": 0}

@@ -16,7 +16,7 @@ from Xlib.display import Display
 from Xlib.error import BadMatch
 from Xlib.ext import xtest
 
-from mc_nested.errors import DesktopError, LiveError
+from mc_nested.errors import McNestedError
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.desktop.hotkeys import open_hotkeys
 from mc_nested.live.desktop.panic import open_panic_switch
@@ -92,7 +92,7 @@ class Probe:
 def error_of(act: Callable[[], object]) -> str:
     try:
         act()
-    except (DesktopError, LiveError) as error:
+    except McNestedError as error:
         return str(error)
     return ""
 

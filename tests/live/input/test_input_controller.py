@@ -276,10 +276,6 @@ class _JammingKeyboard(FakeKeyboard):
         super().__init__(game)
         self._jams = ["a", "b", "b"]
 
-    def type(self, text: str) -> None:
-        self.press(text)
-        raise KeyboardInterrupt
-
     def release(self, key: str) -> None:
         if key in self._jams:
             self._jams.remove(key)
@@ -304,16 +300,6 @@ def test_one_key_that_can_not_be_released_does_not_keep_the_others_down() -> Non
         controller.release_all()
     assert game.down == {"b"}
     controller.release_all()
-    assert game.down == set()
-
-
-def test_a_letter_that_is_interrupted_after_its_press_goes_up_again() -> None:
-    game = FakeGame(PROFILE)
-    controller = _jamming_controller(game)
-    controller.confirm_screen("chat")
-    with pytest.raises(KeyboardInterrupt):
-        controller.type_line("c")
-    assert game.presses == ["c"]
     assert game.down == set()
 
 

@@ -1,0 +1,77 @@
+"""Hears keys by their places, whichever window they go to and whatever the layout."""
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
+from typing import Any
+
+from mc_nested.live.model.key_places import EXTENDED, NAME_AT_MAC, NAME_AT_SCAN
+
+OnKey = Callable[[str, bool], None]
+"""Gets a key's canonical name, and whether it went down; in the listener's thread. A held key may go down
+repeatedly."""
+
+IsListening = Callable[[], bool]
+
+Listen = Callable[[OnKey], AbstractContextManager[IsListening]]
+"""``listening``, or a made-up one."""
+
+CLOSE_S = 1.0
+"""Seconds that a listener gets to close its connection to the desktop."""
+
+_KEY_DOWN, _KEY_UP = (0x0100, 0x0104), (0x0101, 0x0105)
+"""WM_KEYDOWN and WM_SYSKEYDOWN, WM_KEYUP and WM_SYSKEYUP (winuser.h)."""
+
+_FROM_PREFIX = 1
+"""LLKHF_EXTENDED in KBDLLHOOKSTRUCT's flags: the scancode has the prefix E0."""
+
+_PACKET = 0xE7
+"""VK_PACKET: a Unicode character, whose number stands in the place of the scancode."""
+
+
+def listening(on_key: OnKey) -> AbstractContextManager[IsListening]:
+    """While the context lasts, ``on_key`` is called for each key; yields whether it still listens.
+
+    Needs a display: open the desktop first.
+    """
+    if sys.platform.startswith("linux"):
+        from mc_nested.live.desktop.x11_key_listener import listening as listening_on_x11
+
+        return listening_on_x11(on_key)
+    return listening_through_pynput(on_key)
+
+
+@contextmanager
+def listening_through_pynput(on_key: OnKey) -> Iterator[IsListening]:
+    """``listening`` on Windows, where pynput passes on scancodes, and on macOS, where it passes on keycodes."""
+    from pynput.keyboard import Listener
+
+    def on_hook(message: int, key: Any) -> bool:
+        is_down = message in _KEY_DOWN
+        if key.vkCode != _PACKET and (is_down or message in _KEY_UP):
+            scan = key.scanCode | (EXTENDED if key.flags & _FROM_PREFIX else 0)
+            _tell(on_key, NAME_AT_SCAN.get(scan), is_down=is_down)
+        return False  # pynput needn't ask the layout for its letter, which would also use up a dead key
+
+    def on_press(key: Any) -> None:
+        _tell(on_key, NAME_AT_MAC.get(_mac_code(key)), is_down=True)
+
+    def on_release(key: Any) -> None:
+        _tell(on_key, NAME_AT_MAC.get(_mac_code(key)), is_down=False)
+
+    with Listener(on_press=on_press, on_release=on_release, win32_event_filter=on_hook) as listener:
+        listener.wait()
+        yield listener.is_alive
+    # It closes its connection some time after it is stopped.
+    listener.join(CLOSE_S)
+
+
+def _mac_code(key: Any) -> int:
+    """The virtual keycode of a key that pynput heard on macOS; -1 if it has none."""
+    code = getattr(getattr(key, "value", key), "vk", None)
+    return -1 if code is None else int(code)
+
+
+def _tell(on_key: OnKey, name: str | None, *, is_down: bool) -> None:
+    if name is not None:
+        on_key(name, is_down)

@@ -1,0 +1,70 @@
+"""Starts the GLFW window of ``glfw_window.py`` and talks to it; on any system."""
+
+import json
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+TITLE = "Minecraft* 1.20.1 - Singleplayer"
+PATIENCE_S = 10.0
+
+Event = list[Any]
+
+
+class DrivenWindow:
+    """The window, by its connection."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        self._lines = connection.makefile("rwb")
+
+    def ask(self, command: str, *arguments: object) -> Any:
+        """Let the window do something; its answer."""
+        self._lines.write(json.dumps([command, *arguments]).encode() + b"\n")
+        self._lines.flush()
+        return json.loads(self._lines.readline())
+
+    def events_until(self, is_enough: Callable[[list[Event]], bool]) -> list[Event]:
+        """The events since they were last asked for, once there are enough; or all that came in PATIENCE_S."""
+        came: list[Event] = []
+        end = time.monotonic() + PATIENCE_S
+        while True:
+            came.extend(self.ask("events"))
+            if is_enough(came) or time.monotonic() > end:
+                return came
+            time.sleep(0.005)
+
+    def focus(self) -> None:
+        """Bring the window to the front, and forget the events until then."""
+        end = time.monotonic() + PATIENCE_S
+        while not self.ask("state")["has focus"]:
+            if time.monotonic() > end:
+                raise TimeoutError("the window didn't get the focus")
+            self.ask("focus")
+            time.sleep(0.02)
+        self.ask("events")
+
+
+@contextmanager
+def driven_window() -> Iterator[DrivenWindow]:
+    """The window, in a process of its own, in front."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        server.settimeout(60)
+        command = [sys.executable, str(Path(__file__).with_name("glfw_window.py")), str(server.getsockname()[1]), TITLE]
+        process = subprocess.Popen(command)
+        try:
+            connection, _ = server.accept()
+            with connection:
+                connection.settimeout(60)
+                window = DrivenWindow(connection)
+                window.focus()
+                yield window
+                connection.shutdown(socket.SHUT_RDWR)
+            process.wait(PATIENCE_S)
+        finally:
+            process.kill()
+            process.wait()

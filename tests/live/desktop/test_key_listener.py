@@ -1,0 +1,79 @@
+"""Keys heard by their places: from pynput's hook on Windows, from its keycodes on macOS, and on a real X server."""
+
+import sys
+from types import SimpleNamespace
+
+import pytest
+
+from mc_nested.live.desktop.key_listener import CLOSE_S, listening, listening_through_pynput
+from tests.live.desktop.fake_devices import KeyCode, Listener, install_pynput
+
+KEY_DOWN, KEY_UP, SYSTEM_KEY_DOWN, OTHER = 0x0100, 0x0101, 0x0104, 0x0051
+PACKET = 0xE7
+
+
+@pytest.fixture
+def listeners(monkeypatch: pytest.MonkeyPatch) -> list[Listener]:
+    return install_pynput(monkeypatch)[0]
+
+
+def hook_event(scan: int, *, is_extended: bool = False, virtual: int = 0x57) -> SimpleNamespace:
+    """KBDLLHOOKSTRUCT, as far as it is read."""
+    return SimpleNamespace(scanCode=scan, flags=0x10 | int(is_extended), vkCode=virtual)
+
+
+def test_windows_keys_have_the_names_of_their_scancodes(listeners: list[Listener]) -> None:
+    heard: list[tuple[str, bool]] = []
+    with listening_through_pynput(lambda *key: heard.append(key)):
+        on_hook = listeners[0].heard["win32_event_filter"]
+        on_hook(KEY_DOWN, hook_event(0x11))
+        on_hook(KEY_UP, hook_event(0x11))
+        on_hook(KEY_DOWN, hook_event(0x1D, is_extended=True))
+        on_hook(SYSTEM_KEY_DOWN, hook_event(0x44))
+    assert heard == [("w", True), ("w", False), ("right.control", True), ("f10", True)]
+
+
+def test_what_windows_reports_besides_keys_is_not_heard(listeners: list[Listener]) -> None:
+    heard: list[tuple[str, bool]] = []
+    with listening_through_pynput(lambda *key: heard.append(key)):
+        on_hook = listeners[0].heard["win32_event_filter"]
+        on_hook(KEY_DOWN, hook_event(0x11, virtual=PACKET))
+        on_hook(OTHER, hook_event(0x11))
+        on_hook(KEY_DOWN, hook_event(0x6F))
+    assert heard == []
+
+
+def test_pynput_does_not_ask_windows_layout_for_any_key(listeners: list[Listener]) -> None:
+    with listening_through_pynput(lambda *_: None):
+        for message in (KEY_DOWN, KEY_UP, OTHER):
+            assert listeners[0].heard["win32_event_filter"](message, hook_event(0x11)) is False
+
+
+def test_macos_keys_have_the_names_of_their_keycodes_whatever_they_type(listeners: list[Listener]) -> None:
+    heard: list[tuple[str, bool]] = []
+    with listening_through_pynput(lambda *key: heard.append(key)):
+        press, release = (listeners[0].heard[name] for name in ("on_press", "on_release"))
+        press(KeyCode(vk=0x0D, char="z"))
+        release(KeyCode(vk=0x0D, char="z"))
+        press(SimpleNamespace(value=KeyCode(vk=0x6F)))
+        for key in (None, KeyCode(char="w"), KeyCode(vk=0x999)):
+            press(key)
+            release(key)
+    assert heard == [("w", True), ("w", False), ("f12", True)]
+
+
+def test_it_listens_for_as_long_as_the_context_lasts_and_waits_for_its_end(listeners: list[Listener]) -> None:
+    with listening_through_pynput(lambda *_: None) as is_listening:
+        assert is_listening()
+    assert not is_listening()
+    assert listeners[0].joined == [CLOSE_S]
+
+
+if sys.platform.startswith("linux"):
+
+    @pytest.mark.window
+    def test_an_x_servers_keys_are_heard(x_screen: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> None:
+        monkeypatch.setenv("DISPLAY", x_screen["DISPLAY"])
+        with listening(lambda *_: None) as is_listening:
+            assert is_listening()
+        assert not is_listening()

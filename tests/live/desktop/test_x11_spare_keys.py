@@ -1,0 +1,49 @@
+"""Spare keys of an X server: lent to characters, four to a key, and given back."""
+
+import sys
+
+import pytest
+
+if not sys.platform.startswith("linux"):
+    pytest.skip("keys of an X server", allow_module_level=True)
+
+from mc_nested.live.desktop.x11_spare_keys import STATES, SpareKeys
+from tests.live.desktop.fake_x_display import FIRST, FakeXDisplay
+
+SPARE = FIRST + 100
+LETTERS = [ord(letter) for letter in "abcdeF"]
+
+
+def test_each_character_has_its_own_key_and_state() -> None:
+    display = FakeXDisplay(spare=3)
+    lent = SpareKeys(display).lend(LETTERS)  # type: ignore[arg-type]  # as much of a display as is used
+    assert list(lent) == LETTERS
+    assert list(lent.values()) == [
+        *((SPARE, state) for state in STATES),
+        (SPARE + 1, STATES[0]),
+        (SPARE + 1, STATES[1]),
+    ]
+
+
+def test_no_place_on_a_lent_key_stays_empty_since_a_letter_beside_nothing_has_two_cases() -> None:
+    display = FakeXDisplay(spare=3)
+    SpareKeys(display).lend(LETTERS)  # type: ignore[arg-type]
+    assert display.changed == {SPARE: LETTERS[:4], SPARE + 1: [ord("e"), ord("F"), ord("F"), ord("F")]}
+
+
+def test_characters_for_which_no_key_is_left_are_not_lent() -> None:
+    display = FakeXDisplay(spare=1)
+    assert list(SpareKeys(display).lend(LETTERS)) == LETTERS[:4]  # type: ignore[arg-type]
+
+
+def test_the_keys_type_nothing_again_once_they_are_given_back() -> None:
+    display = FakeXDisplay(spare=3)
+    before = list(display.rows)
+    keys = SpareKeys(display)  # type: ignore[arg-type]
+    keys.lend(LETTERS)
+    assert display.rows != before
+    keys.close()
+    assert display.rows == before
+    changes = display.changes
+    keys.close()
+    assert display.changes == changes
