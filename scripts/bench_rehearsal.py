@@ -2,12 +2,12 @@
 
     python scripts/bench_rehearsal.py [--actions 1000] [--each 100] [--only NAME ...] [--json]
 
-First `calibrate all` from nothing, and ``--actions`` actions, at 60 frames a second. Then, one factor at a time, another
-calibration and ``--each`` actions: at 10, 20, 30 and 144 frames a second; on the keyboards of France, Germany and Russia,
-and on Dvorak's; with a window manager. Actions are drawn uniformly from those that the rules don't void. Seconds are of
-wall-clock time, an action's from its call to its confirmation on the screen. Linux, on a display of its own; the same
-computer draws without a graphics card. Exit code 1 if a cell or a block was wrong, a calibration failed, or a target was
-missed.
+First `calibrate all` from nothing, and ``--actions`` actions, at 60 frames a second. Then, one factor at a time, a new
+calibration and ``--each`` actions: at 10, 20, 30 and 144 frames a second; on the keyboards of France, Germany and
+Russia, and on Dvorak's; with a window manager. Actions are drawn uniformly from those that the rules don't void.
+Seconds are of wall-clock time, an action's from its call to its confirmation on the screen. Linux, on a display of its
+own; the same computer draws without a graphics card. Exit code 1 if a cell or a block was wrong, a calibration failed,
+or a target was missed.
 """
 
 import argparse

@@ -42,12 +42,15 @@ def is_installed(package: str) -> bool:
 
 
 @contextmanager
-def open_display(*, layout: str = "us", has_window_manager: bool = False) -> Iterator[dict[str, str]]:
+def open_display(
+    *, layout: str = "us", has_window_manager: bool = False, has_opengl: bool = True
+) -> Iterator[dict[str, str]]:
     """The environment of programs on a new, empty display; what was started is ended after the block."""
     with ExitStack() as started:
         read, write = os.pipe()
         screen = f"{SIZE[0]}x{SIZE[1]}x24"
         server = [XVFB.required(), "-displayfd", str(write), "-screen", "0", screen, "-nolisten", "tcp", "-noreset"]
+        server += [] if has_opengl else ["-extension", "GLX"]
         started.enter_context(running(server, keep=(write,)))
         os.close(write)
         with os.fdopen(read) as numbers:

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 
@@ -16,9 +15,8 @@ def window_programs(tmp_path_factory: pytest.TempPathFactory) -> None:
 
     A machine where that is impossible skips the test and says how to get it; with CI set, that is a failure.
     """
-    log: Path = tmp_path_factory.mktemp("apt") / "apt.log"
     try:
-        install_programs(print, log)
+        install_programs(print, tmp_path_factory.mktemp("apt") / "apt.log")
     except MissingError as error:
         if os.environ.get("CI"):
             pytest.fail(str(error))

@@ -21,7 +21,7 @@ SMALLEST: Size = (320, 240)
 LARGEST_SCALE = 8
 LOWEST_FPS, HIGHEST_FPS = 5.0, 300.0
 LONGEST_LAG_MS = 500.0
-_VERSION = re.compile(r"1\.(8|9|1\d|2[01])(\.\d+)?|2\d\.\d+(\.\d+)?")
+_VERSION = re.compile(r"1\.(1[2-9]|2[01])(\.\d+)?|2\d\.\d+(\.\d+)?")
 
 
 def rehearse(
@@ -55,12 +55,14 @@ def rehearse(
     # Loaded only here: where GLFW or OpenGL is missing, that is said in one line.
     from sim.window.rehearsal import Rehearsal, rehearse
 
+    def explain() -> None:
+        typer.echo(f"Rehearsing Minecraft {version}. Press F3+P in the window, or it pauses while another is in front.")
+        typer.echo("To learn calibration, run this in another terminal, and switch to the window:")
+        typer.echo(f"  mc-nested calibrate all --profile rehearsal --font {font or _font_picture()}")
+        typer.echo("Close the window to end.")
+
     _check_alone()
-    picture = font or _font_picture()
-    typer.echo(f"Rehearsing Minecraft {version}: in another terminal, with this window in front,")
-    typer.echo(f"  mc-nested calibrate all --profile rehearsal --font {picture}")
-    typer.echo("Press F3+P first, or the game pauses while another window is in front. Close the window to end.")
-    rehearse(Rehearsal(settings, fps, lag / 1000, mishaps, truth))
+    rehearse(Rehearsal(settings, fps, lag / 1000, mishaps, truth), explain)
 
 
 def _version(name: str) -> str:

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -35,23 +36,27 @@ class Rehearsal:
     truth: Path | None = None
 
 
-def rehearse(rehearsal: Rehearsal) -> None:
-    """Open the window, and return when it is closed; DesktopError where none can be opened."""
+def rehearse(rehearsal: Rehearsal, on_open: Callable[[], None]) -> None:
+    """Open the window, call ``on_open``, and return when it is closed; DesktopError where none can be opened."""
     lag = (rehearsal.lag_s, rehearsal.lag_s)
     settings = dataclasses.replace(rehearsal.settings, fps=math.inf, input_latency_s=lag, capture_latency_s=lag)
     with open_glfw_window(f"Minecraft {settings.version}", settings.size) as window:
+        context = _context()
         client = VirtualClient(settings, clipboard=window)
         client.resize(window.size)
         if rehearsal.mishaps_a_minute:
             rng = np.random.default_rng(settings.seed)
             Mishaps(MishapWindow(window, client), rng).every(rehearsal.mishaps_a_minute / 60)
         truth = TruthFile(rehearsal.truth, client) if rehearsal.truth else None
-        _run(window, client, rehearsal.fps or refresh_rate(), truth)
+        on_open()
+        _run(window, WindowPicture(context, client), client, rehearsal.fps or refresh_rate(), truth)
 
 
-def _run(window: GlfwWindow, client: VirtualClient, fps: float, truth: TruthFile | None) -> None:
+def _run(
+    window: GlfwWindow, picture: WindowPicture, client: VirtualClient, fps: float, truth: TruthFile | None
+) -> None:
     """The game's loop: wait for the frame and take events meanwhile, run the ticks that are due, draw."""
-    events, picture = InputEvents(window, client), WindowPicture(_context(), client)
+    events = InputEvents(window, client)
     pacer = FramePacer(client.clock, fps, now())
     title = ""
     while not window.is_closing:

@@ -1,0 +1,44 @@
+"""``mc-nested rehearse``: what it refuses; the window itself is in tests/sim/window."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cli.running import run
+
+
+def refused(capsys: pytest.CaptureFixture[str], *words: str | Path) -> str:
+    """The one line that says why it isn't rehearsed."""
+    assert run("rehearse", *words) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.count("\n") == 1
+    return printed.err
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--size", "200x100"], "200x100 has no room for the game: at least 320x240"),
+        (["--size", "wide"], "no window has the size 'wide': write width x height in pixels, such as 854x480"),
+        (["--version", "1.7.10"], "no version '1.7.10' can be rehearsed: name one from 1.12 to 26.3"),
+        (["--version", "newest"], "no version 'newest' can be rehearsed"),
+        (["--gui-scale", "9"], "--gui-scale"),
+        (["--fps", "1"], "--fps"),
+        (["--lag", "-1"], "--lag"),
+        (["--font", "nothing.png"], "nothing.png"),
+    ],
+)
+def test_a_mistake_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert says in refused(capsys, *words)
+
+
+if sys.platform.startswith("linux"):
+
+    def test_without_a_display_it_says_where_to_run_it(
+        capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+            monkeypatch.delenv(name, raising=False)
+        assert "no window can be opened" in refused(capsys)

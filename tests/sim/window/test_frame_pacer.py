@@ -1,0 +1,37 @@
+import pytest
+
+from sim.client.desktop.clock import VirtualClock
+from sim.window.frame_pacer import FramePacer
+
+
+def test_the_clients_time_follows_the_real_time_frame_by_frame() -> None:
+    clock = VirtualClock(100.0)
+    pacer = FramePacer(clock, 50.0, 7.0)
+    due = []
+    for late in (0.0, 0.001, 0.0):
+        at = pacer.next_frame + late
+        due.append(pacer.next_frame)
+        pacer.begin_frame(at)
+        assert clock.now() == pytest.approx(100.0 + at - 7.0)
+    assert due == pytest.approx([7.0, 7.02, 7.04])
+
+
+def test_a_late_frame_does_not_hurry_the_next_ones() -> None:
+    pacer = FramePacer(VirtualClock(), 50.0, 0.0)
+    pacer.begin_frame(0.3)
+    assert pacer.next_frame == pytest.approx(0.3)
+    pacer.begin_frame(0.3)
+    assert pacer.next_frame == pytest.approx(0.32)
+
+
+def test_of_a_long_stall_ten_ticks_are_made_up_for() -> None:
+    clock = VirtualClock(0.0)
+    ticks: list[float] = []
+    for number in range(100):
+        clock.call_at(0.05 * number + 0.01, lambda: ticks.append(clock.now()))
+    pacer = FramePacer(clock, 50.0, 0.0)
+    pacer.begin_frame(3.0)
+    assert len(ticks) == 10
+    assert clock.now() == pytest.approx(0.5)
+    pacer.begin_frame(3.1)
+    assert clock.now() == pytest.approx(0.6), "what was lost stays lost"

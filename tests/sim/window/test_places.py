@@ -1,0 +1,25 @@
+import pytest
+
+from mc_nested.live.model.key_names import check_key
+from sim.client.game.keys import BINDINGS
+from sim.window.places import PLACES
+
+
+@pytest.mark.parametrize(
+    ("number", "name"),
+    [(87, "w"), (32, "space"), (340, "left.shift"), (292, "f3"), (301, "f12"), (47, "/"), (49, "1"), (256, "esc")],
+)
+def test_keys_are_named_as_in_profiles(number: int, name: str) -> None:
+    # The numbers are those of glfw3.h.
+    assert PLACES[number] == name
+
+
+def test_every_name_is_one_that_a_profile_may_use() -> None:
+    for name in PLACES.values():
+        check_key(name)
+    assert len(set(PLACES.values())) == len(PLACES)
+
+
+def test_every_key_of_the_game_has_a_place() -> None:
+    keys = {key for key in BINDINGS if not key.endswith("button")} - {" "}
+    assert keys <= set(PLACES.values())

@@ -1,0 +1,192 @@
+"""From a bare profile to the pixels of a real window and back: the rehearsal's, checked by what its client says.
+
+Never beside other tests: the window is drawn in real time.
+"""
+
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+if not sys.platform.startswith("linux"):
+    pytest.skip("windows of an X server", allow_module_level=True)
+
+from Xlib import X
+from Xlib.display import Display
+from Xlib.ext import xtest
+from Xlib.protocol import event
+
+from mc_nested.arena.scenario_file import draw_grid, load_scenario
+from mc_nested.live.profile.store import load_profile
+from scripts.bench_rehearsal import CONDITIONS, USUAL, Condition, play
+from scripts.rehearsal_window import ROOT, RehearsalWindow, mc_nested, open_rehearsal
+from scripts.window_display import open_display
+
+pytestmark = pytest.mark.window
+
+F12 = 96
+"""A keycode of an X server: 8 more than Linux's own."""
+
+LONGEST_CALIBRATION_S = 100.0
+ACTIONS = 20
+SOON_S = 60.0
+
+
+def calibrate(rehearsal: RehearsalWindow, profile: Path) -> None:
+    mc_nested("calibrate", "all", "--yes", "--profile", profile, "--font", rehearsal.font, env=rehearsal.env)
+
+
+@pytest.fixture(scope="module")
+def profile(tmp_path_factory: pytest.TempPathFactory, window_programs: None) -> Path:  # noqa: ARG001
+    """A profile calibrated in a window at 60 frames a second, from nothing and within its time."""
+    folder = tmp_path_factory.mktemp("calibrated")
+    with open_display() as env, open_rehearsal(env, folder) as rehearsal:
+        began = time.monotonic()
+        calibrate(rehearsal, folder / "profile.toml")
+        assert time.monotonic() - began < LONGEST_CALIBRATION_S
+    return folder / "profile.toml"
+
+
+@contextmanager
+def in_its_arena(profile: Path, folder: Path, condition: Condition = USUAL) -> Iterator[RehearsalWindow]:
+    """A rehearsal under that condition. Its world is new: the arena is only where the profile says."""
+    with (
+        open_display(layout=condition.layout, has_window_manager=condition.has_window_manager) as env,
+        open_rehearsal(env, folder, "--fps", str(condition.fps)) as rehearsal,
+    ):
+        assert load_profile(str(profile)).arena is not None
+        yield rehearsal
+
+
+@pytest.mark.parametrize(("design", "preset"), [("line", "paper"), ("diamond", "tuned")])
+def test_a_policy_learnt_in_the_simulator_builds_its_design(
+    design: str, preset: str, profile: Path, tmp_path: Path
+) -> None:
+    run, scenario = tmp_path / "run", load_scenario(design)
+    with in_its_arena(profile, tmp_path) as rehearsal:
+        words = ("--scenario", design, "--preset", preset, "--stop-at-optimum", "--out", run)
+        mc_nested("train", *words, env=rehearsal.env)
+        printed = mc_nested("play", run, "--backend", "live", "--profile", profile, env=rehearsal.env)
+        assert f"score {scenario.optimum:g} of {scenario.optimum:g}" in printed
+        arena = load_profile(str(profile)).marked_arena()
+        material = printed.split(", in ")[1].split(",")[0]
+        block = scenario.materials[scenario.material_index(material)].block
+        assert rehearsal.truth.standing(arena) == {arena.block_of(cell): block for cell in scenario.design}
+        assert rehearsal.truth.now()["keys_down"] == []
+
+
+@pytest.mark.parametrize("condition", [each for each in CONDITIONS if each != USUAL], ids=lambda each: each.name)
+def test_nothing_is_ever_wrong_at_any_rate_on_any_layout_with_a_window_manager(
+    condition: Condition, profile: Path, tmp_path: Path
+) -> None:
+    with in_its_arena(profile, tmp_path, condition) as rehearsal:
+        figures = play(profile, rehearsal.truth_file, ACTIONS, 0, rehearsal.env)
+    assert (figures["actions"], figures["wrong_cells"], figures["wrong_blocks"]) == (ACTIONS, 0, 0)
+    assert figures["failed_actions"] <= ACTIONS // 4
+
+
+def soon(is_so: Callable[[], bool]) -> bool:
+    """Whether it comes true before long."""
+    end = time.monotonic() + SOON_S
+    while not is_so():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.05)
+    return True
+
+
+class Training:
+    """A live training in a process of its own, and the desktop that it runs on."""
+
+    def __init__(self, rehearsal: RehearsalWindow, profile: Path, folder: Path, display: Display) -> None:
+        self.rehearsal, self.display, self.run = rehearsal, display, folder / "run"
+        tiny = folder / "tiny.toml"
+        grid = draw_grid(frozenset({(7, 13), (7, 12), (7, 11)}))
+        tiny.write_text(
+            f'name = "tiny"\nstart = [7, 13]\nstep_limit = 8\ndesign = """\n{grid}"""\n'
+            '[[materials]]\nname = "stone"\np = 0\nblock = "stone"\n'
+        )
+        self.words = ["train", "--scenario", str(tiny), "--preset", "live", "--episodes", "12", "--out", str(self.run)]
+        self.words += ["--backend", "live", "--profile", str(profile)]
+
+    def start(self, *words: str) -> "subprocess.Popen[str]":
+        command = [sys.executable, "-m", "mc_nested.cli", *(words or self.words)]
+        env = {**self.rehearsal.env, "PYTHONPATH": str(ROOT)}
+        return subprocess.Popen(command, env=env, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def is_moving(self) -> bool:
+        """Whether the agent holds a key in the world."""
+        return bool(self.rehearsal.truth.now()["keys_down"])
+
+    def is_resting(self) -> bool:
+        return not self.is_moving()
+
+    def window(self) -> object:
+        return self.display.screen().root.query_tree().children[-1]
+
+
+@pytest.fixture
+def training(profile: Path, tmp_path: Path) -> Iterator[Training]:
+    with in_its_arena(profile, tmp_path) as rehearsal:
+        display = Display(rehearsal.env["DISPLAY"])
+        try:
+            yield Training(rehearsal, profile, tmp_path, display)
+        finally:
+            display.close()
+
+
+def test_the_panic_key_stops_a_live_training_which_goes_on_later(training: Training) -> None:
+    process = training.start()
+    assert soon(training.is_moving)
+    for kind in (X.KeyPress, X.KeyRelease):
+        xtest.fake_input(training.display, kind, F12)
+    training.display.sync()
+    _, said = process.communicate(timeout=SOON_S)
+    assert process.returncode != 0
+    assert "the panic key was pressed" in said
+    assert soon(training.is_resting)
+    resumed = training.start("train", "--resume", str(training.run))
+    _, said = resumed.communicate(timeout=300)
+    assert resumed.returncode == 0, said
+    assert json.loads((training.run / "summary.json").read_text())["episodes_done"] == [12]
+
+
+def test_another_window_and_another_size_in_the_middle_are_survived(training: Training) -> None:
+    process = training.start()
+    root, game = training.display.screen().root, training.display.get_input_focus().focus
+    assert soon(training.is_moving)
+    thief = root.create_window(900, 0, 100, 100, 0, X.CopyFromParent)
+    thief.map()
+    training.display.sync()
+    thief.set_input_focus(X.RevertToParent, X.CurrentTime)
+    training.display.sync()
+    assert soon(lambda: not training.rehearsal.truth.now()["is_in_front"])
+    assert soon(training.is_resting)
+    time.sleep(0.3)
+    game.set_input_focus(X.RevertToParent, X.CurrentTime)
+    training.display.sync()
+    assert soon(training.is_moving)
+    game.configure(width=1000, height=600)
+    training.display.sync()
+    _, said = process.communicate(timeout=300)
+    assert process.returncode == 0, said
+    assert json.loads((training.run / "summary.json").read_text())["episodes_done"] == [12]
+
+
+def test_a_window_that_is_closed_ends_the_training_in_one_line(training: Training) -> None:
+    process = training.start()
+    window = training.display.get_input_focus().focus
+    assert soon(training.is_moving)
+    protocols, delete = (training.display.intern_atom(name) for name in ("WM_PROTOCOLS", "WM_DELETE_WINDOW"))
+    data = (32, [delete, X.CurrentTime, 0, 0, 0])
+    window.send_event(event.ClientMessage(window=window, client_type=protocols, data=data))
+    training.display.sync()
+    _, said = process.communicate(timeout=SOON_S)
+    assert process.returncode == 2, said
+    assert "has closed: start the game again" in said
+    assert "Traceback" not in said
