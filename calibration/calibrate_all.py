@@ -24,8 +24,9 @@ from mc_nested.errors import DesktopError
 from mc_nested.live.connection import screen_for
 from mc_nested.live.devices import Devices
 from mc_nested.live.menus.recovery import Recovery
-from mc_nested.live.profile.fingerprint import game_in, version_in
+from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import CalibratedTable, Profile
+from mc_nested.live.profile.window_title import version_in
 
 GATES = frozenset(
     {

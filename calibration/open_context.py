@@ -1,4 +1,7 @@
-"""Opens a CalibrationContext on a game's window. A watchdog, the panic key and screen corners can stop its input."""
+"""Opens a CalibrationContext on a game's window.
+
+A watchdog releases keys that are held too long; the panic key stops all input, and so does a free mouse in a corner.
+"""
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager

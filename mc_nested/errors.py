@@ -7,7 +7,7 @@ McNestedError
 │   ├── ProfileError     a profile that can't be found or read, or doesn't fit the screen
 │   ├── FontError        a font picture or jar that can't be used
 │   ├── RunError         an output folder, a run or a checkpoint that can't be used
-│   └── DesktopError     no display, Wayland, a window that can't be used
+│   └── DesktopError     no display, a Wayland session without Xwayland, a window that can't be used
 │       ├── NoWindowError     no window of that title is there
 │       └── ClipboardError    a clipboard that can't be read, or whose content could not be put back
 └── LiveError            the game did not do what was asked; keys are released before it is raised

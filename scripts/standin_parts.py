@@ -87,7 +87,7 @@ FONTS = Pack(
 def install_programs(say: Say, log: Path) -> None:
     """Install missing programs with apt; MissingError where that is impossible."""
     packages = [program.package for program in PROGRAMS if program.path() is None]
-    packages += [] if _has_opengl() else [SOFTWARE_OPENGL]
+    packages += [] if is_installed(SOFTWARE_OPENGL) else [SOFTWARE_OPENGL]
     if packages:
         apt_install("the stand-in", packages, say, log)
     check_node()
@@ -175,11 +175,11 @@ def unpack(archive: Path, wanted: re.Pattern[str], folder: Path) -> None:
             target.write_bytes(content.read())
 
 
-def _has_opengl() -> bool:
+def is_installed(package: str) -> bool:
     """Whether Debian's package is installed. Other systems aren't checked: a missing one shows in the window."""
     if shutil.which("dpkg-query") is None:
         return True
-    asked = ["dpkg-query", "--show", "--showformat", "${Status}", SOFTWARE_OPENGL]
+    asked = ["dpkg-query", "--show", "--showformat", "${Status}", package]
     answer = subprocess.run(asked, capture_output=True, text=True, timeout=30, check=False)  # noqa: S603 - fixed
     return answer.stdout == "install ok installed"
 

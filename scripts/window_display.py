@@ -4,7 +4,6 @@ Standard library only, and Linux only.
 """
 
 import os
-import shutil
 import subprocess
 import tempfile
 import time
@@ -12,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
-from scripts.standin_parts import XVFB, Program, Say, apt_install
+from scripts.standin_parts import XVFB, Program, Say, apt_install, is_installed
 
 OPENBOX = Program(("openbox",), "openbox")
 SETXKBMAP = Program(("setxkbmap",), "x11-xkb-utils")
@@ -30,15 +29,6 @@ def install_programs(say: Say, log: Path) -> None:
     packages |= {library for library in LIBRARIES if not is_installed(library)}
     if packages:
         apt_install("a real window", sorted(packages), say, log)
-
-
-def is_installed(package: str) -> bool:
-    """Whether Debian's package is installed. Other systems aren't checked: what is missing shows when it is needed."""
-    if shutil.which("dpkg-query") is None:
-        return True
-    asked = ["dpkg-query", "--show", "--showformat", "${Status}", package]
-    answer = subprocess.run(asked, capture_output=True, text=True, timeout=30, check=False)  # noqa: S603 - fixed
-    return answer.stdout == "install ok installed"
 
 
 @contextmanager

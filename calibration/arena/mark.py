@@ -15,14 +15,14 @@ from mc_nested.arena.rules import SIZE, Cell, is_inside
 from mc_nested.errors import ProfileError, UserError
 from mc_nested.live.connection import connect
 from mc_nested.live.desktop import open_desktop
-from mc_nested.live.devices import Devices
+from mc_nested.live.devices import SWITCH_KEYS, Devices
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.coordinates import block_of, facing_of, turn_between, yaw_of
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.profile.arena import Arena
-from mc_nested.live.profile.fingerprint import version_in
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import GameVersion, Profile
+from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.font import load_font
 
 NEAR_MIDDLE: Cell = (SIZE // 2, 0)
@@ -65,7 +65,7 @@ def mark_arena(
     path, profile = load_profile_with_font(profile_name, standing, font)
     with open_devices(profile.window.title) as devices:
         say(
-            f"Switch to the game, stand on {_cell_text(standing)}, look across it "
+            f"Switch to the game with {SWITCH_KEYS}, stand on {_cell_text(standing)}, look across it "
             f"along an axis of the world, and turn the debug screen on (F3). Stand still."
         )
         reading = wait_until_standing_still(connect(profile, devices))

@@ -12,6 +12,7 @@ from calibration.context import CalibrationContext, StepResult
 from calibration.open_context import OpenContext
 from calibration.starting_profile import check_writable
 from mc_nested.errors import NotConfirmedError, UserError
+from mc_nested.live.devices import SWITCH_KEYS
 from mc_nested.live.menus.commands import teleport_command
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.reading import Block
@@ -48,7 +49,7 @@ def undo_arena(context: CalibrationContext, profile: Profile) -> StepResult:
     """
     arena, copied_to = profile.marked_arena(), _copy_of(profile)
     connection = context.connection.for_profile(profile)
-    context.say("Switch to the game: what stood where the arena is will be put back.")
+    context.say(f"Switch to the game with {SWITCH_KEYS}: what stood where the arena is will be put back.")
     wait_until_standing_still(connection)
     connection.check_single_player()
     console = CommandConsole(connection, profile)

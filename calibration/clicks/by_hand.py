@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 
 from calibration.clicks.recorded_point import RecordedPoint
-from mc_nested.live.devices import Display, Pointer
+from mc_nested.live.devices import SWITCH_KEYS, Display, Pointer
 from mc_nested.live.menus.click_points import has_pattern
 
 
@@ -33,7 +33,7 @@ def record_by_hand(
 
 def _under_pointer(name: str, display: Display, pointer: Pointer, say: Callable[[str], None]) -> RecordedPoint | None:
     if not display.is_in_front():
-        say("another window is in front: click on the game, hover, and press the key again")
+        say(f"another window is in front: switch to the game with {SWITCH_KEYS}, hover, and press the key again")
         return None
     (x, y), frame = pointer.position(), display.grab()
     height, width = frame.shape[:2]

@@ -19,8 +19,8 @@ from calibration.write_result import write_picture, write_result
 from mc_nested.errors import NotConfirmedError, ProfileError, UserError
 from mc_nested.live.desktop.hotkeys import open_hotkeys
 from mc_nested.live.menus.screens import RESPAWN
-from mc_nested.live.profile.fingerprint import version_in
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.profile.window_title import version_in
 
 STEP = "clicks"
 

@@ -11,7 +11,7 @@ from calibration.clicks.recorded_point import RecordedPoint
 from mc_nested.errors import LiveError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import Frame, Region
+from mc_nested.live.devices import SWITCH_KEYS, Frame, Region
 from mc_nested.live.menus.click_points import record_point
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.screens import BACK, ENTER, LABELS, LEAVE, PLAY, PLAY_IT, QUIT, WORLD
@@ -19,6 +19,7 @@ from mc_nested.live.menus.wait_for_player import wait_for_front, wait_until_stan
 from mc_nested.live.model.timing import MENU_LOOK_S
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.profile.window_title import may_be_shared
 from mc_nested.live.vision.chat_region import without_chat
 from mc_nested.live.vision.game_screen import WORLDS_TITLE
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS
@@ -60,7 +61,7 @@ class MenuWalk:
         self.points: dict[str, RecordedPoint] = {}
         self.notes: list[str] = []
         self.is_single_player = False
-        say("Switch to the game. Its menus are gone through now: leave mouse and keys alone.")
+        say(f"Switch to the game with {SWITCH_KEYS}. Its menus are gone through now: leave mouse and keys alone.")
         wait_for_front(connection.devices)
         self._recovery.recover()
         self._before = wait_until_standing_still(connection)
@@ -77,7 +78,7 @@ class MenuWalk:
             self._find(BACK, LABELS["pause"], is_over_world=True)
             self._find(LEAVE, (QUIT,), is_over_world=True)
             menu, title = self._screen.menu(), self._display.title()
-            self.is_single_player = "Multiplayer" not in title and all(
+            self.is_single_player = not may_be_shared(title) and all(
                 menu.button(each).is_enabled for each in (QUIT, LAN)
             )
         else:

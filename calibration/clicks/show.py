@@ -8,6 +8,7 @@ from calibration.open_context import OpenContext
 from calibration.starting_profile import starting_profile
 from calibration.write_result import write_picture
 from mc_nested.errors import ProfileError
+from mc_nested.live.devices import SWITCH_KEYS
 from mc_nested.live.menus.click_points import ClickPoints, hover_over
 from mc_nested.live.menus.point_pictures import load_click_points
 from mc_nested.live.menus.wait_for_player import wait_for_front
@@ -62,6 +63,6 @@ def _points_of(profile_name: str | Path) -> tuple[Path, Profile, ClickPoints]:
 
 
 def _wait_for_menu(context: CalibrationContext) -> None:
-    context.say("Switch to the game, to the menu that is to be looked at.")
+    context.say(f"Switch to the game with {SWITCH_KEYS}, to the menu that is to be looked at.")
     wait_for_front(context.devices)
     context.controller.wait(SETTLE_S)

@@ -20,9 +20,9 @@ from mc_nested.errors import DesktopError, NoWindowError
 from mc_nested.live.desktop import open_desktop, session_kind
 from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.profile.fingerprint import version_in
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.profile.window_title import version_in
 
 
 @dataclass(frozen=True)

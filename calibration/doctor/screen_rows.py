@@ -7,7 +7,7 @@ from calibration.doctor.check import Check, CheckName, check_from_message
 from calibration.doctor.options_rows import FIX
 from calibration.doctor.snapshot import ScreenContents, WindowSnapshot
 from calibration.installation.options_txt import OptionsTxt
-from mc_nested.live.profile.fingerprint import version_in
+from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.overlay import POSITION, REDUCED
 
 SCREEN_CHECKS = (
@@ -23,6 +23,7 @@ OTHER_SCREENS = {
     "disconnected": ("the game was disconnected", "open the world again"),
     "title": ("the title screen is there", "open the world"),
     "worlds": ("the list of worlds is there", "open the world"),
+    "servers": ("the list of servers is there", "press Esc, and open the world"),
     "chat": ("the chat is open", "press Esc"),
 }
 """Each screen that may be there instead of the world: what it is, and what to do."""

@@ -4,14 +4,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import Devices, Frame
-from mc_nested.live.menus.screens import LABELS, ScreenName
+from mc_nested.live.devices import SWITCH_KEYS, Devices, Frame
+from mc_nested.live.menus.screens import ScreenName, menu_name
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.timing import PERSON_LOOK_S
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.vision.debug_screen import nothing_seen, read_found
 from mc_nested.live.vision.font import Font
-from mc_nested.live.vision.game_screen import WORLDS_TITLE, WindowScreen
+from mc_nested.live.vision.game_screen import WindowScreen
 from mc_nested.live.vision.layout import Overlay
 from mc_nested.live.vision.menu_labels import MenuLabels
 from mc_nested.live.vision.overlay import SCALES, find_debug_screen
@@ -90,7 +90,8 @@ def wait_until_readable(
     snapshot = take_snapshot(devices, font, overlay)
     if not _is_readable(snapshot):
         say(
-            "Switch to the game now, close its menus, and turn the debug screen on (F3): "
+            f"Switch to the game now with {SWITCH_KEYS}, not by a click, close its menus, "
+            "and turn the debug screen on (F3): "
             f"the doctor looks for {READABLE_S if snapshot.is_in_front else FRONT_S:.0f} s."
         )
     while not _is_readable(snapshot):
@@ -110,10 +111,6 @@ def _is_readable(snapshot: WindowSnapshot) -> bool:
 def _menu_in(frame: Frame, font: Font) -> tuple[ScreenName, int | None]:
     """The menu in a frame and its GUI scale, or "unknown"."""
     for scale in SCALES:
-        menu = MenuLabels(frame, font, scale)
-        for name, labels in LABELS.items():
-            if any(menu.button(label).middle for label in labels):
-                return name, scale
-        if menu.shows(WORLDS_TITLE):
-            return "worlds", scale
+        if (name := menu_name(MenuLabels(frame, font, scale))) is not None:
+            return name, scale
     return "unknown", None

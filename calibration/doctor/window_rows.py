@@ -2,6 +2,7 @@
 
 from calibration.doctor.check import Check, CheckName
 from calibration.doctor.snapshot import WindowSnapshot
+from mc_nested.live.devices import SWITCH_KEYS
 from mc_nested.live.profile.tables import Profile
 
 LEAST = (320, 240)
@@ -29,7 +30,7 @@ def front_row(snapshot: WindowSnapshot) -> Check:
         CheckName.IN_FRONT,
         "fail",
         "another window is in front, so nothing was pressed",
-        "click on the game, run this again",
+        f"switch to the game with {SWITCH_KEYS}, not by a click, and run this again",
     )
 
 

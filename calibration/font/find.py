@@ -17,12 +17,12 @@ from calibration.report.kept import keep_or_warn
 from calibration.starting_profile import starting_profile
 from calibration.write_result import write_picture, write_result
 from mc_nested.errors import ClipboardError, FontError, NotConfirmedError, UnreadableError
-from mc_nested.live.devices import Frame
+from mc_nested.live.devices import SWITCH_KEYS, Frame
 from mc_nested.live.menus.recovery import UNKNOWN_S, Recovery
 from mc_nested.live.menus.wait_for_player import wait_for_front
 from mc_nested.live.model.timing import PERSON_LOOK_S
-from mc_nested.live.profile.fingerprint import version_in
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.font import load_font
 from mc_nested.live.vision.game_screen import WindowScreen
@@ -100,7 +100,7 @@ def find_font(context: CalibrationContext, profile: Profile, sources: FontSource
             "no client jar of the game can be used: name it with --font (versions/1.20.1/1.20.1.jar in the game's "
             f"folder){': ' if unusable else ''}{'; '.join(unusable[:1])}"
         )
-    context.say("Switch to the game, in a world, with the debug screen on (F3), and stand still.")
+    context.say(f"Switch to the game with {SWITCH_KEYS}, in a world, with the debug screen on (F3), and stand still.")
     wait_for_front(context.devices)
     chosen = _on_screen(context, profile, candidates, sources)
     frame = context.devices.display.grab()

@@ -43,7 +43,9 @@ def nothing_fits(
     for scale in _LARGER_SCALES:
         overlay = Overlay(scale, VANILLA, VANILLA.text_colour)
         if any(find_debug_screen(frame, each.font, overlay) for frame in frames for each in candidates):
-            return UnreadableError(f"the GUI scale is {scale}: choose 1, 2, 3 or 4 in the game's Video Settings")
+            return UnreadableError(
+                f"the GUI scale is {scale}: choose {min(SCALES)} to {max(SCALES)} in the game's Video Settings"
+            )
     names = _names(candidates)
     if not any(_has_text(frame) for frame in frames):
         return UnreadableError(
@@ -54,8 +56,8 @@ def nothing_fits(
     is_english = language.lower().startswith("en_")
     hint = "" if is_english else f", set the language to English (it is {language})"
     return FontError(
-        f"the letters on the screen fit none of these fonts: {names}: name the jar of the version that runs, or "
-        f"the resource pack in use, with --font; switch Force Unicode Font off{hint}"
+        f"the letters on the screen fit none of these fonts: {names}: name the jar of the version that runs, or the "
+        f"resource pack in use, with --font; take off a pack with finer letters; switch Force Unicode Font off{hint}"
     )
 
 

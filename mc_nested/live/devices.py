@@ -16,6 +16,11 @@ Frame = NDArray[np.uint8]
 Button = Literal["left", "right", "middle"]
 
 
+SWITCH_KEYS = "Alt+Tab (Cmd+Tab on a Mac)"
+"""What a person brings the game to the front with. A click does so, too, but the game also takes it as an attack, which
+breaks the block that the player looks at (FACTS: Input and windows)."""
+
+
 @dataclass(frozen=True)
 class Region:
     """A rectangle of a window's client area, in framebuffer pixels from its top left corner."""

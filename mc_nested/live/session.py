@@ -7,7 +7,7 @@ from pathlib import Path
 from mc_nested.arena.scenario import Scenario
 from mc_nested.live.connection import connect
 from mc_nested.live.desktop import open_desktop
-from mc_nested.live.devices import Devices, Display
+from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
 from mc_nested.live.input.watchdog import watched
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.menus.point_pictures import load_click_points
@@ -52,7 +52,10 @@ def open_live_game(
         # Checked twice: before anybody has to switch windows, and again once the GUI scale can be read.
         check_fit(profile.calibrated, fingerprint_of(devices.display), profile_name)
         if not devices.display.is_in_front():
-            say("Switch to the game now, with the debug screen on (F3). Switching away again stops the agent.")
+            say(
+                f"Switch to the game now with {SWITCH_KEYS}, not by a click, and have the debug screen on (F3). "
+                "Switching away again stops the agent."
+            )
         wait_until_standing_still(connection)
         check_fit(profile.calibrated, fingerprint_of(devices.display, connection.screen.scale()), profile_name)
         points = load_click_points(profile, profile_path(profile_name))

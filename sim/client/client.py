@@ -197,7 +197,8 @@ class VirtualClient:
         return Painter(size, self.scale, self._font, self.edition, settings.world, settings.seed, settings.words)
 
     def _title(self) -> str:
-        return self.edition.title(in_world=self.game.is_in_world)
+        state = self.settings.words.get("Singleplayer", "Singleplayer")
+        return self.edition.title(in_world=self.game.is_in_world, state=state)
 
     def _tick(self) -> None:
         self._next_tick += TICK_S

@@ -22,7 +22,7 @@ except ImportError as missing:
 
 OPENGL = (3, 3)
 
-SPIN_S = 0.002
+SPIN_S = 0.002 if sys.platform == "win32" else 0.0005
 """The end of a wait, in seconds, in which events are asked for again and again: a wait may last that much too long."""
 
 USUAL_RATE = 60.0
@@ -34,6 +34,8 @@ class GlfwWindow:
 
     def __init__(self, handle: Any) -> None:
         self.handle = handle
+        self._is_stale = True
+        glfw.set_window_refresh_callback(handle, lambda _: self._lose_picture())
 
     @property
     def size(self) -> tuple[int, int]:
@@ -82,9 +84,18 @@ class GlfwWindow:
             else:
                 glfw.poll_events()
 
+    @property
+    def is_stale(self) -> bool:
+        """Whether the desktop has lost what was shown."""
+        return self._is_stale
+
     def show(self) -> None:
         """Show what was drawn."""
         glfw.swap_buffers(self.handle)
+        self._is_stale = False
+
+    def _lose_picture(self) -> None:
+        self._is_stale = True
 
     # The desktop's clipboard.
 

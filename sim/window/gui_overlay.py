@@ -1,12 +1,16 @@
 """The GUI over the world, to the pixel: what the client's painter draws, drawn by OpenGL."""
 
+from collections.abc import Sequence
+
 import moderngl
 import numpy as np
 
 from mc_nested.live.devices import Frame
+from sim.client.drawing.layers import Rect
 from sim.client.drawing.picture import LayeredPicture
 from sim.client.drawing.view_layers import ViewLayers
 from sim.client.game.view import View
+from sim.window.tiles import triangles
 
 _VERTEX = """
 #version 330
@@ -46,9 +50,10 @@ class GuiOverlay:
             texture.swizzle = "BGR1"
         program = context.program(vertex_shader=_VERTEX, fragment_shader=_FRAGMENT)
         program["over_black"], program["over_white"], program["height"] = 0, 1, height
-        corners = context.buffer(np.array([(-1, -1), (3, -1), (-1, 3)], np.float32).tobytes())
-        self._array = context.vertex_array(program, [(corners, "2f", "corner")])
-        self._corners, self._program = corners, program
+        self._program, self._size = program, size
+        self._corners = context.buffer(reserve=8, dynamic=True)
+        self._array = context.vertex_array(program, [(self._corners, "2f", "corner")])
+        self._count = 0
         self._shown: View | None = None
 
     def show(self, view: View) -> None:
@@ -57,6 +62,7 @@ class GuiOverlay:
             return
         self._shown = view
         layers = self._layers.of(view)
+        self._cover([layer.rect for layer in layers])
         for picture, background, texture in zip(self._pictures, self._backgrounds, self._textures, strict=True):
             picture.show(background, layers)
             texture.write(picture.grab())
@@ -64,6 +70,7 @@ class GuiOverlay:
     def show_picture(self, picture: Frame) -> None:
         """Show a picture (height, width, 3), blue green red, that hides the world."""
         self._shown = None
+        self._cover([(0, 0, *self._size)])
         for texture in self._textures:
             texture.write(np.ascontiguousarray(picture))
 
@@ -73,8 +80,16 @@ class GuiOverlay:
             texture.use(unit)
         self._context.enable(moderngl.BLEND)
         self._context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-        self._array.render(moderngl.TRIANGLES)
+        self._array.render(moderngl.TRIANGLES, self._count)
         self._context.disable(moderngl.BLEND)
+
+    def _cover(self, rects: Sequence[Rect]) -> None:
+        """Draw only where these rectangles are: most of the world has nothing over it."""
+        corners = triangles(rects, self._size)
+        self._count = len(corners)
+        if len(corners):
+            self._corners.orphan(corners.nbytes)
+            self._corners.write(corners.tobytes())
 
     def release(self) -> None:
         """Free what OpenGL holds for it."""

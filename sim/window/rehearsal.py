@@ -68,7 +68,7 @@ def _run(
             window.set_title(title)
         if truth:
             truth.write()
-        if all(window.size):
+        if all(window.size) and (picture.has_changed() or window.is_stale):
             picture.draw()
             window.show()
 

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import moderngl
+import numpy as np
 
 from mc_nested.live.model.reading import Block
 from sim.client.drawing.block_colours import block_colour
@@ -10,39 +11,33 @@ from sim.client.game.realm import Realm
 from sim.client.game.world import block_of
 from sim.window.camera import Matrix, held_block, projection, view
 from sim.window.cubes import FAR, Floats, cubes, floor_square, outline, row_of, unit_cube
+from sim.window.grain import GRAIN_BLOCKS, grain
 
 SKY = (0.47, 0.65, 1.0)
 
 _VERTEX = """
 #version 330
-uniform mat4 camera;
+uniform mat4 camera; uniform vec3 origin;
 in vec3 corner; in vec3 normal; in vec3 offset; in vec3 colour;
-out vec3 at; out vec3 towards; out vec3 shade;
+out vec2 on_face; flat out vec3 shade;
 void main() {
-    at = corner + offset;
-    towards = normal;
-    shade = colour;
-    gl_Position = camera * vec4(at, 1.0);
+    vec3 at = corner + offset + origin;
+    on_face = abs(normal.y) > 0.5 ? at.xz : abs(normal.x) > 0.5 ? at.zy : at.xy;
+    float light = normal.y > 0.5 ? 1.0 : normal.y < -0.5 ? 0.5 : abs(normal.z) > 0.5 ? 0.8 : 0.62;
+    shade = colour * light;
+    gl_Position = camera * vec4(corner + offset, 1.0);
 }
 """
 
+# gl_FragCoord.w is 1 over the distance ahead.
 _FRAGMENT = """
 #version 330
-uniform vec3 eye; uniform vec3 sky; uniform float far; uniform vec3 origin;
-in vec3 at; in vec3 towards; in vec3 shade;
+uniform sampler2D grain; uniform vec3 sky; uniform float far;
+in vec2 on_face; flat in vec3 shade;
 out vec4 pixel;
-float noise(vec3 dot3) { return fract(sin(dot(dot3, vec3(12.9898, 78.233, 37.719))) * 43758.5453); }
 void main() {
-    // A grain of 16 x 16 dots a face, as in the game's pictures, and a darker rim, so that cells can be told apart.
-    vec3 within = at - 0.01 * towards;
-    float grain = 0.88 + 0.16 * noise(floor((within + origin) * 16.0));
-    vec3 inside = fract(within);
-    vec2 face = abs(towards.y) > 0.5 ? inside.xz : abs(towards.x) > 0.5 ? inside.zy : inside.xy;
-    vec2 rim = min(face, 1.0 - face);
-    float edge = min(rim.x, rim.y) < 0.03125 ? 0.82 : 1.0;
-    float light = towards.y > 0.5 ? 1.0 : towards.y < -0.5 ? 0.5 : abs(towards.z) > 0.5 ? 0.8 : 0.62;
-    float fog = smoothstep(0.35 * far, far, distance(at, eye));
-    pixel = vec4(mix(min(shade * grain * edge * light, 1.0), sky, fog), 1.0);
+    float fog = clamp((1.0 / gl_FragCoord.w - 0.3 * far) / (0.7 * far), 0.0, 1.0);
+    pixel = vec4(mix(shade * texture(grain, on_face / GRAIN).r, sky, fog), 1.0);
 }
 """
 
@@ -51,9 +46,6 @@ _BLACK = """
 out vec4 pixel;
 void main() { pixel = vec4(0.0, 0.0, 0.0, 1.0); }
 """
-
-_GRAIN = 64
-"""Blocks after which the grain repeats: a larger number would leave the noise too few digits."""
 
 _LOWER = 0.002
 """Blocks by which the floor is drawn lower than what is built into it."""
@@ -73,7 +65,13 @@ class WorldScene:
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
-        self._blocks = context.program(vertex_shader=_VERTEX, fragment_shader=_FRAGMENT)
+        dots = grain()
+        self._grain = context.texture(dots.shape, 1, np.round(dots * 255).astype(np.uint8).tobytes())
+        self._grain.build_mipmaps()
+        self._grain.filter = (moderngl.NEAREST_MIPMAP_NEAREST, moderngl.NEAREST)
+        self._blocks = context.program(
+            vertex_shader=_VERTEX, fragment_shader=_FRAGMENT.replace("GRAIN", f"{GRAIN_BLOCKS}.0")
+        )
         self._lines = context.program(vertex_shader=_VERTEX, fragment_shader=_BLACK)
 
     def draw(self, realm: Realm, eye: Eye, size: tuple[int, int], target: Block | None) -> None:
@@ -84,7 +82,7 @@ class WorldScene:
         perspective = projection(*size)
         self._context.clear(*SKY, depth=1.0)
         self._context.enable(moderngl.DEPTH_TEST)
-        self._look(perspective @ view((x, y, z), eye.yaw, eye.pitch), (x, y, z), origin)
+        self._look(perspective @ view((x, y, z), eye.yaw, eye.pitch), origin)
         floor = row_of((0.0, world.floor - origin[1] - _LOWER, 0.0), block_colour(world.floor_block))
         self._render(self._blocks, floor_square(), floor)
         self._render(self._blocks, unit_cube(), cubes(world.built(), origin))
@@ -94,19 +92,19 @@ class WorldScene:
         self._context.disable(moderngl.DEPTH_TEST)
         stack = player.hotbar[player.slot]
         if stack is not None:
-            self._look(perspective @ held_block(), (0.0, 0.0, 0.0), (0, 0, 0))
+            self._look(perspective @ held_block(), (0, 0, 0))
             # In front of everything: a cube needs no depths where its far sides are left out.
             self._context.enable(moderngl.CULL_FACE)
             self._render(self._blocks, unit_cube(), row_of((0.0, 0.0, 0.0), block_colour(stack.block)))
             self._context.disable(moderngl.CULL_FACE)
 
-    def _look(self, camera: Matrix, eye: tuple[float, float, float], origin: Block) -> None:
+    def _look(self, camera: Matrix, origin: Block) -> None:
         for program in (self._blocks, self._lines):
             program["camera"] = tuple(float(part) for part in camera.T.flat)
-        self._blocks["eye"] = eye
-        self._blocks["sky"] = SKY
-        self._blocks["far"] = float(FAR)
-        self._blocks["origin"] = tuple(float(part % _GRAIN) for part in origin)
+        self._blocks["sky"], self._blocks["far"], self._blocks["grain"] = SKY, float(FAR), 0
+        # The grain repeats with the blocks, so only the part within it counts; small numbers keep their digits.
+        self._blocks["origin"] = tuple(float(part % GRAIN_BLOCKS) for part in origin)
+        self._grain.use(0)
 
     def _render(self, program: moderngl.Program, shape: Floats, rows: Floats, mode: int = moderngl.TRIANGLES) -> None:
         """Draw a shape (corners, 6) once a row (x, y, z, red, green, blue)."""

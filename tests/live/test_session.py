@@ -98,8 +98,11 @@ def test_the_player_is_asked_to_switch_only_where_another_window_is_in_front(is_
     error = ProfileError if is_in_front else NotInFrontError
     with pytest.raises(error), open_live_game(LINE, profile, said.append, open_devices=opener(client, titles)):
         pass
-    asked = ["Switch to the game now, with the debug screen on (F3). Switching away again stops the agent."]
-    assert said == ([] if is_in_front else asked)
+    asked = (
+        "Switch to the game now with Alt+Tab (Cmd+Tab on a Mac), not by a click, and have the debug screen on (F3). "
+        "Switching away again stops the agent."
+    )
+    assert said == ([] if is_in_front else [asked])
     assert titles == ["Mine"]
 
 

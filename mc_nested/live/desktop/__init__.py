@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 from mc_nested.live.desktop.clock import MonotonicClock
 from mc_nested.live.desktop.display import WindowDisplay
-from mc_nested.live.desktop.system import this_system
+from mc_nested.live.desktop.system import open_camera, this_system
 from mc_nested.live.devices import Clipboard, Devices
 
 
@@ -19,17 +19,16 @@ def open_desktop(title: str) -> Iterator[Devices]:
     Keys that are held when the context ends stay held: the input controller releases them.
 
     Raises:
-        DesktopError: no display, a Wayland session, a missing permission, no window of that title or several of
-            them, or one that is minimised or partly off the screen.
+        DesktopError: no display, a Wayland session without Xwayland, a missing permission, no window of that title or
+            several of them, or one that is minimised or partly off the screen.
     """
     system = this_system()
     with system.open_window(title) as window:
         # Without a display these imports fail, so the window comes first: it says what is missing.
-        from mc_nested.live.desktop.camera import open_camera
         from mc_nested.live.desktop.keyboard import open_keyboard
         from mc_nested.live.desktop.pointer import DesktopPointer
 
-        with open_camera() as camera, open_keyboard() as keyboard:
+        with open_camera(window) as camera, open_keyboard() as keyboard:
             display = WindowDisplay(window, camera)
             pointer = DesktopPointer(window, display.ratio)
             clipboard = system.open_clipboard()
@@ -44,6 +43,7 @@ def open_clipboard() -> Clipboard:
 def session_kind() -> str:
     """What kind of session this is, in words.
 
-    DesktopError where its windows can't be pictured and driven: no display, Wayland, a missing permission.
+    DesktopError where its windows can't be pictured and driven: no display, a Wayland session without Xwayland, a
+    missing permission.
     """
     return this_system().session_kind()

@@ -1,11 +1,13 @@
 """Windows, macOS or X11: what differs between the systems, one module for each."""
 
 import sys
-from contextlib import AbstractContextManager
-from typing import Protocol
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
+from typing import Protocol, runtime_checkable
 
-from mc_nested.live.desktop.window import GameWindow
-from mc_nested.live.devices import Clipboard
+from mc_nested.live.desktop.display import Camera
+from mc_nested.live.desktop.window import ClientArea, GameWindow
+from mc_nested.live.devices import Clipboard, Frame
 
 
 class DesktopSystem(Protocol):
@@ -28,6 +30,25 @@ class DesktopSystem(Protocol):
         Both its methods raise ClipboardError where the clipboard can't be reached, or holds something other than text,
         which could not be put back.
         """
+
+
+@runtime_checkable
+class PicturesItself(Protocol):
+    """A window whose picture is taken of itself, on a desktop whose screen can't be pictured."""
+
+    def picture(self, area: ClientArea) -> Frame: ...
+
+
+@contextmanager
+def open_camera(window: GameWindow) -> Iterator[Camera]:
+    """The camera for that window: its own, or one over all screens. Open the window first: mss needs a display."""
+    if isinstance(window, PicturesItself):
+        yield window.picture
+        return
+    from mc_nested.live.desktop import camera
+
+    with camera.open_camera() as over_all_screens:
+        yield over_all_screens
 
 
 def this_system() -> DesktopSystem:

@@ -27,6 +27,9 @@ _PER_MONITOR_AWARE_V2 = -4
 _CLOAKED = 14
 """DWMWA_CLOAKED (dwmapi.h): the window of a suspended store app exists and counts as visible, but is never shown."""
 
+_VIRTUAL_SCREEN = (76, 77, 78, 79)
+"""SM_XVIRTUALSCREEN, SM_YVIRTUALSCREEN, SM_CXVIRTUALSCREEN and SM_CYVIRTUALSCREEN (winuser.h)."""
+
 _user32 = ctypes.WinDLL("user32", use_last_error=True)
 _user32.GetForegroundWindow.restype = wintypes.HWND
 _EnumWindowsCallback = ctypes.WINFUNCTYPE(wintypes.BOOL, wintypes.HWND, wintypes.LPARAM)
@@ -46,6 +49,12 @@ def open_window(title: str) -> Iterator["Win32Window"]:
     window = Win32Window(*windows[matching_title(title, [name for _, name in windows])])
     window.client_area()
     yield window
+
+
+def virtual_screen() -> ClientArea:
+    """The area of all monitors together, as it is now."""
+    left, top, width, height = (int(_user32.GetSystemMetrics(each)) for each in _VIRTUAL_SCREEN)
+    return ClientArea(left, top, width, height)
 
 
 def session_kind() -> str:

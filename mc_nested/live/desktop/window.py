@@ -53,6 +53,16 @@ def matching_title(title: str, titles: Sequence[str]) -> int:
     )
 
 
+def is_within(area: ClientArea, outer: ClientArea) -> bool:
+    """Whether all of an area lies in another one."""
+    return (
+        outer.left <= area.left
+        and outer.top <= area.top
+        and area.left + area.width <= outer.left + outer.width
+        and area.top + area.height <= outer.top + outer.height
+    )
+
+
 def check_shown(area: ClientArea, title: str) -> None:
     """DesktopError where the client area is empty, as a minimised window's is."""
     if area.width < 1 or area.height < 1:

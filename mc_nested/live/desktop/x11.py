@@ -1,4 +1,4 @@
-"""The game's window and the clipboard on an X server, with a window manager or without one."""
+"""The game's window and the clipboard on an X server, Xwayland among them, with a window manager or without one."""
 
 import os
 from collections.abc import Iterator
@@ -7,10 +7,9 @@ from contextlib import contextmanager, suppress
 from Xlib import X, Xatom
 from Xlib.display import Display
 from Xlib.error import ConnectionClosedError, DisplayError, XauthError, XError
-from Xlib.ext import randr
 from Xlib.xobject.drawable import Window
 
-from mc_nested.errors import DesktopError
+from mc_nested.errors import DesktopError, NoWindowError
 from mc_nested.live.desktop.window import (
     ClientArea,
     check_shown,
@@ -18,12 +17,17 @@ from mc_nested.live.desktop.window import (
     matching_title,
     minimised_error,
 )
+from mc_nested.live.desktop.x11_camera import WindowCamera
 from mc_nested.live.desktop.x11_clipboard import X11Clipboard
-
-_WAYLAND = (
-    "this is a Wayland session, whose windows can be neither pictured nor driven: "
-    'log out and choose an X11 session (often "... on Xorg") at the login screen'
+from mc_nested.live.desktop.xwayland import (
+    ALLOW,
+    is_rootless,
+    is_wayland_session,
+    is_xwayland,
+    no_x11_window_error,
+    no_x_server_error,
 )
+from mc_nested.live.devices import Frame
 
 
 @contextmanager
@@ -31,13 +35,17 @@ def open_window(title: str) -> Iterator["X11Window"]:
     """The one window whose title matches the regular expression ``title``, for as long as the context lasts.
 
     Raises:
-        DesktopError: no display, a Wayland session, no window of that title or several, or a minimised one.
+        DesktopError: no display, no window of that title on the X server or several, or a minimised one.
     """
     display = _connect()
     try:
         windows = _titled_windows(display)
-        chosen = matching_title(title, [name for _, name in windows])
-        window = X11Window(display, *windows[chosen])
+        try:
+            chosen = matching_title(title, [name for _, name in windows])
+        except NoWindowError as error:
+            raise (no_x11_window_error(error) if is_xwayland(display) else error) from None
+        kind = RootlessWindow if is_rootless(display) else X11Window
+        window = kind(display, *windows[chosen])
         window.client_area()
         yield window
     finally:
@@ -46,9 +54,17 @@ def open_window(title: str) -> Iterator["X11Window"]:
 
 
 def session_kind() -> str:
-    """What this session is, in words; DesktopError where its windows can be neither pictured nor driven."""
-    _connect().close()
-    return f"X11, display {os.environ['DISPLAY']}"
+    """What this session is, in words; DesktopError where there is no X server."""
+    display = _connect()
+    try:
+        is_one, is_pictured = is_xwayland(display), not is_rootless(display)
+    finally:
+        display.close()
+    if not is_one:
+        return f"X11, display {os.environ['DISPLAY']}"
+    if is_pictured:
+        return f"Xwayland in one window, display {os.environ['DISPLAY']}"
+    return f"Xwayland, display {os.environ['DISPLAY']}; {ALLOW}"
 
 
 def open_clipboard() -> X11Clipboard:
@@ -101,35 +117,31 @@ class X11Window:
             raise closed_error(self._title) from error
 
 
+class RootlessWindow(X11Window):
+    """A window of a rootless Xwayland, which takes its own pictures: the screen can't be pictured there."""
+
+    def __init__(self, display: Display, window: Window, title: str) -> None:
+        super().__init__(display, window, title)
+        self._camera = WindowCamera(display, window)
+
+    def picture(self, area: ClientArea) -> Frame:
+        """This window's pixels in that area of the desktop, whatever covers them; DesktopError where it has closed."""
+        with self._if_open():
+            return self._camera(area)
+
+
 def _connect() -> Display:
     name = os.environ.get("DISPLAY")
     if not name:
-        if os.environ.get("WAYLAND_DISPLAY") or os.environ.get("XDG_SESSION_TYPE") == "wayland":
-            raise DesktopError(_WAYLAND)
+        if is_wayland_session():
+            raise no_x_server_error()
         raise DesktopError("no display (DISPLAY is not set): run this in the desktop session that shows the game")
     try:
-        display = Display(name)
+        return Display(name)
     except (DisplayError, XauthError, ConnectionClosedError, OSError) as error:
         raise DesktopError(
             f"no display (DISPLAY={name} can't be reached): run this in the desktop session that shows the game"
         ) from error
-    # The session's variables alone are not enough: a separate X server may run inside a Wayland session.
-    if _is_xwayland(display):
-        display.close()
-        raise DesktopError(_WAYLAND)
-    return display
-
-
-def _is_xwayland(display: Display) -> bool:
-    """Whether the X server only serves windows to a Wayland compositor; pictures of its screen are black."""
-    if display.query_extension("XWAYLAND") is not None:  # from 23.1 on
-        return True
-    if display.query_extension("RANDR") is None:
-        return False
-    root = display.screen().root
-    screens = randr.get_screen_resources_current(root)
-    names = (randr.get_output_info(root, each, screens.config_timestamp).name for each in screens.outputs)
-    return any(name.startswith("XWAYLAND") for name in names)
 
 
 def _titled_windows(display: Display) -> list[tuple[Window, str]]:

@@ -16,7 +16,7 @@ from types import TracebackType
 from typing import Literal
 
 from mc_nested.errors import NotInFrontError, StoppedError, WrongScreenError
-from mc_nested.live.devices import Button, Devices
+from mc_nested.live.devices import SWITCH_KEYS, Button, Devices
 from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.profile.tables import InputTable
@@ -178,7 +178,8 @@ class InputController:
         """NotInFrontError unless a key pressed now would reach the game."""
         if not self._display.is_in_front():
             raise NotInFrontError(
-                "the game's window is not in front, so no key is pressed: click on it, then start again"
+                "the game's window is not in front, so no key is pressed: "
+                f"switch to it with {SWITCH_KEYS}, not by a click, then start again"
             )
 
     def _check_running(self) -> None:

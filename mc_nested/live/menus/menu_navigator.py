@@ -33,7 +33,7 @@ class MenuNavigator:
 
     def leave(self, name: ScreenName) -> None:
         """Take one step from that screen, a known one outside the world, toward the world."""
-        if name == "chat":
+        if name in ("chat", "servers"):
             self.press("esc")
         elif name == "worlds":
             self._enter_world()

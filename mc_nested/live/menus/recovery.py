@@ -3,10 +3,12 @@
 from mc_nested.errors import LiveError, NotInFrontError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
+from mc_nested.live.devices import SWITCH_KEYS
 from mc_nested.live.menus.click_points import ClickPoints
 from mc_nested.live.menus.menu_navigator import MenuNavigator
 from mc_nested.live.menus.screens import ScreenName, identify_screen
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.profile.window_title import may_be_shared
 
 PATIENCE_S = 60.0
 """How long a recovery may take, a world that loads included."""
@@ -20,15 +22,15 @@ EFFECT_S = 0.3
 UNKNOWN_S = 1.5
 """How long a screen may be unknown before something is pressed: pictures freeze, worlds load."""
 
-NOT_ON_A_SERVER: frozenset[ScreenName] = frozenset({"title", "worlds", "disconnected"})
+NOT_ON_A_SERVER: frozenset[ScreenName] = frozenset({"title", "worlds", "servers", "disconnected"})
 """The screens that lead only into a world of one's own, never back to a server."""
 
 
 class Recovery:
     """Leads back into the world that was left.
 
-    If the window's title said Multiplayer when this was made, a recovery stops at the title screen. Otherwise it would
-    enter one's own world instead (FACTS: Input and windows; to 1.14 no title says so).
+    If the window's title didn't say that the world was one's own when this was made, a recovery stops at the title
+    screen. Otherwise it would enter one's own world instead (FACTS: Input and windows; to 1.14 no title says so).
 
     Raises (everything): NotInFrontError where the game's window stays behind another; LiveError where the world was
     not reached in time, or where it is a server's and was left; whatever the input controller raises.
@@ -105,7 +107,7 @@ class Recovery:
         return identify_screen(self._screen, self._display, self._points)
 
     def _says_multiplayer(self) -> bool:
-        return "Multiplayer" in self._display.title()
+        return may_be_shared(self._display.title())
 
     def _check_server(self, name: ScreenName) -> None:
         """LiveError where this screen leads, or has led, from a server to another world, or the other way round."""
@@ -120,7 +122,8 @@ class Recovery:
         while not self._display.is_in_front():
             if deadline.has_passed:
                 raise NotInFrontError(
-                    "the game's window is not in front, so no key is pressed: click on it, then start again"
+                    "the game's window is not in front, so no key is pressed: "
+                    f"switch to it with {SWITCH_KEYS}, not by a click, then start again"
                 )
             self._sleep(EFFECT_S)
 

@@ -8,17 +8,20 @@ from typing import Literal
 
 from mc_nested.live.devices import Display
 from mc_nested.live.menus.click_points import ClickPoints, looks_the_same
-from mc_nested.live.vision.game_screen import WORLDS_TITLE, GameScreen
+from mc_nested.live.vision.game_screen import WORLDS_TITLE, GameScreen, Labels
 
-ScreenName = Literal["world", "chat", "pause", "death", "disconnected", "title", "worlds", "unknown"]
+ScreenName = Literal["world", "chat", "pause", "death", "disconnected", "title", "worlds", "servers", "unknown"]
 
 LABELS: dict[ScreenName, tuple[str, ...]] = {
     "pause": ("Back to Game",),
     "death": ("Respawn",),
-    "disconnected": ("Back to Title Screen", "Back to title screen", "Back to Menu"),
+    "disconnected": ("Back to Server List", "Back to server list", "Back to Title Screen", "Back to title screen"),
     "title": ("Singleplayer",),
 }
 """The buttons by which a screen is known and left, in every version (FACTS: Screens and their buttons)."""
+
+TITLES: dict[ScreenName, str] = {"worlds": WORLDS_TITLE, "servers": "Play Multiplayer"}
+"""The titles of the lists, whose buttons are greyed or lead elsewhere."""
 
 QUIT = "Save and Quit to Title"
 PLAY = "Play Selected World"
@@ -41,14 +44,19 @@ def identify_screen(screen: GameScreen, display: Display, points: ClickPoints) -
     if reading.problem is None:
         return ("chat" if screen.is_chat_open() else "world"), ""
     menu = screen.menu()
-    for name, labels in LABELS.items():
-        if any(menu.button(label).middle for label in labels):
-            return name, reading.problem
-    if menu.shows(WORLDS_TITLE):
-        return "worlds", reading.problem
+    if (name := menu_name(menu)) is not None:
+        return name, reading.problem
     if screen.is_chat_open():
         return "chat", reading.problem
     return _identify_by_points(display, points), reading.problem
+
+
+def menu_name(menu: Labels) -> ScreenName | None:
+    """Which menu is shown, by its labels; None where none is found."""
+    for name, labels in LABELS.items():
+        if any(menu.button(label).middle for label in labels):
+            return name
+    return next((name for name, title in TITLES.items() if menu.shows(title)), None)
 
 
 def _identify_by_points(display: Display, points: ClickPoints) -> ScreenName:

@@ -3,7 +3,7 @@
 from mc_nested.errors import NotInFrontError, UnreadableError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import Devices
+from mc_nested.live.devices import SWITCH_KEYS, Devices
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.timing import PERSON_LOOK_S
 
@@ -17,7 +17,7 @@ def wait_for_front(devices: Devices) -> None:
     deadline = Deadline(clock, PATIENCE_S)
     while not devices.display.is_in_front():
         if deadline.has_passed:
-            raise NotInFrontError("the game's window didn't come to the front: click on it, and run this again")
+            raise _not_in_front()
         clock.sleep_until(clock.now() + PERSON_LOOK_S)
 
 
@@ -40,5 +40,12 @@ def wait_until_standing_still(connection: GameConnection) -> Reading:
         problem = (reading.problem or "the player keeps moving") if reading else None
         clock.sleep_until(clock.now() + PERSON_LOOK_S)
     if problem is None:
-        raise NotInFrontError("the game's window didn't come to the front: click on it, and run this again")
+        raise _not_in_front()
     raise UnreadableError(f"the debug screen can't be read ({problem}): mend that, and run this again")
+
+
+def _not_in_front() -> NotInFrontError:
+    return NotInFrontError(
+        f"the game's window didn't come to the front: "
+        f"switch to it with {SWITCH_KEYS}, not by a click, and run this again"
+    )

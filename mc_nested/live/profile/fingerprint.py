@@ -1,13 +1,10 @@
 """Whether a profile still fits the game: its version, window size and GUI scale are those it was calibrated on."""
 
-import re
 from dataclasses import dataclass
 
 from mc_nested.errors import DesktopError, ProfileError
 from mc_nested.live.profile.tables import CalibratedTable, GameVersion
-
-_TITLE = re.compile(r"Minecraft\*? (\d+\.\d+(?:\.\d+)?)(?:[ -].*)?")
-"""The title of the game's window; a star means a modified game (FACTS: Input and windows)."""
+from mc_nested.live.profile.window_title import may_be_shared, state_in, version_in
 
 
 @dataclass(frozen=True)
@@ -17,12 +14,6 @@ class Fingerprint:
     title: str
     window: tuple[int, int]
     gui_scale: int | None = None
-
-
-def version_in(title: str) -> str | None:
-    """The version in the title of the game's window; None where there is none, as with a modpack."""
-    found = _TITLE.fullmatch(title)
-    return found[1] if found else None
 
 
 def game_in(title: str, otherwise: GameVersion) -> GameVersion:
@@ -63,12 +54,22 @@ def check_fit(calibrated: CalibratedTable | None, current: Fingerprint, profile:
 
 
 def check_single_player(title: str, *, is_server_allowed: bool) -> None:
-    """DesktopError if the title of the game's window says that others may play there, unless that is allowed."""
-    if "Multiplayer" in title and not is_server_allowed:
+    """DesktopError if the title of the game's window doesn't say that nobody else plays there, unless that is allowed.
+
+    A title without a state is let pass: menus have none, nor has any version to 1.14.
+    """
+    if is_server_allowed or not may_be_shared(title):
+        return
+    state = state_in(title)
+    if state is None or "Multiplayer" in state:
         raise DesktopError(
             f"the window's title is {title!r}, so others may be playing there: open a world of your own, or allow "
             "it with --server-allowed"
         )
+    raise DesktopError(
+        f"the window's title is {title!r}, and whether {state!r} is a world of your own isn't known: set the game's "
+        "language to English (US), or, if nobody else plays there, allow it with --server-allowed"
+    )
 
 
 def _size(size: tuple[int, int]) -> str:

@@ -33,7 +33,8 @@ class WindowTable(ProfileTable):
     """Which window is the game's."""
 
     title: str = Field(
-        default=r"^Minecraft\*? \d", description="a regular expression that is found in the title of the game's window"
+        default=r"^Minecraft(?: \w+)?\*? \d",
+        description="a regular expression that is found in the title of the game's window",
     )
 
     @field_validator("title")
@@ -93,7 +94,7 @@ class KeysTable(ProfileTable):
 
 
 class ScreenTable(ProfileTable):
-    """How the debug screen is drawn. Without a GUI scale, all of it is found on the screen, for scales 1 to 4."""
+    """How the debug screen is drawn. Without a GUI scale, all of it is found on the screen, for scales 1 to 8."""
 
     font: str | None = Field(
         default=None,

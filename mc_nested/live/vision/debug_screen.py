@@ -10,7 +10,7 @@ from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.layout import Overlay
-from mc_nested.live.vision.overlay import POSITION, REDUCED, FoundScreen, find_debug_screen
+from mc_nested.live.vision.overlay import POSITION, REDUCED, SCALES, TITLE, FoundScreen, find_debug_screen
 from mc_nested.live.vision.screen_lines import CLEAR, WHOLE, DebugLines, ScreenLines, Unreadable, matched, only_line
 from mc_nested.live.vision.target_block import target_block
 from mc_nested.live.vision.text_lines import UNKNOWN
@@ -83,7 +83,7 @@ def _without_position(lines: DebugLines, known_by: str) -> str:
             "the debug screen is reduced and shows no XYZ: set Reduced Debug Info off in the game's options, "
             "and the gamerule reducedDebugInfo (from 1.21.11 on reduced_debug_info) to false"
         )
-    title = lines.starting("Minecraft ")
+    title = lines.starting(TITLE)
     version = _VERSION.match(title[0].text) if title else None
     if version and (int(version[1]), int(version[2])) >= _FIRST_UNSUPPORTED:
         return f"the debug screen of {version[0]} has a layout that can't be read yet: use a version from 1.8 to 26.3"
@@ -92,9 +92,9 @@ def _without_position(lines: DebugLines, known_by: str) -> str:
 
 def nothing_seen(overlay: Overlay | None) -> Reading:
     """The reading of a frame without a debug screen that is drawn that way."""
-    scale = f"GUI scale {overlay.scale}" if overlay else "a GUI scale from 1 to 4"
+    scale = f"GUI scale {overlay.scale}" if overlay else f"a GUI scale from {min(SCALES)} to {max(SCALES)}"
     return Reading(
         problem=f"no debug screen is to be seen at {scale}: press F3 in the game, and Esc if a menu is open; if it is "
-        "on, set GUI Scale to 1, 2, 3 or 4, turn Force Unicode Font off, and give the font of the game's own jar, or "
-        "of the resource pack in use"
+        f"on, set GUI Scale to {min(SCALES)} to {max(SCALES)}, turn Force Unicode Font off, and give the font of the "
+        "game's own jar, or of the resource pack in use; a pack with finer letters than the game's has to be taken off"
     )

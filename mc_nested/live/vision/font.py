@@ -141,7 +141,10 @@ def _dots(alpha: Atlas, name: str) -> NDArray[np.bool_]:
     drawn = alpha > np.iinfo(alpha.dtype).max // 2
     dots = drawn[::finer, ::finer]
     if not np.array_equal(drawn, dots.repeat(finer, 0).repeat(finer, 1)):
-        raise FontError(f"{name} draws finer than 8 x 8 dots a glyph: use the game's own font, without that pack")
+        raise FontError(
+            f"{name} draws finer than 8 x 8 dots a glyph, which can't be read: take that pack off in the game's "
+            "options, and give the game's own jar"
+        )
     return np.asarray(dots)
 
 
@@ -152,7 +155,10 @@ def _check(font: Font, name: str) -> None:
     known = {char for char, *_ in font.lookup.values()}
     alike = "".join(char for char in _NUMERIC if char not in known)
     if alike:
-        raise FontError(f"{name} draws {alike} like other characters: use the game's own font, without that pack")
+        raise FontError(
+            f"{name} draws {alike} like other characters: take that pack off in the game's options, and give the "
+            "game's own jar"
+        )
 
 
 def _picture_bytes(path: Path) -> bytes:

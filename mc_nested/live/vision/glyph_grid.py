@@ -40,12 +40,16 @@ class GlyphGrid:
     @property
     def rows(self) -> int:
         """The rows at which a glyph can begin, all its eight dots being in the frame."""
-        return max(0, (int(self.frame.shape[0]) - self.scale // 2) // self.scale - GLYPH_ROWS + 1)
+        return max(0, self._count(int(self.frame.shape[0])) - GLYPH_ROWS + 1)
 
     @property
     def columns(self) -> int:
-        """The columns of whole dots."""
-        return max(0, (int(self.frame.shape[1]) - self.scale // 2) // self.scale)
+        """The columns of dots."""
+        return self._count(int(self.frame.shape[1]))
+
+    def _count(self, pixels: int) -> int:
+        """The dots along so many pixels: those whose pixel that is read is among them."""
+        return -(-max(0, pixels - self.scale // 2) // self.scale)
 
     def strip(self, row: int, first: int, last: int) -> Frame:
         """The colours of the eight rows of dots from ``row`` on, in the columns from ``first`` to before ``last``."""

@@ -48,7 +48,7 @@ class _Label:
 
 
 class MenuLabels:
-    """A frame (height, width, 3), blue green red, of a menu; without ``scale`` each GUI scale from 1 to 4 is tried."""
+    """A frame (height, width, 3), blue green red, of a menu; without ``scale`` each of ``SCALES`` is tried."""
 
     def __init__(self, frame: Frame, font: Font, scale: int | None = None) -> None:
         self._font = font

@@ -7,21 +7,23 @@ column.
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
 from mc_nested.live.vision.layout import Overlay
 from mc_nested.live.vision.layouts import LAYOUTS
-from mc_nested.live.vision.text_colours import INK_SPREAD
+from mc_nested.live.vision.text_colours import INK_SPREAD, WHITE, Colour
 from mc_nested.live.vision.text_lines import is_text, positions_of
 
-SCALES = (4, 3, 2, 1)
+SCALES = (8, 7, 6, 5, 4, 3, 2, 1)
 """The GUI scales that are looked for: the larger, the fewer dots there are to look through."""
 
 POSITION = "XYZ:"
 REDUCED = "Chunk-relative:"
-OTHERS = ("Facing", "Chunk:", "Block:", "Minecraft ", "Looking at", "Targeted ")
+TITLE = "Minecraft "
+OTHERS = ("Facing", "Chunk:", "Block:", TITLE, "Looking at", "Targeted ")
 """How other lines begin: they show that there is a debug screen where its position line can't be seen."""
 
 _LEFT_COLUMN = 120
@@ -54,10 +56,28 @@ def find_debug_screen(frame: Frame, font: Font, overlay: Overlay | None = None) 
     for labels in ((POSITION,), (REDUCED, *OTHERS)):
         for dots in (*left, *whole):
             for label in labels:
-                if positions := positions_of(dots, font, label):
-                    overlay = overlay or _measured(dots, font, label, positions[0])
-                    return FoundScreen(_line_dots(frame, overlay, positions[0][0]), overlay, label)
+                for position in positions_of(dots, font, label):
+                    if label == TITLE and _is_of_a_menu(dots, font, position):
+                        continue
+                    overlay = overlay or _measured(dots, font, label, position)
+                    return FoundScreen(_line_dots(frame, overlay, position[0]), overlay, label)
     return None
+
+
+def _is_of_a_menu(dots: GlyphGrid, font: Font, position: GridPosition) -> bool:
+    """Whether the game's name stands there as on a menu: in white, or over a shadow.
+
+    The title screen's corner, its button of Realms and the names of servers begin like the debug screen's first line.
+    """
+    colour, ink = _ink_of(dots, font, TITLE, position)
+    if all(abs(channel - white) <= INK_SPREAD for channel, white in zip(colour, WHITE, strict=True)):
+        return True
+    shadow = np.zeros_like(ink)
+    shadow[1:, 1:] = ink[:-1, :-1]
+    row, column = position
+    seen = dots.strip(row, column, column + ink.shape[1])[shadow & ~ink].astype(int)
+    cast = [(channel & 0xFC) >> 2 for channel in reversed(colour)]
+    return bool((np.abs(seen - cast) <= INK_SPREAD).all())
 
 
 def _line_dots(frame: Frame, overlay: Overlay, row: int) -> GlyphGrid:
@@ -73,13 +93,18 @@ def _least(overlay: Overlay) -> int:
 
 def _measured(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -> Overlay:
     """The overlay's colour from the ink of a known line, its layout from where the lines beside it stand."""
-    row, column = position
-    glyphs = np.frombuffer(font.columns(label), np.uint8)
-    ink = np.unpackbits(glyphs[np.newaxis], axis=0, bitorder="little").astype(bool)
-    blue, green, red = np.median(dots.strip(row, column, column + len(glyphs))[ink], axis=0).astype(int)
-    colour = (int(red), int(green), int(blue))
+    colour, _ = _ink_of(dots, font, label, position)
     overlays = [Overlay(dots.scale, layout, colour) for layout in LAYOUTS.values()]
     return max(overlays, key=lambda overlay: _known_beside(dots, font, overlay, position))
+
+
+def _ink_of(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -> tuple[Colour, NDArray[np.bool_]]:
+    """The colour of a label that stands there, and which of its dots (8, columns) are ink."""
+    row, column = position
+    glyphs = np.frombuffer(font.columns(label).rstrip(b"\0"), np.uint8)
+    ink = np.unpackbits(glyphs[np.newaxis], axis=0, bitorder="little").astype(bool)
+    blue, green, red = np.median(dots.strip(row, column, column + len(glyphs))[ink], axis=0).astype(int)
+    return (int(red), int(green), int(blue)), ink
 
 
 def _known_beside(dots: GlyphGrid, font: Font, overlay: Overlay, position: GridPosition) -> int:

@@ -1,33 +1,39 @@
-"""The virtual keyboard, with the layout of the United States."""
+"""The virtual keyboard: a US one, whose keys are named by their places."""
 
+from functools import partial
+
+from mc_nested.live.model.key_names import canonical, check_key
 from sim.client.desktop.window import VirtualWindow
 from sim.client.game.controls import Controls
 
-_CONTROL = ("left.control", "right.control", "ctrl")
-
 
 class VirtualKeyboard:
-    """Keys and characters that reach the game through its window."""
+    """Keys and characters that reach the game through its window.
+
+    A key that is pressed also types what a US keyboard types there. Typed text presses the keys that have its
+    characters, as text does on X11 and macOS; a character that is on no key comes alone, as every one does on Windows.
+    """
 
     def __init__(self, window: VirtualWindow, controls: Controls) -> None:
         self._window, self._controls = window, controls
 
     def press(self, key: str) -> None:
-        character = " " if key == "space" else key if len(key) == 1 else ""
-        # With Control, a key makes no character.
-        has_character = bool(character) and not self._window.down.intersection(_CONTROL)
-
-        def arrive() -> None:
-            self._controls.key(key, is_down=True)
-            if has_character:
-                self._controls.character(character)
-
-        self._window.press(key, arrive)
+        check_key(key)
+        name = canonical(key)
+        self._window.press(name, partial(self._go_down, name, " " if name == "space" else name))
 
     def release(self, key: str) -> None:
-        self._window.release(key, lambda: self._controls.key(key, is_down=False))
+        check_key(key)
+        name = canonical(key)
+        self._window.release(name, partial(self._controls.key, name, is_down=False))
 
     def type(self, text: str) -> None:
-        for letter in text:
-            self.press(letter)
-            self.release(letter)
+        for character in text:
+            name = "space" if character == " " else canonical(character)
+            self._window.press(character, partial(self._go_down, name, character))
+            self._window.release(character, partial(self._controls.key, name, is_down=False))
+
+    def _go_down(self, key: str, typed: str) -> None:
+        self._controls.key(key, is_down=True)
+        if len(typed) == 1:
+            self._controls.character(typed)

@@ -34,7 +34,7 @@ class Controls:
         self._last_click = (-1.0, (-1, -1))
 
     def key(self, key: str, *, is_down: bool) -> None:
-        """A key goes down or up."""
+        """A key, by its place on a US keyboard, goes down or up. What it types comes as a character, too."""
         game = self._game
         if not is_down:
             game.keys.physical.discard(key)
@@ -56,10 +56,10 @@ class Controls:
         if key == "f3":
             self._f3_used = game.screen != "world"
 
-    def character(self, character: str) -> None:
-        """A character arrives, made by the keyboard's layout from a key, or sent without one: text for the chat."""
-        if self._game.screen == "chat":
-            self._game.chat.insert(character)
+    def character(self, text: str) -> None:
+        """A character comes, which a key typed or a program sent: only the chat takes any, and none beside Ctrl."""
+        if self._game.screen == "chat" and not self._game.keys.physical.intersection(_CONTROL):
+            self._game.chat.insert(text)
 
     def button(
         self, button: str, position: tuple[int, int], size: tuple[int, int], now: float, *, is_down: bool
@@ -138,11 +138,11 @@ class Controls:
                 game.chat.is_selected = True
 
     def _escape(self) -> None:
-        """Esc closes a screen over the world, and the list of worlds; after a death it does nothing."""
+        """Esc closes a screen over the world, and the lists; after a death or a disconnection it does nothing."""
         game = self._game
         if game.screen in ("pause", "inventory"):
             game.open("world")
-        elif game.screen == "worlds":
+        elif game.screen in ("worlds", "servers"):
             game.open("title")
 
     def _click(self, position: tuple[int, int], size: tuple[int, int], now: float) -> None:

@@ -35,10 +35,13 @@ class Edition:
         """The layout of its debug screen (FACTS: The F3 debug screen)."""
         return next(layout for first, layout in _LAYOUTS if self.since(*first))
 
-    def title(self, *, in_world: bool) -> str:
-        """The window's title; from 1.15 on, in a world, with a state after it (FACTS: Input and windows)."""
+    def title(self, *, in_world: bool, state: str = "Singleplayer") -> str:
+        """The window's title; from 1.15 on, in a world, with its state after it (FACTS: Input and windows).
+
+        The state is in the game's language.
+        """
         name = f"Minecraft {self.version}"
-        return f"{name} - Singleplayer" if in_world and self.since(1, 15) else name
+        return f"{name} - {state}" if in_world and self.since(1, 15) else name
 
     def sneaking_height(self) -> tuple[float, float]:
         """The sneaking player's height and that of their eyes, in blocks (FACTS: Sneaking)."""

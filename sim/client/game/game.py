@@ -107,6 +107,8 @@ class VirtualGame:
             self.open("title")
         elif effect == "to_worlds":
             self.open("worlds")
+        elif effect == "to_servers":
+            self.open("servers")
         elif effect == "select_world":
             self.is_world_chosen = True
         elif effect in ("enter_world", "enter_selected"):

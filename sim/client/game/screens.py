@@ -11,12 +11,21 @@ from sim.client.game.colours import GREY, WHITE, Colour
 from sim.client.game.edition import Edition
 
 ScreenName = Literal[
-    "world", "chat", "inventory", "pause", "death", "disconnected", "title", "worlds", "loading", "saving"
+    "world", "chat", "inventory", "pause", "death", "disconnected", "title", "worlds", "servers", "loading", "saving"
 ]
 IN_WORLD: frozenset[ScreenName] = frozenset({"world", "chat", "inventory", "pause", "death"})
 
 Effect = Literal[
-    "", "resume", "leave", "respawn", "to_title", "to_worlds", "select_world", "enter_world", "enter_selected"
+    "",
+    "resume",
+    "leave",
+    "respawn",
+    "to_title",
+    "to_worlds",
+    "to_servers",
+    "select_world",
+    "enter_world",
+    "enter_selected",
 ]
 """What a click does: nothing for buttons that no test needs."""
 
@@ -106,7 +115,7 @@ def _title(_state: MenuState, edition: Edition, width: int, height: int) -> Menu
     left, top = width // 2 - 100, height // 4 + 48
     buttons = (
         Widget("Singleplayer", left, top, 200, "to_worlds"),
-        Widget("Multiplayer", left, top + 24, 200),
+        Widget("Multiplayer", left, top + 24, 200, "to_servers"),
         Widget("Minecraft Realms", left, top + 48, 200),
         Widget("Options...", left, top + 84, 98),
         Widget("Quit Game", width // 2 + 2, top + 84, 98),
@@ -116,7 +125,7 @@ def _title(_state: MenuState, edition: Edition, width: int, height: int) -> Menu
 
 
 def _worlds(state: MenuState, edition: Edition, width: int, height: int) -> Menu:
-    middle, lower, last = width // 2, height - 28, "Back" if edition.since(1, 21, 9) else "Cancel"
+    middle, lower, last = width // 2, height - 28, "Back" if edition.since(1, 20, 4) else "Cancel"
     top = 48 if edition.since(1, 13) else 32
     left = middle - _ROW[0] // 2
     chosen = state.is_chosen
@@ -140,6 +149,23 @@ def _worlds(state: MenuState, edition: Edition, width: int, height: int) -> Menu
         MenuText("Creative Mode, Cheats", left + _ICON + 3, top + 21, GREY, is_centred=False),
     )
     return Menu(texts, (*row, *upper, *below))
+
+
+def _servers(_state: MenuState, edition: Edition, width: int, height: int) -> Menu:
+    middle, upper, lower = width // 2, height - 52, height - 28
+    last = "Back" if edition.since(1, 20, 4) else "Cancel"
+    buttons = (
+        Widget("Join Server", middle - 154, upper, 100, is_active=False),
+        Widget("Direct Connection" if edition.since(1, 16) else "Direct Connect", middle - 50, upper, 100),
+        Widget("Add Server", middle + 54, upper, 100),
+        Widget("Edit", middle - 154, lower, 70, is_active=False),
+        Widget("Delete", middle - 74, lower, 70, is_active=False),
+        Widget("Refresh", middle + 4, lower, 70),
+        Widget(last, middle + 80, lower, 75, "to_title"),
+    )
+    # A server keeps the name that it gets where the player types none.
+    server = MenuText("Minecraft Server", middle - _ROW[0] // 2 + _ICON + 3, 37, is_centred=False)
+    return Menu((MenuText("Play Multiplayer", middle, 20), server), buttons)
 
 
 def _pause(_state: MenuState, edition: Edition, width: int, height: int) -> Menu:
@@ -172,13 +198,13 @@ def _death(state: MenuState, edition: Edition, width: int, height: int) -> Menu:
 
 
 def _disconnected(state: MenuState, edition: Edition, width: int, height: int) -> Menu:
-    label = "Back to Title Screen" if edition.since(1, 17) else "Back to title screen"
+    label = "Back to Server List" if edition.since(1, 17) else "Back to server list"
     top = min(height // 2 + 13, height - 30)
     texts = (
         MenuText("Connection Lost", width // 2, height // 2 - 22, GREY),
         MenuText(state.reason, width // 2, height // 2 - 4),
     )
-    return Menu(texts, (Widget(label, width // 2 - 100, top, 200, "to_title"),))
+    return Menu(texts, (Widget(label, width // 2 - 100, top, 200, "to_servers"),))
 
 
 def _loading(_state: MenuState, edition: Edition, width: int, height: int) -> Menu:
@@ -193,6 +219,7 @@ def _saving(_state: MenuState, _edition: Edition, width: int, height: int) -> Me
 _MENUS: dict[ScreenName, Callable[[MenuState, Edition, int, int], Menu]] = {
     "title": _title,
     "worlds": _worlds,
+    "servers": _servers,
     "pause": _pause,
     "death": _death,
     "disconnected": _disconnected,

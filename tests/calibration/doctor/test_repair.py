@@ -21,7 +21,7 @@ BAD = (
     .replace("lang:en_us", "lang:de_de")
 )
 OLD = (
-    "guiScale:7\r\nlang:en_us\r\npauseOnLostFocus:true\r\nautoJump:true\r\nfullscreen:true\r\n"
+    "guiScale:9\r\nlang:en_us\r\npauseOnLostFocus:true\r\nautoJump:true\r\nfullscreen:true\r\n"
     "key_key.forward:17\r\nkey_key.use:-99\r\n"
 )
 
@@ -60,7 +60,7 @@ def test_safe_values_are_written_and_the_file_as_it_was_stays_beside_it(computer
 def test_the_options_of_1_12_are_repaired_in_their_own_form(computer: Computer) -> None:
     computer.options.write_bytes(OLD.encode())
     assert repaired_in(computer, computer.examined(no_window))[0]
-    expected = OLD.replace("true", "false").replace("guiScale:7", "guiScale:2")
+    expected = OLD.replace("true", "false").replace("guiScale:9", "guiScale:2")
     assert computer.options.read_bytes() == expected.encode()
 
 

@@ -19,7 +19,7 @@ MINE = Candidate(Path("mine.jar"), FONT)
 
 def painted(scale: int) -> Frame:
     screen = F3Screen("1.16-1.19.2", scale, (8.5, 64.0, 3.5), 0.0, 65.0)
-    return paint(np.full((480, 1700, 3), 120, np.uint8), screen, FONT)
+    return paint(np.full((800, 2600, 3), 120, np.uint8), screen, FONT)
 
 
 def grey_with(share: float, shade: int) -> Frame:
@@ -36,11 +36,11 @@ def test_a_unicode_font_is_named_whatever_is_seen() -> None:
     assert "Force Unicode Font is on" in str(error)
 
 
-@pytest.mark.parametrize("scale", [5, 6])
+@pytest.mark.parametrize("scale", [9, 10])
 def test_a_gui_scale_that_is_too_large_is_named(scale: int) -> None:
     error = nothing_fits([grey_with(0, 0), painted(scale)], [MINE], {})
     assert isinstance(error, UnreadableError)
-    assert f"the GUI scale is {scale}" in str(error)
+    assert f"the GUI scale is {scale}: choose 1 to 8 in" in str(error)
 
 
 @pytest.mark.parametrize(("share", "shade"), [(0.0, 0), (0.002, 224), (0.005, 219), (0.005, 229)])
@@ -49,6 +49,10 @@ def test_without_enough_of_the_texts_colour_there_is_no_debug_screen(share: floa
     assert isinstance(error, UnreadableError)
     assert "no debug screen is to be seen" in str(error)
     assert "mine.jar" in str(error)
+
+
+def test_a_pack_with_finer_letters_is_to_be_taken_off_and_not_to_be_named() -> None:
+    assert "take off a pack with finer letters" in str(nothing_fits([grey_with(0.003, 224)], [MINE], {}))
 
 
 @pytest.mark.parametrize("shade", [220, 224, 228])

@@ -11,7 +11,7 @@ from mss.exception import ScreenShotError
 
 from mc_nested.errors import DesktopError
 from mc_nested.live.desktop import camera
-from mc_nested.live.desktop.camera import open_camera
+from mc_nested.live.desktop.camera import open_camera, picture_every_pixel
 from mc_nested.live.desktop.window import ClientArea
 from tests.live.desktop.probed import probed
 
@@ -21,9 +21,11 @@ class Shots:
 
     def __init__(self) -> None:
         self.is_open = True
+        self.grabbed = 0
 
     def grab(self, bounds: dict[str, int]) -> Any:
         assert self.is_open
+        self.grabbed += 1
         left, top, width, height = (bounds[name] for name in ("left", "top", "width", "height"))
         if left < 0:
             raise ScreenShotError("XGetImage() failed")
@@ -59,6 +61,34 @@ def test_an_area_that_is_not_all_on_the_screen_is_an_error(shots: Shots) -> None
     with open_camera() as picture, pytest.raises(DesktopError, match="all of it is on the screen"):
         picture(ClientArea(-1, 0, 4, 3))
     assert not shots.is_open
+
+
+@pytest.mark.parametrize("area", [ClientArea(-1, 0, 4, 3), ClientArea(97, 0, 4, 3), ClientArea(0, 58, 4, 3)])
+def test_where_no_error_comes_by_itself_the_area_is_compared_with_all_screens_together(
+    area: ClientArea, shots: Shots
+) -> None:
+    with open_camera(lambda: ClientArea(0, 0, 100, 60)) as picture:
+        with pytest.raises(DesktopError, match="all of it is on the screen"):
+            picture(area)
+        assert picture(ClientArea(96, 57, 4, 3)).shape == (3, 4, 3)
+    assert shots.grabbed == 1
+
+
+def test_screens_that_have_moved_are_asked_for_at_each_picture(shots: Shots) -> None:
+    screens = [ClientArea(0, 0, 100, 60), ClientArea(20, 0, 100, 60)]
+    with open_camera(lambda: screens.pop(0)) as picture:
+        picture(ClientArea(0, 0, 4, 3))
+        with pytest.raises(DesktopError, match="all of it is on the screen"):
+            picture(ClientArea(0, 0, 4, 3))
+    assert shots.grabbed == 1
+
+
+def test_on_a_retina_screen_every_pixel_is_pictured_and_the_other_options_stay() -> None:
+    framing, opaque, nominal = 1 << 0, 1 << 1, 1 << 4
+    module = SimpleNamespace(IMAGE_OPTIONS=framing | opaque | nominal, kCGWindowImageNominalResolution=nominal)
+    for _ in range(2):
+        picture_every_pixel(module)
+        assert framing | opaque == module.IMAGE_OPTIONS
 
 
 @pytest.mark.standin

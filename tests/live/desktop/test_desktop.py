@@ -31,8 +31,8 @@ if sys.platform.startswith("linux"):
         ("environment", "message"),
         [
             ({}, "no display \\(DISPLAY is not set\\)"),
-            ({"WAYLAND_DISPLAY": "wayland-0"}, "this is a Wayland session"),
-            ({"XDG_SESSION_TYPE": "wayland"}, "this is a Wayland session"),
+            ({"WAYLAND_DISPLAY": "wayland-0"}, "this Wayland session has no X server"),
+            ({"XDG_SESSION_TYPE": "wayland"}, "this Wayland session has no X server"),
             ({"DISPLAY": ":9999"}, "no display \\(DISPLAY=:9999 can't be reached\\)"),
             ({"DISPLAY": "nonsense"}, "no display \\(DISPLAY=nonsense can't be reached\\)"),
         ],

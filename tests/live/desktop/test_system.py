@@ -6,6 +6,10 @@ import sys
 
 import pytest
 
+from mc_nested.live.desktop.system import open_camera
+from mc_nested.live.desktop.window import ClientArea
+from tests.live.desktop.moving_window import MovingWindow
+
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X11's module")
 def test_on_linux_it_is_x11s() -> None:
@@ -17,3 +21,10 @@ def test_on_linux_it_is_x11s() -> None:
     environment = {name: value for name, value in os.environ.items() if name != "DISPLAY"}
     done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout) == (0, "x11 X11Clipboard\n"), done.stderr
+
+
+def test_a_window_that_pictures_itself_is_not_looked_for_on_the_screen() -> None:
+    window = MovingWindow(ClientArea(10, 5, 40, 30))
+    with open_camera(window) as camera:
+        assert camera(window.client_area()).shape == (30, 40, 3)
+    assert window.asked == [window.client_area()]

@@ -3,7 +3,7 @@
 import pytest
 
 from mc_nested.errors import DesktopError, NoWindowError
-from mc_nested.live.desktop.window import ClientArea, check_shown, closed_error, matching_title
+from mc_nested.live.desktop.window import ClientArea, check_shown, closed_error, is_within, matching_title
 
 MINECRAFT = r"^Minecraft\*? \d"
 
@@ -54,3 +54,18 @@ def test_eight_titles_are_all_named() -> None:
 
 def test_a_closed_window_is_named() -> None:
     assert str(closed_error("Minecraft 1.21")) == "the window 'Minecraft 1.21' has closed: start the game again"
+
+
+@pytest.mark.parametrize(
+    ("area", "is_inside"),
+    [
+        (ClientArea(-5, 0, 10, 20), True),
+        (ClientArea(0, 5, 2, 3), True),
+        (ClientArea(-6, 0, 2, 3), False),
+        (ClientArea(0, -1, 2, 3), False),
+        (ClientArea(4, 0, 2, 3), False),
+        (ClientArea(0, 18, 2, 3), False),
+    ],
+)
+def test_an_area_is_within_another_where_none_of_its_edges_is_beyond_it(area: ClientArea, is_inside: bool) -> None:
+    assert is_within(area, ClientArea(-5, 0, 10, 20)) == is_inside

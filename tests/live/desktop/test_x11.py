@@ -16,7 +16,7 @@ from Xlib.error import ConnectionClosedError
 from Xlib.xobject.drawable import Window
 
 from mc_nested.live.desktop.window import ClientArea
-from mc_nested.live.desktop.x11 import X11Window
+from mc_nested.live.desktop.x11 import RootlessWindow, X11Window
 
 if TYPE_CHECKING:
     from Xlib.display import Display
@@ -52,6 +52,8 @@ class FakeWindow(Window):
         return SimpleNamespace(map_state=self.map_state)
 
     def get_geometry(self) -> Any:
+        if self.is_gone:
+            raise ConnectionClosedError("gone")
         return SimpleNamespace(width=self.size[0], height=self.size[1])
 
     def translate_coords(self, src_window: Any, _x: int, _y: int) -> Any:
@@ -120,6 +122,14 @@ def test_a_window_that_is_not_shown_or_has_no_area_is_minimised() -> None:
     empty.game.size = (320, 0)
     with pytest.raises(DesktopError, match="minimised"):
         empty.window.client_area()
+
+
+def test_a_rootless_window_that_is_gone_can_not_be_pictured_but_has_closed() -> None:
+    server = Server()
+    window = RootlessWindow(cast("Display", server), server.game, TITLE)
+    server.game.is_gone = True
+    with pytest.raises(DesktopError, match=f"'{TITLE}' has closed"):
+        window.picture(ClientArea(60, 40, 320, 240))
 
 
 def test_a_window_that_is_gone_has_closed() -> None:

@@ -208,7 +208,7 @@ def test_the_front_is_checked_without_pressing_anything() -> None:
     controller = _controller(game)
     controller.check_front()
     game.front_until = game.clock.now()
-    with pytest.raises(NotInFrontError, match="click on it"):
+    with pytest.raises(NotInFrontError, match="not by a click"):
         controller.check_front()
 
 

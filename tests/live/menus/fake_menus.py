@@ -15,7 +15,7 @@ from tests.live.fake_game import FakeClipboard, FakeClock
 BUTTONS: dict[str, dict[str, tuple[int, int]]] = {
     "pause": {"Back to Game": (427, 100), "Save and Quit to Title": (427, 200)},
     "death": {"Respawn": (427, 150)},
-    "disconnected": {"Back to Title Screen": (427, 250)},
+    "disconnected": {"Back to Server List": (427, 250)},
     "title": {"Singleplayer": (427, 110)},
     "worlds": {"Play Selected World": (300, 420)},
 }
@@ -25,11 +25,12 @@ LEADS_TO = {
     "Back to Game": "world",
     "Save and Quit to Title": "title",
     "Respawn": "world",
-    "Back to Title Screen": "title",
+    "Back to Server List": "servers",
     "Singleplayer": "worlds",
     "Play Selected World": "world",
 }
-ESC_LEADS_TO = {"world": "pause", "chat": "world", "pause": "world", "inventory": "world"}
+ESC_LEADS_TO = {"world": "pause", "chat": "world", "pause": "world", "inventory": "world", "servers": "title"}
+TITLES = {"worlds": "Select World", "servers": "Play Multiplayer"}
 PROBLEM = "no line starts with XYZ:"
 
 
@@ -77,7 +78,7 @@ class FakeMenus:
         return self
 
     def shows(self, text: str) -> bool:
-        return text == "Select World" and self.shown == "worlds" and (self.labels is None or text in self.labels)
+        return text == TITLES.get(self.shown) and (self.labels is None or text in self.labels)
 
     def button(self, label: str) -> MenuButton:
         middle = BUTTONS.get(self.shown, {}).get(label)

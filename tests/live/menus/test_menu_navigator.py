@@ -27,7 +27,7 @@ def point_in(menus: FakeMenus, name: str, at: tuple[int, int] = (200, 60)) -> Cl
     [
         ("pause", "Back to Game", "world"),
         ("death", "Respawn", "world"),
-        ("disconnected", "Back to Title Screen", "title"),
+        ("disconnected", "Back to Server List", "servers"),
         ("title", "Singleplayer", "worlds"),
     ],
 )

@@ -29,7 +29,8 @@ def test_in_the_world_nothing_is_pressed() -> None:
         ("death", ("death",)),
         ("title", ("title", "worlds")),
         ("worlds", ("worlds",)),
-        ("disconnected", ("disconnected", "title", "worlds")),
+        ("disconnected", ("disconnected", "servers", "title", "worlds")),
+        ("servers", ("servers", "title", "worlds")),
     ],
 )
 def test_every_known_screen_leads_back_and_the_screens_on_the_way_are_returned(
@@ -118,13 +119,13 @@ def test_another_window_in_front_is_waited_for() -> None:
 
 def test_another_window_that_stays_in_front_is_an_error_and_nothing_is_pressed() -> None:
     menus = FakeMenus("pause", front_from=1000.0)
-    with pytest.raises(NotInFrontError, match="click on it"):
+    with pytest.raises(NotInFrontError, match="not by a click"):
         recovery_in(menus).recover()
     assert menus.pressed == []
     assert FRONT_PATIENCE_S <= menus.clock.now() - 100.0 < FRONT_PATIENCE_S + 2 * EFFECT_S
 
 
-@pytest.mark.parametrize("shown", ["title", "worlds", "disconnected"])
+@pytest.mark.parametrize("shown", ["title", "worlds", "servers", "disconnected"])
 def test_from_a_server_these_screens_lead_nowhere(shown: str) -> None:
     menus = FakeMenus(shown, window_title=SERVER)
     with pytest.raises(LiveError, match=f"the server was left, the screen is {shown}"):

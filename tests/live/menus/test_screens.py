@@ -6,7 +6,7 @@ import pytest
 from mc_nested.live.devices import Frame
 from mc_nested.live.menus.click_points import record_point
 from mc_nested.live.menus.screens import identify_screen
-from tests.live.menus.fake_menus import PROBLEM, FakeMenus
+from tests.live.menus.fake_menus import BUTTONS, PROBLEM, FakeMenus
 
 
 def identify(menus: FakeMenus, *points: str) -> tuple[str, str]:
@@ -29,9 +29,15 @@ def test_an_open_chat_over_the_debug_screen_is_the_chat() -> None:
     assert identify(FakeMenus("chat")) == ("chat", "")
 
 
-@pytest.mark.parametrize("shown", ["pause", "death", "disconnected", "title", "worlds"])
+@pytest.mark.parametrize("shown", ["pause", "death", "disconnected", "servers", "title", "worlds"])
 def test_a_menu_is_known_by_its_labels_and_the_readers_problem_is_kept(shown: str) -> None:
     assert identify(FakeMenus(shown)) == (shown, PROBLEM)
+
+
+@pytest.mark.parametrize("label", ["Back to server list", "Back to Title Screen", "Back to title screen"])
+def test_every_versions_label_of_the_disconnected_screen_is_known(label: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(BUTTONS, "disconnected", {label: (427, 250)})
+    assert identify(FakeMenus("disconnected")) == ("disconnected", PROBLEM)
 
 
 def test_a_greyed_button_is_a_label_too() -> None:

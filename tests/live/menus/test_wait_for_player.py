@@ -67,7 +67,7 @@ def test_the_player_stands_still_once_the_same_was_read_twice_in_a_row() -> None
 
 
 def test_a_game_that_stays_behind_another_window_is_an_error() -> None:
-    with pytest.raises(NotInFrontError, match="click on it"):
+    with pytest.raises(NotInFrontError, match="not by a click"):
         standing([HERE], looks_until_front=10**6)
 
 
@@ -106,6 +106,6 @@ def test_the_front_is_waited_for_a_minute_at_most() -> None:
     devices = devices_of(FakeGame(Profile()))
     wait_for_front(dataclasses.replace(devices, display=Window(3), clock=clock))
     assert clock.now() == 3 * PERSON_LOOK_S
-    with pytest.raises(NotInFrontError, match="click on it"):
+    with pytest.raises(NotInFrontError, match="not by a click"):
         wait_for_front(dataclasses.replace(devices, display=Window(10**6), clock=clock))
     assert clock.now() == 3 * PERSON_LOOK_S + PATIENCE_S

@@ -11,26 +11,11 @@ from mc_nested.live.profile.fingerprint import (
     check_single_player,
     game_in,
     mismatch,
-    version_in,
 )
 from mc_nested.live.profile.tables import CalibratedTable, GameVersion
 
 CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
 CURRENT = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), 2)
-
-
-@pytest.mark.parametrize(
-    ("title", "version"),
-    [
-        ("Minecraft 1.12.2", "1.12.2"),
-        ("Minecraft* 26.1 - Multiplayer (LAN)", "26.1"),
-        ("Minecraft 1.21.11-rc1", "1.21.11"),
-        ("Minecraft: All the Mods 9", None),
-        ("Prismarine Web Client - Chromium", None),
-    ],
-)
-def test_the_title_says_the_version(title: str, version: str | None) -> None:
-    assert version_in(title) == version
 
 
 def test_what_was_calibrated_on_fits() -> None:
@@ -103,6 +88,9 @@ def test_a_title_without_a_version_leaves_the_profiles() -> None:
         ("Minecraft 1.20.1 - Multiplayer (LAN)", True, False),
         ("Minecraft 1.20.1 - Singleplayer", False, False),
         ("Minecraft 1.20.1", False, False),
+        ("Minecraft NeoForge* 1.21.1 - Multiplayer (3rd-party Server)", False, True),
+        ("My pack - Multiplayer (LAN)", False, True),
+        ("Minecraft* 1.20.1 - Einzelspieler", False, False),
     ],
 )
 def test_only_a_title_that_says_multiplayer_is_refused_and_only_where_that_is_not_allowed(
@@ -113,3 +101,10 @@ def test_only_a_title_that_says_multiplayer_is_refused_and_only_where_that_is_no
         return
     with pytest.raises(DesktopError, match=r"others may be playing there: .*--server-allowed"):
         check_single_player(title, is_server_allowed=is_server_allowed)
+
+
+@pytest.mark.parametrize("state", ["Mehrspieler (LAN)", "Многопользовательская игра (LAN)", "Jeu en solitaire"])
+def test_a_state_in_an_unknown_word_is_refused_and_the_message_says_what_helps(state: str) -> None:
+    with pytest.raises(DesktopError, match=r"isn't known: set the game's language to English .*--server-allowed"):
+        check_single_player(f"Minecraft 1.20.1 - {state}", is_server_allowed=False)
+    check_single_player(f"Minecraft 1.20.1 - {state}", is_server_allowed=True)

@@ -23,7 +23,7 @@ from mc_nested.live.profile.tables import BlocksTable, GameVersion, Profile, Wal
         ("[window]\ntitle = '('", "window.title: not a regular expression"),
         ("[game]\nversion = 'newest'", "game.version: String should match pattern"),
         ("[screen]\nfont = 'ascii.png'", "screen.font: 'ascii.png' depends on where you are: write the whole path"),
-        ("[keys]\nforward = 'up arrow'", "keys.forward: no key is named 'up arrow': write one character"),
+        ("[keys]\nforward = 'up arrow'", "keys.forward: no key is named 'up arrow': write what a US keyboard types"),
         ("[keys]\nhotbar = ['1']", "keys.hotbar: Tuple should have at least 9 items"),
         ("[walk]\ncovered = [0.2, 0.4, 0.3, 0.8]", "walk.covered: must grow with every tick"),
         ("[points]\nRespawn = [0.5, 12]", "points.Respawn.1: Input should be less than or equal to 1, not 12"),

@@ -103,7 +103,7 @@ def spoilt(name: str) -> bytes:
     [
         ("wrong size", "128 x 100"),
         ("no transparency", "no transparency"),
-        ("finer glyphs", "finer"),
+        ("finer glyphs", "take that pack off in the game's options"),
         ("empty", "no glyph for 0123456789"),
         ("eight like three", "38"),
         ("a jar without the font", ENTRY),

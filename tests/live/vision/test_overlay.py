@@ -15,8 +15,12 @@ from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.text_lines import positions_of
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.painter import Painter
 from sim.client.drawing.scenery import WORLDS, random_world
+from sim.client.game.edition import Edition
 from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+from sim.client.game.screens import MenuState, ScreenName
+from sim.client.game.view import View
 
 FONT = font_of(drawn_atlas())
 VANILLA_INK, STANDIN_INK = (224, 224, 224), (255, 255, 255)
@@ -41,7 +45,7 @@ def cover_line(frame: Frame, scale: int, text: str) -> None:
     frame[scale * row : scale * (row + 8), : frame.shape[1] // 2] = 0
 
 
-@pytest.mark.parametrize("scale", [1, 2, 3, 4])
+@pytest.mark.parametrize("scale", [1, 2, 3, 4, 6, 8])
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_every_layout_is_found_at_every_scale_by_its_position_line(layout: Layout, scale: int) -> None:
     found = find_debug_screen(painted(screen(layout, scale)), FONT)
@@ -49,6 +53,28 @@ def test_every_layout_is_found_at_every_scale_by_its_position_line(layout: Layou
     is_standin = layout == "standin"
     drawn = Overlay(scale, STANDIN if is_standin else VANILLA, STANDIN_INK if is_standin else VANILLA_INK)
     assert (found.overlay, found.label) == (drawn, "XYZ:")
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.20.1", "26.1"])
+@pytest.mark.parametrize("screen_name", ["title", "servers"])
+@pytest.mark.parametrize("overlay", [None, Overlay(2, VANILLA, VANILLA_INK)])
+def test_the_games_name_on_a_menu_is_no_debug_screen(
+    version: str, screen_name: ScreenName, overlay: Overlay | None
+) -> None:
+    painter = Painter((854, 480), 2, FONT, Edition(version), "noise", 0)
+    frame = painter.grab(View(MenuState(screen_name), (0, 0, 0)))
+    assert positions_of(GlyphGrid(frame, 2, 200), FONT, "Minecraft "), "the name stands there"
+    assert find_debug_screen(frame, FONT, overlay) is None
+
+
+def test_a_debug_screens_first_line_is_still_one_beside_the_games_name_in_white() -> None:
+    frame = painted(screen())
+    for label in ("XYZ:", "Block:", "Chunk:", "Facing", "Targeted "):
+        for row, _ in positions_of(GlyphGrid(frame, 2, 200), FONT, label):
+            frame[2 * row : 2 * (row + 8)] = 0
+    found = find_debug_screen(frame, FONT)
+    assert found is not None
+    assert found.label == "Minecraft "
 
 
 @pytest.mark.parametrize("layout", ["1.16-1.19.2", "standin"])

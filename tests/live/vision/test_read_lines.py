@@ -92,4 +92,4 @@ def test_a_debug_screen_without_its_title_and_position_lacks_its_position() -> N
 
 def test_where_nothing_is_seen_the_scale_that_was_looked_for_is_named() -> None:
     assert "at GUI scale 3: press F3" in (nothing_seen(Overlay(3, VANILLA, (224, 224, 224))).problem or "")
-    assert "at a GUI scale from 1 to 4: press F3" in (nothing_seen(None).problem or "")
+    assert "at a GUI scale from 1 to 8: press F3" in (nothing_seen(None).problem or "")

@@ -75,7 +75,7 @@ def test_a_picture_of_more_pixels_than_can_be_opened_is_a_problem(tmp_path: Path
 def test_a_png_without_a_debug_screen_is_not_called_a_jpeg(tmp_path: Path) -> None:
     cv2.imwrite(str(tmp_path / "world.png"), np.full((480, 854, 3), 60, np.uint8))
     problem = str(read_picture(tmp_path / "world.png", FONT, None)["problem"])
-    assert problem.startswith("no debug screen is to be seen at a GUI scale from 1 to 4")
+    assert problem.startswith("no debug screen is to be seen at a GUI scale from 1 to 8")
 
 
 def test_a_jpeg_that_can_not_be_read_says_that_it_is_one(tmp_path: Path) -> None:

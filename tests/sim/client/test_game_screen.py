@@ -105,7 +105,7 @@ def test_a_letter_that_is_lost_keeps_the_line_from_being_sent() -> None:
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.9"])
-@pytest.mark.parametrize("name", ["chat", "pause", "death", "disconnected", "title", "worlds", "inventory"])
+@pytest.mark.parametrize("name", ["chat", "pause", "death", "disconnected", "servers", "title", "worlds", "inventory"])
 def test_every_screen_leads_back_into_the_world(version: str, name: str) -> None:
     client = VirtualClient(version=version)
     connection = _connection(client)
@@ -117,6 +117,8 @@ def test_every_screen_leads_back_into_the_world(version: str, name: str) -> None
         client.game.do("to_title")
     elif name == "worlds":
         client.game.do("to_worlds")
+    elif name == "servers":
+        client.game.do("to_servers")
     else:
         client.game.open("chat" if name == "chat" else "pause" if name == "pause" else "inventory")
     client.clock.sleep(0.2)

@@ -37,7 +37,7 @@ def test_a_screen_opens_over_the_world(kind: Kind) -> None:
     assert struck(kind).game.screen == kind
 
 
-def test_a_disconnect_shows_its_screen_and_leads_to_the_title() -> None:
+def test_a_disconnect_shows_its_screen_and_the_title_says_no_world() -> None:
     client = struck("disconnect")
     assert client.game.screen == "disconnected"
     assert client.display.title() == "Minecraft 1.20.1"

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from calibration.clicks.find import calibrate_clicks
-from mc_nested.errors import LiveError
+from mc_nested.errors import DesktopError, LiveError
 from mc_nested.live.menus import recovery
 from mc_nested.live.menus.click_points import ClickPoints, record_point
 from mc_nested.live.menus.point_pictures import load_click_points
@@ -115,3 +115,15 @@ def test_what_was_recorded_in_english_does_not_fit_another_language(
     with pytest.raises(LiveError, match="the screen is unknown"):
         way_of(client, load_click_points(load_profile(file), file)).recover()
     assert client.game.screen == "title"
+
+
+def test_the_windows_title_is_in_that_language_and_the_world_is_known_to_be_ones_own() -> None:
+    client = VirtualClient(words=SPANISH)
+    assert client.display.title() == "Minecraft 1.20.1 - Un jugador"
+    connection_to(client).check_single_player()
+
+
+def test_a_language_whose_word_is_not_known_is_refused() -> None:
+    client = VirtualClient(words={**SPANISH, "Singleplayer": "Jokalari bakarra"})
+    with pytest.raises(DesktopError, match="set the game's language to English"):
+        connection_to(client).check_single_player()

@@ -23,14 +23,14 @@ def titled(client: VirtualClient, monkeypatch: pytest.MonkeyPatch, title: str) -
     says = type(client.display).title
 
     def title_now() -> str:
-        outside = client.game.screen in ("title", "worlds", "disconnected")
+        outside = client.game.screen in ("title", "worlds", "servers", "disconnected")
         return says(client.display) if outside else title
 
     monkeypatch.setattr(client.display, "title", title_now)
     client.clock.sleep(0.3)
 
 
-@pytest.mark.parametrize("screen", ["title", "worlds", "disconnected"])
+@pytest.mark.parametrize("screen", ["title", "worlds", "servers", "disconnected"])
 def test_from_a_server_these_screens_lead_nowhere_and_nothing_on_them_is_clicked(
     screen: ScreenName, monkeypatch: pytest.MonkeyPatch
 ) -> None:

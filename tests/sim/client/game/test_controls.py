@@ -30,6 +30,12 @@ class Played:
         for key in reversed(keys):
             self.controls.key(key, is_down=False)
 
+    def type(self, *characters: str) -> None:
+        """Press the key of each character, and let its character come."""
+        for character in characters:
+            self.tap("space" if character == " " else character)
+            self.controls.character(character)
+
     def click(self, name: ScreenName, label: str, now: float = 0.0) -> None:
         chosen = self.game.is_world_chosen
         buttons = menu(MenuState(name, is_chosen=chosen), self.game.edition, *SIZE).buttons
@@ -189,23 +195,28 @@ def test_e_closes_the_inventory_and_no_other_screen() -> None:
     assert paused.game.screen == "pause"
 
 
-def test_characters_go_into_the_chat_and_nowhere_else() -> None:
+def test_characters_go_into_the_chat_and_keys_alone_do_not() -> None:
     played = Played(screen="chat")
-    for character in "Hi é":
-        played.controls.character(character)
-    played.tap("x")
-    assert played.game.chat.typed == "Hi é"
-    played.tap("backspace")
-    assert played.game.chat.typed == "Hi "
-    played.game.open("world")
+    played.type("h", "~", " ", "x")
+    for key in ("backspace", "f5", "left.shift", "z"):
+        played.tap(key)
+    assert played.game.chat.typed == "h~ "
+
+
+def test_characters_go_nowhere_but_into_the_chat() -> None:
+    played = Played()
     played.controls.character("x")
     played.game.open("chat")
     assert played.game.chat.typed == ""
 
 
-def test_control_pastes_and_selects() -> None:
+def test_control_pastes_and_selects_but_types_no_letter() -> None:
     played = Played(screen="chat")
-    played.controls.character("a")
+    played.type("a")
+    played.controls.key("left.control", is_down=True)
+    played.type("x")
+    played.controls.key("left.control", is_down=False)
+    assert played.game.chat.typed == "a"
     played.tap("left.control", "a")
     assert played.game.chat.is_selected
     played.tap("left.control", "v")
@@ -214,13 +225,13 @@ def test_control_pastes_and_selects() -> None:
 
 def test_enter_sends_the_line_and_an_empty_one_is_not_sent() -> None:
     played = Played(screen="chat")
-    played.controls.character("h")
+    played.type("h")
     played.tap("enter")
     assert played.game.screen == "world"
     played.game.tick()
     assert played.said() == ["<Player> h"]
     played.game.open("chat")
-    played.controls.character(" ")
+    played.type(" ")
     played.tap("enter")
     played.game.tick()
     assert played.said() == ["<Player> h"]

@@ -4,7 +4,7 @@ from sim.client.game.edition import Edition
 from sim.client.game.screens import Menu, MenuState, ScreenName, label_colour, menu
 
 WIDTH, HEIGHT = 427, 240
-MENUS: tuple[ScreenName, ...] = ("title", "worlds", "pause", "death", "disconnected")
+MENUS: tuple[ScreenName, ...] = ("title", "worlds", "servers", "pause", "death", "disconnected")
 VERSIONS = ["1.12.2", "1.13.2", "1.16.5", "1.20.1", "1.21.11", "26.1"]
 
 
@@ -55,7 +55,10 @@ def test_words_change_with_the_version() -> None:
     assert shown("death", "1.16.5").texts[0].text == "You died!"
     assert shown("death", "1.17").texts[0].text == "You Died!"
     assert "Give Feedback" not in {button.label for button in shown("pause", "1.13.2").buttons}
-    assert shown("disconnected", "1.16.5").buttons[0].label == "Back to title screen"
+    assert shown("disconnected", "1.16.5").buttons[0].label == "Back to server list"
+    assert shown("disconnected", "1.17").buttons[0].label == "Back to Server List"
+    assert shown("worlds", "1.20.3").buttons[-1].label == "Cancel"
+    assert shown("worlds", "1.20.4").buttons[-1].label == "Back"
 
 
 def test_a_world_can_be_played_once_it_is_chosen() -> None:
@@ -86,6 +89,7 @@ def test_the_world_has_no_buttons(name: ScreenName) -> None:
         ("pause", "1.20.1", [("Game Menu", 213, 40)]),
         ("death", "1.20.1", [("You Died!", 213, 60), ("Score: 0", 213, 100)]),
         ("disconnected", "1.20.1", [("Connection Lost", 213, 98), ("Timed out", 213, 116)]),
+        ("servers", "1.20.1", [("Play Multiplayer", 213, 20), ("Minecraft Server", 113, 37)]),
         ("loading", "1.12.2", [("Loading terrain", 213, 120)]),
         ("loading", "1.13.2", [("Loading terrain...", 213, 120)]),
         ("saving", "1.20.1", [("Saving world", 213, 120)]),
@@ -113,6 +117,11 @@ def test_texts_stand_where_the_facts_say(name: ScreenName, version: str, texts: 
         ),
         ("death", "1.20.1", [(113, 132), (113, 156)]),
         ("disconnected", "1.20.1", [(113, 133)]),
+        (
+            "servers",
+            "1.20.1",
+            [(59, 188), (163, 188), (267, 188), (59, 212), (139, 212), (217, 212), (293, 212)],
+        ),
     ],
 )
 def test_every_button_stands_where_the_game_has_it(

@@ -1,0 +1,170 @@
+"""The X server of a Wayland session, in which a real window is pictured and driven; and what its errors say."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any, cast
+
+import pytest
+
+from mc_nested.errors import NoWindowError
+
+if not sys.platform.startswith("linux"):
+    pytest.skip("Xwayland", allow_module_level=True)
+
+from Xlib.error import BadMatch
+
+from mc_nested.live.desktop.xwayland import (
+    ALLOW,
+    is_rootless,
+    is_wayland_session,
+    is_xwayland,
+    no_x11_window_error,
+    no_x_server_error,
+)
+from tests.live.desktop.probed import probed
+from tests.live.desktop.xwayland_fixtures import compositors, rootful, rootless
+
+if TYPE_CHECKING:
+    from Xlib.display import Display
+
+__all__ = ["compositors", "rootful", "rootless"]
+
+RED, GREEN, BLUE, YELLOW = [0, 0, 255], [0, 255, 0], [255, 0, 0], [0, 255, 255]
+QUARTERS = [RED, GREEN, BLUE, YELLOW]
+PRESSED, RELEASED = 1, 0
+W, F3, SHIFT, SLASH = 87, 292, 340, 47
+RIGHT = 1
+
+
+def rootless_report(environment: dict[str, str], part: str) -> dict[str, Any]:
+    command = [sys.executable, "-m", "tests.live.desktop.xwayland_probe", part]
+    root = Path(__file__).resolve().parents[3]
+    done = subprocess.run(command, cwd=root, env=environment, capture_output=True, text=True, check=False, timeout=120)
+    assert done.returncode == 0, done.stderr
+    report: dict[str, Any] = json.loads(done.stdout)
+    return report
+
+
+@pytest.mark.window
+def test_the_games_own_window_is_pictured_whatever_covers_it(rootless: dict[str, str]) -> None:
+    report = rootless_report(rootless, "camera")
+    assert report["session"] == f"Xwayland, display {rootless['DISPLAY']}; {ALLOW}"
+    assert (report["shape"], report["corners"]) == ([400, 640, 3], QUARTERS)
+    assert (report["seam"], report["below"]) == ([[RED, GREEN]], [[RED], [BLUE]])
+    assert report["covered"] == QUARTERS
+    assert report["partly off the screen"] == QUARTERS
+    assert report["large"] == [[640, 960, 3], QUARTERS]
+    assert "minimised or hidden" in report["hidden"]
+
+
+@pytest.mark.window
+def test_keys_text_motions_and_clicks_reach_the_game(rootless: dict[str, str]) -> None:
+    report = rootless_report(rootless, "input")
+    assert report["keys"] == [["key", key, action] for key in (W, F3, SHIFT, SLASH) for action in (PRESSED, RELEASED)]
+    assert report["typed"] == "/Tp @s"
+    assert report["pointer"] == [200, 50]
+    clicks = [["button", RIGHT, PRESSED], ["button", RIGHT, RELEASED]]
+    assert report["clicks"] == [["cursor", 200.0, 50.0], *clicks]
+    assert report["in the world"] == clicks
+
+
+@pytest.mark.window
+def test_the_game_is_in_front_exactly_while_a_key_would_reach_it(rootless: dict[str, str]) -> None:
+    report = rootless_report(rootless, "focus")
+    assert report["at first"] == [True, True]
+    assert report["a Wayland window"] == [False, False]
+    assert report["clicked"] == [True, True]
+    assert report["another window"] == [False, False]
+    assert "no window's title matches 'Wayland Terminal'" in report["not seen"]
+    assert "start its launcher with env -u WAYLAND_DISPLAY" in report["not seen"]
+
+
+@pytest.mark.window
+def test_the_game_and_the_agent_have_one_clipboard(rootless: dict[str, str]) -> None:
+    assert rootless_report(rootless, "clipboard") == {"pasted": "/tp @s 1 2 3", "copied": "F3+C's text"}
+
+
+@pytest.mark.window
+def test_the_panic_key_is_heard_while_the_game_is_in_front(rootless: dict[str, str]) -> None:
+    report = rootless_report(rootless, "panic")
+    assert report["in front"] == ["the panic key was pressed"]
+    # With a Wayland window in front nothing is heard; nothing is pressed there either, as the test above has it.
+    assert report["behind"] == []
+
+
+@pytest.mark.window
+def test_an_xwayland_in_one_window_is_an_ordinary_x_server(rootful: dict[str, str]) -> None:
+    red, blue = [0x10, 0x20, 0xFF], [0xFF, 0x20, 0x10]
+    pictured = probed(rootful, "camera")
+    assert (pictured["corners"], pictured["moved"]) == ([red, red, blue, blue], [red, blue])
+    watched = probed(rootful, "window")
+    assert (watched["in front"], watched["other in front"], watched["again in front"]) == (True, False, True)
+    assert "closed" in watched["closed"]
+    pressed = probed(rootful, "keyboard")
+    assert pressed["typed"] == "/Tp @s"
+    assert [event[0] for event in pressed["keys"]] == ["press", "release"] * 4
+    clicked = probed(rootful, "pointer")
+    assert clicked["pointer"] == [200, 50]
+    assert [event[:2] for event in clicked["clicks"]] == [["down", 3], ["up", 3]]
+
+
+@pytest.mark.window
+def test_an_xwayland_in_one_window_says_so(rootful: dict[str, str]) -> None:
+    code = "from mc_nested.live.desktop import session_kind; print(session_kind())"
+    done = subprocess.run([sys.executable, "-c", code], env=rootful, capture_output=True, text=True, check=True)
+    assert done.stdout == f"Xwayland in one window, display {rootful['DISPLAY']}\n"
+
+
+class Server:
+    """An X server with a screen that can be pictured or can't, and outputs of these names."""
+
+    def __init__(self, *, extensions: tuple[str, ...] = (), has_picture: bool = True) -> None:
+        self.extensions, self.has_picture = extensions, has_picture
+
+    def query_extension(self, name: str) -> object | None:
+        return object() if name in self.extensions else None
+
+    def screen(self) -> Any:
+        return SimpleNamespace(root=self)
+
+    def get_image(self, *_: int) -> Any:
+        if not self.has_picture:
+            raise BadMatch(cast("Any", None), b"\0" * 32)
+        return SimpleNamespace(data=b"\0" * 4)
+
+
+def test_a_screen_without_a_picture_is_a_rootless_one() -> None:
+    assert is_rootless(cast("Display", Server(has_picture=False)))
+    assert not is_rootless(cast("Display", Server()))
+
+
+def test_a_new_xwayland_says_what_it_is_and_a_server_without_outputs_is_none() -> None:
+    assert is_xwayland(cast("Display", Server(extensions=("XWAYLAND",))))
+    assert not is_xwayland(cast("Display", Server()))
+
+
+@pytest.mark.parametrize(
+    ("environment", "is_one"),
+    [({}, False), ({"WAYLAND_DISPLAY": "wayland-0"}, True), ({"XDG_SESSION_TYPE": "wayland"}, True)],
+    ids=["neither", "its display", "its type"],
+)
+def test_a_wayland_session_is_known_by_its_environment(
+    environment: dict[str, str], is_one: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("WAYLAND_DISPLAY", "XDG_SESSION_TYPE"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in environment.items():
+        monkeypatch.setenv(name, value)
+    assert is_wayland_session() == is_one
+
+
+def test_each_error_is_one_line_that_says_what_to_do() -> None:
+    without_x = str(no_x_server_error())
+    assert "install your distribution's xwayland" in without_x
+    unseen = no_x11_window_error(NoWindowError("no window's title matches 'M'"))
+    assert isinstance(unseen, NoWindowError)
+    assert str(unseen).startswith("no window's title matches 'M'; a game that uses Wayland itself isn't seen")
+    assert "\n" not in without_x + str(unseen)
