@@ -17,21 +17,19 @@ import json
 import signal
 import sys
 import tempfile
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from scripts.standin_game import Folders, start_game  # noqa: E402 - found only with the line above
+from scripts.cache_lock import BusyError, alone  # noqa: E402 - found only with the line above
+from scripts.standin_game import Folders, start_game  # noqa: E402
 from scripts.standin_keeper import stay_behind  # noqa: E402
 from scripts.standin_oracle import answers  # noqa: E402
 from scripts.standin_parts import FONTS, WEB_CLIENT, MissingError, fetch, install_programs, install_server  # noqa: E402
-from scripts.standin_processes import StandinError, State, clean_up, load_state, wait_until  # noqa: E402
+from scripts.standin_processes import StandinError, State, clean_up, load_state  # noqa: E402
 
-PATIENCE_S = 1800.0
-"""Seconds to wait for another run: it may be fetching everything over a slow connection."""
 STOPPED = 130
 """The exit code after Ctrl+C."""
 
@@ -46,12 +44,12 @@ def main(arguments: Sequence[str] | None = None, cache: Path = ROOT / ".standin"
         return 2
     cache.mkdir(exist_ok=True)
     try:
-        with _alone(cache):
+        with alone(cache, say, "standin.py"):
             return {"up": up, "down": down, "status": status}[command](cache)
     except MissingError as error:
         say(str(error))
         return 2
-    except StandinError as error:
+    except (BusyError, StandinError) as error:
         say(str(error))
         return 1
     except KeyboardInterrupt:
@@ -135,31 +133,6 @@ def _fetched(cache: Path) -> Folders:
         client=fetch(WEB_CLIENT, cache, say, logs / "npm.log"),
         fonts=fetch(FONTS, cache, say, logs / "npm.log"),
     )
-
-
-@contextmanager
-def _alone(cache: Path) -> Iterator[None]:
-    """Let one run at a time use the cache: a second waits. The kernel lifts the lock even if this process is killed."""
-    import fcntl  # missing on Windows, which `main` has refused
-    import os
-
-    folder = os.open(cache, os.O_RDONLY)
-
-    def is_mine() -> bool:
-        try:
-            fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return False
-        return True
-
-    try:
-        if not is_mine():
-            say("waiting for another standin.py to end")
-            if not wait_until(is_mine, PATIENCE_S):
-                raise StandinError("another standin.py is still running here: wait for it, or stop it")
-        yield
-    finally:
-        os.close(folder)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,6 @@ from mc_nested.errors import RunError
 from mc_nested.learn.agents import Agent, view_of
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
-from mc_nested.learn.state_dict import part_of
 from sim.grid import GridVectorEnv
 
 
@@ -45,7 +44,7 @@ def evaluate(
 def load_agent(folder: RunFolder) -> Agent:
     """The agent of a training's last checkpoint, every trial, able to act."""
     agent = folder.new_agent(folder.config.trials)
-    kept = part_of(folder.checkpoint.state(), "kept")
+    kept = folder.kept()
     for role, online in agent.online().items():
         online[:] = kept[role]
     return agent
@@ -60,7 +59,7 @@ def best_policy(run: Path, wanted: RunFolder) -> Arrays:
             f"{run}: its {folder.config.agent} agent has other networks than this {wanted.config.agent} agent: take "
             f"the same agent, a preset with the same networks, and a design of as many blocks"
         )
-    kept = part_of(folder.checkpoint.state(), "kept")
+    kept = folder.kept()
     rows = load_agent(folder).rows_of(int(kept["scores"].argmax()))
     return {role: kept[role][rows[role]] for role in theirs.online()}
 

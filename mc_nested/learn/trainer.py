@@ -123,6 +123,11 @@ class Trainer:
         return self._kept_scores
 
     @property
+    def kept(self) -> Arrays:
+        """The networks of the policies that the runs keep, by role, and their ``scores``: what plays afterwards."""
+        return {**self._kept, "scores": self._kept_scores}
+
+    @property
     def epsilon(self) -> tuple[Float64s, Float64s]:
         """The main and the nested agent's ε of the training episodes now, (runs,) each."""
         done, episodes = self._runs.episodes, self.preset.episodes
@@ -196,7 +201,7 @@ class Trainer:
             **named_for("runs", vars(self._runs)),
             **named_for("env", self._resumable.snapshot() if self._resumable else {}),
             **named_for("agent", self.agent.state()),
-            **named_for("kept", {**self._kept, "scores": self._kept_scores}),
+            **named_for("kept", self.kept),
             **named_for("scouts", self._explorer.state() if self._explorer else {}),
         }
 
@@ -220,7 +225,7 @@ class Trainer:
         for name, kept in part_of(state, "runs").items():
             getattr(self._runs, name)[:] = kept
         self.agent.load(part_of(state, "agent"))
-        for name, kept in {**self._kept, "scores": self._kept_scores}.items():
+        for name, kept in self.kept.items():
             kept[:] = state[f"kept.{name}"]
         if self._explorer:
             self._explorer.load(part_of(state, "scouts"))

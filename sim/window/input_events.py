@@ -72,6 +72,8 @@ class InputEvents:
 
     def _on_cursor(self, _window: Any, x: float, y: float) -> None:
         if not self._is_grabbed:
+            if self._client.holds_pointer:  # to be grabbed at the next frame: this is no turn of the mouse
+                return
             ratio = self._window.pixels_a_point
             self._client.pointer.move(int(x * ratio), int(y * ratio))
             return

@@ -141,7 +141,7 @@ def test_a_lost_checkpoint_does_not_cost_the_tables(
     for name in ("config.toml", "episodes.csv"):
         (tmp_path / name).write_bytes((trained / name).read_bytes())
     assert run("train", "--resume", tmp_path) == 2
-    assert "no checkpoint yet" in capsys.readouterr().err
+    assert "the checkpoint is gone" in capsys.readouterr().err
     assert (tmp_path / "episodes.csv").read_bytes() == (trained / "episodes.csv").read_bytes()
 
 

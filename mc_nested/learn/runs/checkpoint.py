@@ -53,15 +53,20 @@ class Checkpoint:
 
     def __init__(self, folder: Path, identity: Mapping[str, Any]) -> None:
         self._folder = folder
-        self._identity = fingerprint(identity)
+        self.identity = fingerprint(identity)
         self._journals: list[str] = []
         self._next = 0
         self._marks: Arrays | None = None
 
     @property
+    def file(self) -> Path:
+        """The file of the state; its identity is inside."""
+        return self._folder / FILE
+
+    @property
     def exists(self) -> bool:
         """Whether anything was ever saved."""
-        return (self._folder / FILE).exists()
+        return self.file.exists()
 
     def save(self, training: Journalled, finished: bool = False) -> None:
         """Save the training as it is now; OSError or RuntimeError if the disk refuses, the last save is intact then.
@@ -73,14 +78,14 @@ class Checkpoint:
         name = WHOLE_JOURNAL if finished else f"journal-{self._next:06d}.pt"
         journals = [name] if merge else [*self._journals, name]
         self._write(name, training.journal(None if merge else self._marks), {})
-        self._write(FILE, training.state(), {"format": FORMAT, "identity": self._identity, "journals": journals})
+        self._write(FILE, training.state(), {"format": FORMAT, "identity": self.identity, "journals": journals})
         for old in self._journals:
             if old not in journals:
                 (self._folder / old).unlink(missing_ok=True)
         self._journals, self._next, self._marks = journals, self._next + 1, training.marks()
 
     def state(self) -> Arrays:
-        """The last saved state; RunError if there is none, or it is damaged, of a newer format or another training."""
+        """The last saved state; RunError if it is gone, damaged, newer or another training's, or torch is missing."""
         arrays: Arrays = self._open()["arrays"]
         return arrays
 
@@ -98,16 +103,20 @@ class Checkpoint:
 
     def _open(self) -> dict[str, Any]:
         if not self.exists:
-            raise RunError(f"{self._folder / FILE}: there is no checkpoint yet: train this run first")
+            raise RunError(f"{self.file}: the checkpoint is gone: bring back a copy, or train again in a new folder")
         found = self._read(FILE)
         if found.get("format", FORMAT) > FORMAT:
             raise RunError(f"{self._folder / FILE}: written by a newer mc-nested: update mc-nested to open it")
-        if found.get("identity") != self._identity:
+        self.check_identity(found.get("identity"))
+        return found
+
+    def check_identity(self, found: str | None) -> None:
+        """RunError unless that is the fingerprint of what is trained here."""
+        if found != self.identity:
             raise RunError(
-                f"{self._folder / FILE}: the checkpoint belongs to another scenario, agent or preset than this run's "
+                f"{self.file}: the checkpoint belongs to another scenario, agent or preset than this run's "
                 f"config.toml: put back the config.toml it was trained with"
             )
-        return found
 
     def _write(self, name: str, arrays: Mapping[str, NDArray[Any]], beside: Mapping[str, Any]) -> None:
         import torch  # it takes 200 MB, which a process that only waits for others doesn't need
@@ -117,8 +126,10 @@ class Checkpoint:
             torch.save({**beside, "arrays": tensors}, file)
 
     def _read(self, name: str) -> dict[str, Any]:
-        import torch
-
+        try:
+            import torch
+        except ImportError as error:
+            raise RunError(f"{self._folder / name}: reading a checkpoint needs torch: install torch") from error
         try:
             found = torch.load(self._folder / name, map_location="cpu", weights_only=True)
             return {**found, "arrays": {key: kept.numpy() for key, kept in found["arrays"].items()}}

@@ -33,7 +33,9 @@ def check_free(path: Path) -> None:
     What a killed process left half-written doesn't count.
     """
     try:
-        taken = path.exists() and (not path.is_dir() or any(not is_leftover(entry) for entry in path.iterdir()))
+        if path.exists() and not path.is_dir():
+            raise RunError(f"{path}: is a file: name a new folder, nothing was overwritten")
+        taken = path.exists() and any(not is_leftover(entry) for entry in path.iterdir())
     except OSError as error:
         raise RunError(f"{path}: can't be used, {error.strerror}: name another folder") from error
     if taken:

@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
+from mc_nested.arrays import Arrays
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentName
@@ -20,6 +21,8 @@ from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.checkpoint import Checkpoint
 from mc_nested.learn.runs.folder_kind import FORMAT, check_config, check_free
+from mc_nested.learn.runs.policies import load_policies, save_policies
+from mc_nested.learn.state_dict import part_of
 from mc_nested.learn.trainer import Trainer
 from mc_nested.toml_file import parse_toml, read_toml_text
 
@@ -92,7 +95,7 @@ class RunFolder:
         So a training that is killed here can't be resumed without its start.
         """
         try:
-            self.checkpoint.save(trainer)
+            self._save_checkpoint(trainer)
         except (OSError, RuntimeError) as error:  # torch raises a RuntimeError if it can't write
             shutil.rmtree(self.path / "checkpoint", ignore_errors=True)
             raise RunError(f"{self.path}: can't be written ({error}): make room and begin again") from error
@@ -124,11 +127,25 @@ class RunFolder:
         """
         summary = {**summarise(self.config, self.scenario, trainer, wall_s), **(beside or {})}
         with self.writing():
-            self.checkpoint.save(trainer, finished=trainer.finished)
+            self._save_checkpoint(trainer)
             _write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)
             _write_table(self.path / "evaluations.csv", EvaluationRow._fields, trainer.evaluation_rows)
             _write_text(self.path / "summary.json", json.dumps(summary, indent=2) + "\n")
         return summary
+
+    def kept(self) -> Arrays:
+        """The networks of the policies that the trials keep, by role, and their ``scores``, as last saved.
+
+        Read without torch, except from a folder of an older version. RunError if nothing was saved yet, or it is
+        damaged or another training's.
+        """
+        if self.only_begun:
+            raise RunError(f"{self.path}: nothing is trained yet: go on with mc-nested train --resume {self.path}")
+        return load_policies(self.checkpoint) or part_of(self.checkpoint.state(), "kept")
+
+    def _save_checkpoint(self, trainer: Trainer) -> None:
+        self.checkpoint.save(trainer, finished=trainer.finished)
+        save_policies(self.checkpoint, trainer.kept)
 
     @property
     def only_begun(self) -> bool:

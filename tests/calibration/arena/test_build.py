@@ -1,5 +1,6 @@
 """Building the arena on the virtual client: what is asked, what is touched, what is built, and put back."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -224,7 +225,7 @@ def test_a_build_that_ends_early_is_undone_from_the_note(tmp_path: Path, monkeyp
         raise ProfileError("the disk is full")
 
     monkeypatch.setattr(build, "save_profile", refused)
-    with pytest.raises(ProfileError, match=f"full; .*--undo --profile {file}$"):
+    with pytest.raises(ProfileError, match=f"full; .*--undo --profile {re.escape(str(file))}$"):
         calibrate_built_arena(file, context_on(client, said.append))
     assert any(f"mc-nested calibrate arena --undo --profile {file}" in line for line in said)
     assert load_profile(file).arena is None

@@ -164,5 +164,5 @@ def test_what_a_killed_save_left_is_removed_when_the_training_goes_on(tmp_path: 
 
 
 def test_no_checkpoint_is_one_clear_line(tmp_path: Path) -> None:
-    with pytest.raises(RunError, match="no checkpoint yet"):
+    with pytest.raises(RunError, match="checkpoint is gone"):
         loaded(tmp_path)

@@ -34,6 +34,6 @@ def test_an_empty_or_missing_folder_can_be_new_and_what_a_killed_process_left_do
 def test_a_folder_that_holds_something_or_a_file_is_not_overwritten(tmp_path: Path) -> None:
     (tmp_path / "notes.txt").write_text("mine")
     (tmp_path / "config.toml.0123abcd.unfinished").write_text("half")
-    for path in (tmp_path, tmp_path / "notes.txt"):
-        with pytest.raises(RunError, match="nothing was overwritten"):
+    for path, what in ((tmp_path, "exists and is not empty"), (tmp_path / "notes.txt", "is a file")):
+        with pytest.raises(RunError, match=f"{what}: name a new folder, nothing was overwritten"):
             check_free(path)

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from mc_nested.arena.scenario_file import table_of
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import view_of
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.learn.runs.policies import FILE as POLICIES
 from mc_nested.learn.runs.run_folder import RunConfig, RunFolder, summarise
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
@@ -102,6 +104,23 @@ def test_what_was_played_to_the_optimum_counts_the_greedy_episodes_too(tmp_path:
     # Five episodes of 1 to 5 steps, and the greedy ones of 4 and 1 steps.
     assert summary["played_to_optimum"] == [{"episodes": 7, "steps": 20}, None]
     assert (summary["wall_s"], summary["optimum"], summary["networks"]) == (1.235, 11.0, 2)
+
+
+def test_the_kept_policies_are_those_of_the_checkpoint_with_or_without_their_own_file(tmp_path: Path) -> None:
+    folder = begun(tmp_path)
+    with pytest.raises(RunError, match=f"nothing is trained yet: .* --resume {re.escape(str(tmp_path))}$"):
+        folder.kept()
+    trainer = trainer_in(folder)
+    while not trainer.finished:
+        trainer.tick()
+    folder.save(trainer, 1.0)
+    with_file = RunFolder.open(tmp_path).kept()
+    (tmp_path / "checkpoint" / POLICIES).unlink()
+    without = RunFolder.open(tmp_path).kept()
+    for found in (with_file, without):
+        assert {name: (array.dtype, array.tobytes()) for name, array in found.items()} == {
+            name: (array.dtype, array.tobytes()) for name, array in trainer.kept.items()
+        }
 
 
 def test_a_disk_that_refuses_is_one_line_and_leaves_nothing_half_begun(

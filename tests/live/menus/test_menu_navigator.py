@@ -9,7 +9,7 @@ from mc_nested.live.menus.screens import ScreenName
 from mc_nested.live.profile.tables import GameVersion, Profile, WorldTable
 from tests.live.menus.fake_menus import BUTTONS, FakeMenus, connection_of
 
-OWN_WORLD = Profile(world=WorldTable(folder="/saves/arena", template="/template", name="Arena"))
+OWN_WORLD = Profile(world=WorldTable(folder="~/saves/arena", template="~/template", name="Arena"))
 
 
 def navigator_in(menus: FakeMenus, profile: Profile | None = None, points: ClickPoints | None = None) -> MenuNavigator:

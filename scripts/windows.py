@@ -1,0 +1,100 @@
+"""The Windows code, really run: a Windows Python under Wine, with this project's packages. Linux, as root.
+
+    python scripts/windows.py setup                   fetch what is missing; a second run takes a second
+    python scripts/windows.py test [-- ARGUMENTS]     set up, then pytest under Wine, on a screen of its own
+
+Without arguments, pytest runs the unit suite of arena, live, sim and calibration. Programs come with apt, the rest with
+pip, pinned with hashes (windows_parts.py); all of it stays in .windows/ (1.4 GB). Nothing is left running. Exit code 2:
+the machine lacks something that the message names; 1: Wine did not start, or a test failed.
+"""
+
+import argparse
+import signal
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from scripts.cache_lock import BusyError, alone  # noqa: E402 - found only with the line above
+from scripts.standin_parts import MissingError  # noqa: E402
+from scripts.windows_parts import install_programs, install_python  # noqa: E402
+from scripts.windows_prefix import make_prefix  # noqa: E402
+from scripts.windows_session import Session, SessionError, as_text, open_session  # noqa: E402
+
+CACHE = ROOT / ".windows"
+STOPPED = 130
+"""The exit code after Ctrl+C."""
+
+UNIT_SUITE = (
+    *("-q", "-m", "not (slow or standin or realtime or window or wine)"),
+    *("tests/arena", "tests/live", "tests/sim", "tests/calibration"),
+)
+"""What pytest is given: the tests of what plays and calibrates. Learning is the same on every system."""
+
+PYTEST = ("-m", "pytest", "-p", "no:cacheprovider")
+
+
+def main(arguments: Sequence[str] | None = None, cache: Path = CACHE) -> int:
+    """Run the command; returns the exit code."""
+    parser = argparse.ArgumentParser(description="The Windows code under Wine.")
+    commands = parser.add_subparsers(dest="command", required=True)
+    commands.add_parser("setup", help="fetch what is missing")
+    testing = commands.add_parser("test", help="run pytest under Wine")
+    testing.add_argument("arguments", nargs="*", help="pytest's arguments, after --")
+    wanted = parser.parse_args(arguments)
+    try:
+        with set_up(cache):
+            if wanted.command == "setup":
+                return 0
+            with open_session(cache) as session:
+                return run_pytest(session, wanted.arguments or UNIT_SUITE)
+    except MissingError as error:
+        say(str(error))
+        return 2
+    except (BusyError, SessionError) as error:
+        say(str(error))
+        return 1
+    except KeyboardInterrupt:
+        say("stopped; nothing is left running")
+        return STOPPED
+
+
+@contextmanager
+def set_up(cache: Path) -> Iterator[None]:
+    """Fetch and make what is missing; no other run uses the cache until the end of the block.
+
+    Raises:
+        MissingError: this machine can't have it; BusyError: another run doesn't end; SessionError: Wine failed.
+    """
+    if sys.platform != "linux":
+        raise MissingError("Wine needs Linux: on Windows itself, run pytest (this is for Debian, as root)")
+    cache.mkdir(exist_ok=True)
+    with alone(cache, say, "windows.py"):
+        logs = cache / "logs"
+        logs.mkdir(exist_ok=True)
+        install_programs(say, logs / "apt.log")
+        install_python(cache, say, logs / "pip.log")
+        make_prefix(cache, say)
+        yield
+
+
+def run_pytest(session: Session, arguments: Sequence[str]) -> int:
+    """Run pytest under Wine, its output as it comes; returns its exit code."""
+    with session.started(*PYTEST, *arguments) as process:
+        assert process.stdout is not None  # noqa: S101 - started with a pipe
+        for line in process.stdout:
+            print(as_text(line), end="", flush=True)
+    return process.returncode
+
+
+def say(line: str) -> None:
+    """Print one line of progress, or why it ended."""
+    print(f"windows: {line}", file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    sys.exit(main())
