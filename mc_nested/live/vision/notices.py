@@ -1,8 +1,8 @@
 """Notices (toasts) over the upper right of the screen: whether one may lie over the right column.
 
-A notice is a box of 160 x 32 dots, up to five below each other, that slides in from the right side (FACTS: The F3
-debug screen). It is looked for by its left edge: a margin of one colour, over most of the box's height, beside
-something else, and none of the debug screen's text to the right of it.
+A notice is a box of 160 x 32 dots, up to five below each other, that slides in from the right side
+(FACTS: The F3 debug screen). It is looked for by its left edge: a margin of one colour, over most of the box's height,
+beside something else, and none of the debug screen's text to the right of it.
 """
 
 import numpy as np
