@@ -189,7 +189,7 @@ def test_lag_costs_holds_but_not_accuracy(seed: int, tmp_path: Path, monkeypatch
 
 @pytest.mark.slow
 def test_constant_lag_is_reported(tmp_path: Path) -> None:
-    client = VirtualClient(seed=1, pitch=65.0)
+    client = VirtualClient(seed=2, pitch=65.0)
     client.mishaps.every(0.35, ("lag",))
     found = measured(client, tmp_path)
     assert any(line.startswith("Warning: the game lags") for line in found.lines)
