@@ -46,7 +46,7 @@ def test_each_difference_from_the_world_is_counted() -> None:
 
 
 class Pausing(ClientTruth):
-    """True, but when it is asked for the fifth time, the game is paused."""
+    """True, but when it is asked for the third time, the game is paused."""
 
     def __init__(self, client: VirtualClient, arena: Arena) -> None:
         super().__init__(client, arena)
@@ -54,7 +54,7 @@ class Pausing(ClientTruth):
 
     def is_built(self, placed: set[Cell]) -> bool:
         self.looks += 1
-        if self.looks == 5:
+        if self.looks == 3:
             self.client.game.open("pause")
         return super().is_built(placed)
 
