@@ -46,7 +46,9 @@ def _windows_children() -> list[int]:
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
             with suppress(OSError):
-                name, fields = (entry / "stat").read_text(encoding="utf-8", errors="replace").split("(", 1)[1].rsplit(")", 1)
+                name, fields = (
+                    (entry / "stat").read_text(encoding="utf-8", errors="replace").split("(", 1)[1].rsplit(")", 1)
+                )
                 if int(fields.split()[1]) == os.getpid() and name.endswith(".exe"):
                     found.append(int(entry.name))
     return found
