@@ -64,6 +64,19 @@ def hold_report(window: DrivenWindow, devices: Devices) -> list[dict[str, Any]]:
     return found
 
 
+def sneak_report(window: DrivenWindow, devices: Devices) -> list[list[int]]:
+    """The events while Shift is held around two steps."""
+    devices.keyboard.press("left.shift")
+    for _step in range(2):
+        devices.clock.sleep_until(devices.clock.now() + HOLD_S)
+        devices.keyboard.press("w")
+        devices.clock.sleep_until(devices.clock.now() + HOLD_S)
+        devices.keyboard.release("w")
+    devices.keyboard.release("left.shift")
+    events = window.events_until(lambda came: sum(each[0] == "key" and each[3] == 0 for each in came) == 3)
+    return [[each[1], each[3]] for each in events if each[0] == "key"]
+
+
 def pointer_report(window: DrivenWindow, devices: Devices) -> dict[str, Any]:
     """Where GLFW sees the cursor that was moved to some points, and the buttons that it sees."""
     points = ((0, 0), (100, 50), (160, 120), (319, 239))
@@ -135,6 +148,7 @@ def main() -> None:
             "place": place_report(window, devices),
             "grab": grab_report(window, devices),
             "hold": hold_report(window, devices),
+            "sneak": sneak_report(window, devices),
             "pointer": pointer_report(window, devices),
             "clipboard": clipboard_report(window, devices),
             "corner": corner_report(window, devices),

@@ -16,6 +16,8 @@ pytestmark = pytest.mark.wine
 
 TESTS = Path(__file__).resolve().parents[1]
 GLFW_PROBE = str(TESTS / "live" / "desktop" / "glfw_probe.py")
+LEFT_SHIFT = 340
+"""GLFW's key."""
 SIZE = [320, 240]
 RED, BLUE = [16, 32, 255], [255, 32, 16]
 """The window's halves as pixels, blue first."""
@@ -73,6 +75,11 @@ def test_a_held_key_is_one_press_and_one_release(report: dict[str, Any]) -> None
     for hold in report["hold"]:
         assert [[key, action] for key, _, action in hold["events"] if action != 2] == [[ord("W"), 1], [ord("W"), 0]]
         assert hold["held"] >= 0.15
+
+
+def test_a_held_shift_stays_down_while_other_keys_come_and_go(report: dict[str, Any]) -> None:
+    step = [[ord("W"), 1], [ord("W"), 0]]
+    assert report["sneak"] == [[LEFT_SHIFT, 1], *step, *step, [LEFT_SHIFT, 0]]
 
 
 def test_the_free_cursor_goes_where_it_is_sent_and_every_button_arrives(report: dict[str, Any]) -> None:
