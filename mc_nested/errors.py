@@ -6,6 +6,7 @@ McNestedError
 │   ├── PresetError      a preset that can't be found or read
 │   ├── ProfileError     a profile that can't be found or read, or doesn't fit the screen
 │   ├── FontError        a font picture or jar that can't be used
+│   ├── PictureError     a file that is no picture, so that nothing can be read of it
 │   ├── RunError         an output folder, a run or a checkpoint that can't be used
 │   └── DesktopError     no display, a Wayland session without Xwayland, a window that can't be used
 │       ├── NoWindowError     no window of that title is there
@@ -41,6 +42,10 @@ class ProfileError(UserError):
 
 class FontError(UserError):
     """A font picture or jar that can't be used."""
+
+
+class PictureError(UserError):
+    """A file that is no picture, or can't be opened."""
 
 
 class RunError(UserError):

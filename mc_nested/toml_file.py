@@ -51,7 +51,14 @@ def parse_document(text: str, source: str, error: type[UserError]) -> tomlkit.TO
     try:
         return tomlkit.parse(text)
     except TOMLKitError as cause:
-        raise error(f"{source}: not TOML ({cause}): mend that line") from cause
+        raise error(f"{source}: {_broken_toml(text, cause)}") from cause
+
+
+def _broken_toml(text: str, cause: TOMLKitError) -> str:
+    """What is wrong with a text that isn't TOML, and what to do. A NUL stands for the end of the text."""
+    if "\\x00" in str(cause) and "\0" not in text:
+        return f"not TOML, it ends in the middle of line {len(text.splitlines())}: write the rest of it"
+    return f"not TOML ({cause}): mend that line"
 
 
 def parse_toml(model: type[Model], text: str, source: str, error: type[UserError]) -> Model:

@@ -39,12 +39,13 @@ COLUMNS = (
 
 @dataclass(frozen=True)
 class Condition:
-    """One way to rehearse: all as usual but for one factor."""
+    """One way to rehearse; ``options`` are more of ``mc-nested rehearse``'s."""
 
     name: str
     fps: float = 60.0
     layout: str = "us"
     has_window_manager: bool = False
+    options: tuple[str, ...] = ()
 
 
 USUAL = Condition("60 fps")
@@ -61,7 +62,7 @@ def measure(condition: Condition, actions: int, seed: int) -> dict[str, Any]:
     with (
         tempfile.TemporaryDirectory(prefix="mc-nested-rehearsal-") as temporary,
         open_display(layout=condition.layout, has_window_manager=condition.has_window_manager) as env,
-        open_rehearsal(env, Path(temporary), "--fps", str(condition.fps)) as window,
+        open_rehearsal(env, Path(temporary), "--fps", str(condition.fps), *condition.options) as window,
     ):
         profile = Path(temporary) / "profile.toml"
         began = time.monotonic()

@@ -1,10 +1,12 @@
 """What several folders of tests share."""
 
+import os
 import signal
 
 import pytest
 from hypothesis import settings
 
+from tests.live.vision.real_pictures import VARIABLE
 from tests.standin_fixture import standin
 from tests.window_fixture import display, window_programs
 from tests.windows_fixture import windows
@@ -17,6 +19,12 @@ settings.load_profile("any machine")
 
 # A shell that starts the tests in the background has SIGINT ignored, in every process that they start, too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def pytest_report_header() -> str:
+    """Whether pictures of the real game are read, and why not."""
+    folder = os.environ.get(VARIABLE)
+    return f"real pictures: {folder}" if folder else f"real pictures: none are read, {VARIABLE} names no folder"
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -41,15 +42,31 @@ def calibrate(rehearsal: RehearsalWindow, profile: Path) -> None:
     mc_nested("calibrate", "all", "--yes", "--profile", profile, "--font", rehearsal.font, env=rehearsal.env)
 
 
+@dataclass(frozen=True)
+class Calibrated:
+    """A profile that `calibrate all` made from nothing, and the seconds that it took."""
+
+    profile: Path
+    seconds: float
+
+
 @pytest.fixture(scope="module")
-def profile(tmp_path_factory: pytest.TempPathFactory, window_programs: None) -> Path:  # noqa: ARG001
-    """A profile calibrated in a window at 60 frames a second, from nothing and within its time."""
+def calibrated(tmp_path_factory: pytest.TempPathFactory, window_programs: None) -> Calibrated:  # noqa: ARG001
+    """Calibrated in a window at 60 frames a second."""
     folder = tmp_path_factory.mktemp("calibrated")
     with open_display() as env, open_rehearsal(env, folder) as rehearsal:
         began = time.monotonic()
         calibrate(rehearsal, folder / "profile.toml")
-        assert time.monotonic() - began < LONGEST_CALIBRATION_S
-    return folder / "profile.toml"
+        return Calibrated(folder / "profile.toml", time.monotonic() - began)
+
+
+@pytest.fixture
+def profile(calibrated: Calibrated) -> Path:
+    return calibrated.profile
+
+
+def test_calibrating_from_nothing_takes_less_than_a_hundred_seconds(calibrated: Calibrated) -> None:
+    assert calibrated.seconds < LONGEST_CALIBRATION_S
 
 
 @contextmanager

@@ -63,6 +63,15 @@ def test_what_is_no_toml_is_refused() -> None:
         parse_document("= 1", "x.toml", ScenarioError)
 
 
+@pytest.mark.parametrize("text", ["a = 1\nb = ", 'a = 1\nb = "x', "a = 1\nb = [1,", "a = 1\n[tab", "a = 1\nb"])
+def test_a_text_that_is_cut_off_is_said_to_end_too_early(text: str) -> None:
+    with pytest.raises(ScenarioError) as told:
+        parse_document(text, "x.toml", ScenarioError)
+    assert "\\x00" not in str(told.value)
+    assert str(told.value).startswith("x.toml: not TOML")
+    assert "line 2" in str(told.value)
+
+
 def test_a_shipped_name_comes_first_and_a_path_after(tmp_path: Path) -> None:
     def text_of(name: str | Path) -> str:
         return read_shipped_or_named(name, "preset", "mc_nested.learn.presets", ["paper"], PresetError)

@@ -117,6 +117,7 @@ def build_arena(
     console = CommandConsole(connection, profile)
     queries = BlockQueries(console, profile, screen, arena.yaw)
     ground = survey_ground(console, queries, profile, arena, standing)
+    arena = arena.model_copy(update={"floor": ground.floor if ground.keeps_floor else FLOOR})
     before = ReportPicture("The ground of the arena, before", without_chat(display.grab(), screen.scale()))
     noted = read_copy_note(path) if path else None
     old = noted.arena if noted else profile.arena

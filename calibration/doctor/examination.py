@@ -117,7 +117,7 @@ def _examine_window(
         *window_rows(snapshot, profile), *screen_rows(snapshot), fit_row(profile_name, profile, snapshot.window)
     )
     with InputController(devices, settings.input) as controller:
-        findings.add(input_row(devices, controller, lambda: take_snapshot(devices, font, overlay), settings.keys.debug))
+        findings.add(input_row(devices, controller, lambda: take_snapshot(devices, font, overlay), settings.keys))
 
 
 def _examine_files(

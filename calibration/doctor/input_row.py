@@ -1,9 +1,7 @@
-"""The input's check: press the debug screen's own key, see the debug screen go off, and press the key again.
+"""The input's check: a step and back, a slot of the hotbar and back, and the debug screen off and on again.
 
-Why that key: it changes nothing in the world, no server notices it, and its effect is exactly what is read. It is
-pressed only while the world is visible with nothing over it. If the game has switched to another screen by then, F3
-does nothing in a menu, in the chat or after a death, and types no letter. A movement key would move the player, a
-number would change the hotbar, Esc opens the Game Menu in the world, and letters go into a chat that just opened. No
+Each key's effect is looked for on the screen and undone. Keys are pressed only while the world is visible with nothing
+over it. The debug screen's key comes last, and only where the others arrive: without it nothing more could be read. No
 other key is down meanwhile, since F3 with a letter has other effects (FACTS: Keys).
 """
 
@@ -11,83 +9,74 @@ from collections.abc import Callable
 
 from calibration.doctor.check import Check, CheckName, check_from_message
 from calibration.doctor.snapshot import WindowSnapshot
+from calibration.doctor.tried_keys import TriedWindow, is_menu, is_slot_seen_to_change, moving_key
 from mc_nested.errors import DesktopError, NotInFrontError, WrongScreenError
-from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import Clock, Devices
+from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.model.timing import KEY_LOOK_S
-
-EFFECT_S = 1.5
-"""How long the effect of a press may take to be seen: a game's slow frames, and a desktop's slow pictures."""
+from mc_nested.live.profile.tables import KeysTable
 
 TRIES = 3
 """Presses to turn the debug screen on again: one may get lost."""
 
 _ROW = CheckName.INPUT
 
+_KEYS_LOST = (
+    "do the profile's [keys] say what the game does? An input method (IME) may take the keys: switch it off. "
+    "On Windows, start this as the user that the game runs as"
+)
 
-def input_row(devices: Devices, controller: InputController, snapshot: Callable[[], WindowSnapshot], key: str) -> Check:
-    """Press the key of the debug screen and check its effect; ``snapshot`` takes a snapshot of the window."""
+
+def input_row(
+    devices: Devices, controller: InputController, snapshot: Callable[[], WindowSnapshot], keys: KeysTable
+) -> Check:
+    """Press keys and check their effects; ``snapshot`` takes a snapshot of the window."""
     current = snapshot()
     if not current.is_in_front:
         return Check(_ROW, "skip", "another window is in front, so nothing is pressed")
     if not current.is_world:
-        return Check(_ROW, "skip", f"{key} is only pressed where the debug screen is read, with nothing over it")
+        return Check(_ROW, "skip", "keys are only pressed where the debug screen is read, with nothing over it")
     try:
-        return _try_key(devices, controller, snapshot, key)
-    except (NotInFrontError, WrongScreenError):
+        return _try_keys(TriedWindow(devices, controller, snapshot), keys)
+    except NotInFrontError:
         return Check(_ROW, "fail", "another window came to the front", "leave the game in front, run this again")
+    except WrongScreenError:
+        return Check(_ROW, "warn", "a menu opened meanwhile", "close it, leave the game alone, and run this again")
     except DesktopError as error:
         return check_from_message(_ROW, "fail", str(error))
 
 
-def _try_key(devices: Devices, controller: InputController, snapshot: Callable[[], WindowSnapshot], key: str) -> Check:
-    clock = devices.clock
+def _try_keys(window: TriedWindow, keys: KeysTable) -> Check:
+    moved = moving_key(window, keys)
+    if moved is None:
+        tried = f"{keys.forward}, {keys.back} and {keys.left} were pressed with {keys.sneak}"
+        return Check(_ROW, "fail", f"{tried}, and the player stayed where it was", _KEYS_LOST)
+    if not is_slot_seen_to_change(window, keys):
+        tried = f"{keys.hotbar[0]} and {keys.hotbar[1]} were pressed"
+        remedy = "is the hotbar on the screen (F1)? Are keys.hotbar in the profile right?"
+        return Check(_ROW, "warn", f"{tried}, and the hotbar's frame wasn't seen to move", remedy)
+    return _try_debug_key(window, keys, moved)
+
+
+def _try_debug_key(window: TriedWindow, keys: KeysTable, moved: str) -> Check:
+    clock, key = window.devices.clock, keys.debug
+    window.world()
     pressed_at = clock.now()
-    controller.confirm_screen("world")
-    controller.tap(key)
-    off = _first_snapshot(controller, clock, snapshot, lambda seen: not _is_on(seen) or _is_menu(seen))
+    window.controller.tap(key)
+    off = window.first(lambda seen: not _is_on(seen) or is_menu(seen))
     took = clock.now() - pressed_at
     if off is None:
-        return Check(
-            _ROW,
-            "fail",
-            f"{key} was pressed, and the debug screen stayed on",
-            "is keys.debug in the profile right? On Windows, start this as the user that the game runs as",
-        )
-    if _is_menu(off):
-        return Check(_ROW, "warn", "a menu opened meanwhile", "close it, leave the game alone, and run this again")
+        remedy = "is keys.debug in the profile right? On a Mac, F3 may want Fn"
+        return Check(_ROW, "fail", f"{key} was pressed, and the debug screen stayed on", remedy)
     for _ in range(TRIES):
-        controller.confirm_screen("world")
-        controller.tap(key)
-        if back := _first_snapshot(controller, clock, snapshot, lambda seen: _is_on(seen) or _is_menu(seen)):
-            if _is_menu(back):
+        window.world()
+        window.controller.tap(key)
+        if back := window.first(lambda seen: _is_on(seen) or is_menu(seen)):
+            if is_menu(back):
                 break
-            return Check(_ROW, "pass", f"{key} pressed, and seen after {1000 * took:.0f} ms; pressed again, and undone")
+            seen = f"{moved}, {keys.hotbar[0]}, {keys.hotbar[1]} and {key} pressed, and seen"
+            return Check(_ROW, "pass", f"{seen}, {key} after {1000 * took:.0f} ms; all undone")
     return Check(_ROW, "warn", f"{key} works, but the debug screen didn't come back", f"press {key.upper()}")
-
-
-def _first_snapshot(
-    controller: InputController,
-    clock: Clock,
-    snapshot: Callable[[], WindowSnapshot],
-    is_so: Callable[[WindowSnapshot], bool],
-) -> WindowSnapshot | None:
-    """The first snapshot for which ``is_so`` holds, or None. NotInFrontError if the window loses the front."""
-    deadline = Deadline(clock, EFFECT_S)
-    while True:
-        current = snapshot()
-        controller.check_front()
-        if is_so(current):
-            return current
-        if deadline.has_passed:
-            return None
-        controller.wait(KEY_LOOK_S)
 
 
 def _is_on(snapshot: WindowSnapshot) -> bool:
     return snapshot.contents is not None and snapshot.contents.line is not None
-
-
-def _is_menu(snapshot: WindowSnapshot) -> bool:
-    return snapshot.contents is not None and snapshot.contents.screen not in ("world", "unknown")

@@ -22,6 +22,9 @@ def profile_row(name: str) -> tuple[Profile | None, Check]:
     try:
         return load_profile(name), Check(CheckName.PROFILE, "pass", str(path))
     except ProfileError as error:
+        what, _, remedy = str(error).rpartition(": ")
+        if remedy.startswith("update"):  # of a newer version: mending it would lose what that wrote
+            return None, Check(CheckName.PROFILE, "fail", what, remedy)
         earlier = earlier_path(path).is_file()
         undo = f"mend it, or mc-nested calibrate undo --profile {name}" if earlier else "mend it, or move it away"
         return None, Check(CheckName.PROFILE, "fail", str(error), undo)

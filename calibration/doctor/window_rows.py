@@ -8,6 +8,9 @@ from mc_nested.live.profile.tables import Profile
 LEAST = (320, 240)
 """The smallest window that the game lays its screens out for (FACTS: The F3 debug screen)."""
 
+ROOMY = 480
+"""GUI pixels of width at which a block's longest lines leave the left column free (FACTS: The F3 debug screen)."""
+
 _RATIO_TOLERANCE = 0.01
 """How far the ratio may be from a whole number: a window's edge may be cut by less than a point."""
 
@@ -69,6 +72,15 @@ def size_row(snapshot: WindowSnapshot, profile: Profile | None) -> Check:
             "fail",
             f"{size}, GUI scale {scale}, and the profile's screen.gui_scale is {wanted}",
             f"set Video Settings > GUI Scale to {wanted}, or take that line out of the profile",
+        )
+    columns = -(-snapshot.window.window[0] // scale)
+    if columns < ROOMY:
+        return Check(
+            row,
+            "warn",
+            f"{size}, GUI scale {scale}: only {columns} GUI pixels wide, so a long line about a block can cover the "
+            "Facing line",
+            f"make the window at least {ROOMY * scale} pixels wide, or set a smaller GUI scale",
         )
     return Check(row, "pass", f"{size}, GUI scale {scale}")
 

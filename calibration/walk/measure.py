@@ -1,9 +1,12 @@
 """The walk step of calibration: measures which keys go which way, how far a hold leads, and the latencies.
 
 sneak a little with each key -> sneak out and back, to see how far the floor is free -> walk there, at all lengths and
-phases -> fit -> a few more holds, timed between two ticks and predicted before they are pressed -> back to the start
+phases -> fit -> a few more holds, timed between two ticks and predicted before they are pressed -> back to the start,
+also where any of this fails
 """
 
+from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
 import cv2
@@ -14,13 +17,14 @@ from calibration.open_context import OpenContext
 from calibration.report.kept import keep_or_warn
 from calibration.starting_profile import starting_profile
 from calibration.walk.directions import describe_keys
-from calibration.walk.figure import picture_of_walk
+from calibration.walk.empirical import EmpiricalWalk, empirical_walk
+from calibration.walk.figure import picture_of_empirical_walk, picture_of_walk
 from calibration.walk.gait_fit import rms
 from calibration.walk.survey import FORWARD_AXIS, SIDE_AXIS, Survey
 from calibration.walk.walk_model import PLAIN_SPEED, WalkModel, fit_walk_model
 from calibration.walk.walker import Walker
 from mc_nested.arena.rules import SIZE, Cell
-from mc_nested.errors import NotConfirmedError, ProfileError
+from mc_nested.errors import McNestedError, NotConfirmedError, ProfileError, UnreadableError, UserError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.menus.commands import clear_command, teleport_command
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
@@ -29,7 +33,7 @@ from mc_nested.live.model.reading import WorldPose
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver
 from mc_nested.live.motion.pose_reader import PoseReader
 from mc_nested.live.profile.store import save_profile
-from mc_nested.live.profile.tables import Profile
+from mc_nested.live.profile.tables import KeysTable, Profile, WalkTable
 
 MIDDLE: Cell = (SIZE // 2, SIZE // 2)
 """The cell with the most room around it."""
@@ -45,6 +49,12 @@ ARRIVAL_TOLERANCE = 0.01
 
 MAX_HOLDS_BACK = 6
 """Holds per axis that the return to the start may take."""
+
+
+WITHOUT_TICKS = (
+    "Warning: this game's walk doesn't go in ticks as Minecraft's does, so the profile holds only how far each hold "
+    "leads, and playing is slower. If this is Minecraft, close other programs and calibrate again."
+)
 
 
 def calibrate_walk(profile_name: str | Path, context_of: OpenContext) -> tuple[StepResult, Path]:
@@ -91,23 +101,46 @@ def walk(context: CalibrationContext, profile: Profile) -> StepResult:
     connection.check_single_player()
     console = CommandConsole(connection, profile)
     _, began, _ = PoseReader(connection, profile.body.patience_s).read()
-    if profile.arena is not None and profile.world is None:
+    can_teleport = profile.arena is not None and profile.world is None
+    if profile.arena is not None and can_teleport:
         console.send(clear_command(profile.arena))
         console.send(teleport_command(profile.arena, MIDDLE, profile.body.pitch))
         middle = WorldPose(profile.arena.centre_of(MIDDLE), profile.arena.yaw, profile.body.pitch)
         _wait_for_arrival(connection, profile, middle)
     survey = Survey(Walker(connection, profile), profile.keys, context.devices.clock)
+    try:
+        result = _measure(profile, survey)
+    except (NotConfirmedError, UnreadableError, UserError):
+        # Whoever calibrates again finds the player where the step began. Why it failed is what counts.
+        with suppress(McNestedError):
+            if can_teleport:
+                console.send(_back_to(began))
+        raise
+    if can_teleport:
+        console.send(_back_to(began))
+        _wait_for_arrival(connection, profile, began)
+    return result
+
+
+def _measure(profile: Profile, survey: Survey) -> StepResult:
+    """The survey, and what fits it; without commands the player walks back at the end."""
     keys = survey.find_keys()
     survey.find_floor()
     survey.walk()
-    walk_model = fit_walk_model(survey.holds)
+    walks_back = profile.arena is None or profile.world is not None
+    try:
+        walk_model = fit_walk_model(survey.holds)
+    except NotConfirmedError:
+        found = empirical_walk(survey.holds, WalkTable())
+        if found is None:
+            raise
+        if walks_back:
+            _walk_back(found.table.covered, survey)
+        return _empirical_result(profile, keys, found)
     errors = _predict(walk_model, survey)
     walk_model = fit_walk_model(survey.holds)
-    if profile.arena is not None and profile.world is None:
-        console.send(_back_to(began))
-        _wait_for_arrival(connection, profile, began)
-    else:
-        _walk_back(walk_model, survey)
+    if walks_back:
+        _walk_back(walk_model.table.covered, survey, _between_ticks(walk_model))
     lines = (
         f"Keys: {describe_keys(profile.keys, keys)}.",
         *_words(walk_model),
@@ -120,6 +153,22 @@ def walk(context: CalibrationContext, profile: Profile) -> StepResult:
         lines,
         len(walk_model.good),
         (picture_of_walk(walk_model),),
+    )
+
+
+def _empirical_result(profile: Profile, keys: KeysTable, found: EmpiricalWalk) -> StepResult:
+    """What a walk without ticks gives, with a warning."""
+    return StepResult(
+        "walk",
+        profile.model_copy(update={"keys": keys, "walk": found.table}),
+        (
+            f"Keys: {describe_keys(profile.keys, keys)}.",
+            f"Walking {found.speed:.3f} blocks a second, sneaking {found.sneaking_speed:.3f}.",
+            f"{len(found.traces)} holds ended {found.error:.4f} blocks (RMS) from a straight line.",
+            WITHOUT_TICKS,
+        ),
+        len(found.traces),
+        (picture_of_empirical_walk(found),),
     )
 
 
@@ -139,14 +188,13 @@ def _between_ticks(walk_model: WalkModel) -> float:
     return walk_model.tick_phase - walk_model.round_trip_s + TICK_S / 2
 
 
-def _walk_back(walk_model: WalkModel, survey: Survey) -> None:
-    covered = walk_model.table.covered
+def _walk_back(covered: Sequence[float], survey: Survey, phase: float | None = None) -> None:
     for axis in (FORWARD_AXIS, SIDE_AXIS):
         for _ in range(MAX_HOLDS_BACK):
             offset = abs(survey.offset(axis))
             if offset <= NEAR:
                 break
-            survey.hold_homewards(axis, max(1, nearest_ticks(offset, covered)), _between_ticks(walk_model))
+            survey.hold_homewards(axis, max(1, nearest_ticks(offset, covered)), phase)
 
 
 def _back_to(pose: WorldPose) -> str:

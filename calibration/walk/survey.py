@@ -172,10 +172,10 @@ class Survey:
         phase: float | None = None,
         max_distance: float = float("inf"),
     ) -> SurveyHold:
-        keys = [self.keys.sneak] if gait == "sneak" else []
+        sneak = self.keys.sneak if gait == "sneak" else None
         phase = phase if phase is not None else len(self.holds) * GOLDEN * TICK_S
         recorded = self._walker.hold(
-            ticks * TICK_S, *keys, getattr(self.keys, direction), phase=phase, max_distance=max_distance
+            ticks * TICK_S, getattr(self.keys, direction), sneak=sneak, phase=phase, max_distance=max_distance
         )
         hold = SurveyHold(direction, gait, recorded.held_s / TICK_S, recorded)
         self.holds.append(hold)

@@ -91,18 +91,27 @@ class Walker:
         return self._follow(pose, standstill, _Recording(pose.position, pose.at))
 
     def hold(
-        self, seconds: float, *keys: str, phase: float | None = None, max_distance: float = math.inf
+        self,
+        seconds: float,
+        key: str,
+        *,
+        sneak: str | None = None,
+        phase: float | None = None,
+        max_distance: float = math.inf,
     ) -> RecordedHold:
-        """Hold keys of the world from rest, and follow the walker until standstill.
+        """Hold a key of the world from rest, and follow the walker until standstill.
 
         Args:
             seconds: how long.
-            keys: which, together.
-            phase: a time of the clock; the keys go down a whole number of ticks after it. None presses at once.
+            key: which.
+            sneak: the sneak key, which goes down first; None walks.
+            phase: a time of the clock; the key goes down a whole number of ticks after it. None presses at once.
             max_distance: blocks from the beginning at which the keys go up early.
         """
         begin = self.stand()
         self._observer.permit_press()
+        if sneak:
+            self._key_hold.begin_sneaking(sneak)
         if phase is not None:
             from_now = (phase - self._clock.now()) % TICK_S
             self._controller.wait_until(self._clock.now() + from_now)
@@ -115,7 +124,7 @@ class Walker:
             is_far = math.hypot(*pose.position.minus(begin)) >= max_distance
             return self._clock.now() if is_far else None
 
-        self._key_hold.hold(pressed + seconds, *keys, look_times=self._look_times(), on_look=release_if_far)
+        self._key_hold.hold(pressed + seconds, key, sneak=sneak, look_times=self._look_times(), on_look=release_if_far)
         released = self._clock.now()
         latest = recording.sightings[-1].position if recording.sightings else begin
         standstill = Standstill(latest, released, CAREFUL_SETTLE_S)

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
-from mc_nested.errors import FontError
+from mc_nested.errors import FontError, PictureError
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.vision.font import load_font
@@ -23,7 +23,10 @@ def read(
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="print one JSON line a picture")] = False,
 ) -> None:
-    """Read pictures of the debug screen: position, view and the block looked at."""
+    """Read pictures of the debug screen: position, view and the block looked at.
+
+    A file that is no picture ends it with exit code 2, once the others are read.
+    """
     known = load_profile(profile) if profile else None
     if font is None:
         if known is None:
@@ -33,9 +36,18 @@ def read(
         font = known.screen.font_path()
     glyphs = load_font(font.expanduser())
     overlay = overlay_of(known) if known else None
+    unusable: list[PictureError] = []
     for image in images:
-        found = read_picture(image, glyphs, overlay)
+        try:
+            found = read_picture(image, glyphs, overlay)
+        except PictureError as error:
+            unusable.append(error)
+            continue
         print(json.dumps(found) if as_json else _line(found), flush=True)
+    if unusable:
+        count = len(unusable) - 1
+        others = f"; {count} other file{'s' if count > 1 else ''} can't be read either" if count else ""
+        raise PictureError(f"{unusable[0]}{others}")
 
 
 def _line(found: dict[str, Any]) -> str:

@@ -67,7 +67,7 @@ class LiveGame:
         self._body = Body(profile, connection)
         self._chat = Chat(profile, connection)
         self._recovery = Recovery(profile, connection, points)
-        self._last_frames = LastFrames(connection.devices.display, evidence, connection.screen.scale)
+        self._last_frames = LastFrames(connection.devices.display, evidence, connection.screen.seen_scale)
         self.log = ActionLog(self._body.effort)
         self._commands = reset_commands(profile, scenario.start, [material.block for material in scenario.materials])
         self._cell: Cell | None = None

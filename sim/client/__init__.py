@@ -5,7 +5,7 @@ mishaps.py   what goes wrong: lost focus, lag, lost keys, death and so on
 
 game/        the game, a tick at a time; it knows no pixels
     game.py  realm.py  world.py  world_folder.py    a tick; the player and the rules; the blocks; saved as a folder
-    physics.py  ray.py                              walking, falling, bumping; what is looked at
+    physics.py  gaits.py  ray.py                    walking, falling, bumping; sprinting; what is looked at
     controls.py  keys.py                            what keys, buttons and the mouse do on each screen
     chat.py  commands/                              messages, and chat commands of each version (edition.py)
     screens.py  f3_text.py  colours.py              menus and the debug screen: their texts and buttons

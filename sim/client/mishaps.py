@@ -28,13 +28,19 @@ Kind = Literal[
     "knocked_away",
     "refused_placing",
     "ghost_block",
+    "notices",
 ]
 KINDS: tuple[Kind, ...] = get_args(Kind)
-DRAWN: tuple[Kind, ...] = tuple(kind for kind in KINDS if kind != "ghost_block")
-"""Those drawn at random unless others are asked for. A ghost block appears and is then taken back."""
+DRAWN: tuple[Kind, ...] = tuple(kind for kind in KINDS if kind not in ("ghost_block", "notices"))
+"""Those drawn at random unless others are asked for. A ghost block appears and is then taken back; notices cover the
+upper right for five seconds."""
 
 SIZES: tuple[Size, ...] = ((854, 480), (1024, 768), (1280, 720))
 """What a window may be resized to."""
+
+NOTICES = ("Move with W, A, S and D", "New Recipes Unlocked!", "Open your inventory", "Look around", "Find a tree")
+NOTICED_S = 5.0
+"""Seconds that a notice stays."""
 
 _OF_THE_WORLD = frozenset(
     {"pause", "chat", "inventory", "death", "disconnect", "f3_off", "knocked_away", "refused_placing", "ghost_block"}
@@ -94,6 +100,7 @@ class Mishaps:
             "knocked_away": self._knock_away,
             "refused_placing": game.refuse_next,
             "ghost_block": game.expect_ghost,
+            "notices": self._notice,
         }
 
     def plan(self, kind: Kind, in_s: float = 0.0) -> None:
@@ -139,6 +146,11 @@ class Mishaps:
     def _resize_window(self) -> None:
         others = [size for size in SIZES if size != self._client.window.size]
         self._client.resize(others[int(self._rng.integers(len(others)))])
+
+    def _notice(self) -> None:
+        client = self._client
+        client.game.notices = NOTICES
+        client.clock.call_at(client.clock.now() + NOTICED_S, lambda: setattr(client.game, "notices", ()))
 
     def _knock_away(self) -> None:
         turn = self._between(0, 2 * np.pi)

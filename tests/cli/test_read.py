@@ -51,8 +51,28 @@ def test_each_picture_is_a_line_that_says_where_the_player_is_and_what_is_looked
 def test_a_picture_that_can_not_be_read_is_a_line_with_the_reason(
     tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    (line,) = printed(capsys, tmp_path / "none.png", "--font", font)
-    assert line.startswith(f"{tmp_path / 'none.png'}: unread: the file can't be read")
+    (line,) = printed(capsys, picture(tmp_path / "a.png", SKY), "--font", font)
+    assert " looks at no block" in line
+    cv2.imwrite(str(tmp_path / "grey.png"), np.full((480, 854, 3), 60, np.uint8))
+    (line,) = printed(capsys, tmp_path / "grey.png", "--font", font)
+    assert line.startswith(f"{tmp_path / 'grey.png'}: unread: no debug screen is to be seen")
+
+
+@pytest.mark.parametrize("as_json", [True, False])
+def test_a_file_that_is_no_picture_is_a_mistake_once_the_others_are_read(
+    as_json: bool, tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "notes.txt").write_text("no picture", "utf-8")
+    images = [tmp_path / "notes.txt", picture(tmp_path / "a.png", STONE), tmp_path / "none.png"]
+    with pytest.raises(SystemExit) as ended:
+        main(["read", *map(str, images), "--font", str(font), *(["--json"] if as_json else [])])
+    said = capsys.readouterr()
+    assert ended.value.code == 2
+    assert len(said.out.splitlines()) == 1
+    assert said.err == (
+        f"mc-nested: {tmp_path / 'notes.txt'} is not a picture: give a PNG of the game's window, as F2 takes it; "
+        "1 other file can't be read either\n"
+    )
 
 
 def test_as_json_each_picture_is_an_object(tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -138,6 +138,8 @@ class FakeGame:
         keys = self.profile.keys
         if not is_down:
             self._game_keys.discard(name)
+        elif self._chat is not None and name == "esc":
+            self._chat = None
         elif self._chat is not None:
             if name == "enter":
                 self._run(self._chat)
@@ -260,6 +262,9 @@ class FakeScreen:
         raise NotImplementedError(f"the fake game has no menu, nor {text!r} on it")
 
     def scale(self) -> int:
+        return 2
+
+    def seen_scale(self) -> int | None:
         return 2
 
 

@@ -1,6 +1,8 @@
 """Hears keys by their places, whichever window they go to and whatever the layout."""
 
+import queue
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from typing import Any
@@ -46,32 +48,44 @@ def listening_through_pynput(on_key: OnKey) -> Iterator[IsListening]:
     """``listening`` on Windows, where pynput passes on scancodes, and on macOS, where it passes on keycodes."""
     from pynput.keyboard import Listener
 
+    heard: queue.SimpleQueue[tuple[str, bool] | None] = queue.SimpleQueue()
+
+    def hear(name: str | None, *, is_down: bool) -> None:
+        if name is not None:
+            heard.put((name, is_down))
+
     def on_hook(message: int, key: Any) -> bool:
         is_down = message in _KEY_DOWN
         if key.vkCode != _PACKET and (is_down or message in _KEY_UP):
             scan = key.scanCode | (EXTENDED if key.flags & _FROM_PREFIX else 0)
-            _tell(on_key, NAME_AT_SCAN.get(scan), is_down=is_down)
+            hear(NAME_AT_SCAN.get(scan), is_down=is_down)
         return False  # pynput needn't ask the layout for its letter, which would also use up a dead key
 
     def on_press(key: Any) -> None:
-        _tell(on_key, NAME_AT_MAC.get(_mac_code(key)), is_down=True)
+        hear(NAME_AT_MAC.get(_mac_code(key)), is_down=True)
 
     def on_release(key: Any) -> None:
-        _tell(on_key, NAME_AT_MAC.get(_mac_code(key)), is_down=False)
+        hear(NAME_AT_MAC.get(_mac_code(key)), is_down=False)
 
-    with Listener(on_press=on_press, on_release=on_release, win32_event_filter=on_hook) as listener:
-        listener.wait()
-        yield listener.is_alive
-    # It closes its connection some time after it is stopped.
-    listener.join(CLOSE_S)
+    def tell() -> None:
+        while (key := heard.get()) is not None:
+            on_key(*key)
+
+    # Never in the hook itself, for which Windows holds every key up: whoever presses one then waits for it.
+    teller = threading.Thread(target=tell, name="keys", daemon=True)
+    teller.start()
+    try:
+        with Listener(on_press=on_press, on_release=on_release, win32_event_filter=on_hook) as listener:
+            listener.wait()
+            yield listener.is_alive
+        # It closes its connection some time after it is stopped.
+        listener.join(CLOSE_S)
+    finally:
+        heard.put(None)
+        teller.join(CLOSE_S)
 
 
 def _mac_code(key: Any) -> int:
     """The virtual keycode of a key that pynput heard on macOS; -1 if it has none."""
     code = getattr(getattr(key, "value", key), "vk", None)
     return -1 if code is None else int(code)
-
-
-def _tell(on_key: OnKey, name: str | None, *, is_down: bool) -> None:
-    if name is not None:
-        on_key(name, is_down)

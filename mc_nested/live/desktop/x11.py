@@ -21,6 +21,7 @@ from mc_nested.live.desktop.x11_camera import WindowCamera
 from mc_nested.live.desktop.x11_clipboard import X11Clipboard
 from mc_nested.live.desktop.xwayland import (
     ALLOW,
+    PANIC,
     is_rootless,
     is_wayland_session,
     is_xwayland,
@@ -63,7 +64,7 @@ def session_kind() -> str:
     if not is_one:
         return f"X11, display {os.environ['DISPLAY']}"
     if is_pictured:
-        return f"Xwayland in one window, display {os.environ['DISPLAY']}"
+        return f"Xwayland in one window, display {os.environ['DISPLAY']}; {PANIC}"
     return f"Xwayland, display {os.environ['DISPLAY']}; {ALLOW}"
 
 
@@ -88,7 +89,7 @@ class X11Window:
 
     def client_area(self) -> ClientArea:
         with self._if_open():
-            if self._window.get_attributes().map_state != X.IsViewable:
+            if self._window.get_attributes().map_state != X.IsViewable or self._is_minimised():
                 raise minimised_error(self._title)
             size = self._window.get_geometry()
             corner = self._root.translate_coords(self._window, 0, 0)
@@ -108,6 +109,11 @@ class X11Window:
             return _is_within(holder, self._window) or (
                 _is_within(self._window, holder) and self._window in _under_pointer(self._root)
             )
+
+    def _is_minimised(self) -> bool:
+        """GNOME's window manager shows a minimised window to the X server as before, but says so."""
+        states = self._window.get_full_property(self._display.get_atom("_NET_WM_STATE"), Xatom.ATOM)
+        return states is not None and self._display.get_atom("_NET_WM_STATE_HIDDEN") in states.value
 
     @contextmanager
     def _if_open(self) -> Iterator[None]:

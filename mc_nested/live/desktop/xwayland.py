@@ -18,8 +18,11 @@ ALL_PLANES = 0xFFFFFFFF
 ALLOW = "where the desktop asks whether to allow remote interaction, allow it"
 """GNOME and KDE may ask at the first key that isn't pressed by hand (FACTS: Input and windows)."""
 
-_AS_X11 = "env -u WAYLAND_DISPLAY SDL_VIDEO_DRIVER=x11"
-"""Before a launcher's command, makes GLFW and SDL 3 open X11 windows."""
+PANIC = "the panic key is heard only while that window is in front"
+"""In one window, an X server keeps its focus when another window is in front, so the agent plays on."""
+
+_AS_X11 = "env XDG_SESSION_TYPE=x11 SDL_VIDEO_DRIVER=x11"
+"""Before a launcher's command, makes GLFW and SDL 3 open X11 windows (FACTS: Input and windows)."""
 
 
 def is_xwayland(display: Display) -> bool:

@@ -63,6 +63,7 @@ class InputController:
         self._pressed: dict[str, Callable[[], None]] = {}
         self._lock = threading.RLock()
         self._confirmed: tuple[PressTarget, float] | None = None
+        self._look_again: Callable[[], None] | None = None
         self._stop_reason: str | None = None
         self._exits = ExitStack()
 
@@ -80,9 +81,13 @@ class InputController:
             releases.callback(self.release_all)
         atexit.unregister(self.release_all)
 
-    def confirm_screen(self, screen: PressTarget) -> None:
-        """Say which screen was just seen: presses meant for it are permitted for FRESH_S, and no others."""
-        self._confirmed = screen, self._clock.now()
+    def confirm_screen(self, screen: PressTarget, look_again: Callable[[], None] | None = None) -> None:
+        """Say which screen was just seen: presses meant for it are permitted for FRESH_S, and no others.
+
+        A press that comes later than that, as on a busy machine, calls ``look_again`` first, if there is one. That
+        confirms the screen once more, or raises what is wrong with it.
+        """
+        self._confirmed, self._look_again = (screen, self._clock.now()), look_again
 
     def hold(self, key: str, ticks: int, *others: str) -> None:
         """Hold one or more keys for a number of ticks (FACTS: Walking; 100, 150 and 200 ms gave 2, 3 and 4)."""
@@ -187,10 +192,18 @@ class InputController:
             raise StoppedError(f"{self._stop_reason}: every key is up, start again when you like")
         self.check_front()
 
+    def _refresh(self, screen: PressTarget) -> None:
+        """Look again if the screen was confirmed too long ago."""
+        if self._confirmed and self._confirmed[0] == screen and not self._is_fresh(screen) and self._look_again:
+            self._look_again()
+
+    def _is_fresh(self, screen: PressTarget) -> bool:
+        confirmed, at = self._confirmed or ("nothing", self._clock.now())
+        return confirmed == screen and self._clock.now() - at <= FRESH_S
+
     def _check_press(self, screen: PressTarget) -> None:
         self._check_running()
-        confirmed, at = self._confirmed or ("nothing", self._clock.now())
-        if confirmed != screen or self._clock.now() - at > FRESH_S:
+        if not self._is_fresh(screen):
             raise WrongScreenError(f"the {screen} was not just seen on the screen, so nothing is pressed: look first")
 
     def _type(self, letter: str) -> None:
@@ -210,6 +223,8 @@ class InputController:
         self, name: str, press: Callable[[], None], release: Callable[[], None], until: float, on: PressTarget
     ) -> None:
         try:
+            # Before the lock: a look may take long, and meanwhile others must be able to release everything.
+            self._refresh(on)
             with self._lock:
                 self._check_press(on)
                 # Noted before it is pressed: an interrupt between the two would leave it down otherwise.

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
+from mc_nested.live.menus.screens import LABELS
 from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import Profile
 
@@ -32,7 +33,17 @@ class Chat:
         self._clock = connection.devices.clock
 
     def send(self, line: str) -> None:
-        """Open the chat, type one line, send it, and wait until the game takes keys again."""
+        """Open the chat, type one line, send it, and wait until the game takes keys again.
+
+        A chat that doesn't look as it should is closed before the error is raised.
+        """
+        try:
+            self._send(line)
+        except NotConfirmedError:
+            self._close()
+            raise
+
+    def _send(self, line: str) -> None:
         self._open()
         self._type(line)
         self._controller.confirm_screen("chat")
@@ -41,6 +52,20 @@ class Chat:
             self._wait_until(lambda: not self._screen.is_chat_open(), "the chat did not close")
         else:
             self._controller.wait(self._timing.chat_close_s)
+
+    def _close(self) -> None:
+        """Close a chat that may be open: what is pressed next would be typed into it.
+
+        Where none is open, Esc opens the Game Menu, and closes it again.
+        """
+        self._press_esc()
+        if any(self._screen.menu().button(label).middle for label in LABELS["pause"]):
+            self._press_esc()
+
+    def _press_esc(self) -> None:
+        self._controller.confirm_screen("menu")
+        self._controller.tap("esc", on="menu")
+        self._controller.wait(self._timing.chat_close_s)
 
     def _open(self) -> None:
         self._controller.tap(self._key)
@@ -67,5 +92,8 @@ class Chat:
         deadline = Deadline(self._clock, PATIENCE_S)
         while not is_so():
             if deadline.has_passed:
-                raise NotConfirmedError(f"{problem}: leave mouse and keys alone, and look whether the game allows chat")
+                raise NotConfirmedError(
+                    f"{problem}: leave mouse and keys alone, and look whether the game allows chat; if it draws its "
+                    "chat elsewhere, set reads_chat = false under [input] in the profile"
+                )
             self._controller.wait(TYPING_LOOK_S)

@@ -11,13 +11,14 @@ STACK = 64
 
 
 def reset_commands(profile: Profile, start: Cell, blocks: Sequence[str]) -> list[str]:
-    """What to type before an episode: clear the marked blocks, teleport to ``start``, fill the hotbar.
+    """What to type before an episode: clear the marked blocks, mend the floor, teleport to ``start``, fill the hotbar.
 
     ``blocks`` are the scenario's block names, one for each hotbar slot from the left. ProfileError without an arena.
     """
     arena = profile.marked_arena()
     return [
         clear_command(arena),
+        *floor_commands(arena, profile.game.dialect),
         teleport_command(arena, start, profile.body.pitch),
         *(item_command(profile.game.dialect, slot, profile.block_name(block)) for slot, block in enumerate(blocks)),
     ]
@@ -27,6 +28,19 @@ def clear_command(arena: Arena) -> str:
     """Fill the marked blocks with air, and none outside."""
     low, high = arena.region
     return f"/fill {_words(low)} {_words(high)} minecraft:air"
+
+
+def floor_commands(arena: Arena, dialect: Dialect) -> list[str]:
+    """Fill the holes in the floor under the marked blocks; nothing where the profile doesn't say what the floor is.
+
+    A click that brings the game to the front breaks a block in Creative mode (FACTS: Input and windows).
+    """
+    if arena.floor is None:
+        return []
+    (x, y, z), (other_x, _, other_z) = arena.region
+    low, high = (x, y - 1, z), (other_x, y - 1, other_z)
+    data = " 0" if dialect == "1.12" else ""
+    return [f"/fill {_words(low)} {_words(high)} minecraft:{arena.floor}{data} keep"]
 
 
 def teleport_command(arena: Arena, cell: Cell, pitch: float) -> str:

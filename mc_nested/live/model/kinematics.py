@@ -83,17 +83,24 @@ def push_of(response: Sequence[float], inertia: float = INERTIA) -> float:
     return PUSH * response[-1] / displacement(len(response), inertia)
 
 
-def plan_hold(distance: float, response: Sequence[float], tolerance: float, sneaking: float = SNEAKING) -> HoldPlan:
+def plan_hold(
+    distance: float,
+    response: Sequence[float],
+    tolerance: float,
+    sneaking: float = SNEAKING,
+    *,
+    must_sneak: bool = False,
+) -> HoldPlan:
     """The walking hold that ends nearest; if that ends outside the tolerance, the nearer of walking and sneaking.
 
     Sneaking covers ``sneaking`` times as much as walking. The hold is at least one tick long: an agent that has to move
-    must not wait for a smaller step than there is.
+    must not wait for a smaller step than there is. With ``must_sneak`` walking isn't considered.
     """
     walk_ticks = max(1, nearest_ticks(distance, response))
     walk_error = abs(response[walk_ticks - 1] - distance)
-    if walk_error <= tolerance:
+    if walk_error <= tolerance and not must_sneak:
         return HoldPlan("walk", walk_ticks)
     sneak_response = [sneaking * covered for covered in response]
     sneak_ticks = max(1, nearest_ticks(distance, sneak_response))
-    is_sneaking_nearer = abs(sneak_response[sneak_ticks - 1] - distance) < walk_error
+    is_sneaking_nearer = must_sneak or abs(sneak_response[sneak_ticks - 1] - distance) < walk_error
     return HoldPlan("sneak", sneak_ticks) if is_sneaking_nearer else HoldPlan("walk", walk_ticks)

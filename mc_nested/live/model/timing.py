@@ -28,3 +28,11 @@ MENU_LOOK_S = 0.1
 
 PERSON_LOOK_S = 0.25
 """While a person acts: a few frames of the game, so that a position seen twice is one where the player stands."""
+
+
+def surely_seen_after(capture_latency_s: float) -> float:
+    """Seconds after a tick at which its step is surely on the screen, and the next one's isn't (FACTS: Latencies).
+
+    A step is seen ``capture_latency_s`` after its tick on average, and the next one a tick later: so in the middle.
+    """
+    return capture_latency_s + TICK_S / 2

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
+from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.timing import FRAME_S, HALF_FRAME_S
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
 
@@ -18,6 +19,12 @@ FAST_LOOKS = 3
 
 EVERY_LOOK = math.inf
 """``fast_looks`` for a walk that is recorded: every look comes twice a frame."""
+
+SNEAK_FIRST_S = 3 * TICK_S
+"""Seconds from the sneak key to the key of a hold: a tick, and a frame where only ten are drawn a second."""
+
+SNEAK_READY_S = 1.0
+"""Seconds for which the sneak key stays down if no hold follows."""
 
 RELEASE_AGAIN_LOOKS = 20
 """Looks at a player that goes on, after which its keys are released once more: a release may have been lost."""
@@ -34,11 +41,23 @@ class KeyHold:
         self._clock = connection.devices.clock
         self._observer = observer
         self._patience_s = patience_s
+        self.pressed_at = -math.inf
+        """When the keys of the last hold went down, in seconds of the clock."""
+
+    def begin_sneaking(self, key: str) -> None:
+        """Press the sneak key, and wait until it slows the player down: a tick after it is felt (FACTS: Sneaking).
+
+        It stays down for the hold that follows, which names it.
+        """
+        ready_at = self._clock.now() + SNEAK_FIRST_S
+        self._controller.press(ready_at + SNEAK_READY_S, key)
+        self._controller.wait_until(ready_at)
 
     def hold(
         self,
         release_at: float,
         *keys: str,
+        sneak: str | None = None,
         look_times: Iterable[float] = (),
         on_look: Callable[[], float | None] = lambda: None,
     ) -> float:
@@ -47,11 +66,16 @@ class KeyHold:
         Args:
             release_at: when they go up, in seconds of the clock.
             keys: which, together.
+            sneak: the sneak key, which is down already; it goes up with them.
             look_times: when to look meanwhile. The first one that could make the release late ends the looks.
             on_look: called at each; gives another time for the release, or None to keep it.
         """
         try:
+            together = (*keys, sneak) if sneak else keys
+            if sneak:
+                self._controller.keep_until(release_at, sneak)
             self._controller.press(release_at, *keys)
+            self.pressed_at = self._clock.now()
             for at in look_times:
                 # A look takes a while: the last one must not make the release late.
                 if at + HALF_FRAME_S >= release_at:
@@ -59,7 +83,7 @@ class KeyHold:
                 self._controller.wait_until(at)
                 if (changed := on_look()) is not None:
                     release_at = changed
-                    self._controller.keep_until(release_at, *keys)
+                    self._controller.keep_until(release_at, *together)
             self._controller.wait_until(release_at)
         except BaseException:
             self._controller.release_all()

@@ -1,27 +1,41 @@
 """Locomotion: holds that end between two of the game's ticks, and the agent's state after them."""
 
+import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.model.coordinates import GroundVector
 from mc_nested.live.model.kinematics import TICK_S, plan_hold, push_of
+from mc_nested.live.model.timing import HALF_FRAME_S, surely_seen_after
 from mc_nested.live.motion.key_hold import KeyHold
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
 from mc_nested.live.motion.standstill import Standstill
 from mc_nested.live.motion.walk_tracker import CoastingState, Hold, WalkTracker
 from mc_nested.live.profile.tables import Profile
 
-MIN_RESPONSE_S = 0.015
-"""Seconds in which no effect of a press is seen: an event takes 5 ms to the game, a picture 10 ms back."""
-
-SHORT_HOLD_TICKS = 2
-"""Ticks of a hold that ends before the step of its first tick can be seen."""
-
-SURELY_SEEN_S = 0.053
-"""Seconds after a tick at which its step is certainly on the screen, and the next one's can't be."""
-
 MAX_SHIFT_S = 1.2 * TICK_S
 """Seconds that a look during a hold may move its release by: a tick felt more or less, not the length of a stall."""
+
+SPRINT_WINDOW_S = 7 * TICK_S
+"""Seconds: forward that is felt again sooner than this after it was felt sprints (FACTS: Walking)."""
+
+SHORT_TICKS = 2
+"""Ticks of a hold that a frame, at ten a second, can make twice as long."""
+
+LOST = 0.5
+"""The share of its way that a hold has covered at least, unless it was lost or felt for too short a time."""
+
+
+@dataclass(frozen=True)
+class _Walked:
+    """A hold: from where the agent would have stopped, along which axis and way, how far it should lead, its length."""
+
+    begin: GroundVector
+    axis: int
+    sign: int
+    distance: float
+    is_short: bool
 
 
 class Locomotion:
@@ -34,16 +48,22 @@ class Locomotion:
         self._keys = profile.keys
         self._limits = profile.body
         self._walk = profile.walk
+        self._surely_seen_s = surely_seen_after(profile.walk.capture_latency_s)
         self._push = push_of(profile.walk.covered, profile.walk.inertia)
         self._controller = connection.controller
         self._observer = observer
         self._key_hold = KeyHold(connection, observer, profile.body.patience_s)
         self._clock = connection.devices.clock
         self._tracker = self._tracker_at_rest(GroundVector(0.0, 0.0))
+        self._walked: _Walked | None = None
+        self._more_ticks = 0
+        self._must_sneak = False
+        self._forward_at = -math.inf
 
     def set_standing(self, pose: PoseEstimate) -> None:
         """Take the agent to be standing still, as after a teleport."""
         self._tracker = self._tracker_at_rest(pose.position)
+        self._walked, self._more_ticks, self._must_sneak = None, 0, False
 
     def coasting_at(self, position: GroundVector) -> CoastingState | None:
         """The state of an agent seen there, by the hold that it was in; None if that isn't certain."""
@@ -58,13 +78,23 @@ class Locomotion:
         """
         axis = 1 if abs(offset.forward) >= abs(offset.right) else 0
         sign = 1 if offset[axis] > 0 else -1
-        plan = plan_hold(abs(offset[axis]), self._walk.covered, self._limits.tolerance, self._walk.sneaking)
-        is_sneaking = plan.gait == "sneak"
-        push = self._push * (self._walk.sneaking if is_sneaking else 1.0)
-        self._tracker = WalkTracker(state, Hold(axis, sign, plan.ticks, push), self._walk.inertia)
-        keys = self._keys
+        keys, walk = self._keys, self._walk
         key = ((keys.left, keys.right), (keys.back, keys.forward))[axis][sign > 0]
-        self._hold(plan.ticks, *([keys.sneak] if is_sneaking else []), key)
+        if key == keys.forward:
+            state = self._wait_for_sprint_window(state)
+        distance = abs(offset[axis])
+        tolerance = self._limits.tolerance
+        plan = plan_hold(distance, walk.covered, tolerance, walk.sneaking, must_sneak=self._must_sneak)
+        ticks = plan.ticks + self._more_ticks
+        sneak = keys.sneak if plan.gait == "sneak" else None
+        push = self._push * (walk.sneaking if sneak else 1.0)
+        self._tracker = WalkTracker(state, Hold(axis, sign, ticks, push), walk.inertia)
+        self._walked = _Walked(state.end, axis, sign, distance, is_short=ticks <= SHORT_TICKS)
+        if sneak:
+            self._key_hold.begin_sneaking(sneak)
+        self._hold(ticks, key, sneak)
+        if key == keys.forward:
+            self._forward_at = self._key_hold.pressed_at
         return self._observer.look_and_check()
 
     @property
@@ -94,6 +124,7 @@ class Locomotion:
 
         pose = self._key_hold.follow(pose, is_certain)
         self._observer.note_awaited_step()
+        self._learn_from(states[0])
         self._tracker = WalkTracker(states[0], None, self._walk.inertia)
         return states[0], pose
 
@@ -101,8 +132,33 @@ class Locomotion:
         state = CoastingState(position, GroundVector(0.0, 0.0), self._walk.inertia)
         return WalkTracker(state, None, self._walk.inertia)
 
-    def _hold(self, ticks: int, *keys: str) -> None:
-        """Hold keys so that exactly so many ticks feel them, if the tick phase is known; then wait for the next step.
+    def _learn_from(self, state: CoastingState) -> None:
+        """Let the next hold be another one if the last was not felt as it was held.
+
+        Below 20 frames a second, and on a busy machine, a short hold may be lost, or be felt as a longer one; the same
+        again could be so for ever. So a hold that was lost makes the next one longer, and one that led too far lets
+        the next one sneak.
+        """
+        walked, self._walked = self._walked, None
+        if walked is None:
+            return
+        covered = (state.end[walked.axis] - walked.begin[walked.axis]) * walked.sign
+        self._more_ticks = self._more_ticks + 1 if covered < LOST * walked.distance else 0
+        self._must_sneak = walked.is_short and covered > walked.distance + self._limits.tolerance
+
+    def _wait_for_sprint_window(self, state: CoastingState) -> CoastingState:
+        """Wait until forward can be pressed without sprinting; the agent's state then."""
+        # One press comes later than another to the game by chance, by less than half a tick.
+        over_at = self._forward_at + SPRINT_WINDOW_S + TICK_S / 2
+        if over_at <= self._clock.now():
+            return state
+        self._controller.wait_until(over_at)
+        pose = self._observer.look_and_check()
+        self._observer.permit_press()
+        return self._tracker.coasting_at(pose.position) or state
+
+    def _hold(self, ticks: int, key: str, sneak: str | None) -> None:
+        """Hold a key so that exactly so many ticks feel it, if the tick phase is known; then wait for the next step.
 
         A key that goes down or up at the moment of a tick may be felt by that tick or by the next. So a short hold
         starts between two ticks. A long one looks, while the key is down, how many ticks have felt it, and ends between
@@ -111,12 +167,13 @@ class Locomotion:
         now, tick_phase = self._clock.now(), self._observer.tick_phase
         mid_tick = TICK_S / 2 - self._walk.input_latency_s
         if not tick_phase.is_known:
-            self._key_hold.hold(now + ticks * TICK_S, *keys)
-            self._controller.wait(MIN_RESPONSE_S)
+            self._key_hold.hold(now + ticks * TICK_S, key, sneak=sneak)
+            self._controller.wait(self._walk.input_latency_s)
             return
-        if ticks <= SHORT_HOLD_TICKS:
+        if ticks * TICK_S <= 1.5 * TICK_S + self._surely_seen_s + HALF_FRAME_S:
+            # It ends before the step of its first tick can be seen.
             self._controller.wait_until(tick_phase.next(now, mid_tick))
-            release_at = self._key_hold.hold(self._clock.now() + ticks * TICK_S, *keys)
+            release_at = self._key_hold.hold(self._clock.now() + ticks * TICK_S, key, sneak=sneak)
         else:
             planned = now + ticks * TICK_S
             tick = tick_phase.next(now + TICK_S / 2)
@@ -126,8 +183,8 @@ class Locomotion:
                 timed = None if ticks_held is None else tick + (ticks - ticks_held) * TICK_S + mid_tick
                 return timed if timed is not None and abs(timed - planned) <= MAX_SHIFT_S else None
 
-            look_times = (tick + SURELY_SEEN_S,)
-            release_at = self._key_hold.hold(planned, *keys, look_times=look_times, on_look=timed_release)
+            look_times = (tick + self._surely_seen_s,)
+            release_at = self._key_hold.hold(planned, key, sneak=sneak, look_times=look_times, on_look=timed_release)
         self._observer.wait_for_step(release_at - mid_tick + TICK_S)
 
     def _ticks_held(self) -> int | None:

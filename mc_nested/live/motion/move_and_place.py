@@ -14,7 +14,7 @@ from mc_nested.live.model.coordinates import GroundVector, cell_at
 from mc_nested.live.model.reading import Block, Target
 from mc_nested.live.motion.click_range import COASTING_CLICK, hits_floor, is_click_right, is_near
 from mc_nested.live.motion.effort import Effort
-from mc_nested.live.motion.locomotion import MIN_RESPONSE_S, Locomotion
+from mc_nested.live.motion.locomotion import Locomotion
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver, check_pose
 from mc_nested.live.motion.walk_tracker import CoastingState
 from mc_nested.live.profile.tables import Profile
@@ -102,7 +102,7 @@ class Body:
             if clicked or not self._looks_at_floor(pose, block):
                 return
             if is_click_right(pose.position, self._locomotion.end_if_late, cell):
-                self._click(0)
+                self._click(0, lambda seen: self._looks_at_floor(seen, block) and hits_floor(seen.position, cell))
                 clicked.append(pose)
 
         state, pose = self._locomotion.follow_to_end(self._observer.look_and_check())
@@ -163,7 +163,7 @@ class Body:
         for attempt in range(self._limits.tries):
             if attempt or pose is None or not self._is_aimed(pose, cell, block):
                 pose = self._aim(cell, block, may_walk=attempt == 0)
-            self._click(attempt)
+            self._click(attempt, lambda seen: self._is_aimed(seen, cell, block))
             self._wait_for_click()
             if self._is_placed(cell, block, shown_id):
                 return front
@@ -188,8 +188,8 @@ class Body:
         self.effort.corrections += attempt > 0
         return self._locomotion.follow_to_end(self._locomotion.walk(state, offset), on_look)
 
-    def _click(self, attempt: int) -> None:
-        self._observer.permit_press()
+    def _click(self, attempt: int, is_right: Callable[[PoseEstimate], bool]) -> None:
+        self._observer.permit_press(is_right)
         self._controller.click("right")
         self.effort.clicks += attempt == 0
         self.effort.second_clicks += attempt > 0
@@ -235,7 +235,7 @@ class Body:
         if tick_phase.is_known:
             self._observer.wait_for_step(tick_phase.next(self._clock.now() + self._input_latency_s))
         else:
-            self._controller.wait(MIN_RESPONSE_S)
+            self._controller.wait(self._input_latency_s)
 
     def _is_placed(self, cell: Cell, block: Block, shown_id: str) -> bool:
         """Whether the block is seen in time; another block there, or the agent elsewhere, is an error."""

@@ -18,9 +18,6 @@ from mc_nested.live.motion.pose_reader import PoseReader
 from mc_nested.live.motion.tick_phase import TickPhase
 from mc_nested.live.profile.tables import Profile
 
-LIKELY_SEEN_S = 0.028
-"""Seconds after a tick at which looks for its step begin: a frame and a picture take 10 to 47 ms."""
-
 VIEW_TOLERANCE = 0.5
 """Degrees that the view may be off: the debug screen shows tenths (FACTS: The F3 debug screen)."""
 
@@ -90,6 +87,7 @@ class PoseObserver:
         self._clock = connection.devices.clock
         self._timed_look = 0.0
         self._last: PoseEstimate | None = None
+        self._capture_latency_s = profile.walk.capture_latency_s
         self.tick_phase = TickPhase(profile.walk.capture_latency_s)
 
     def look(self) -> PoseEstimate:
@@ -120,15 +118,25 @@ class PoseObserver:
         xyz = self._screen.read_position()
         return self._frame.position_of(xyz) if xyz else None
 
-    def permit_press(self) -> None:
-        """Check that the next press goes into the world, and permit it; the debug screen must just have been read."""
+    def permit_press(self, is_right: Callable[[PoseEstimate], bool] = lambda _: True) -> None:
+        """Check that the next press goes into the world, and permit it; the debug screen must just have been read.
+
+        If the look is too old when the press comes, another one is taken: it must be as good, and ``is_right``.
+        """
         if self._screen.is_chat_open():
             raise NotConfirmedError("the chat is open: leave mouse and keys alone")
-        self._controller.confirm_screen("world")
+        self._controller.confirm_screen("world", lambda: self._look_again(is_right))
+
+    def _look_again(self, is_right: Callable[[PoseEstimate], bool]) -> None:
+        if not is_right(pose := self.look_and_check()):
+            raise NotConfirmedError(
+                f"the agent is at {pose} now, where this must not be pressed: does something push it?"
+            )
+        self.permit_press(is_right)
 
     def wait_for_step(self, tick: float) -> None:
         """Wait until the step of a tick is likely to be seen."""
-        self._controller.wait_until(tick + LIKELY_SEEN_S)
+        self._controller.wait_until(tick + self._capture_latency_s)
         self._timed_look = self._clock.now()
 
     def note_awaited_step(self) -> None:

@@ -31,6 +31,11 @@ class Arena(ProfileTable):
     marked: tuple[Block, Block] = Field(
         description="two opposite corners of the blocks that a reset may clear; nothing outside is ever touched"
     )
+    floor: str | None = Field(
+        default=None,
+        description="the floor's block, as this game names it: a reset fills holes in the floor with it; left out, "
+        "holes stay",
+    )
     copied_to: Block | None = Field(
         default=None,
         description="the lowest corner of the copy of what stood there before: what calibrate arena --undo puts back",

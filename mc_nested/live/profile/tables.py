@@ -68,7 +68,7 @@ class GameVersion(ProfileTable):
 
 
 class KeysTable(ProfileTable):
-    """Which key does what in this game: one character, or a word such as enter, f3, left.shift."""
+    """Which key does what in this game, named by what a US keyboard has at its place: w, /, f3, left.shift."""
 
     forward: Key = "w"
     back: Key = "s"
@@ -77,7 +77,9 @@ class KeysTable(ProfileTable):
     sneak: Key = Field(default="left.shift", description="slow steps")
     chat: Key = "t"
     debug: Key = Field(default="f3", description="turns the debug screen on")
-    panic: Key = Field(default="f12", description="stops the agent at once, whichever window is in front")
+    panic: Key = Field(
+        default="f12", description="stops the agent at once, whichever window is in front; on a Mac usually with Fn"
+    )
     hotbar: Annotated[tuple[Key, ...], Field(min_length=9, max_length=9)] = Field(
         default=tuple("123456789"), description="the keys of the nine hotbar slots, from the left"
     )

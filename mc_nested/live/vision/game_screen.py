@@ -49,6 +49,9 @@ class GameScreen(Protocol):
     def scale(self) -> int:
         """Framebuffer pixels to a GUI pixel, as last seen."""
 
+    def seen_scale(self) -> int | None:
+        """The same, only if it was seen in a window of the present size; None if not."""
+
 
 class WindowScreen:
     """The game's window as pixels.
@@ -88,11 +91,14 @@ class WindowScreen:
         return None
 
     def scale(self) -> int:
+        return self.seen_scale() or (self._measured[1] if self._measured else self._scale_of_menu())
+
+    def seen_scale(self) -> int | None:
         size = self._display.size()
         if self._measured is None or self._measured[0] != size:
             overlay = self._overlay or find_overlay(self._display.grab(), self._font)
             if overlay is None:
-                return self._measured[1] if self._measured else self._scale_of_menu()
+                return None
             self._measured = size, overlay.scale
         return self._measured[1]
 

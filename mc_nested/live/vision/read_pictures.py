@@ -5,6 +5,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from mc_nested.errors import PictureError
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.font import Font, decoded
@@ -17,7 +18,7 @@ _JPEG = b"\xff\xd8\xff"
 def read_picture(path: Path, font: Font, overlay: Overlay | None = None) -> dict[str, object]:
     """A picture file's reading, ready for JSON: file, xyz, yaw, pitch, target (pos, id), problem; None where absent.
 
-    Without ``overlay`` the GUI scale, the colour and the layout are found. A file that is no picture is a problem too.
+    Without ``overlay`` the GUI scale, the colour and the layout are found. PictureError for a file that is no picture.
     """
     reading = _read(path, font, overlay)
     target = reading.target
@@ -35,12 +36,12 @@ def _read(path: Path, font: Font, overlay: Overlay | None) -> Reading:
     try:
         data = path.read_bytes()
     except OSError as error:
-        return Reading(
-            problem=f"the file can't be read ({error.strerror or error}): give a picture of the game's window"
-        )
+        raise PictureError(
+            f"{path} can't be read ({error.strerror or error}): give a picture of the game's window"
+        ) from error
     picture = decoded(data, cv2.IMREAD_COLOR)
     if picture is None:
-        return Reading(problem="the file is not a picture: give a PNG of the game's window, as F2 takes it")
+        raise PictureError(f"{path} is not a picture: give a PNG of the game's window, as F2 takes it")
     reading = read_debug_screen(np.asarray(picture, np.uint8), font, overlay)
     if reading.problem is not None and data.startswith(_JPEG):
         return Reading(

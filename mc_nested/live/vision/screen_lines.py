@@ -7,6 +7,7 @@ from typing import Protocol
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
 from mc_nested.live.vision.layout import Overlay, ScreenLayout
+from mc_nested.live.vision.notices import may_hide_lines
 from mc_nested.live.vision.text_lines import UNKNOWN, Line, line_from, line_up_to, positions_of
 
 WHOLE = r"(-?(?:0|[1-9]\d{0,7}))"
@@ -40,6 +41,9 @@ class DebugLines(Protocol):
 
     def right_column(self) -> Sequence[Line]:
         """The lines of the right column, the upper ones first; none where the layout doesn't say where it ends."""
+
+    def may_be_covered(self) -> bool:
+        """Whether a notice may lie over the right column."""
 
     def cut(self, line: Line, text: str) -> Line | None:
         """A line up to the end of ``text``, with which it begins; None where it can't be read so."""
@@ -93,6 +97,9 @@ class ScreenLines:
             return []
         rows = range(self.dots.first, self.dots.rows, self.dots.pitch)
         return [line for row in rows if (line := self.ending(row, self._right_end))]
+
+    def may_be_covered(self) -> bool:
+        return may_hide_lines(self.dots)
 
     def cut(self, line: Line, text: str) -> Line | None:
         if text == line.text:

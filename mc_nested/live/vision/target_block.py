@@ -7,12 +7,14 @@
 | stand-in  | right, ``Looking at: x y z``                    | right, without namespace, over its properties |
 
 Fluids and entities have labels of their own, ``Targeted Fluid``, ``Looking at liquid`` and ``Targeted Entity``.
-"No block is looked at" is the answer only where no part of a block's lines is seen: the rest may be covered.
+"No block is looked at" is the answer only where the right column is seen, with no part of a block's lines in it, nor a
+fluid's, which would stand below a block's. To 1.21.8 that column begins with the same lines in every game.
 """
 
 import re
 
 from mc_nested.live.model.reading import Block, Target
+from mc_nested.live.vision.overlay import TITLE
 from mc_nested.live.vision.screen_lines import (
     CLEAR,
     WHOLE,
@@ -36,6 +38,15 @@ _NAMESPACED = re.compile(r"([a-z0-9_.-]+):[a-z0-9_./-]+")
 _ID = re.compile(rf"(([a-z0-9_.-]+):[a-z0-9_./-]+){_BESIDE}")
 _ALONE = re.compile(rf"(?:.*{UNKNOWN})?minecraft:(?!overworld|the_)[a-z0-9_./-]+")
 _OTHER_LABEL = re.compile(r"Targeted (?:Fluid|Entity)")
+
+_VERSION = re.compile(r"Minecraft (\d+(?:\.\d+)+)")
+_FREE_ORDER = (1, 21, 9)
+"""The first version whose lines can be chosen, and stand in either column."""
+
+_ALWAYS = ("Java: ", "Mem: ", "CPU: ", "Display: ")
+"""The right column's own lines before that, above those of the block."""
+
+_FLUIDS = ("Targeted Fluid", "Looking at liquid")
 
 _PARTS = ("Targeted B", "ted Block", "Looking at b", "king at block", "ooking at:", "ing at: ")
 """Parts of the labels, either half of which may be covered."""
@@ -112,6 +123,27 @@ def _check_nothing_hidden(lines: DebugLines) -> None:
         check_right_column_is_empty(lines)
     else:
         _check_no_id_alone(lines)
+        _check_column_is_seen(lines)
+
+
+def _check_column_is_seen(lines: DebugLines) -> None:
+    """The right column is seen as far down as a block's lines would stand, and no fluid is looked at."""
+    for label in _FLUIDS:
+        if lines.holds(label):
+            raise Unreadable(f"a fluid is looked at, and the lines of the block behind it can't be seen: {CLEAR}")
+    shown_by_all = () if _has_free_order(lines) else _ALWAYS
+    is_hidden = not all(any(not line.is_left for line in lines.starting(label)) for label in shown_by_all)
+    if is_hidden or lines.may_be_covered():
+        raise Unreadable(f"a notice may lie over the lines of the block looked at: wait until it is gone, or {CLEAR}")
+
+
+def _has_free_order(lines: DebugLines) -> bool:
+    """Whether the lines can be chosen in this version; without its own line they were chosen already."""
+    title = next((line for line in lines.starting(TITLE) if line.is_left), None)
+    if title is None:
+        return True
+    version = _VERSION.match(title.text)
+    return version is not None and tuple(int(part) for part in version[1].split(".")) >= _FREE_ORDER
 
 
 def _check_no_id_alone(lines: DebugLines) -> None:

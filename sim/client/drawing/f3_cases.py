@@ -7,6 +7,7 @@ import numpy as np
 from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Block, Reading, Target
 from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.overlay import SCALES
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.scenery import WORLDS, random_world
 from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
@@ -16,13 +17,22 @@ __all__ = ["WINDOWS", "WORLDS", "expected", "frames", "random_screen", "random_w
 WINDOWS = ((854, 480), (1280, 720), (1366, 768), (1600, 900), (1920, 1080), (2560, 1440))
 """Widths and heights in pixels, wide enough that the two columns don't overlap."""
 
+REACHES = (16, 1_000, 100_000, 29_999_000)
+"""How far from the origin players are, in blocks: the last is the world's border."""
+
+ROOMY = 480
+"""GUI pixels of width from which on two columns have room for any coordinates."""
+
 _IDS = ("stone", "oak_planks", "oak_log", "grass_block", "dirt", "polished_blackstone_brick_wall", "tnt", "white_wool")
+_OLD_IDS = ("stone", "planks", "log", "grass", "stone_brick_stairs", "tnt", "wool")
+"""Of 1.12, whose row of the id is that of the Facing line."""
+
 _PROPERTIES = (("axis", "y"), ("snowy", "false"), ("waterlogged", "true"), ("facing", "north"))
 _TAGS = ("minecraft:planks", "minecraft:mineable/axe", "c:villager_job_sites")
 
 
 def frames(font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS) -> Iterator[tuple[F3Screen, Frame]]:
-    """Endless screens and their frames: each layout, GUI scale 1 to 4 and window in turn, over random kinds of worlds.
+    """Endless screens and their frames: each layout, GUI scale 1 to 8 and window in turn, over random kinds of worlds.
 
     As in the game, a GUI scale that doesn't fit the window becomes the largest that fits (FACTS: The F3 debug screen).
     """
@@ -31,30 +41,37 @@ def frames(font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS
     while True:
         layout = LAYOUTS[count % len(LAYOUTS)]
         width, height = windows[(count // len(LAYOUTS)) % len(windows)]
-        scale = min(1 + (count // (len(LAYOUTS) * len(windows))) % 4, width // 320, height // 240)
-        screen = random_screen(rng, layout, scale)
+        scale = min(1 + (count // (len(LAYOUTS) * len(windows))) % len(SCALES), width // 320, height // 240)
+        # Where the columns are near each other, the position and the block looked at share a row.
+        reaches = REACHES if -(-width // scale) >= ROOMY else REACHES[:-1]
+        screen = random_screen(rng, layout, scale, reaches)
         yield screen, paint(random_world(rng, WORLDS[int(rng.integers(len(WORLDS)))], width, height), screen, font)
         count += 1
 
 
-def random_screen(rng: np.random.Generator, layout: Layout, gui_scale: int) -> F3Screen:
-    """A screen with coordinates from near the origin to the world's border, any view, and mostly a target block."""
-    reach = float(rng.choice([16, 1_000, 100_000, 29_999_000]))
+def random_screen(
+    rng: np.random.Generator, layout: Layout, gui_scale: int, reaches: tuple[int, ...] = REACHES
+) -> F3Screen:
+    """A screen with coordinates of one of these reaches, any view, and mostly a target block."""
+    reach = float(rng.choice(reaches))
     x, z = (float(value) for value in rng.uniform(-reach, reach, 2))
     near = tuple(int(value) for value in np.floor((x, rng.uniform(-64, 319), z)) + rng.integers(-4, 5, 3))
     block: Block = (near[0], near[1], near[2])
-    name = _IDS[int(rng.integers(len(_IDS)))]
+    target = rng.random() < 0.8
     is_standin, is_old = layout == "standin", layout == "1.8-1.12"
+    ids = _OLD_IDS if is_old else _IDS
+    name = ids[int(rng.integers(len(ids)))]
     return F3Screen(
         layout,
         gui_scale,
         (x, float(rng.uniform(-64, 319)), z),
         float(rng.uniform(-180, 180)),
         float(rng.uniform(-90, 90)),
-        target=Target(block, name if is_standin else f"minecraft:{name}") if rng.random() < 0.8 else None,
+        target=Target(block, name if is_standin else f"minecraft:{name}") if target else None,
         properties=_PROPERTIES[: int(rng.integers(3 if is_standin else 5))],
         tags=() if is_standin or is_old else _TAGS[: int(rng.integers(len(_TAGS) + 1))],
-        fluid=block if rng.random() < 0.2 else None,
+        # A fluid without a block behind it is not read for sure: that block may be covered.
+        fluid=block if target and rng.random() < 0.2 else None,
         swapped=layout == "1.21.9-26.3" and bool(rng.random() < 0.5),
     )
 

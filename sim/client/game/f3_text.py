@@ -81,7 +81,7 @@ def left_lines(screen: F3Screen) -> list[TextLine]:
         return _plain(*lines, "", f"Chunk-relative: {x & 15} {y & 15} {z & 15}")
     if screen.swapped:
         # Lower than the lines of the right column that a long line would run into.
-        return [*_plain(*lines, *[""] * 10), *_right_groups(screen)]
+        return [*_plain(*lines, *[""] * 6), *_right_groups(screen)]
     return [*_plain(*lines, "", *_position(screen)), *_plain(*_looking(screen))]
 
 
@@ -89,14 +89,17 @@ def right_lines(screen: F3Screen) -> list[TextLine]:
     """The right column, from the top."""
     if screen.layout == "standin":
         return [*_plain("Renderer: three.js r128", ""), *_standin_target(screen)]
-    machine = _plain("Java: 21.0.3 64bit", "Mem: 23% 480/2048MB", "Allocated: 41% 840MB", "", "CPU: 4x AMD Ryzen 5", "")
+    rate = ["Allocation rate: 120MB /s"] if screen.layout in ("1.19.3-1.21.8", "1.21.9-26.3", "26.4") else []
+    machine = _plain(
+        *("Java: 21.0.3 64bit", "Mem: 23% 480/2048MB", *rate, "Allocated: 41% 840MB", "", "CPU: 4x AMD Ryzen 5", "")
+    )
     if screen.reduced:
         return machine
     if screen.swapped:
         return [*machine, *_plain(*_position(screen))]
     return [
         *machine,
-        *_plain("Display: 1920x1080 (AMD)", "AMD Radeon", "4.6 Core Profile", "", ""),
+        *_plain("Display: 1920x1080 (AMD)", "AMD Radeon", "4.6 Core Profile", ""),
         *_right_groups(screen),
     ]
 
@@ -107,8 +110,15 @@ def _plain(*texts: str) -> list[TextLine]:
 
 def _counts(screen: F3Screen) -> list[str]:
     if screen.layout == "1.8-1.12":
-        return ["120 fps (0 chunk updates) T: 120 vsync fancy vbo", "C: 118/7225 (s) D: 8, pC: 000", "E: 1/22, B: 0"]
-    return ["120 fps T: 120 vsync fancy fancy-clouds", "C: 302/7225 (s) D: 8, pC: 000", "E: 1/22, B: 0, SD: 8", "FC: 0"]
+        return [
+            *("120 fps (0 chunk updates) T: 120 vsync fancy vbo", "C: 118/7225 (s) D: 8, pC: 000", "E: 1/22, B: 0"),
+            *("P: 0. T: All: 22", "MultiplayerChunkCache: 841, 841"),
+        ]
+    return [
+        *("120 fps T: 120 vsync fancy fancy-clouds", "Integrated server @ 4 ms ticks, 12 tx, 700 rx"),
+        *("C: 302/7225 (s) D: 8, pC: 000", "E: 1/22, B: 0, SD: 8", "P: 0. T: 22"),
+        *("Chunks[C] W: 529, 361 E: 59,38,59", "Chunks[S] W: 3249 E: 59,38,59", "minecraft:overworld FC: 0"),
+    ]
 
 
 def _position(screen: F3Screen) -> list[str]:

@@ -5,10 +5,12 @@ from collections.abc import Callable
 
 from mc_nested.live.model.reading import Target
 from sim.client.game import physics, ray
+from sim.client.game.block_tags import tags_of
 from sim.client.game.chat import VirtualChat
 from sim.client.game.commands import chat_line
 from sim.client.game.edition import Edition
 from sim.client.game.f3_text import F3Screen
+from sim.client.game.gaits import Gaits
 from sim.client.game.keys import GameKeys
 from sim.client.game.realm import SLOTS, Realm
 from sim.client.game.screens import DEATH_WAIT, IN_WORLD, Effect, MenuState, ScreenName
@@ -25,7 +27,6 @@ _REACH = {"creative": 5.0, "survival": 4.5}
 _LOADING_TICKS = {"loading": 40, "saving": 20}
 _VOID = 64
 """Blocks below the floor at which a falling player dies."""
-_TAGS = {"oak_planks": ("minecraft:planks", "minecraft:mineable/axe"), "stone": ("minecraft:mineable/pickaxe",)}
 
 
 class VirtualGame:
@@ -61,6 +62,7 @@ class VirtualGame:
         self.pointer = (-1, -1)
         self.is_world_chosen = False
         self.reason = ""
+        self.notices: tuple[str, ...] = ()
         self._shows_target = shows_target
         self._on_leave, self._on_enter = on_leave, on_enter
         self._since = 0
@@ -68,8 +70,12 @@ class VirtualGame:
         self._sent: deque[str] = deque()
         self._ghosts: list[tuple[int, tuple[int, int, int]]] = []
         self._refusals_to_come, self._ghosts_to_come = 0, 0
+        self._gaits = Gaits(realm.edition)
+        self._is_at_wall = False
         self._rested_at: tuple[int, physics.Vector] | None = None
         self._looked: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
+        self._looked_on_f3: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
+        self._before = self._aim()
 
     @property
     def edition(self) -> Edition:
@@ -162,6 +168,7 @@ class VirtualGame:
                 self.chat.say(answer.text, self.ticks, is_error=answer.is_error)
         if self.screen == "world":
             self._handle_keys()
+        self._before = self._aim()
         if self.screen != "death":
             self._move()
             if self.realm.player.feet[1] < self.realm.world.floor - _VOID:
@@ -173,11 +180,11 @@ class VirtualGame:
         is_ready = self.screen != "death" or self.ticks - self._since >= DEATH_WAIT
         state = MenuState(self.screen, is_ready, self.is_world_chosen, self.reason)
         if not self.is_in_world:
-            return View(state, (0, 0, 0), pointer=self.pointer)
+            return View(state, (0, 0, 0), pointer=self.pointer, notices=self.notices)
         pointer = (-1, -1) if self.screen == "world" else self.pointer
         scene = block_of(player.feet)
         if self.hides_hud:
-            return View(state, scene, pointer=pointer)
+            return View(state, scene, pointer=pointer, notices=self.notices)
         return View(
             state,
             scene,
@@ -188,6 +195,7 @@ class VirtualGame:
             self.chat.typed,
             player.mode == "creative",
             pointer,
+            self.notices,
         )
 
     def target_block(self, reach: float) -> ray.Hit | None:
@@ -198,6 +206,21 @@ class VirtualGame:
             self._looked = (now, ray.cast(self.realm.eye(), player.yaw, player.pitch, SIGHT, world.is_solid))
         hit = self._looked[1]
         return hit if hit is not None and hit.distance <= reach else None
+
+    def target_on_f3(self) -> ray.Hit | None:
+        """The block that the debug screen names, from where the eyes were a tick ago (FACTS: The F3 debug screen)."""
+        eye, yaw, pitch = self._before
+        world, reach = self.realm.world, SIGHT if self.edition.since(1, 13) else self.reach()
+        now = (self._before, world.revision)
+        if self._looked_on_f3[0] != now:
+            self._looked_on_f3 = (now, ray.cast(eye, yaw, pitch, SIGHT, world.is_solid))
+        hit = self._looked_on_f3[1]
+        return hit if hit is not None and hit.distance <= reach else None
+
+    def _aim(self) -> tuple[physics.Vector, float, float]:
+        """The eyes' position and the view, in blocks and degrees."""
+        player = self.realm.player
+        return self.realm.eye(), player.yaw, player.pitch
 
     def reach(self) -> float:
         """Blocks from the eye within which blocks can be placed."""
@@ -268,13 +291,18 @@ class VirtualGame:
         player.is_sneaking = keys.is_held("sneak")
         forward = keys.is_held("forward") - keys.is_held("back")
         left = keys.is_held("left") - keys.is_held("right")
+        gait = self._gaits.tick(
+            is_forward=forward > 0,
+            sneaks=player.is_sneaking,
+            may_sprint=player.on_ground and not self._is_at_wall,
+        )
         is_pushed = forward or left or keys.is_held("jump")
         rests = player.on_ground and max(abs(player.velocity[0]), abs(player.velocity[2])) < physics.STANDSTILL
         if rests and not is_pushed and self._rested_at == (world.revision, player.feet):
             return
         if keys.is_held("jump") and player.on_ground:
             player.velocity = (player.velocity[0], physics.JUMP, player.velocity[2])
-        push = physics.wish(forward, left, "sneak" if player.is_sneaking else "walk", player.yaw)
+        push = physics.wish(forward, left, gait, player.yaw)
         before = player.feet
         player.feet, player.velocity, player.on_ground = physics.step(
             before,
@@ -283,16 +311,17 @@ class VirtualGame:
             self.realm.size()[0],
             world.is_solid,
             on_ground=player.on_ground,
-            ground=self._ground,
+            ground=self._ground.under(gait),
             sneaks=player.is_sneaking,
         )
+        self._is_at_wall = bool(is_pushed) and not (player.velocity[0] or player.velocity[2])
         # A player who stands still on the ground stays there until a key or the world changes.
         self._rested_at = (world.revision, before) if player.on_ground and player.feet == before else None
 
     def _f3(self) -> F3Screen:
         realm = self.realm
         player, edition = realm.player, self.edition
-        hit = self.target_block(SIGHT if edition.since(1, 13) else self.reach()) if self._shows_target else None
+        hit = self.target_on_f3() if self._shows_target else None
         name = realm.world.block_at(hit.block) if hit else ""
         return F3Screen(
             edition.layout,
@@ -301,7 +330,7 @@ class VirtualGame:
             (player.yaw + 180.0) % 360.0 - 180.0,
             player.pitch,
             target=Target(hit.block, edition.shown_id(name)) if hit else None,
-            tags=_TAGS.get(name, ()) if edition.since(1, 13) else (),
+            tags=tags_of(name, edition),
             reduced=realm.rule("reducedDebugInfo", "reduced_debug_info", False),
             version=edition.version,
         )

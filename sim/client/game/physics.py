@@ -9,13 +9,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal
 
-Gait = Literal["walk", "sneak"]
+Gait = Literal["walk", "sneak", "sprint"]
 Vector = tuple[float, float, float]
 IsSolid = Callable[[int, int, int], bool]
 """Whether the block at x, y, z stops a player."""
 
 INPUT = 0.98
-SNEAKING = 0.3
+SNEAKING, SPRINTING = 0.3, 1.3
 AIR_INERTIA = 0.91
 AIR_ACCELERATION = 0.02
 
@@ -26,6 +26,10 @@ class Ground:
 
     slipperiness: float = 0.6
     speed: float = 1.0
+
+    def under(self, gait: Gait) -> "Ground":
+        """The ground as a player of that gait feels it: sprinting pushes more."""
+        return Ground(self.slipperiness, self.speed * SPRINTING) if gait == "sprint" else self
 
     @property
     def inertia(self) -> float:
@@ -56,7 +60,7 @@ _STEP_DOWN, _BACK_OFF = 0.6, 0.05
 
 def displacement(ticks: int, gait: Gait, ground: Ground = STONE) -> float:
     """Blocks covered by holding forward for so many ticks from rest, then coasting to a stop."""
-    push = INPUT * (SNEAKING if gait == "sneak" else 1.0) * ground.acceleration
+    push = INPUT * (SNEAKING if gait == "sneak" else 1.0) * ground.under(gait).acceleration
     covered = velocity = 0.0
     tick = 0
     while tick < ticks or velocity >= STANDSTILL:

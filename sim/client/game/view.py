@@ -14,7 +14,7 @@ class View:
     """One moment. ``f3`` is None while the debug screen is off, ``typed`` while the chat is closed.
 
     ``scene`` is the block that the player is in: the world behind shifts with it. ``pointer`` is the mouse in GUI
-    pixels where a menu is open.
+    pixels where a menu is open. ``notices`` are the texts at the upper right from the top down, empty in a free place.
     """
 
     menu: MenuState
@@ -26,3 +26,4 @@ class View:
     typed: str | None = None
     is_creative: bool = True
     pointer: tuple[int, int] = (-1, -1)
+    notices: tuple[str, ...] = ()

@@ -44,14 +44,15 @@ class VirtualWorld:
             self._changed[block] = name
         return True
 
-    def fill(self, low: Block, high: Block, name: str) -> int:
-        """Put a block everywhere between two corners, which are included; how many changed."""
+    def fill(self, low: Block, high: Block, name: str, *, only_air: bool = False) -> int:
+        """Put a block everywhere between two corners, which are included, or only where air is; how many changed."""
         sides = [range(min(one, other), max(one, other) + 1) for one, other in zip(low, high, strict=True)]
         if name == AIR and sides[1][0] >= self.floor:
             # Clearing above the floor, as every reset does: only what stands there can change.
             there = [block for block in self._changed if all(block[axis] in sides[axis] for axis in range(3))]
             return sum(self.put(block, name) for block in there)
-        return sum(self.put((x, y, z), name) for x, y, z in itertools.product(*sides))
+        blocks = ((x, y, z) for x, y, z in itertools.product(*sides))
+        return sum(self.put(block, name) for block in blocks if not only_air or self.block_at(block) == AIR)
 
     def built(self) -> dict[Block, str]:
         """What differs from the bare floor: names by position, ``AIR`` where some of the floor is missing."""

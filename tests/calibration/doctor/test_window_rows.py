@@ -34,18 +34,31 @@ def test_the_scaling_is_measured_on_the_picture(
     assert bool(row.fix) == (status in ("warn", "fail"))
 
 
+@pytest.mark.parametrize(
+    ("size", "scale", "status"),
+    [((854, 480), 2, "warn"), ((1280, 720), 3, "warn"), ((959, 540), 2, "pass"), ((958, 540), 2, "warn")],
+)
+def test_below_480_gui_pixels_of_width_a_blocks_line_may_cover_the_facing_line(
+    size: Size, scale: int, status: str
+) -> None:
+    row = size_row(snapshot(size, None, scale), None)
+    assert row.status == status
+    assert row.fix.startswith("" if status == "pass" else f"make the window at least {480 * scale} pixels wide")
+    assert bool(row.fix) == (status == "warn")
+
+
 def test_a_window_smaller_than_the_games_screens_fails() -> None:
     assert size_row(snapshot((319, 480), None), None).status == "fail"
-    assert size_row(snapshot((320, 240), None), None).status == "pass"
+    assert size_row(snapshot((320, 240), None, gui_scale=1), None).status == "warn"
     assert size_row(snapshot((320, 240), None, gui_scale=None), None).status == "skip"
     assert size_row(snapshot((320, 239), None), None).fix == "make the window larger than 320 x 240"
 
 
 @pytest.mark.parametrize(("wanted", "status"), [(2, "pass"), (None, "pass"), (3, "fail")])
 def test_a_gui_scale_is_the_profiles_if_that_names_one(wanted: int | None, status: str) -> None:
-    row = size_row(snapshot((854, 480), None), Profile(screen=ScreenTable(gui_scale=wanted)))
+    row = size_row(snapshot((960, 540), None), Profile(screen=ScreenTable(gui_scale=wanted)))
     assert row.status == status
-    assert row.detail.startswith("854 x 480 pixels, GUI scale 2")
+    assert row.detail.startswith("960 x 540 pixels, GUI scale 2")
     assert ("GUI Scale to 3" in row.fix) == (status == "fail")
 
 

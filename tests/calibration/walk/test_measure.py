@@ -8,7 +8,7 @@ import pytest
 
 from calibration.context import StepResult
 from calibration.walk.gait_fit import rms
-from calibration.walk.measure import calibrate_walk, walk
+from calibration.walk.measure import WITHOUT_TICKS, calibrate_walk, walk
 from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, NotInFrontError, UserError
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.profile.arena import Arena
@@ -76,6 +76,50 @@ def test_walking_is_measured_where_the_player_stands_and_ends_there(
     assert not [line for line in found.lines if "Warning" in line]
     assert "Timed between two ticks, 8 of 8" in " ".join(found.lines)
     assert off_held_out(client, found, monkeypatch) < 0.02
+
+
+class Glider:
+    """Lets a client's player glide without ticks: at a speed while a key is down, a step each 120th of a second."""
+
+    def __init__(self, client: VirtualClient, speed: float) -> None:
+        self._client, self._speed = client, speed
+        self._glide()
+
+    def _glide(self) -> None:
+        client = self._client
+        client.clock.call_at(client.clock.now() + 1 / 120, self._glide)
+        keys, player = client.game.keys, client.realm.player
+        step = self._speed / 120 * (0.3 if keys.is_held("sneak") else 1.0)
+        x, y, z = player.feet
+        x += step * (keys.is_held("left") - keys.is_held("right"))
+        z += step * (keys.is_held("forward") - keys.is_held("back"))
+        if player.feet != (x, y, z):
+            player.feet = (x, y, z)
+            client.display.show(client.game.view())
+
+
+def test_a_walk_without_ticks_gives_a_measured_line_and_a_warning(tmp_path: Path) -> None:
+    client = VirtualClient(pitch=65.0, speed=0.0)
+    Glider(client, 4.3)
+    found = measured(client, tmp_path)
+    assert WITHOUT_TICKS in found.lines
+    walk_table = found.profile.walk
+    for ticks in (3, 6, 12):
+        assert walk_table.covered[ticks - 1] == pytest.approx(4.3 * ticks * TICK_S, abs=0.08)
+    assert walk_table.sneaking == pytest.approx(0.3, abs=0.02)
+    assert found.pictures[0].frame.shape == (420, 1000, 3)
+    assert max(abs(now - then) for now, then in zip(client.realm.player.feet, (0.5, 64, 0.5), strict=True)) < 0.25
+
+
+def test_a_walk_that_fails_brings_the_player_back(tmp_path: Path) -> None:
+    client = VirtualClient(seed=2, pitch=20.0)
+    arena = Arena.around((-20, 64, 31), "east")
+    profile = profile_of(client, tmp_path).model_copy(update={"arena": arena, "keys": KeysTable(left="j")})
+    with pytest.raises(UserError, match="the key j doesn't move the player left"):
+        measured(client, tmp_path, profile)
+    client.clock.sleep(0.5)
+    assert client.realm.player.feet == (0.5, 64.0, 0.5)
+    assert (client.realm.player.yaw, client.realm.player.pitch) == (0.0, 20.0)
 
 
 def test_in_a_marked_arena_it_walks_in_the_middle_and_comes_back(tmp_path: Path) -> None:

@@ -75,7 +75,8 @@ class FlatWalker:
     def position(self) -> GroundVector:
         return BEGIN
 
-    def hold(self, seconds: float, *_keys: str, phase: float, max_distance: float) -> RecordedHold:  # noqa: ARG002
+    def hold(self, seconds: float, _key: str, *, sneak: str | None, phase: float, max_distance: float) -> RecordedHold:
+        assert (sneak, phase >= 0, max_distance) == (None, True, float("inf"))
         ticks = seconds / 0.05
         self.held_ticks.append(round(ticks))
         end = GroundVector(BEGIN.right + 0.1 * ticks, BEGIN.forward + 0.1 * ticks)

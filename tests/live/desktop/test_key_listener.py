@@ -1,6 +1,7 @@
 """Keys heard by their places: from pynput's hook on Windows, from its keycodes on macOS, and on a real X server."""
 
 import sys
+import threading
 from types import SimpleNamespace
 
 import pytest
@@ -60,6 +61,22 @@ def test_macos_keys_have_the_names_of_their_keycodes_whatever_they_type(listener
             press(key)
             release(key)
     assert heard == [("w", True), ("w", False), ("f12", True)]
+
+
+def test_a_slow_hearer_does_not_hold_up_the_hook(listeners: list[Listener]) -> None:
+    may_go_on, heard = threading.Event(), list[str]()
+
+    def on_key(name: str, _: bool) -> None:
+        assert may_go_on.wait(10)
+        heard.append(name)
+
+    with listening_through_pynput(on_key):
+        on_hook = listeners[0].heard["win32_event_filter"]
+        on_hook(KEY_DOWN, hook_event(0x11))
+        on_hook(KEY_DOWN, hook_event(0x1E))
+        assert heard == []
+        may_go_on.set()
+    assert heard == ["w", "a"]
 
 
 def test_it_listens_for_as_long_as_the_context_lasts_and_waits_for_its_end(listeners: list[Listener]) -> None:

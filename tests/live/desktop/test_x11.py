@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from Xlib.display import Display
 
 TITLE = "Minecraft 1.20.1"
+ATOMS = {"_NET_WM_STATE": 300, "_NET_WM_STATE_FOCUSED": 301, "_NET_WM_STATE_HIDDEN": 302}
 
 
 class FakeWindow(Window):
@@ -32,6 +33,7 @@ class FakeWindow(Window):
         self.map_state = X.IsViewable
         self.size, self.corner = (320, 240), (60, 40)
         self.is_gone = False
+        self.states: list[int] | None = None
 
     under_pointer: "FakeWindow | None"
 
@@ -56,6 +58,10 @@ class FakeWindow(Window):
             raise ConnectionClosedError("gone")
         return SimpleNamespace(width=self.size[0], height=self.size[1])
 
+    def get_full_property(self, property: int, property_type: int, sizehint: int = 10) -> Any:  # noqa: A002, ARG002 - its own
+        assert property == ATOMS["_NET_WM_STATE"]
+        return None if self.states is None else SimpleNamespace(value=self.states)
+
     def translate_coords(self, src_window: Any, _x: int, _y: int) -> Any:
         return SimpleNamespace(x=src_window.corner[0], y=src_window.corner[1])
 
@@ -74,6 +80,9 @@ class Server:
 
     def screen(self) -> Any:
         return SimpleNamespace(root=self.root)
+
+    def get_atom(self, name: str) -> int:
+        return ATOMS[name]
 
     def get_input_focus(self) -> Any:
         return SimpleNamespace(focus=self.focus)
@@ -118,6 +127,12 @@ def test_a_window_that_is_not_shown_or_has_no_area_is_minimised() -> None:
     server.game.map_state = X.IsUnmapped
     with pytest.raises(DesktopError, match="minimised"):
         server.window.client_area()
+    kept_by_gnome = Server()
+    kept_by_gnome.game.states = [ATOMS["_NET_WM_STATE_FOCUSED"]]
+    assert kept_by_gnome.window.client_area()
+    kept_by_gnome.game.states.append(ATOMS["_NET_WM_STATE_HIDDEN"])
+    with pytest.raises(DesktopError, match="minimised"):
+        kept_by_gnome.window.client_area()
     empty = Server()
     empty.game.size = (320, 0)
     with pytest.raises(DesktopError, match="minimised"):

@@ -177,6 +177,9 @@ def camera_report(window: Window, desktop: Devices) -> dict[str, Any]:
     report["partly off the screen"] = corners(desktop)
     window.tell("resize", *LARGE)
     report["large"] = [desktop.display.grab().shape, corners(desktop)]
+    window.tell("minimise")
+    until(lambda: bool(error_of(desktop.display.grab)), 1)
+    report["minimised"] = error_of(desktop.display.grab)
     window.tell("hide")
     until(lambda: bool(error_of(desktop.display.grab)))
     report["hidden"] = error_of(desktop.display.grab)

@@ -59,6 +59,7 @@ class Window:
             "paste": paste,
             "place": lambda x, y: glfw.set_window_pos(self.window, x, y),
             "resize": self.resize,
+            "minimise": lambda: glfw.iconify_window(self.window),
             "hide": lambda: glfw.hide_window(self.window),
         }
 

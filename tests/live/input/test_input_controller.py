@@ -99,6 +99,39 @@ def test_nothing_is_pressed_that_the_screen_just_seen_is_not_there_for(press: st
     assert game.presses == []
 
 
+@pytest.mark.parametrize("press", ["hold", "tap", "click"])
+def test_a_press_after_an_old_look_looks_again_and_is_pressed_only_if_that_confirms(press: str) -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    looks: list[str] = []
+
+    def look_again() -> None:
+        looks.append(press)
+        if len(looks) == 2:
+            controller.confirm_screen("world")
+
+    controller.confirm_screen("world", look_again)
+    game.clock.sleep_until(game.clock.now() + FRESH_S + 0.01)
+    with pytest.raises(WrongScreenError, match="the world was not just seen"):
+        _press(controller, press)
+    assert game.presses == []
+    _press(controller, press)
+    assert len(looks) == 2
+    assert len(game.presses) == 1
+
+
+def test_a_fresh_look_or_another_screen_is_not_looked_at_again() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.confirm_screen("world", lambda: pytest.fail("looked again"))
+    controller.click("right")
+    controller.confirm_screen("menu", lambda: pytest.fail("looked again"))
+    game.clock.sleep_until(game.clock.now() + FRESH_S + 0.01)
+    with pytest.raises(WrongScreenError):
+        controller.click("right")
+    assert game.presses == ["right button"]
+
+
 def test_a_stop_releases_everything_at_once_and_ends_what_is_going_on() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)

@@ -92,6 +92,9 @@ class FakeMenus:
     def scale(self) -> int:
         return self.gui_scale
 
+    def seen_scale(self) -> int | None:
+        return self.gui_scale
+
     def size(self) -> tuple[int, int]:
         return 854, 480
 

@@ -18,12 +18,14 @@ class ChatScreen(FakeScreen):
     def __init__(self, game: FakeGame) -> None:
         super().__init__(game)
         self.looks = 0
+        self.seen: list[str | None] = []
         self.closed_from_look = 10**6
         self.open_from_look = 10**6
         self.typed_instead: str | None = None
 
     def is_chat_open(self) -> bool:
         self.looks += 1
+        self.seen.append(self._game.typed())
         if self.looks >= self.closed_from_look:
             return False
         return self.looks >= self.open_from_look or super().is_chat_open()
@@ -70,10 +72,10 @@ def test_a_chat_that_does_not_open_is_an_error_after_the_patience_and_nothing_is
     game = FakeGame(Profile())
     screen = ChatScreen(game)
     screen.closed_from_look = 1
-    with pytest.raises(NotConfirmedError, match="the chat did not open, empty: leave mouse and keys alone"):
+    with pytest.raises(NotConfirmedError, match=r"the chat did not open, empty: leave mouse .*set reads_chat = false"):
         chat_in(game, screen).send(LINE)
-    assert game.typed() == ""
-    waited = game.clock.now() - 100.0 - 0.05
+    assert (game.typed(), game.presses, screen.seen) == (None, ["t", "esc"], [""] * len(screen.seen))
+    waited = game.clock.now() - 100.0 - 0.05 - 0.05 - game.profile.input.chat_close_s
     assert PATIENCE_S <= waited <= PATIENCE_S + TYPING_LOOK_S + 0.001
 
 
@@ -85,9 +87,10 @@ def test_a_chat_that_opens_with_text_in_it_is_not_typed_into() -> None:
             return text == "x"
 
     game = FakeGame(Profile())
+    screen = Opened(game)
     with pytest.raises(NotConfirmedError, match="did not open, empty"):
-        chat_in(game, Opened(game)).send(LINE)
-    assert game.typed() == ""
+        chat_in(game, screen).send(LINE)
+    assert (game.typed(), game.presses, game.commands) == (None, ["t", "esc"], [])
 
 
 def test_a_chat_that_closes_half_way_gets_no_more_letters() -> None:
@@ -96,8 +99,8 @@ def test_a_chat_that_closes_half_way_gets_no_more_letters() -> None:
     screen.closed_from_look = 3
     with pytest.raises(NotConfirmedError, match="the chat did not stay open"):
         chat_in(game, screen).send(LINE)
-    assert game.typed() == LINE[:8]
-    assert game.commands == []
+    assert screen.seen[-1] == LINE[:8]
+    assert (game.typed(), game.commands) == (None, [])
 
 
 def test_a_line_that_lacks_a_letter_is_not_sent() -> None:

@@ -42,6 +42,22 @@ def test_a_reset_clears_teleports_and_gives_in_this_order() -> None:
     assert len(lines) == 3
 
 
+@pytest.mark.parametrize(
+    ("version", "command"),
+    [
+        ("1.12.2", "/fill -9 63 -20 5 63 -6 minecraft:stone 0 keep"),
+        ("1.13", "/fill -9 63 -20 5 63 -6 minecraft:stone keep"),
+    ],
+)
+def test_holes_in_a_floor_that_is_known_are_filled_and_nothing_else(version: str, command: str) -> None:
+    profile = _profile(version)
+    arena = profile.marked_arena().model_copy(update={"floor": "stone"})
+    commands = reset_commands(profile.model_copy(update={"arena": arena}), (7, 14), [])
+    assert commands[0].endswith("minecraft:air")
+    assert commands[1] == command
+    assert commands[2].startswith("/tp")
+
+
 @pytest.mark.parametrize(("facing", "yaw"), [("north", "180"), ("south", "0"), ("west", "90"), ("east", "-90")])
 def test_the_teleport_looks_the_arenas_way(facing: Facing, yaw: str) -> None:
     assert reset_commands(_profile(facing=facing), (0, 0), [])[1] == f"/tp @s 5.5 64 -19.5 {yaw} 65"

@@ -70,6 +70,12 @@ def test_sneaking_is_planned_only_if_walking_misses_and_sneaking_ends_nearer(
     assert plan_hold(distance, walk_response(12), tolerance) == plan
 
 
+def test_a_hold_that_must_sneak_sneaks_as_near_as_it_can() -> None:
+    assert plan_hold(0.21, walk_response(12), 0.15) == HoldPlan("walk", 1)
+    assert plan_hold(0.21, walk_response(12), 0.15, must_sneak=True) == HoldPlan("sneak", 3)
+    assert plan_hold(0.01, walk_response(12), 0.15, must_sneak=True) == HoldPlan("sneak", 1)
+
+
 def test_a_tie_between_walking_and_sneaking_is_walked() -> None:
     # Walking ends at 1.0, sneaking at 0.5: both are 0.25 off.
     assert plan_hold(0.75, [1.0], 0.1, 0.5) == HoldPlan("walk", 1)

@@ -9,7 +9,7 @@ from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.timing import FRAME_S, HALF_FRAME_S
-from mc_nested.live.motion.key_hold import EVERY_LOOK, KeyHold
+from mc_nested.live.motion.key_hold import EVERY_LOOK, SNEAK_FIRST_S, KeyHold
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import Profile
@@ -67,6 +67,22 @@ def test_keys_are_down_until_the_release_time(holding: Holding) -> None:
     assert downs == [("left.shift down", 0.0), ("w down", 0.0)]
     assert {name for name, _ in ups} == {"left.shift up", "w up"}
     assert [at for _, at in ups] == [pytest.approx(0.2)] * 2
+
+
+def test_the_sneak_key_goes_down_three_ticks_earlier_and_up_with_the_other_not_before_it(holding: Holding) -> None:
+    holding.key_hold.begin_sneaking("left.shift")
+    assert holding.now() == pytest.approx(SNEAK_FIRST_S)
+    holding.key_hold.hold(100.0 + holding.now() + 0.1, "w", sneak="left.shift")
+    names = [name for name, _ in holding.keyboard.events]
+    assert names == ["left.shift down", "w down", "w up", "left.shift up"]
+    assert [at for _, at in holding.keyboard.events] == pytest.approx([0.0, 0.15, 0.25, 0.25])
+    assert holding.key_hold.pressed_at == pytest.approx(100.15)
+
+
+def test_a_look_that_changes_the_release_keeps_the_sneak_key_as_long(holding: Holding) -> None:
+    holding.key_hold.begin_sneaking("left.shift")
+    holding.key_hold.hold(100.3, "w", sneak="left.shift", look_times=(100.2,), on_look=lambda: 100.4)
+    assert [at for _, at in holding.keyboard.events[2:]] == pytest.approx([0.4, 0.4])
 
 
 def test_looks_come_at_their_times_and_none_comes_so_late_that_it_could_delay_the_release(holding: Holding) -> None:

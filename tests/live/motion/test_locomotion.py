@@ -10,7 +10,7 @@ from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.coordinates import GroundVector
 from mc_nested.live.model.kinematics import displacement
 from mc_nested.live.model.reading import Reading
-from mc_nested.live.motion.locomotion import Locomotion
+from mc_nested.live.motion.locomotion import SPRINT_WINDOW_S, Locomotion
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver
 from mc_nested.live.motion.walk_tracker import CoastingState
 from mc_nested.live.profile.arena import Arena
@@ -160,3 +160,79 @@ def test_a_press_that_comes_late_moves_the_release_so_that_the_ticks_are_the_sam
     walk.game.late_from, walk.game.late_until = walk.game.clock.now(), walk.game.clock.now() + 0.05
     walk.walk(displacement(5), 0.0)
     assert walk.end() == pytest.approx((7.0 + displacement(5), 7.0), abs=0.001)
+
+
+class ForgetfulKeyboard(FakeKeyboard):
+    """Loses the first presses of movement keys, and notes when each key went down, and for how many ticks."""
+
+    def __init__(self, game: FakeGame, lost: int) -> None:
+        super().__init__(game)
+        self._game, self._lost = game, lost
+        self._down: dict[str, float] = {}
+        self.held: list[tuple[str, int]] = []
+        self.pressed: list[float] = []
+
+    def press(self, key: str) -> None:
+        self._down[key] = self._game.clock.now()
+        self.pressed.append(self._game.clock.now())
+        if self._lost:
+            self._lost -= 1
+        else:
+            super().press(key)
+
+    def release(self, key: str) -> None:
+        if key in self._down:
+            self.held.append((key, round((self._game.clock.now() - self._down.pop(key)) / TICK)))
+        super().release(key)
+
+
+def forgetful(lost: int) -> tuple[Walk, ForgetfulKeyboard]:
+    """An agent whose first presses are lost."""
+    walk = Walk()
+    keyboard = ForgetfulKeyboard(walk.game, lost)
+    devices = devices_of(walk.game, keyboard)
+    walk.connection = GameConnection(devices, InputController(devices, PROFILE.input), FakeScreen(walk.game))
+    walk.observer = PoseObserver(PROFILE, walk.connection, PoseFrame.of_arena(PROFILE))
+    walk.locomotion = Locomotion(PROFILE, walk.connection, walk.observer)
+    return walk, keyboard
+
+
+def test_a_hold_that_moved_too_little_makes_the_next_one_longer_until_one_is_felt() -> None:
+    walk, keyboard = forgetful(3)
+    for _ in range(4):
+        state, _ = walk.walk(displacement(1), 0.0)
+    assert keyboard.held == [("d", 1), ("d", 2), ("d", 3), ("d", 4)]
+    assert state.end.right == pytest.approx(7.0 + displacement(4), abs=0.005)
+    keyboard.held.clear()
+    walk.locomotion.walk(state, GroundVector(-displacement(1), 0.0))
+    assert keyboard.held == [("a", 1)]
+
+
+def test_after_a_teleport_no_hold_is_longer_for_what_was_lost_before() -> None:
+    walk, keyboard = forgetful(1)
+    walk.walk(displacement(1), 0.0)
+    walk.locomotion.set_standing(walk.observer.look())
+    walk.walk(displacement(1), 0.0)
+    assert keyboard.held == [("d", 1), ("d", 1)]
+
+
+def test_a_short_hold_that_led_too_far_lets_the_next_one_sneak() -> None:
+    walk = Walk()
+    walk.locomotion.set_standing(walk.observer.look())
+    walk.game.late_from, walk.game.late_until = walk.game.clock.now() + 0.04, walk.game.clock.now() + 0.14
+    state, _ = walk.walk(displacement(1), 0.0)
+    assert state.end.right > 7.0 + displacement(2)
+    walk.observer.permit_press()
+    walk.locomotion.follow_to_end(walk.locomotion.walk(state, GroundVector(7.0 + displacement(1) - state.end.right, 0)))
+    assert walk.game.presses == ["d", "left.shift", "a"]
+
+
+def test_forward_is_not_pressed_again_within_the_sprint_window_and_other_keys_are() -> None:
+    walk, keyboard = forgetful(0)
+    for forward in (displacement(1), displacement(1), -displacement(1), -displacement(1)):
+        walk.observer.look()
+        walk.observer.permit_press()
+        walk.locomotion.walk(AT_REST, GroundVector(0.0, forward))
+    first, second, *others = keyboard.pressed
+    assert second - first > SPRINT_WINDOW_S
+    assert others[1] - others[0] < SPRINT_WINDOW_S / 2

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
+from mc_nested.live.input.input_controller import FRESH_S
 from mc_nested.live.model.reading import Reading, Target, WorldPose
 from mc_nested.live.model.timing import FRAME_S
 from mc_nested.live.motion.pose_observer import PoseFrame, PoseObserver, check_pose
@@ -177,6 +178,31 @@ def test_a_press_is_permitted_only_while_the_chat_is_closed(observed: Observed) 
     observed.pass_time(0.1)
     with pytest.raises(NotConfirmedError, match="the chat is open"):
         observed.observer.permit_press()
+
+
+def test_a_press_that_comes_too_late_after_the_look_looks_again(observed: Observed) -> None:
+    observed.observer.look()
+    observed.observer.permit_press()
+    observed.pass_time(FRESH_S + 0.01)
+    before = observed.looks
+    observed.connection.controller.click("right")
+    assert observed.looks == before + 1
+    assert observed.game.presses == ["right button"]
+
+
+def test_nothing_is_pressed_where_the_second_look_is_not_right_any_more(observed: Observed) -> None:
+    observed.observer.look()
+    observed.observer.permit_press(lambda pose: pose.position.forward < 7.5)
+    observed.walk_to(8.5)
+    observed.pass_time(FRESH_S + 0.01)
+    with pytest.raises(NotConfirmedError, match=r"the agent is at \(7\.00, 8\.00\) now"):
+        observed.connection.controller.click("right")
+    observed.observer.permit_press()
+    observed.reading = Reading((7.5, 64.0, 7.5), 20.0, 65.0)
+    observed.pass_time(FRESH_S + 0.01)
+    with pytest.raises(NotConfirmedError, match="the view is 20 / 65"):
+        observed.connection.controller.click("right")
+    assert observed.game.presses == []
 
 
 def test_a_frame_around_a_pose_measures_from_there_and_expects_its_view_and_height() -> None:

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.vision.chat_region import BLANK, CLOSED_LINES, OPEN_LINES, chat_regions, without_chat
+from mc_nested.live.vision.chat_region import BLANK, LINES, chat_regions, without_chat
 from sim.client.client import VirtualClient
 from sim.client.drawing.hud_layers import HudLayers
 from sim.client.drawing.layers import draw_all
@@ -19,12 +19,20 @@ from tests.sim.client.playing import FONT, tap
 
 
 def test_at_854_x_480_and_scale_2_it_is_the_lower_left_and_the_lowest_line() -> None:
-    # 138 to 38 dots above the lower edge, 332 wide; 14 for the line being typed.
-    assert chat_regions((854, 480), 2) == (Region(0, 204, 664, 200), Region(0, 452, 854, 28))
+    # 228 to 38 dots above the lower edge, 332 wide; all of the 38 below, where lines are typed.
+    assert chat_regions((854, 480), 2) == (Region(0, 24, 664, 380), Region(0, 404, 854, 76))
 
 
-@given(st.integers(1, 3000), st.integers(1, 2000), st.integers(1, 4))
-def test_it_never_reaches_out_of_the_window(width: int, height: int, scale: int) -> None:
+@given(st.integers(320, 4000), st.integers(240, 2400))
+def test_without_a_scale_all_is_blanked_that_is_at_any_scale(width: int, height: int) -> None:
+    frame = np.zeros((height, width, 3), np.uint8)
+    blank = without_chat(frame, None) == BLANK
+    for scale in range(1, min(width // 320, height // 240) + 1):
+        assert blank[without_chat(frame, scale) == BLANK].all()
+
+
+@given(st.integers(1, 3000), st.integers(1, 2000), st.one_of(st.none(), st.integers(1, 8)))
+def test_it_never_reaches_out_of_the_window(width: int, height: int, scale: int | None) -> None:
     for region in chat_regions((width, height), scale):
         assert region.left >= 0
         assert region.left + region.width <= width
@@ -76,26 +84,27 @@ def chat_over(size: tuple[int, int], scale: int, version: str, said: list[str], 
     st.integers(240, 700),
     st.integers(1, 4),
     st.sampled_from(["1.12.2", "1.20.1"]),
-    st.sampled_from([CLOSED_LINES, OPEN_LINES]),
+    st.booleans(),
     st.text("iIlW@.jg_", min_size=1, max_size=45),
 )
 @settings(max_examples=60, deadline=None)
 def test_no_pixel_of_messages_or_of_the_typed_line_is_left_in_any_window(
-    width: int, height: int, scale: int, version: str, lines: int, text: str
+    width: int, height: int, scale: int, version: str, is_known: bool, text: str
 ) -> None:
     size = (width, height)
-    one = chat_over(size, scale, version, [text] * lines, typed=text * 3)
+    one = chat_over(size, scale, version, [text] * LINES, typed=text * 3)
     other = chat_over(size, scale, version, [], typed="")
-    assert np.array_equal(without_chat(one, scale, lines=lines), without_chat(other, scale, lines=lines))
+    known = scale if is_known or scale > min(width // 320, height // 240) else None
+    assert np.array_equal(without_chat(one, known), without_chat(other, known))
 
 
 def test_the_rest_of_the_picture_and_what_is_opaque_stay_and_the_frame_itself_is_left_alone() -> None:
-    frame = np.random.default_rng(0).integers(100, 256, (240, 427, 3), np.uint8)
+    frame = np.random.default_rng(0).integers(100, 256, (480, 427, 3), np.uint8)
     before = frame.copy()
-    blanked = without_chat(frame, 1, [Region(100, 150, 50, 20), Region(-5, 230, 10, 30)])
+    blanked = without_chat(frame, 1, [Region(100, 350, 50, 20), Region(-5, 470, 10, 30)])
     assert np.array_equal(frame, before)
-    assert np.array_equal(blanked[:102], frame[:102])
-    assert np.array_equal(blanked[150:170, 100:150], frame[150:170, 100:150])
-    assert np.array_equal(blanked[230:, :5], frame[230:, :5])
-    assert (blanked[102:150, :332] == BLANK).all()
-    assert np.array_equal(blanked[102:202, 332:], frame[102:202, 332:])
+    assert np.array_equal(blanked[:252], frame[:252])
+    assert np.array_equal(blanked[350:370, 100:150], frame[350:370, 100:150])
+    assert np.array_equal(blanked[470:, :5], frame[470:, :5])
+    assert (blanked[252:350, :332] == BLANK).all()
+    assert np.array_equal(blanked[252:442, 332:], frame[252:442, 332:])

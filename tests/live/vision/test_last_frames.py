@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 from mc_nested.live.devices import Frame, Region
+from mc_nested.live.vision.game_screen import WindowScreen
 from mc_nested.live.vision.last_frames import LastFrames
 from sim.client.client import VirtualClient
-from tests.sim.client.playing import tap
+from tests.sim.client.playing import FONT, tap
 
 
 class GreyDisplay:
@@ -93,6 +94,27 @@ def test_what_is_being_typed_can_not_be_read_on_them(
     # The end of a long line stands at the window's right side.
     one, other = saved("meet me at the oak " * 6), saved("i will be a bit late " * 6)
     assert np.array_equal(one, other)
+
+
+@pytest.mark.parametrize("size", [(854, 480), (1920, 1080)])
+def test_where_no_debug_screen_says_the_scale_what_is_typed_can_not_be_read_either(
+    size: tuple[int, int], tmp_path: Path
+) -> None:
+    def saved(words: str) -> Frame:
+        client = VirtualClient(size=size, scale=0, has_f3=False, capture_latency_s=(0.0, 0.0))
+        client.clock.sleep(0.2)
+        screen = WindowScreen(client.display, FONT)
+        tap(client, "t")
+        client.keyboard.type(words)
+        client.clock.sleep(0.3)
+        assert screen.seen_scale() is None
+        last = LastFrames(client.display, tmp_path / words, screen.seen_scale)
+        last.take()
+        picture = cv2.imread(str(last.save()[0]))
+        assert picture is not None
+        return np.asarray(picture, np.uint8)
+
+    assert np.array_equal(saved("meet me at the oak " * 6), saved("i will be a bit late " * 6))
 
 
 def test_what_a_long_open_chat_shows_can_not_be_read_on_them(tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ def test_an_overlays_lines_are_as_high_as_its_layouts() -> None:
 @pytest.mark.parametrize(("name", "layout"), BOTH)
 def test_text_is_painted_in_the_layouts_colour_at_its_pitch(name: Layout, layout: ScreenLayout) -> None:
     frame = painted(name)
-    below = {"1.16-1.19.2": "Block:", "standin": "Chunk:"}[name]
+    below = {"1.16-1.19.2": "Block: -9 64", "standin": "Chunk:"}[name]
     row, column = start_of(frame, "XYZ:")
     assert tuple(frame[row, column, ::-1]) == layout.text_colour  # an X has ink in its upper left corner
     assert start_of(frame, below)[0] - row == layout.pitch

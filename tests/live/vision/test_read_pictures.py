@@ -1,6 +1,7 @@
 """Drives read_picture with files; what is read from a frame is left to test_debug_screen.py."""
 
 import json
+import re
 import struct
 import zlib
 from pathlib import Path
@@ -9,6 +10,7 @@ import cv2
 import numpy as np
 import pytest
 
+from mc_nested.errors import PictureError
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.layout import VANILLA, Overlay
@@ -51,13 +53,13 @@ def test_a_file_that_is_no_picture_is_a_problem(tmp_path: Path, data: bytes | No
     path = tmp_path / "given.png"
     if data is not None:
         path.write_bytes(data)
-    read = read_picture(path, FONT, None)
-    assert read["xyz"] is None
-    assert "the file" in str(read["problem"])
+    with pytest.raises(PictureError, match=f"{re.escape(str(path))} (is not a picture|can't be read)"):
+        read_picture(path, FONT, None)
 
 
 def test_a_folder_is_a_problem(tmp_path: Path) -> None:
-    assert "can't be read" in str(read_picture(tmp_path, FONT, None)["problem"])
+    with pytest.raises(PictureError, match="can't be read"):
+        read_picture(tmp_path, FONT, None)
 
 
 def test_a_grey_picture_of_sixteen_bits_is_a_problem_and_no_crash(tmp_path: Path) -> None:
@@ -69,7 +71,8 @@ def test_a_picture_of_more_pixels_than_can_be_opened_is_a_problem(tmp_path: Path
     header = b"IHDR" + struct.pack(">IIBBBBB", 60_000, 60_000, 8, 2, 0, 0, 0)
     data = b"\x89PNG\r\n\x1a\n" + struct.pack(">I", 13) + header + struct.pack(">I", zlib.crc32(header))
     (tmp_path / "huge.png").write_bytes(data)
-    assert "not a picture" in str(read_picture(tmp_path / "huge.png", FONT, None)["problem"])
+    with pytest.raises(PictureError, match="not a picture"):
+        read_picture(tmp_path / "huge.png", FONT, None)
 
 
 def test_a_png_without_a_debug_screen_is_not_called_a_jpeg(tmp_path: Path) -> None:

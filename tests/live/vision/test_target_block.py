@@ -143,7 +143,10 @@ def test_an_id_below_a_fluids_or_an_entitys_label_is_no_block(label: str, right:
     lines = [written(label, 4, right=right), written("minecraft:lava", 5, right=right)]
     if right:  # aligned where the lines end, not where they begin
         assert lines[0].start != lines[1].start
-    assert of(*lines) is None
+    if label == "Targeted Entity":
+        assert of(*lines) is None
+    else:
+        assert "a fluid is looked at" in why_not(*lines)
 
 
 @pytest.mark.parametrize("text", ["Biome: minecraft:plains", "minecraft:overworld FC: 0", "minecraft:the_nether"])
@@ -154,7 +157,31 @@ def test_a_biome_or_a_dimension_is_no_block(text: str) -> None:
 def test_tags_without_a_label_are_not_taken_for_no_block() -> None:
     tags = written("#minecraft:planks", 8, right=True)
     assert "which block the tags" in why_not(tags)
-    assert of(tags, written("Targeted Fluid: 1, 2, 3", 4, right=True)) is None
+    assert of(tags, written("Targeted Entity", 4, right=True)) is None
+
+
+OWN_LINES = [
+    written(text, row, right=True) for row, text in enumerate(("Java: 21", "Mem: 2%", "CPU: 4x", "Display: 2x2"))
+]
+
+
+@pytest.mark.parametrize("title", ["Minecraft 1.12.2 (1.12.2/vanilla)", "Minecraft 1.21.8 (x)", "Minecraft 25w31a"])
+def test_up_to_1_21_8_no_block_is_looked_at_only_where_the_right_columns_own_lines_are_seen(title: str) -> None:
+    assert of(written(title, 0), *OWN_LINES) is None
+    for covered in range(len(OWN_LINES)):
+        rest = [line for row, line in enumerate(OWN_LINES) if row != covered]
+        assert "a notice may lie over the lines" in why_not(written(title, 0), *rest)
+    assert "a notice may lie over the lines" in why_not(written(title, 0), written("Java: 21", 20), *OWN_LINES[1:])
+
+
+@pytest.mark.parametrize("title", ["Minecraft 1.21.9 (x)", "Minecraft 26.1 (26.1/vanilla)"])
+def test_from_1_21_9_on_the_right_column_may_lack_any_line(title: str) -> None:
+    assert of(written(title, 0)) is None
+
+
+def test_where_something_like_a_notice_is_seen_the_block_may_be_covered() -> None:
+    with pytest.raises(Unreadable, match="a notice may lie over"):
+        target_block(WrittenLines(*OWN_LINES, is_covered=True))
 
 
 def test_the_ids_line_ends_where_its_label_ends() -> None:

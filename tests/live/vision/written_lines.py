@@ -23,7 +23,8 @@ def written(text: str, number: int, *, right: bool = False, whole: bool = True, 
 class WrittenLines:
     """A screen that shows these lines and nothing else."""
 
-    def __init__(self, *lines: Line, layout: ScreenLayout = VANILLA) -> None:
+    def __init__(self, *lines: Line, layout: ScreenLayout = VANILLA, is_covered: bool = False) -> None:
+        self.is_covered = is_covered
         self.layout = layout
         self._lines = lines
 
@@ -42,6 +43,9 @@ class WrittenLines:
 
     def right_column(self) -> Sequence[Line]:
         return [line for line in self._lines if line.end == RIGHT]
+
+    def may_be_covered(self) -> bool:
+        return self.is_covered
 
     def cut(self, line: Line, text: str) -> Line | None:
         if text == line.text:

@@ -75,6 +75,32 @@ def test_at_ten_frames_a_second_a_key_is_felt_by_two_ticks_at_a_time() -> None:
         assert any(way == pytest.approx(displacement(ticks, "walk"), abs=1e-6) for ticks in (0, 2))
 
 
+@pytest.mark.parametrize("fps", [10.0, 20.0, 30.0])
+def test_a_key_that_goes_down_and_up_between_two_frames_moves_nobody(fps: float) -> None:
+    client = VirtualClient(fps=fps, input_latency_s=(0.001, 0.001))
+    for _ in range(8):
+        began = client.game.ticks
+        while client.game.ticks == began:
+            client.clock.sleep(0.001)
+        client.keyboard.press("w")
+        client.clock.sleep(0.8 / fps)
+        client.keyboard.release("w")
+        client.clock.sleep(0.5 + 0.013)
+    assert client.realm.player.feet == (0.5, 64.0, 0.5)
+
+
+@pytest.mark.parametrize(("fps", "steps"), [(10.0, {0, 2}), (20.0, {0, 1}), (60.0, {0, 1})])
+def test_ticks_come_with_the_frames_and_as_many_as_are_due(fps: float, steps: set[int]) -> None:
+    client = VirtualClient(fps=fps)
+    seen, ticks = set(), client.game.ticks
+    for _ in range(4000):
+        client.clock.sleep(0.0005)
+        seen.add(client.game.ticks - ticks)
+        ticks = client.game.ticks
+    assert seen == steps
+    assert abs(ticks - 40) <= 2
+
+
 def test_sneaking_is_slower_and_lowers_the_eyes() -> None:
     client = VirtualClient(pitch=65.0)
     for key in ("left.shift", "w"):

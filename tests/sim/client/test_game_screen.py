@@ -14,7 +14,7 @@ from mc_nested.live.menus import recovery, screens
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.vision.chat_region import OPEN_LINES, without_chat
+from mc_nested.live.vision.chat_region import without_chat
 from mc_nested.live.vision.game_screen import WindowScreen
 from mc_nested.live.vision.last_frames import LastFrames
 from sim.client.client import VirtualClient
@@ -104,6 +104,35 @@ def test_a_letter_that_is_lost_keeps_the_line_from_being_sent() -> None:
     assert client.realm.day_time == 6000
 
 
+class ElsewhereScreen(WindowScreen):
+    """What reads a game that draws its chat where the game itself doesn't."""
+
+    def is_chat_open(self) -> bool:
+        return False
+
+
+def test_a_chat_that_is_drawn_elsewhere_is_closed_and_the_error_names_what_to_set() -> None:
+    client = VirtualClient()
+    client.clock.sleep(0.2)
+    connection = _connection(client).with_screen(ElsewhereScreen(client.display, FONT))
+    connection.controller.confirm_screen("world")
+    with pytest.raises(NotConfirmedError, match=r"the chat did not open, empty: .*set reads_chat = false"):
+        Chat(Profile(), connection).send("/time set 1")
+    assert client.game.screen == "world"
+    assert (client.realm.day_time, client.window.down) == (6000, set())
+
+
+def test_where_no_chat_opened_the_menu_that_esc_opens_is_closed_again() -> None:
+    client = VirtualClient()
+    client.clock.sleep(0.2)
+    connection = _connection(client)
+    connection.controller.confirm_screen("world")
+    client.window.drop_next()
+    with pytest.raises(NotConfirmedError, match="the chat did not open"):
+        Chat(Profile(), connection).send("/time set 1")
+    assert client.game.screen == "world"
+
+
 @pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.9"])
 @pytest.mark.parametrize("name", ["chat", "pause", "death", "disconnected", "servers", "title", "worlds", "inventory"])
 def test_every_screen_leads_back_into_the_world(version: str, name: str) -> None:
@@ -165,7 +194,7 @@ def test_the_chat_is_blanked_on_a_saved_frame(tmp_path: Path) -> None:
     (path,) = last.save()
     saved = cv2.imread(str(path))
     assert saved is not None
-    np.testing.assert_array_equal(saved, without_chat(client.display.grab(), client.scale, lines=OPEN_LINES))
+    np.testing.assert_array_equal(saved, without_chat(client.display.grab(), client.scale))
 
 
 def test_another_window_is_never_pictured(tmp_path: Path) -> None:

@@ -1,23 +1,45 @@
 """The live path, unchanged, on the virtual client: it builds, it keeps the contract, it reads every version."""
 
+import itertools
+import math
 import time
+from collections.abc import Callable
+from typing import NamedTuple
 
 import pytest
 
 from mc_nested.arena.builder import build
-from mc_nested.arena.rules import Action
+from mc_nested.arena.rules import Action, front_of
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError
+from mc_nested.live.input.input_controller import FRESH_S, PressTarget
+from mc_nested.live.live_game import LiveGame
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.model.reading import Target
+from mc_nested.live.profile.tables import GameVersion, Profile, WalkTable
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from sim.client.client import VirtualClient
 from sim.client.mishaps import KINDS
 from tests.arena.game_contract import BUMPS, check_game
-from tests.sim.client.playing import FONT, arena_of, play, read
+from tests.sim.client.playing import FONT, SOON_S, TAP_S, arena_of, connection_to, play, read
 
 LINE = load_scenario("line")
+LONGEST_WALKING_STEP = 0.217
+"""Blocks a tick: steady walking is 0.216, sprinting 0.281 (FACTS: Walking)."""
+
 VERSIONS = ["1.8.9", "1.12.2", "1.14.4", "1.16.5", "1.18.2", "1.20.1", "1.21.8", "1.21.11", "26.1", "26.3"]
+
+
+class Walked(NamedTuple):
+    """What walking took: corrections, the median action in seconds, and the longest step of a tick in blocks."""
+
+    corrections: int
+    median_s: float
+    longest_step: float
+
+
+def profile_for(client: VirtualClient) -> Profile:
+    return Profile(game=GameVersion(version=client.settings.version), arena=arena_of(client))
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.14.4", "1.20.1", "26.1"])
@@ -101,3 +123,91 @@ def test_without_the_reader_the_client_runs_far_faster_than_the_game() -> None:
             client.clock.sleep(0.04)
     # A tenth of what an idle machine reaches: this is to notice a picture that is drawn whole each time.
     assert (client.clock.now() - at) / (time.process_time() - began) > 30
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
+def test_a_reset_mends_the_floor_that_a_click_has_broken(version: str) -> None:
+    client = VirtualClient(version=version)
+    arena = arena_of(client).model_copy(update={"floor": client.settings.floor_block})
+    with LiveGame(LINE, profile_for(client).model_copy(update={"arena": arena}), connection_to(client)) as game:
+        game.reset(LINE.best_material)
+        cell = game.act(Action.B).cell
+        client.pointer.press("left")
+        client.clock.sleep(TAP_S)
+        client.pointer.release("left")
+        client.clock.sleep(SOON_S)
+        x, y, z = arena.block_of(front_of(cell))
+        assert client.built == {(x, y - 1, z): "air"}
+        game.reset(LINE.best_material)
+        assert client.built == {}
+        game.act(Action.B)
+        assert game.act(Action.F).cell == client.cell(arena)
+
+
+def walked(client: VirtualClient, patch: pytest.MonkeyPatch, actions: int, walk: WalkTable | None = None) -> Walked:
+    """Walk forward and back for so many actions, each checked against the client's world."""
+    arena, steps = arena_of(client), [0.0]
+    profile = profile_for(client).model_copy(update={"walk": walk or WalkTable()})
+    with LiveGame(LINE, profile, connection_to(client)) as game:
+        game.reset(LINE.best_material)
+        tick = client.game.tick
+
+        def noted() -> None:
+            x, _, z = client.realm.player.feet
+            tick()
+            steps.append(math.hypot(client.realm.player.feet[0] - x, client.realm.player.feet[2] - z))
+
+        patch.setattr(client.game, "tick", noted)
+        for count in range(actions):
+            action = (Action.B, Action.F)[count // 8 % 2]
+            assert game.act(action).cell == client.cell(arena)
+    assert client.window.down == set()
+    return Walked(game.log.effort.corrections, sorted(game.log.seconds)[actions // 2], max(steps))
+
+
+def test_walking_straight_on_never_sprints(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = walked(VirtualClient(seed=1), monkeypatch, 48)
+    assert found.longest_step < LONGEST_WALKING_STEP
+    assert found.corrections <= 3
+
+
+@pytest.mark.parametrize(
+    ("latency_s", "median_s"), [((0.010, 0.030), 0.35), ((0.035, 0.060), 0.38), ((0.060, 0.090), 0.42)]
+)
+def test_waits_follow_the_profiles_latencies(
+    latency_s: tuple[float, float], median_s: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient(seed=2, capture_latency_s=latency_s)
+    found = walked(client, monkeypatch, 48, WalkTable(capture_latency_s=sum(latency_s) / 2))
+    assert found.corrections <= 3
+    assert found.median_s <= median_s
+
+
+@pytest.mark.parametrize("fps", [10.0, 15.0, 20.0, 30.0, 144.0])
+@pytest.mark.parametrize("seed", range(3))
+def test_at_any_frame_rate_what_is_built_is_right(fps: float, seed: int) -> None:
+    client = VirtualClient(seed=seed, fps=fps)
+    arena = arena_of(client)
+    with play(client, LINE) as game:
+        game.reset(LINE.best_material)
+        for action in build(LINE):
+            assert game.act(action).cell == client.cell(arena)
+    assert len(client.placed(arena)) == len(client.built) == LINE.blocks
+
+
+def test_a_look_that_is_too_old_on_a_busy_machine_is_taken_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    client = VirtualClient(seed=1)
+    looks = itertools.count(1)
+    with play(client, LINE) as game:
+        game.reset(LINE.best_material)
+        confirm = game.connection.controller.confirm_screen
+
+        def then_stall(screen: PressTarget, look_again: Callable[[], None] | None = None) -> None:
+            confirm(screen, look_again)
+            if next(looks) % 3 == 0:
+                client.clock.sleep(FRESH_S + 0.05)
+
+        monkeypatch.setattr(game.connection.controller, "confirm_screen", then_stall)
+        for action in (Action.B, Action.BD, Action.LD, Action.F):
+            assert game.act(action).cell == client.cell(arena_of(client))
+    assert client.placed(arena_of(client)) == {(7, 13), (6, 13)}

@@ -279,8 +279,8 @@ def test_with_a_rate_of_zero_no_mishap_is_planned() -> None:
     assert mishaps.happened == []
 
 
-def test_ghost_blocks_come_only_where_they_are_asked_for() -> None:
-    assert set(KINDS) - set(DRAWN) == {"ghost_block"}
+def test_ghost_blocks_and_notices_come_only_where_they_are_asked_for() -> None:
+    assert set(KINDS) - set(DRAWN) == {"ghost_block", "notices"}
 
 
 def test_the_first_of_many_mishaps_waits_for_its_time_too() -> None:
@@ -291,3 +291,15 @@ def test_the_first_of_many_mishaps_waits_for_its_time_too() -> None:
     assert mishaps.happened == []
     target.clock.sleep(2000.0)
     assert 5 <= len(mishaps.happened) <= 40
+
+
+def test_notices_cover_the_upper_right_for_five_seconds_and_no_block_is_then_unread_not_wrong() -> None:
+    client = VirtualClient(pitch=65.0)
+    client.clock.sleep(0.2)
+    before = read(client)
+    assert before.target is not None
+    client.mishaps.plan("notices")
+    client.clock.sleep(0.3)
+    assert read(client).problem is not None
+    client.clock.sleep(5.0)
+    assert read(client) == before

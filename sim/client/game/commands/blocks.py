@@ -7,7 +7,7 @@ FILL_LIMIT = 32768
 
 
 def fill(realm: Realm, words: list[str]) -> str:
-    """``/fill x1 y1 z1 x2 y2 z2 block``."""
+    """``/fill x1 y1 z1 x2 y2 z2 block [keep]``; 1.12 has a number after the block. ``keep`` fills air alone."""
     low, high = block_position(realm, words[:3]), block_position(realm, words[3:6])
     name = block_name(realm, words[6])
     count = 1
@@ -15,8 +15,11 @@ def fill(realm: Realm, words: list[str]) -> str:
         count *= abs(one - other) + 1
     if count > FILL_LIMIT:
         raise CommandRefusedError(f"Too many blocks in the specified area (maximum {FILL_LIMIT}, specified {count})")
-    changed = realm.world.fill(low, high, name)
     edition = realm.edition
+    modes = words[7:] if edition.since(1, 13) else words[8:]
+    if modes not in ([], ["keep"]):
+        raise ValueError(words)
+    changed = realm.world.fill(low, high, name, only_air=modes == ["keep"])
     if not edition.since(1, 13):
         if not changed:
             raise CommandRefusedError("No blocks filled")

@@ -7,6 +7,8 @@ from sim.client.game.commands import blocks, player, regions, rules
 from sim.client.game.commands.words import CommandRefusedError
 from sim.client.game.realm import Realm
 
+_Command = Callable[[Realm, list[str]], str]
+
 
 @dataclass(frozen=True)
 class Answer:
@@ -21,10 +23,10 @@ def run(line: str, realm: Realm) -> list[Answer]:
     if not line.startswith("/"):
         return [Answer(f"<{realm.player_name}> {line}")] if line.strip() else []
     name, *words = line[1:].split() or [""]
-    command = _COMMANDS.get(name.removeprefix("minecraft:"))
+    command = _command(name, realm)
     # Without cheats, newer versions don't know the command at all.
     is_hidden = not realm.has_cheats and realm.edition.since(1, 13)
-    if command is None or is_hidden or not _is_known(name, realm):
+    if command is None or is_hidden or _has_unknown_inside(name, words, realm):
         return _unknown(line, realm)
     try:
         if not realm.has_cheats:
@@ -36,6 +38,20 @@ def run(line: str, realm: Realm) -> list[Answer]:
         return _wrong(line, realm)
     is_answered = answer and realm.rule("sendCommandFeedback", "send_command_feedback", True)
     return [Answer(answer)] if is_answered else []
+
+
+def _command(name: str, realm: Realm) -> _Command | None:
+    """The command of that name, if this version has it."""
+    name = name.removeprefix("minecraft:")
+    return _COMMANDS.get(name) if _is_known(name, realm) else None
+
+
+def _has_unknown_inside(name: str, words: list[str], realm: Realm) -> bool:
+    """Whether an /execute of 1.13 or later runs what isn't a command: such a line is refused before it is run."""
+    if name.removeprefix("minecraft:") != "execute" or not realm.edition.since(1, 13) or "run" not in words:
+        return False
+    inner = words[words.index("run") + 1 :]
+    return not inner or _command(inner[0], realm) is None or _has_unknown_inside(inner[0], inner[1:], realm)
 
 
 def _is_known(name: str, realm: Realm) -> bool:
@@ -50,7 +66,7 @@ def _unknown(line: str, realm: Realm) -> list[Answer]:
     edition = realm.edition
     if not edition.since(1, 13):
         return [Answer("Unknown command. Try /help for a list of commands", is_error=True)]
-    if not edition.since(1, 14):
+    if not edition.since(1, 16):
         return [Answer("Unknown command", is_error=True), _here(line)]
     joint = ". See" if edition.since(1, 21, 9) else ", see"
     return [Answer(f"Unknown or incomplete command{joint} below for error", is_error=True), _here(line)]
@@ -69,12 +85,15 @@ def _here(line: str) -> Answer:
 
 def _execute(realm: Realm, words: list[str]) -> str:
     def run_words(realm: Realm, words: list[str]) -> str:
-        return _COMMANDS[words[0]](realm, words[1:])
+        command = _command(words[0].removeprefix("/"), realm)
+        if command is None:  # from 1.13 on the line was refused before
+            raise CommandRefusedError(f"Failed to execute '{' '.join(words)}' as {realm.player_name}")
+        return command(realm, words[1:])
 
     return regions.execute(realm, words, run_words)
 
 
-_COMMANDS: dict[str, Callable[[Realm, list[str]], str]] = {
+_COMMANDS: dict[str, _Command] = {
     "tp": player.teleport,
     "teleport": player.teleport,
     "fill": blocks.fill,

@@ -313,3 +313,18 @@ def test_a_game_that_names_no_target_shows_none() -> None:
     screen = VirtualGame(realm, shows_target=False).view().f3
     assert screen is not None
     assert screen.target is None
+
+
+def test_the_debug_screen_names_the_block_that_was_looked_at_a_tick_before() -> None:
+    played = game(pitch=65.0)
+    played.tick()
+    played.realm.player.feet = (0.5, 64.0, 1.5)
+    before = played.view().f3
+    played.tick()
+    after = played.view().f3
+    assert before is not None
+    assert after is not None
+    assert (before.target, after.target) == (
+        Target((0, 63, 1), "minecraft:dirt"),
+        Target((0, 63, 2), "minecraft:dirt"),
+    )

@@ -9,6 +9,17 @@ def test_a_fill_covers_both_corners_in_any_order() -> None:
     assert sorted(played.world.built()) == [(0, 64, 0), (0, 65, 0), (1, 64, 0), (1, 65, 0)]
 
 
+@pytest.mark.parametrize(("version", "data"), [("1.12.2", "0 "), ("1.13", "")])
+def test_a_fill_that_keeps_fills_air_alone(version: str, data: str) -> None:
+    played = realm(version)
+    played.world.put((0, 63, 0), "air")
+    played.world.put((1, 63, 0), "sand")
+    _, is_error = answer_to(f"/fill 0 63 0 2 63 0 stone {data}keep", played)
+    assert not is_error
+    assert played.world.built() == {(0, 63, 0): "stone", (1, 63, 0): "sand"}
+    assert answer_to(f"/fill 0 63 0 2 63 0 stone {data}hollow", played)[1]
+
+
 @pytest.mark.parametrize(("version", "answer"), [("1.12.2", "No blocks filled"), ("1.13", "No blocks were filled")])
 def test_a_fill_that_changes_nothing_is_refused(version: str, answer: str) -> None:
     assert answer_to("/fill 0 64 0 1 64 0 air", realm(version)) == (answer, True)

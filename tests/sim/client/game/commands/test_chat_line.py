@@ -90,6 +90,8 @@ def test_each_version_answers_in_its_own_words(version: str, line: str, answer: 
     [
         ("1.12.2", ["Unknown command. Try /help for a list of commands"]),
         ("1.13.2", ["Unknown command", "nonsense 1<--[HERE]"]),
+        ("1.15.2", ["Unknown command", "nonsense 1<--[HERE]"]),
+        ("1.16", ["Unknown or incomplete command, see below for error", "nonsense 1<--[HERE]"]),
         ("1.20.1", ["Unknown or incomplete command, see below for error", "nonsense 1<--[HERE]"]),
         ("26.1", ["Unknown or incomplete command. See below for error", "nonsense 1<--[HERE]"]),
     ],

@@ -2,7 +2,7 @@
 
 import pytest
 
-from sim.client.game.commands.chat_line import run
+from sim.client.game.commands.chat_line import Answer, run
 from sim.client.game.realm import Realm
 from tests.sim.client.game.commands.commanded import answer_to, realm
 
@@ -119,3 +119,21 @@ def test_1_12_detects_a_block() -> None:
     assert refused == ("Failed to execute 'tp @s ~ ~ ~ 0 32' as Player", True)
     for wrong in ("/execute @e ~ ~ ~ detect 0 64 0 air 0 tp 0 0 0", "/execute @s ~ ~ ~ notice 0 64 0 air 0 tp 0 0 0"):
         assert answer_to(wrong, played)[0].startswith("Usage: /execute")
+
+
+@pytest.mark.parametrize(
+    "inner", ["nonsense", "nonsense 1", "", "testforblocks 1", "execute if block 2 64 2 air run x"]
+)
+@pytest.mark.parametrize("condition", ["if", "unless"])
+def test_an_execute_of_an_unknown_command_is_an_unknown_command_whether_its_condition_holds_or_not(
+    condition: str, inner: str
+) -> None:
+    played = realm("1.20.1")
+    answers = run(f"/execute {condition} block 2 80 2 air run {inner}", played)
+    assert answers[0] == Answer("Unknown or incomplete command, see below for error", is_error=True)
+    assert len(answers) == 2
+
+
+def test_in_1_12_an_execute_of_an_unknown_command_fails() -> None:
+    answer = answer_to("/execute @s ~ ~ ~ detect 0 64 0 minecraft:air 0 nonsense 1", realm("1.12.2"))
+    assert answer == ("Failed to execute 'nonsense 1' as Player", True)

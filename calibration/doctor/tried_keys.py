@@ -1,0 +1,157 @@
+"""Keys that the doctor tries in the world, with their effects undone: a step of the player's, and the hotbar's slot.
+
+The step is short and sneaking, so that the player falls nowhere, and is taken back (FACTS: Sneaking). Which slot is
+chosen isn't on the debug screen: the frame around it is seen to move (FACTS: Screens and their buttons).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from calibration.doctor.snapshot import WindowSnapshot
+from mc_nested.errors import WrongScreenError
+from mc_nested.live.deadline import Deadline
+from mc_nested.live.devices import Devices, Frame, Region
+from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.model.reading import XYZ
+from mc_nested.live.model.timing import KEY_LOOK_S
+from mc_nested.live.profile.tables import KeysTable
+
+EFFECT_S = 1.5
+"""How long the effect of a press may take to be seen: a game's slow frames, and a desktop's slow pictures."""
+
+STEP_TICKS = 3
+"""How long a step's keys are held; at least one of a slow game's frames sees them down."""
+
+LEAST_STEP = 0.01
+"""Blocks that count as a step: a sneaking tick covers six times as much."""
+
+STILL_S = 0.2
+"""Between two looks that must show the same position."""
+
+SLOT_SHOWN_S = 0.4
+"""From the press of a slot's key until its frame is certainly drawn and pictured, in a game of 10 frames a second."""
+
+SLOT, BAR = 20, (182, 22)
+"""GUI pixels from slot to slot, and the hotbar's width and height."""
+
+LEAST_CHANGE, LEAST_DOTS = 30, 40
+"""How much a colour must change, of 255, and on how many GUI pixels of a slot: its frame has more than 100."""
+
+
+@dataclass(frozen=True)
+class TriedWindow:
+    """The window in which keys are tried; ``snapshot`` takes a snapshot of it."""
+
+    devices: Devices
+    controller: InputController
+    snapshot: Callable[[], WindowSnapshot]
+
+    def world(self) -> WindowSnapshot:
+        """A snapshot of the world, for which a press is permitted now; WrongScreenError where a menu is open."""
+        current = self.snapshot()
+        self.controller.check_front()
+        if is_menu(current):
+            raise WrongScreenError("a menu opened meanwhile")
+        self.controller.confirm_screen("world")
+        return current
+
+    def first(self, is_so: Callable[[WindowSnapshot], bool]) -> WindowSnapshot | None:
+        """The first snapshot for which ``is_so`` holds, or None. NotInFrontError if the window loses the front."""
+        deadline = Deadline(self.devices.clock, EFFECT_S)
+        while True:
+            current = self.snapshot()
+            self.controller.check_front()
+            if is_so(current):
+                return current
+            if deadline.has_passed:
+                return None
+            self.controller.wait(KEY_LOOK_S)
+
+
+def is_menu(snapshot: WindowSnapshot) -> bool:
+    """Whether a menu is seen."""
+    return snapshot.contents is not None and snapshot.contents.screen not in ("world", "unknown")
+
+
+def moving_key(window: TriedWindow, keys: KeysTable) -> str | None:
+    """The first movement key that was seen to move the player, who is back then; None where none does."""
+    for there, back in ((keys.forward, keys.back), (keys.back, keys.forward), (keys.left, keys.right)):
+        start = window.world()
+        window.controller.hold(there, STEP_TICKS, keys.sneak)
+        if window.first(partial(_has_moved_or_stopped, start)):
+            _stand_still(window)
+            window.world()
+            window.controller.hold(back, STEP_TICKS, keys.sneak)
+            _stand_still(window)
+            return there
+    return None
+
+
+def is_slot_seen_to_change(window: TriedWindow, keys: KeysTable) -> bool:
+    """Whether the keys of the first two slots move the frame from one to the other; the slot before is chosen again."""
+    contents = window.world().contents
+    scale = (contents.scale if contents else None) or 1
+    before = _bar(window.devices, scale)
+    window.controller.tap(keys.hotbar[0])
+    window.controller.wait(SLOT_SHOWN_S)
+    first = _bar(window.devices, scale)
+    window.world()
+    window.controller.tap(keys.hotbar[1])
+    window.controller.wait(SLOT_SHOWN_S)
+    second = _bar(window.devices, scale)
+    window.world()
+    window.controller.tap(keys.hotbar[_slot_before(_changed_dots(before, first, scale))])
+    changed = [dots >= LEAST_DOTS for dots in _changed_dots(first, second, scale)]
+    return changed == [True, True, *[False] * 7]
+
+
+def _slot_before(changed_dots: list[float]) -> int:
+    """Which slot's frame went to the first slot; the first, if none did."""
+    most = max(range(1, 9), key=changed_dots.__getitem__)
+    return most if changed_dots[most] >= LEAST_DOTS else 0
+
+
+def _has_moved(start: WindowSnapshot, seen: WindowSnapshot) -> bool:
+    before, after = _position(start), _position(seen)
+    if before is None or after is None:
+        return False
+    return abs(after[0] - before[0]) + abs(after[2] - before[2]) > LEAST_STEP
+
+
+def _position(snapshot: WindowSnapshot) -> XYZ | None:
+    return snapshot.contents.reading.xyz if snapshot.contents is not None else None
+
+
+def _has_moved_or_stopped(start: WindowSnapshot, seen: WindowSnapshot) -> bool:
+    return is_menu(seen) or _has_moved(start, seen)
+
+
+def _stand_still(window: TriedWindow) -> None:
+    """Wait until the player stands, or moves by no key of ours for EFFECT_S."""
+    deadline, before = Deadline(window.devices.clock, EFFECT_S), _position(window.snapshot())
+    window.controller.wait(STILL_S)
+    while not deadline.has_passed:
+        position = _position(window.snapshot())
+        if position is not None and position == before:
+            return
+        before = position
+        window.controller.wait(STILL_S)
+
+
+def _bar(devices: Devices, scale: int) -> Frame:
+    """The hotbar's place in the window, framebuffer pixels."""
+    width, height = devices.display.size()
+    gui_width, gui_height = -(-width // scale), -(-height // scale)
+    left, top = (gui_width // 2 - BAR[0] // 2) * scale, (gui_height - BAR[1]) * scale
+    picture: Frame = devices.display.grab(Region(left, top, BAR[0] * scale, BAR[1] * scale)).copy()
+    return picture
+
+
+def _changed_dots(before: Frame, after: Frame, scale: int) -> list[float]:
+    """How many GUI pixels of each of the nine slots have changed, the outermost left out, which two slots share."""
+    change = np.abs(before.astype(np.int16) - after).max(axis=2) > LEAST_CHANGE
+    parts = (change[:, (SLOT * slot + 3) * scale : (SLOT * (slot + 1) - 1) * scale] for slot in range(9))
+    return [int(part.sum()) / scale**2 for part in parts]

@@ -1,0 +1,51 @@
+"""Notices (toasts) over the upper right of the screen: whether one may lie over the right column.
+
+A notice is a box of 160 x 32 dots, up to five below each other, that slides in from the right side (FACTS: The F3
+debug screen). It is looked for by its left edge: a margin of one colour, over most of the box's height, beside
+something else, and none of the debug screen's text to the right of it.
+"""
+
+import numpy as np
+
+from mc_nested.live.vision.glyph_grid import GlyphGrid
+from mc_nested.live.vision.text_colours import INK_SPREAD, PLAIN
+
+WIDTH, HEIGHT, MOST = 160, 32, 5
+"""Dots of a notice, and how many there are at most."""
+
+_NEAREST = 16
+"""Dots from the window's side: a box that has slid in less hides no line whose beginning can't be seen."""
+
+_BORDER, _MARGIN, _CORNER = 3, 8, 4
+"""Dots from the box's side in which its border lies; up to which nothing else does; and of rounded corners."""
+
+_FLAT = 6
+"""Levels by which a margin of one colour may vary."""
+
+_MOSTLY = 0.9
+
+_FEW = 20
+"""Dots of the debug screen's colour that an item's picture may have: fewer than any line of text."""
+
+
+def may_hide_lines(dots: GlyphGrid) -> bool:
+    """Whether something like a notice is seen in the upper right of a whole window's dots."""
+    step, middle = dots.scale, dots.scale // 2
+    picture = dots.frame[middle::step, middle::step][: MOST * HEIGHT].astype(np.int16)
+    columns = picture.shape[1]
+    first = max(1, columns - WIDTH - 1)
+    for top in range(0, picture.shape[0] - HEIGHT + 1, HEIGHT):
+        rows = picture[top + _CORNER : top + HEIGHT - _CORNER]
+        flat = (rows.max(0) - rows.min(0)).max(1) <= _FLAT
+        for left in range(first, columns - _NEAREST):
+            margin = slice(left + _BORDER, left + _MARGIN)
+            if not flat[margin].all() or np.ptp(rows[:, margin], axis=(0, 1)).max() > _FLAT:
+                continue
+            beside = rows[:, left - 1]
+            ends = (np.abs(beside - rows[:, inside]).max(1) > _FLAT for inside in (left, left + _BORDER))
+            if max(end.mean() for end in ends) < _MOSTLY:
+                continue
+            text = np.abs(picture[top : top + HEIGHT, left:] - PLAIN).max(2) <= INK_SPREAD
+            if np.count_nonzero(text) < _FEW:
+                return True
+    return False
