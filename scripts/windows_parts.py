@@ -14,8 +14,8 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-from scripts.standin_parts import MissingError, Program, Say, apt_install, run_logged
-from scripts.window_display import LIBRARIES, PROGRAMS, is_installed
+from scripts.standin_parts import MissingError, Program, Say, apt_install, is_installed, run_logged
+from scripts.window_display import LIBRARIES, PROGRAMS
 from scripts.windows_stub import stub_dll
 
 ROOT = Path(__file__).resolve().parent.parent

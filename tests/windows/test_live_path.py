@@ -10,9 +10,11 @@ from pathlib import Path
 
 import cv2
 import pytest
+import tomlkit
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.live.profile.store import load_profile
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.store import parse_profile
 from scripts.rehearsal_window import TruthReader, mc_nested, write_font
 from scripts.standin_processes import wait_until
 from scripts.windows_parts import windows_path
@@ -41,6 +43,12 @@ class Rehearsal:
     @property
     def profile(self) -> Path:
         return self.folder / "profile.toml"
+
+    def arena(self) -> Arena:
+        """The arena of the profile; its font's path is a Windows one, which means nothing here."""
+        profile = tomlkit.parse(self.profile.read_text(encoding="utf-8"))
+        profile["screen"].pop("font")
+        return parse_profile(tomlkit.dumps(profile), str(self.profile)).marked_arena()
 
     def command(self, *arguments: str | Path, timeout_s: float) -> tuple[int, str]:
         """The exit code and the words of ``mc-nested``; files are named as Windows names them."""
@@ -98,7 +106,7 @@ def test_a_line_is_built_block_by_block_and_no_key_stays_down(calibrated: Rehear
     code, said = calibrated.command("play", run, "--backend", "live", "--profile", calibrated.profile, timeout_s=PLAY_S)
     assert code == 0, said
     assert f"score {scenario.optimum:g} of {scenario.optimum:g}" in said
-    arena = load_profile(str(calibrated.profile)).marked_arena()
+    arena = calibrated.arena()
     block = scenario.materials[scenario.material_index(said.split(", in ")[1].split(",")[0])].block
     assert calibrated.truth.standing(arena) == {arena.block_of(cell): block for cell in scenario.design}
     assert calibrated.truth.now()["keys_down"] == []

@@ -97,8 +97,8 @@ class Win32KeySender:
 
     def send(self, place: KeyPlace, *, is_down: bool) -> None:
         extended = _EXTENDED_KEY if place.scan & EXTENDED else 0
-        # Named both ways, as by a keyboard's driver: GLFW goes by the scancode, but lets go of a Shift whose virtual key
-        # isn't down, and Wine doesn't find that key by itself.
+        # Named both ways, as a keyboard's driver does: GLFW goes by the scancode, but lets go of a Shift whose virtual
+        # key isn't down, and Wine doesn't find that key by itself.
         key = _user32.MapVirtualKeyExW(place.scan, _TO_VIRTUAL_KEY, _layout_in_front())
         flags = extended | (0 if is_down else _KEY_UP)
         _send((key, place.scan & 0xFF, flags if key else flags | _SCANCODE))
