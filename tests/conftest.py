@@ -9,8 +9,9 @@ from hypothesis import settings
 from tests.live.vision.real_pictures import VARIABLE
 from tests.standin_fixture import standin
 from tests.window_fixture import display, window_programs
+from tests.windows_fixture import windows
 
-__all__ = ["display", "standin", "window_programs"]
+__all__ = ["display", "standin", "window_programs", "windows"]
 
 # How long an example takes says something of the machine, not of the code.
 settings.register_profile("any machine", deadline=None)

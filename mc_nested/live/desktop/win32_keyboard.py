@@ -81,7 +81,8 @@ _LEFT_SHIFT, _RIGHT_ALT = (0xA0, 0x2A, 0), (0xA5, 0x38, _EXTENDED_KEY)
 _MODIFIERS = {0: (), _SHIFT: (_LEFT_SHIFT,), _ALT_GR: (_RIGHT_ALT,), _SHIFT | _ALT_GR: (_LEFT_SHIFT, _RIGHT_ALT)}
 """The keys to hold for them."""
 _VK_SHIFT, _VK_CONTROL, _VK_MENU, _VK_CAPS_LOCK = 0x10, 0x11, 0x12, 0x14
-_TO_SCANCODE = 0
+_TO_SCANCODE, _TO_VIRTUAL_KEY = 0, 3
+"""MAPVK_VK_TO_VSC, and MAPVK_VSC_TO_VK_EX, which tells left from right."""
 _LEAVES_MESSAGES = 0
 """PM_NOREMOVE."""
 _CHANGES_NOTHING = 4
@@ -96,7 +97,11 @@ class Win32KeySender:
 
     def send(self, place: KeyPlace, *, is_down: bool) -> None:
         extended = _EXTENDED_KEY if place.scan & EXTENDED else 0
-        _send((0, place.scan & 0xFF, _SCANCODE | extended | (0 if is_down else _KEY_UP)))
+        # Named both ways, as a keyboard's driver does: GLFW goes by the scancode, but lets go of a Shift whose virtual
+        # key isn't down, and Wine doesn't find that key by itself.
+        key = _user32.MapVirtualKeyExW(place.scan, _TO_VIRTUAL_KEY, _layout_in_front())
+        flags = extended | (0 if is_down else _KEY_UP)
+        _send((key, place.scan & 0xFF, flags if key else flags | _SCANCODE))
 
     def type(self, character: str) -> None:
         # All in one call, between whose events no other program's can come.
@@ -112,8 +117,7 @@ def _unicode_events(character: str) -> list[_Event]:
 
 def _layout_events(character: str) -> list[_Event]:
     """The keys that make the character in the window in front; none where its layout has no such keys."""
-    thread = _user32.GetWindowThreadProcessId(_user32.GetForegroundWindow(), None)
-    layout = _user32.GetKeyboardLayout(thread)
+    layout = _layout_in_front()
     found = _user32.VkKeyScanExW(character, layout) if len(character.encode("utf-16-le")) == 2 else -1
     key, held = found & 0xFF, found >> 8
     if found == -1 or held not in _MODIFIERS:
@@ -125,6 +129,12 @@ def _layout_events(character: str) -> list[_Event]:
             down = [*_MODIFIERS[chosen], (key, scan, 0)]
             return down + [(code, place, flags | _KEY_UP) for code, place, flags in reversed(down)]
     return []
+
+
+def _layout_in_front() -> int:
+    """The keyboard layout of the window in front: each thread has its own."""
+    layout: int = _user32.GetKeyboardLayout(_user32.GetWindowThreadProcessId(_user32.GetForegroundWindow(), None))
+    return layout
 
 
 def _made(key: int, scan: int, held: int, layout: int, *, is_caps_lock_on: bool) -> str:

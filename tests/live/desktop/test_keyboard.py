@@ -29,6 +29,12 @@ _WORDS = {
 """GLFW's keys (glfw3.h); those of characters are the capital's number."""
 
 
+def expected_events() -> dict[str, list[list[int]]]:
+    """GLFW's key, pressed and released, for each place."""
+    keys = {name: _WORDS.get(name) or ord(name.upper()) for name in PLACES}
+    return {name: [[key, _PRESSED], [key, _RELEASED]] for name, key in keys.items()}
+
+
 class Sender:
     """Notes what is sent, as long as there is a display."""
 
@@ -84,9 +90,7 @@ if sys.platform.startswith("linux"):
     @pytest.mark.parametrize("layout", LAYOUTS)
     def test_each_place_reaches_a_real_window_as_the_key_of_that_place(layout: str, x_screen: dict[str, str]) -> None:
         subprocess.run(["setxkbmap", layout], env=x_screen, check=True)
-        expected = {name: _WORDS.get(name) or ord(name.upper()) for name in PLACES}
-        events = {name: [[key, _PRESSED], [key, _RELEASED]] for name, key in expected.items()}
-        assert glfw_probed(x_screen, "keys", list(PLACES)) == events
+        assert glfw_probed(x_screen, "keys", list(PLACES)) == expected_events()
 
     @pytest.mark.window
     @pytest.mark.parametrize("layout", LAYOUTS)

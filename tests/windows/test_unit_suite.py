@@ -1,0 +1,24 @@
+"""The unit suite of what plays and calibrates, by a Windows Python under Wine."""
+
+import re
+from contextlib import ExitStack
+
+import pytest
+
+from scripts.windows import PYTEST, SUITES
+from scripts.windows_session import Session, as_text
+
+pytestmark = pytest.mark.wine
+
+TIMEOUT_S = 1200
+FEWEST = 2500
+"""Tests that must have passed: fewer, and something was not collected."""
+
+
+def test_the_unit_suite_passes_on_windows(windows: Session) -> None:
+    with ExitStack() as stack:
+        runs = [stack.enter_context(windows.started(*PYTEST, *suite)) for suite in SUITES]
+        printed = [as_text(run.communicate(timeout=TIMEOUT_S)[0]) for run in runs]
+    assert [run.returncode for run in runs] == [0] * len(runs), "\n".join(text[-4000:] for text in printed)
+    passed = sum(int(found[1]) for text in printed if (found := re.search(r"(\d+) passed", text)))
+    assert passed >= FEWEST
