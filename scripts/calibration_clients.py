@@ -27,8 +27,8 @@ VERSIONS = (
 )
 """One or more of each row of FACTS' tables, from the first version with known commands to the last that can be read."""
 
-NARROWEST = 360
-"""Width in GUI pixels: in a narrower window the two columns of the debug screen overlap."""
+NARROWEST = 480
+"""Width in GUI pixels: in a narrower window a block's long tag meets the Facing line (FACTS: The F3 debug screen)."""
 
 FLOORS = ("bedrock", "stone", "dirt", "grass_block", "sand")
 FACING_ERROR_DEG = 15.0

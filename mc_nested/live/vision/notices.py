@@ -2,7 +2,7 @@
 
 A notice is a box of 160 x 32 dots, up to five below each other, that slides in from the right side
 (FACTS: The F3 debug screen). It is looked for by its left edge: a margin of one colour, over most of the box's height,
-beside something else, and none of the debug screen's text to the right of it.
+beside something else; by clear rows above and below its letters; and none of the debug screen's text lies in it.
 """
 
 import numpy as np
@@ -13,14 +13,17 @@ from mc_nested.live.vision.text_colours import INK_SPREAD, PLAIN
 WIDTH, HEIGHT, MOST = 160, 32, 5
 """Dots of a notice, and how many there are at most."""
 
-_NEAREST = 24
-"""Dots from the window's side: a box that has slid in less hides no line whose beginning can't be seen."""
+_NEAREST = 64
+"""Dots from the window's side: a box that has slid in less leaves the beginning of a block's lines to be seen."""
 
 _BORDER, _MARGIN, _CORNER = 3, 8, 4
 """Dots from the box's side in which its border lies; up to which nothing else does; and of rounded corners."""
 
 _CLEAR, _LONG = 6, 60
 """Rows from the box's top to the first that may hold letters or a picture, and how far to the right that is checked."""
+
+_BELOW = 26, 28
+"""Rows from the box's top that lie below its letters and its picture, and above the bar of a lesson's progress."""
 
 _FLAT = 6
 """Levels by which a margin of one colour may vary."""
@@ -45,7 +48,8 @@ def may_hide_lines(dots: GlyphGrid) -> bool:
             if not flat[margin].all() or np.ptp(rows[:, margin], axis=(0, 1)).max() > _FLAT:
                 continue
             above = picture[top + _BORDER : top + _CLEAR, left + _BORDER : min(left + _LONG, columns - _BORDER)]
-            if np.ptp(above, axis=(0, 1)).max() > _FLAT:
+            below = picture[top + _BELOW[0] : top + _BELOW[1], left + _BORDER : min(left + _LONG, columns - _BORDER)]
+            if max(np.ptp(above, axis=(0, 1)).max(), np.ptp(below, axis=(0, 1)).max()) > _FLAT:
                 continue
             beside = rows[:, left - 1]
             ends = (np.abs(beside - rows[:, inside]).max(1) > _FLAT for inside in (left, left + _BORDER))
