@@ -6,10 +6,12 @@ Wine's processes SIGTERM.
 
 import os
 import subprocess
+import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 
 from scripts.window_display import OPENBOX, open_display, running
 from scripts.windows_orphans import adopting
@@ -40,23 +42,23 @@ class Session:
         return self.env["DISPLAY"]
 
     @contextmanager
-    def started(self, *arguments: str, cwd: Path = ROOT, **env: str) -> Iterator[subprocess.Popen[bytes]]:
-        """The Windows Python with these arguments, until the end of the block; then it is ended, if it still runs.
-
-        Its three streams are pipes, as python.exe needs them: under Wine it refuses a file that is only written to.
-        """
+    def started(self, *arguments: str, cwd: Path = ROOT, **env: str) -> Iterator["Program"]:
+        """The Windows Python with these arguments, until the end of the block; then it is ended, if it still runs."""
         command = [*_WITH_THIS_PROCESS, WINE.required(), str(self.cache / "python" / "python.exe"), *arguments]
-        with subprocess.Popen(  # noqa: S603 - this project's own programs
-            command,
-            cwd=cwd,
-            env={**self.env, **env},
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-        ) as process:
+        # A file, and one to read, too: python.exe refuses what can only be written to, and a pipe would stay open for as
+        # long as Wine's desktop does, which the first program with a window starts.
+        with tempfile.TemporaryFile() as output:
+            process = subprocess.Popen(  # noqa: S603 - this project's own programs
+                command,
+                cwd=cwd,
+                env={**self.env, **env},
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
             try:
-                yield process
+                yield Program(process, output)
             finally:
                 end(process)
 
@@ -66,13 +68,33 @@ class Session:
         Raises:
             SessionError: it took longer than ``timeout_s``; it is ended then.
         """
-        with self.started(*arguments, cwd=cwd, **env) as process:
-            try:
-                printed, _ = process.communicate(timeout=timeout_s)
-            except subprocess.TimeoutExpired as error:
-                said = as_text(error.output or b"").strip().splitlines()[-1:] or ["nothing"]
-                raise SessionError(f"{arguments} took more than {timeout_s:.0f} s; it said last: {said[0]}") from error
-        return process.returncode, as_text(printed)
+        with self.started(*arguments, cwd=cwd, **env) as program:
+            return program.wait(timeout_s), program.printed()
+
+
+@dataclass(frozen=True)
+class Program:
+    """A Windows program that was started, and the file with what it prints."""
+
+    process: subprocess.Popen[bytes]
+    output: IO[bytes]
+
+    def printed(self, since: int = 0, until: int | None = None) -> str:
+        """What it has printed so far, errors included, between these bytes."""
+        length = (self.size() if until is None else until) - since
+        return as_text(os.pread(self.output.fileno(), length, since))
+
+    def size(self) -> int:
+        """How many bytes it has printed so far."""
+        return os.fstat(self.output.fileno()).st_size
+
+    def wait(self, timeout_s: float) -> int:
+        """Its exit code; SessionError where that takes longer than ``timeout_s``."""
+        try:
+            return self.process.wait(timeout_s)
+        except subprocess.TimeoutExpired as error:
+            last = (self.printed().strip().splitlines() or ["nothing"])[-1]
+            raise SessionError(f"a program took more than {timeout_s:.0f} s; it said last: {last}") from error
 
 
 def as_text(printed: bytes) -> str:
