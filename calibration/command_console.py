@@ -11,8 +11,9 @@ from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import Profile
 
-COMMANDS_PER_CLEAR = 5
-"""Commands after which the chat is cleared: ten answers would cover lines of the debug screen (FACTS: Answers)."""
+COMMANDS_PER_CLEAR = 3
+"""Commands after which the chat is cleared: in a small window nine of its lines cover some of the debug screen's, and
+an answer may take three (FACTS: Answers)."""
 
 TRIES = 4
 """How often a line is begun: on a busy machine its letters may come so late that the rest isn't typed."""

@@ -8,6 +8,7 @@ from calibration.walk.round_trip import HoldTiming, latencies, round_trip_of
 from calibration.walk.survey import SurveyHold
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.model.kinematics import INERTIA, TICK_S, displacement
+from mc_nested.live.model.timing import CAPTURE_LATENCY_S, INPUT_LATENCY_S
 from mc_nested.live.profile.tables import WalkTable
 
 TICKS = 12
@@ -68,7 +69,9 @@ class WalkModel:
     @property
     def table(self) -> WalkTable:
         """The profile's table."""
-        input_latency_s, capture_latency_s = latencies(self.round_trip_s)
+        # Ticks that come late, or several in a frame, make the round trip look too short.
+        shortest_s = INPUT_LATENCY_S + CAPTURE_LATENCY_S if self.is_lagging else 0.0
+        input_latency_s, capture_latency_s = latencies(max(self.round_trip_s, shortest_s))
         return WalkTable(
             covered=tuple(round(self.walking.covered(ticks), 4) for ticks in range(1, TICKS + 1)),
             inertia=round(self.walking.inertia, 4),

@@ -45,13 +45,25 @@ def test_each_difference_from_the_world_is_counted() -> None:
     assert (counts.wrong_cells, counts.wrong_blocks) == (4, 3)
 
 
+class Pausing(ClientTruth):
+    """True, but when it is asked for the third time, the game is paused."""
+
+    def __init__(self, client: VirtualClient, arena: Arena) -> None:
+        super().__init__(client, arena)
+        self.client, self.looks = client, 0
+
+    def is_built(self, placed: set[Cell]) -> bool:
+        self.looks += 1
+        if self.looks == 3:
+            self.client.game.open("pause")
+        return super().is_built(placed)
+
+
 def test_an_action_that_fails_is_counted_and_begins_a_new_episode() -> None:
     client = VirtualClient(seed=1)
     arena = Arena.around((-20, client.realm.world.floor, 31), "south")
     with live_game(client, SCENARIO, arena) as game:
-        game.reset(0)
-        client.clock.call_at(client.clock.now() + 6, lambda: client.game.open("pause"))
-        counts = play(game, SCENARIO, ClientTruth(client, arena), 20, 0)
+        counts = play(game, SCENARIO, Pausing(client, arena), 20, 0)
     assert counts.failed_actions == 1
     assert len(counts.moves_s) + len(counts.placings_s) == 19
     assert counts.is_right

@@ -17,6 +17,10 @@ from mc_nested.live.model.kinematics import INERTIA, STANDSTILL, coasting_distan
 MATCH = 0.0016
 """Blocks that a position may lie off a path: two roundings to three decimals, and a little."""
 
+SLIPPERY, SLIPPERY_MATCH = 0.6, 0.004
+"""The inertia from which on it may lie farther off, and how far, in blocks: there the last points of coasting lie 0.003
+apart, so the walker may have been a tick further at the path's begin than was seen."""
+
 AGREE = 0.02
 """Blocks that the ends of all the path points matching a position may lie apart."""
 
@@ -75,9 +79,9 @@ class _Path:
         self._points = sorted(points)
         self._covered = [point.covered for point in self._points]
 
-    def matching(self, covered: float) -> list[_PathPoint]:
+    def matching(self, covered: float, slack: float) -> list[_PathPoint]:
         """The points that this distance can mean."""
-        first, last = bisect_left(self._covered, covered - MATCH), bisect_right(self._covered, covered + MATCH)
+        first, last = bisect_left(self._covered, covered - slack), bisect_right(self._covered, covered + slack)
         return self._points[first:last]
 
     def farthest_end(self, ticks_held: int) -> float:
@@ -118,7 +122,7 @@ class WalkTracker:
         if self._hold is None:
             return None
         axis, sign = self._hold.axis, self._hold.sign
-        points = self._paths[axis].matching((position[axis] - self._begin.position[axis]) * sign)
+        points = self._matching(axis, (position[axis] - self._begin.position[axis]) * sign)
         counts = {point.ticks_held for point in points}
         return counts.pop() if len(counts) == 1 and not any(point.is_released for point in points) else None
 
@@ -132,10 +136,17 @@ class WalkTracker:
         )
         return GroundVector(right, forward)
 
+    def _matching(self, axis: int, covered: float) -> list[_PathPoint]:
+        return self._paths[axis].matching(covered, SLIPPERY_MATCH if self._inertia > SLIPPERY else MATCH)
+
     def _velocity(self, axis: int, position: float) -> float | None:
         sign = self._signs[axis]
         covered = (position - self._begin.position[axis]) * sign
-        points = self._paths[axis].matching(covered)
+        points = self._matching(axis, covered)
+        is_held = self._hold is not None and self._hold.axis == axis
+        if not points and not is_held and abs(covered - self._paths[axis].farthest_end(0)) <= AGREE:
+            # The last steps of coasting along this axis were a little longer or shorter than known: it ends there.
+            return 0.0
         if not points or not all(point.is_released for point in points):
             return None
         ends = [point.end for point in points]

@@ -1,8 +1,8 @@
 """Notices (toasts) over the upper right of the screen: whether one may lie over the right column.
 
-A notice is a box of 160 x 32 dots, up to five below each other, that slides in from the right side (FACTS: The F3
-debug screen). It is looked for by its left edge: a margin of one colour, over most of the box's height, beside
-something else, and none of the debug screen's text to the right of it.
+A notice is a box of 160 x 32 dots, up to five below each other, that slides in from the right side
+(FACTS: The F3 debug screen). It is looked for by its left edge: a margin of one colour, over most of the box's height,
+beside something else, and none of the debug screen's text to the right of it.
 """
 
 import numpy as np
@@ -13,16 +13,19 @@ from mc_nested.live.vision.text_colours import INK_SPREAD, PLAIN
 WIDTH, HEIGHT, MOST = 160, 32, 5
 """Dots of a notice, and how many there are at most."""
 
-_NEAREST = 16
+_NEAREST = 24
 """Dots from the window's side: a box that has slid in less hides no line whose beginning can't be seen."""
 
 _BORDER, _MARGIN, _CORNER = 3, 8, 4
 """Dots from the box's side in which its border lies; up to which nothing else does; and of rounded corners."""
 
+_CLEAR, _LONG = 6, 60
+"""Rows from the box's top to the first that may hold letters or a picture, and how far to the right that is checked."""
+
 _FLAT = 6
 """Levels by which a margin of one colour may vary."""
 
-_MOSTLY = 0.9
+_MOSTLY = 0.95
 
 _FEW = 20
 """Dots of the debug screen's colour that an item's picture may have: fewer than any line of text."""
@@ -40,6 +43,9 @@ def may_hide_lines(dots: GlyphGrid) -> bool:
         for left in range(first, columns - _NEAREST):
             margin = slice(left + _BORDER, left + _MARGIN)
             if not flat[margin].all() or np.ptp(rows[:, margin], axis=(0, 1)).max() > _FLAT:
+                continue
+            above = picture[top + _BORDER : top + _CLEAR, left + _BORDER : min(left + _LONG, columns - _BORDER)]
+            if np.ptp(above, axis=(0, 1)).max() > _FLAT:
                 continue
             beside = rows[:, left - 1]
             ends = (np.abs(beside - rows[:, inside]).max(1) > _FLAT for inside in (left, left + _BORDER))

@@ -21,8 +21,10 @@ from mc_nested.live.model.coordinates import Facing, centre_of, yaw_of
 from mc_nested.live.model.reading import Block, Reading
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import load_profile
-from mc_nested.live.vision.font import Font, load_font
+from mc_nested.live.vision.font import load_font
 from sim.client.desktop.clipboard import VirtualClipboard
+from sim.client.drawing.f3_layers import paint
+from sim.client.game.f3_text import F3Screen
 
 Open = Callable[[str], AbstractContextManager[Devices]]
 
@@ -146,33 +148,14 @@ def font_file(tmp_path: Path) -> Path:
     return file
 
 
-def debug_screen(font: Font, lines: list[str]) -> Frame:
-    """A screen of 854 x 480 at GUI scale 2 with the debug screen's left column (FACTS: The F3 debug screen)."""
-    dots = np.full((240, 427), 120.0)
-    for index, text in enumerate(lines):
-        columns = np.frombuffer(font.columns(text), np.uint8)
-        top = 2 + 9 * index
-        box = dots[top - 1 : top + 8, 1 : 2 + len(columns) + 1]
-        box[:] = (0x90 * 0x50 + (255 - 0x90) * box) / 255
-        inked = (columns[None, :] >> np.arange(8)[:, None] & 1).astype(bool)
-        dots[top : top + 8, 2 : 2 + len(columns)][inked] = 224
-    picture = dots.round().astype(np.uint8).repeat(2, 0).repeat(2, 1)
-    return np.ascontiguousarray(picture[:, : 427 * 2, None].repeat(3, 2))
-
-
-SCREEN = [
-    "Minecraft 1.20.1 (1.20.1/vanilla)",
-    "XYZ: -3.412 / 64.00000 / 118.633",
-    "Block: -4 64 118 [12 0 6]",
-    "Facing: west (Towards negative X) (97.3 / 12.0)",
-]
+SCREEN = F3Screen("1.19.3-1.21.8", 2, (-3.412, 64.0, 118.633), 97.3, 12.0, version="1.20.1")
 
 
 def window_titled(name: str, font_file: Path) -> Open:
     @contextmanager
     def open_devices(title: str) -> Iterator[Devices]:
         assert title
-        frame = debug_screen(load_font(font_file), SCREEN)
+        frame = paint(np.full((480, 854, 3), 120, np.uint8), SCREEN, load_font(font_file))
         yield Devices(DrawnDisplay(frame, title=name), NoInput(), NoInput(), SkippingClock(), VirtualClipboard())
 
     return open_devices

@@ -154,6 +154,8 @@ def test_the_game_that_comes_to_the_front_in_time_is_examined(computer: Computer
         lambda client: client.set_front(is_in_front=False),
         ClientSettings(pitch=DOWN, pauses_unfocused=False, size=(960, 540)),
     )
+    calibrated = CalibratedTable(date="2026-11-21", version="1.20.1", window=(960, 540), gui_scale=2)
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font)), calibrated=calibrated))
     client.clock.call_at(client.clock.now() + 12, lambda: client.set_front(is_in_front=True))
     found = computer.examined(opened(client), clipboard=client.clipboard)
     assert statuses(found) == dict.fromkeys(CheckName, "pass")

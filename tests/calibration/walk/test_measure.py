@@ -13,7 +13,7 @@ from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, Not
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import load_profile, save_profile
-from mc_nested.live.profile.tables import KeysTable, Profile
+from mc_nested.live.profile.tables import KeysTable, Profile, WalkTable
 from sim.client.client import VirtualClient
 from sim.client.mishaps import Kind
 from tests.calibration.virtual_context import context_on, profile_of
@@ -76,6 +76,14 @@ def test_walking_is_measured_where_the_player_stands_and_ends_there(
     assert not [line for line in found.lines if "Warning" in line]
     assert "Timed between two ticks, 8 of 8" in " ".join(found.lines)
     assert off_held_out(client, found, monkeypatch) < 0.02
+
+
+@pytest.mark.slow
+def test_at_ten_frames_a_second_the_walk_is_measured_and_no_latency_is_too_short(tmp_path: Path) -> None:
+    found = measured(VirtualClient(seed=1, pitch=65.0, fps=10.0), tmp_path)
+    walk_table = found.profile.walk
+    assert walk_table.covered == pytest.approx(WalkTable().covered, abs=0.002)
+    assert walk_table.input_latency_s + walk_table.capture_latency_s >= 0.04
 
 
 class Glider:
@@ -189,7 +197,7 @@ def test_lag_costs_holds_but_not_accuracy(seed: int, tmp_path: Path, monkeypatch
 
 @pytest.mark.slow
 def test_constant_lag_is_reported(tmp_path: Path) -> None:
-    client = VirtualClient(seed=1, pitch=65.0)
+    client = VirtualClient(seed=2, pitch=65.0)
     client.mishaps.every(0.35, ("lag",))
     found = measured(client, tmp_path)
     assert any(line.startswith("Warning: the game lags") for line in found.lines)

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.live.model.coordinates import GroundVector
-from mc_nested.live.model.kinematics import PUSH, displacement
+from mc_nested.live.model.kinematics import PUSH, displacement, hold_path
 from mc_nested.live.motion.walk_tracker import CoastingState, Hold, WalkTracker
 
 AT_REST = CoastingState(GroundVector(3.0, 5.0), GroundVector(0.0, 0.0))
@@ -74,6 +74,23 @@ def test_other_ground_has_another_inertia(inertia: float) -> None:
             ends.append(state.end[1])
     assert ends == pytest.approx([5.0 + position] * len(ends), abs=0.02)
     assert len(ends) > 60
+
+
+@pytest.mark.parametrize(("inertia", "is_known"), [(0.546, False), (0.728, True)])
+def test_on_slippery_ground_a_position_may_lie_a_step_of_coasting_off_its_path(inertia: float, is_known: bool) -> None:
+    tracker = WalkTracker(AT_REST, Hold(1, 1, 5, PUSH), inertia)
+    end = hold_path(5, PUSH, inertia)[-3]
+    assert tracker.coasting_at(GroundVector(3.0, 5.0 + end)) is not None
+    assert (tracker.coasting_at(GroundVector(3.0, 5.0 + displacement(5, inertia) + 0.003)) is not None) == is_known
+
+
+def test_along_the_other_axis_coasting_a_little_longer_than_known_is_its_end() -> None:
+    begin = CoastingState(GroundVector(3.0, 5.0), GroundVector(0.0, 0.0029))
+    tracker = WalkTracker(begin, Hold(0, 1, 5, PUSH))
+    state = tracker.coasting_at(GroundVector(3.0 + displacement(5), 5.014))
+    assert state is not None
+    assert state.end == pytest.approx((3.0 + displacement(5), 5.014), abs=0.002)
+    assert tracker.coasting_at(GroundVector(3.0 + displacement(5), 5.03)) is None
 
 
 def test_a_position_on_no_path_gives_no_state() -> None:

@@ -300,9 +300,9 @@ def test_a_lost_connection_saves_and_shows_its_reason() -> None:
 
 
 def test_tags_of_the_target_are_shown_since_1_13() -> None:
-    for version, tags in (("1.12.2", ()), ("1.13", ("minecraft:mineable/pickaxe",))):
+    for version, tags in (("1.12.2", ()), ("1.13", ("minecraft:planks",))):
         played = game(version=version)
-        played.realm.world.put((0, 63, 1), "stone")
+        played.realm.world.put((0, 63, 1), "oak_planks")
         screen = played.view().f3
         assert screen is not None
         assert screen.tags == tags
