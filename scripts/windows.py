@@ -23,7 +23,8 @@ from scripts.standin_parts import MissingError  # noqa: E402
 from scripts.standin_processes import wait_until  # noqa: E402
 from scripts.windows_parts import install_programs, install_python  # noqa: E402
 from scripts.windows_prefix import make_prefix  # noqa: E402
-from scripts.windows_session import Session, SessionError, open_session  # noqa: E402
+from scripts.windows_program import SessionError  # noqa: E402
+from scripts.windows_session import Session, open_session  # noqa: E402
 
 CACHE = ROOT / ".windows"
 STOPPED = 130
@@ -86,12 +87,12 @@ def run_pytest(session: Session, arguments: Sequence[str]) -> int:
     """Run pytest under Wine, its output as it comes; returns its exit code."""
     with session.started(*PYTEST, *arguments) as program:
         shown = 0
-        has_ended = False
-        while not has_ended:
-            has_ended = wait_until(lambda: program.process.poll() is not None, LOOK_S)
+        while not wait_until(lambda: program.has_ended, LOOK_S):
             before, shown = shown, program.size()
             print(program.printed(before, shown), end="", flush=True)
-        return program.wait(LOOK_S)
+        code = program.wait(LOOK_S)
+        print(program.printed(shown), end="", flush=True)
+    return code
 
 
 def say(line: str) -> None:

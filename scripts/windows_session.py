@@ -6,16 +6,15 @@ Wine's processes SIGTERM.
 
 import os
 import subprocess
-import tempfile
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import IO
 
 from scripts.window_display import OPENBOX, open_display, running
 from scripts.windows_orphans import adopting
 from scripts.windows_parts import ROOT, WINE, WINESERVER, windows_path
+from scripts.windows_program import SessionError, WindowsProgram
 
 PATIENCE_S = 20.0
 """Seconds in which a process must end when asked to."""
@@ -25,42 +24,31 @@ START_S = 180.0
 _WITH_THIS_PROCESS = ("setpriv", "--pdeathsig", "TERM", "--")
 
 
-class SessionError(Exception):
-    """The desktop, or a program in it, did not start or end in time; the message is one line."""
-
-
 @dataclass(frozen=True)
 class Session:
-    """A running desktop: where its screen is, and the environment of the programs in it."""
+    """A running desktop: the folder with its Python, and the environment of the programs in it."""
 
     cache: Path
     env: Mapping[str, str]
 
-    @property
-    def display(self) -> str:
-        """The X display."""
-        return self.env["DISPLAY"]
-
     @contextmanager
-    def started(self, *arguments: str, cwd: Path = ROOT, **env: str) -> Iterator["Program"]:
+    def started(self, *arguments: str, cwd: Path = ROOT, **env: str) -> Iterator[WindowsProgram]:
         """The Windows Python with these arguments, until the end of the block; then it is ended, if it still runs."""
         command = [*_WITH_THIS_PROCESS, WINE.required(), str(self.cache / "python" / "python.exe"), *arguments]
-        # A file, and one to read, too: python.exe refuses what can only be written to, and a pipe would stay open for as
-        # long as Wine's desktop does, which the first program with a window starts.
-        with tempfile.TemporaryFile() as output:
-            process = subprocess.Popen(  # noqa: S603 - this project's own programs
+        with (
+            subprocess.Popen(  # noqa: S603 - this project's own programs
                 command,
                 cwd=cwd,
                 env={**self.env, **env},
-                stdin=subprocess.DEVNULL,
-                stdout=output,
+                # Pipes, since python.exe takes no file of this system for its output, and no closed input.
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
                 start_new_session=True,
-            )
-            try:
-                yield Program(process, output)
-            finally:
-                end(process)
+            ) as process,
+            closing(WindowsProgram(process)) as program,
+        ):
+            yield program
 
     def python(self, *arguments: str, timeout_s: float, cwd: Path = ROOT, **env: str) -> tuple[int, str]:
         """Run the Windows Python to its end; returns its exit code and what it printed, errors included.
@@ -70,36 +58,6 @@ class Session:
         """
         with self.started(*arguments, cwd=cwd, **env) as program:
             return program.wait(timeout_s), program.printed()
-
-
-@dataclass(frozen=True)
-class Program:
-    """A Windows program that was started, and the file with what it prints."""
-
-    process: subprocess.Popen[bytes]
-    output: IO[bytes]
-
-    def printed(self, since: int = 0, until: int | None = None) -> str:
-        """What it has printed so far, errors included, between these bytes."""
-        length = (self.size() if until is None else until) - since
-        return as_text(os.pread(self.output.fileno(), length, since))
-
-    def size(self) -> int:
-        """How many bytes it has printed so far."""
-        return os.fstat(self.output.fileno()).st_size
-
-    def wait(self, timeout_s: float) -> int:
-        """Its exit code; SessionError where that takes longer than ``timeout_s``."""
-        try:
-            return self.process.wait(timeout_s)
-        except subprocess.TimeoutExpired as error:
-            last = (self.printed().strip().splitlines() or ["nothing"])[-1]
-            raise SessionError(f"a program took more than {timeout_s:.0f} s; it said last: {last}") from error
-
-
-def as_text(printed: bytes) -> str:
-    """What a Windows program printed, with this system's line ends."""
-    return printed.decode("utf-8", errors="replace").replace("\r\n", "\n")
 
 
 @contextmanager
@@ -156,17 +114,6 @@ def run_wine(arguments: Sequence[str], env: Mapping[str, str], log: Path) -> Non
             raise SessionError(f"wine {' '.join(arguments)} took more than {START_S:.0f} s (see {log})") from error
     if done.returncode != 0:
         raise SessionError(f"wine {' '.join(arguments)} failed (see {log})")
-
-
-def end(process: subprocess.Popen[bytes]) -> None:
-    """End a process that still runs, with SIGTERM first and SIGKILL after ``PATIENCE_S``."""
-    if process.poll() is None:
-        process.terminate()
-        try:
-            process.wait(PATIENCE_S)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
 
 
 @contextmanager

@@ -63,8 +63,8 @@ def rehearsal(windows: Session, tmp_path_factory: pytest.TempPathFactory) -> Ite
     write_font(font)
     words = ["--truth", windows_path(truth), "--font", windows_path(font)]
     with windows.started("-m", "mc_nested.cli", "rehearse", *words) as window:
-        assert wait_until(lambda: truth.exists() or window.process.poll() is not None, OPENING_S)
-        assert window.process.poll() is None, window.printed()
+        assert wait_until(lambda: truth.exists() or window.has_ended, OPENING_S)
+        assert not window.has_ended, window.printed()
         yield found
 
 
