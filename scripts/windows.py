@@ -20,13 +20,17 @@ sys.path.insert(0, str(ROOT))
 
 from scripts.cache_lock import BusyError, alone  # noqa: E402 - found only with the line above
 from scripts.standin_parts import MissingError  # noqa: E402
+from scripts.standin_processes import wait_until  # noqa: E402
 from scripts.windows_parts import install_programs, install_python  # noqa: E402
 from scripts.windows_prefix import make_prefix  # noqa: E402
-from scripts.windows_session import Session, SessionError, as_text, open_session  # noqa: E402
+from scripts.windows_program import SessionError  # noqa: E402
+from scripts.windows_session import Session, open_session  # noqa: E402
 
 CACHE = ROOT / ".windows"
 STOPPED = 130
 """The exit code after Ctrl+C."""
+LOOK_S = 1.0
+"""Seconds between two looks at what pytest has printed."""
 
 _UNIT = ("-q", "-m", "not (slow or standin or realtime or window or wine)")
 SUITES = ((*_UNIT, "tests/arena", "tests/live", "tests/sim"), (*_UNIT, "tests/calibration"))
@@ -81,11 +85,14 @@ def set_up(cache: Path) -> Iterator[None]:
 
 def run_pytest(session: Session, arguments: Sequence[str]) -> int:
     """Run pytest under Wine, its output as it comes; returns its exit code."""
-    with session.started(*PYTEST, *arguments) as process:
-        assert process.stdout is not None  # noqa: S101 - started with a pipe
-        for line in process.stdout:
-            print(as_text(line), end="", flush=True)
-    return process.returncode
+    with session.started(*PYTEST, *arguments) as program:
+        shown = 0
+        while not wait_until(lambda: program.has_ended, LOOK_S):
+            before, shown = shown, program.size()
+            print(program.printed(before, shown), end="", flush=True)
+        code = program.wait(LOOK_S)
+        print(program.printed(shown), end="", flush=True)
+    return code
 
 
 def say(line: str) -> None:

@@ -7,13 +7,14 @@ Wine's processes SIGTERM.
 import os
 import subprocess
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from scripts.window_display import OPENBOX, open_display, running
 from scripts.windows_orphans import adopting
 from scripts.windows_parts import ROOT, WINE, WINESERVER, windows_path
+from scripts.windows_program import SessionError, WindowsProgram
 
 PATIENCE_S = 20.0
 """Seconds in which a process must end when asked to."""
@@ -23,42 +24,31 @@ START_S = 180.0
 _WITH_THIS_PROCESS = ("setpriv", "--pdeathsig", "TERM", "--")
 
 
-class SessionError(Exception):
-    """The desktop, or a program in it, did not start or end in time; the message is one line."""
-
-
 @dataclass(frozen=True)
 class Session:
-    """A running desktop: where its screen is, and the environment of the programs in it."""
+    """A running desktop: the folder with its Python, and the environment of the programs in it."""
 
     cache: Path
     env: Mapping[str, str]
 
-    @property
-    def display(self) -> str:
-        """The X display."""
-        return self.env["DISPLAY"]
-
     @contextmanager
-    def started(self, *arguments: str, cwd: Path = ROOT, **env: str) -> Iterator[subprocess.Popen[bytes]]:
-        """The Windows Python with these arguments, until the end of the block; then it is ended, if it still runs.
-
-        Its three streams are pipes, as python.exe needs them: under Wine it refuses a file that is only written to.
-        """
+    def started(self, *arguments: str, cwd: Path = ROOT, **env: str) -> Iterator[WindowsProgram]:
+        """The Windows Python with these arguments, until the end of the block; then it is ended, if it still runs."""
         command = [*_WITH_THIS_PROCESS, WINE.required(), str(self.cache / "python" / "python.exe"), *arguments]
-        with subprocess.Popen(  # noqa: S603 - this project's own programs
-            command,
-            cwd=cwd,
-            env={**self.env, **env},
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            start_new_session=True,
-        ) as process:
-            try:
-                yield process
-            finally:
-                end(process)
+        with (
+            subprocess.Popen(  # noqa: S603 - this project's own programs
+                command,
+                cwd=cwd,
+                env={**self.env, **env},
+                # Pipes, since python.exe takes no file of this system for its output, and no closed input.
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            ) as process,
+            closing(WindowsProgram(process)) as program,
+        ):
+            yield program
 
     def python(self, *arguments: str, timeout_s: float, cwd: Path = ROOT, **env: str) -> tuple[int, str]:
         """Run the Windows Python to its end; returns its exit code and what it printed, errors included.
@@ -66,18 +56,8 @@ class Session:
         Raises:
             SessionError: it took longer than ``timeout_s``; it is ended then.
         """
-        with self.started(*arguments, cwd=cwd, **env) as process:
-            try:
-                printed, _ = process.communicate(timeout=timeout_s)
-            except subprocess.TimeoutExpired as error:
-                said = as_text(error.output or b"").strip().splitlines()[-1:] or ["nothing"]
-                raise SessionError(f"{arguments} took more than {timeout_s:.0f} s; it said last: {said[0]}") from error
-        return process.returncode, as_text(printed)
-
-
-def as_text(printed: bytes) -> str:
-    """What a Windows program printed, with this system's line ends."""
-    return printed.decode("utf-8", errors="replace").replace("\r\n", "\n")
+        with self.started(*arguments, cwd=cwd, **env) as program:
+            return program.wait(timeout_s), program.printed()
 
 
 @contextmanager
@@ -134,17 +114,6 @@ def run_wine(arguments: Sequence[str], env: Mapping[str, str], log: Path) -> Non
             raise SessionError(f"wine {' '.join(arguments)} took more than {START_S:.0f} s (see {log})") from error
     if done.returncode != 0:
         raise SessionError(f"wine {' '.join(arguments)} failed (see {log})")
-
-
-def end(process: subprocess.Popen[bytes]) -> None:
-    """End a process that still runs, with SIGTERM first and SIGKILL after ``PATIENCE_S``."""
-    if process.poll() is None:
-        process.terminate()
-        try:
-            process.wait(PATIENCE_S)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
 
 
 @contextmanager

@@ -18,7 +18,7 @@ from mc_nested.live.profile.store import parse_profile
 from scripts.rehearsal_window import TruthReader, mc_nested, write_font
 from scripts.standin_processes import wait_until
 from scripts.windows_parts import windows_path
-from scripts.windows_session import Session, as_text
+from scripts.windows_session import Session
 from sim.client.client import VirtualClient
 
 pytestmark = pytest.mark.wine
@@ -63,9 +63,8 @@ def rehearsal(windows: Session, tmp_path_factory: pytest.TempPathFactory) -> Ite
     write_font(font)
     words = ["--truth", windows_path(truth), "--font", windows_path(font)]
     with windows.started("-m", "mc_nested.cli", "rehearse", *words) as window:
-        assert wait_until(lambda: truth.exists() or window.poll() is not None, OPENING_S)
-        if window.stdout is not None and window.poll() is not None:
-            pytest.fail(as_text(window.stdout.read()))
+        assert wait_until(lambda: truth.exists() or window.has_ended, OPENING_S)
+        assert not window.has_ended, window.printed()
         yield found
 
 

@@ -6,7 +6,7 @@ from contextlib import ExitStack
 import pytest
 
 from scripts.windows import PYTEST, SUITES
-from scripts.windows_session import Session, as_text
+from scripts.windows_session import Session
 
 pytestmark = pytest.mark.wine
 
@@ -18,7 +18,8 @@ FEWEST = 2500
 def test_the_unit_suite_passes_on_windows(windows: Session) -> None:
     with ExitStack() as stack:
         runs = [stack.enter_context(windows.started(*PYTEST, *suite)) for suite in SUITES]
-        printed = [as_text(run.communicate(timeout=TIMEOUT_S)[0]) for run in runs]
-    assert [run.returncode for run in runs] == [0] * len(runs), "\n".join(text[-4000:] for text in printed)
+        codes = [run.wait(TIMEOUT_S) for run in runs]
+        printed = [run.printed() for run in runs]
+    assert codes == [0] * len(runs), "\n".join(text[-4000:] for text in printed)
     passed = sum(int(found[1]) for text in printed if (found := re.search(r"(\d+) passed", text)))
     assert passed >= FEWEST
