@@ -74,7 +74,7 @@ def _client(rng: np.random.Generator, version: str) -> ClientSettings:
 def _window(rng: np.random.Generator) -> tuple[tuple[int, int], int]:
     """A size, odd or even, and a GUI scale that fits it; 0 is auto."""
     while True:
-        size, scale = (int(rng.integers(640, 1921)), int(rng.integers(480, 1081))), int(rng.integers(0, 5))
+        size, scale = (int(rng.integers(640, 2561)), int(rng.integers(480, 1441))), int(rng.integers(0, 6))
         if size[0] >= NARROWEST * gui_scale(size, scale):
             return size, scale
 
