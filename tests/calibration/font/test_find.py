@@ -102,8 +102,8 @@ def test_force_unicode_is_named_where_it_is_known(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_gui_scale_that_is_too_large_is_named(tmp_path: Path) -> None:
-    client = started(VirtualClient(size=(1600, 1200), scale=5))
-    with pytest.raises(UnreadableError, match="the GUI scale is 5: choose 1, 2, 3 or 4"):
+    client = started(VirtualClient(size=(2880, 2160), scale=9))
+    with pytest.raises(UnreadableError, match="the GUI scale is 9: choose 1 to 8"):
         find_font(context_over(client), Profile(), sources_in(tmp_path))
 
 
