@@ -18,6 +18,7 @@ from sim.client.settings import ClientSettings, Size
 SMALLEST: Size = (320, 240)
 """A smaller window has no room for the GUI, at any scale."""
 
+INSTALL = "pip install -c constraints.txt -e '.[rehearse]'"
 LARGEST_SCALE = 8
 LOWEST_FPS, HIGHEST_FPS = 5.0, 300.0
 LONGEST_LAG_MS = 500.0
@@ -52,8 +53,10 @@ def rehearse(
         font=load_font(font) if font else font_of(drawn_atlas()),
         floor_block="grass_block" if Edition(version).since(1, 13) else "stone",
     )
-    # Loaded only here: where GLFW or OpenGL is missing, that is said in one line.
-    from sim.window.rehearsal import Rehearsal, rehearse
+    try:
+        from sim.window.rehearsal import Rehearsal, rehearse
+    except ImportError as error:
+        raise DesktopError(f"the rehearsal window needs more ({error}): {INSTALL}") from error
 
     def explain() -> None:
         typer.echo(f"Rehearsing Minecraft {version}. Press F3+P in the window, or it pauses while another is in front.")

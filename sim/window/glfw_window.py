@@ -13,12 +13,7 @@ if sys.platform.startswith("linux"):
     # Windows of X11 can be pictured and driven by other programs, those of Wayland can't.
     os.environ.setdefault("PYGLFW_LIBRARY_VARIANT", "x11")
 
-try:
-    import glfw
-except ImportError as missing:
-    raise DesktopError(
-        f"the rehearsal window needs GLFW ({missing}): pip install -c constraints.txt -e '.[rehearse]'"
-    ) from missing
+import glfw
 
 OPENGL = (3, 3)
 

@@ -34,6 +34,18 @@ def test_a_mistake_is_one_line(words: list[str], says: str, capsys: pytest.Captu
     assert says in refused(capsys, *words)
 
 
+@pytest.mark.parametrize("package", ["glfw", "moderngl"])
+def test_a_missing_package_is_named_with_how_to_get_it(
+    package: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in [name for name in sys.modules if name.startswith("sim.window")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, package, None)
+    said = refused(capsys)
+    assert package in said
+    assert "pip install -c constraints.txt -e '.[rehearse]'" in said
+
+
 if sys.platform.startswith("linux"):
 
     def test_without_a_display_it_says_where_to_run_it(
