@@ -144,9 +144,6 @@ class Training:
     def is_resting(self) -> bool:
         return not self.is_moving()
 
-    def window(self) -> object:
-        return self.display.screen().root.query_tree().children[-1]
-
 
 @pytest.fixture
 def training(profile: Path, tmp_path: Path) -> Iterator[Training]:
@@ -176,8 +173,8 @@ def test_the_panic_key_stops_a_live_training_which_goes_on_later(training: Train
 
 def test_another_window_and_another_size_in_the_middle_are_survived(training: Training) -> None:
     process = training.start()
-    root, game = training.display.screen().root, training.display.get_input_focus().focus
     assert soon(training.is_moving)
+    root, game = training.display.screen().root, training.display.get_input_focus().focus
     thief = root.create_window(1200, 800, 100, 100, 0, X.CopyFromParent)
     thief.map()
     training.display.sync()
@@ -199,8 +196,8 @@ def test_another_window_and_another_size_in_the_middle_are_survived(training: Tr
 
 def test_a_window_that_is_closed_ends_the_training_in_one_line(training: Training) -> None:
     process = training.start()
-    window = training.display.get_input_focus().focus
     assert soon(training.is_moving)
+    window = training.display.get_input_focus().focus
     protocols, delete = (training.display.intern_atom(name) for name in ("WM_PROTOCOLS", "WM_DELETE_WINDOW"))
     data = (32, [delete, X.CurrentTime, 0, 0, 0])
     window.send_event(event.ClientMessage(window=window, client_type=protocols, data=data))
