@@ -10,6 +10,7 @@ McNestedError
 │   ├── RunError         an output folder, a run or a checkpoint that can't be used
 │   └── DesktopError     no display, a Wayland session without Xwayland, a window that can't be used
 │       ├── NoWindowError     no window of that title is there
+│       ├── SeveralWindowsError  several windows of that title are there
 │       └── ClipboardError    a clipboard that can't be read, or whose content could not be put back
 └── LiveError            the game did not do what was asked; keys are released before it is raised
     ├── NotInFrontError  another window is in front: nothing was pressed
@@ -58,6 +59,10 @@ class DesktopError(UserError):
 
 class NoWindowError(DesktopError):
     """There is no window of that title: the game isn't running, or not under that name."""
+
+
+class SeveralWindowsError(DesktopError):
+    """Several windows have such a title: nobody can tell which is the game's."""
 
 
 class ClipboardError(DesktopError):

@@ -31,6 +31,7 @@ from scripts.window_display import install_programs, open_display
 
 MOST_MEDIAN_S = 0.36
 MOST_CALIBRATION_S = 100.0
+START_S, LONGEST_ACTION_S = 120.0, 6.0
 COLUMNS = (
     *("calibration_s", "actions", "wrong_cells", "wrong_blocks", "failed_actions", "corrections"),
     *("median_action_s", "p95_action_s"),
@@ -70,7 +71,7 @@ def measure(condition: Condition, actions: int, seed: int) -> dict[str, Any]:
             mc_nested("calibrate", "all", "--yes", "--profile", profile, "--font", window.font, env=env)
             figures = {"calibration_s": round(time.monotonic() - began, 1)}
             return figures | play(profile, window.truth_file, actions, seed, env)
-        except RuntimeError as error:
+        except (RuntimeError, subprocess.TimeoutExpired) as error:
             return {"problem": str(error).strip().splitlines()[-1]}
 
 
@@ -78,7 +79,10 @@ def play(profile: Path, truth: Path, actions: int, seed: int, env: dict[str, str
     """Play so many actions in the window on that display; RuntimeError with what was said where that fails."""
     script = [sys.executable, str(ROOT / "scripts" / "rehearsal_play.py"), str(profile), str(truth)]
     options = ["--actions", str(actions), "--seed", str(seed)]
-    done = subprocess.run([*script, *options], env=env, capture_output=True, text=True, check=False)  # noqa: S603 - ours
+    limit_s = START_S + actions * LONGEST_ACTION_S
+    done = subprocess.run(  # noqa: S603 - our own
+        [*script, *options], env=env, capture_output=True, text=True, timeout=limit_s, check=False
+    )
     if not done.stdout:
         raise RuntimeError(done.stderr or "nothing was said")
     figures: dict[str, Any] = json.loads(done.stdout)

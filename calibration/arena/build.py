@@ -145,7 +145,8 @@ def build_arena(
     console.watch(lambda seen: seen.pitch is not None and abs(seen.pitch - profile.body.pitch) < 1, 1.0)
     after = ReportPicture("The arena", without_chat(display.grab(), screen.scale()))
     with_arena = profile.model_copy(update={"arena": arena})
-    return StepResult("arena", with_arena, tuple(build_summary(arena, ground)), looks, (before, after))
+    undo = undo_command(path) if path else "mc-nested calibrate arena --undo"
+    return StepResult("arena", with_arena, tuple(build_summary(arena, ground, undo)), looks, (before, after))
 
 
 def _first_copy(queries: BlockQueries, arena: Arena, earlier: Sequence[Arena]) -> Block | None:

@@ -39,13 +39,13 @@ def undo_hint(arena: Arena) -> str:
     return f"What stood there comes back with {copy_command(box_at(box, arena.copied_to), box[0])}"
 
 
-def build_summary(arena: Arena, ground: GroundSurvey) -> list[str]:
-    """What was built, one line each."""
+def build_summary(arena: Arena, ground: GroundSurvey, undo: str) -> list[str]:
+    """What was built, one line each; ``undo`` is the command that puts back what stood there."""
     low, high = arena.region
     floor = f"the floor of {ground.floor} stayed" if ground.keeps_floor else f"the floor is {FLOOR}"
     lines = [f"Arena from {low} to {high}, facing {arena.facing}; {floor}, the border was seen on all four sides."]
     if arena.copied_to is not None:
-        lines.append(f"What stood there is copied to {arena.copied_to}: mc-nested calibrate arena --undo puts it back.")
+        lines.append(f"What stood there is copied to {arena.copied_to}: {undo} puts it back.")
     else:
         lines.append("No copy was kept: this game can't copy blocks, or can't show that it did.")
     return lines

@@ -8,8 +8,10 @@ import cv2
 import typer
 from platformdirs import user_data_path
 
-from mc_nested.errors import DesktopError, NoWindowError, UserError
+from mc_nested.errors import DesktopError, SeveralWindowsError, UserError
 from mc_nested.live.desktop.system import this_system
+from mc_nested.live.input.signals import signals_as_exit
+from mc_nested.live.profile.tables import WindowTable
 from mc_nested.live.vision.font import font_of, load_font
 from sim.client.drawing.font import drawn_atlas
 from sim.client.game.edition import Edition
@@ -18,17 +20,19 @@ from sim.client.settings import ClientSettings, Size
 SMALLEST: Size = (320, 240)
 """A smaller window has no room for the GUI, at any scale."""
 
+LARGEST: Size = (7680, 4320)
+
 INSTALL = "pip install -c constraints.txt -e '.[rehearse]'"
 LARGEST_SCALE = 8
 LOWEST_FPS, HIGHEST_FPS = 5.0, 300.0
 LONGEST_LAG_MS = 500.0
-_VERSION = re.compile(r"1\.(1[2-9]|2[01])(\.\d+)?|2\d\.\d+(\.\d+)?")
+_VERSION = re.compile(r"1\.(1[2-9]|2[01])(\.[0-9]{1,2})?|26\.[1-3](\.[0-9]{1,2})?")
 
 
 def rehearse(
     version: Annotated[str, typer.Option(help="the Minecraft version to be like, 1.12 to 26.3")] = "1.20.1",
     size: Annotated[str, typer.Option(metavar="WxH", help="width and height in pixels")] = "854x480",
-    gui_scale: Annotated[int, typer.Option(min=0, max=LARGEST_SCALE, help="the GUI scale; 0 is auto")] = 2,
+    gui_scale: Annotated[int, typer.Option(min=0, max=LARGEST_SCALE, help="the GUI scale, if it fits; 0 is auto")] = 2,
     fps: Annotated[
         float | None, typer.Option(min=LOWEST_FPS, max=HIGHEST_FPS, help="frames a second (default: the monitor's)")
     ] = None,
@@ -53,6 +57,8 @@ def rehearse(
         font=load_font(font) if font else font_of(drawn_atlas()),
         floor_block="grass_block" if Edition(version).since(1, 13) else "stone",
     )
+    if truth is not None and not truth.parent.is_dir():
+        raise UserError(f"{truth.parent} is no folder: name a file in a folder that exists")
     try:
         from sim.window.rehearsal import Rehearsal, rehearse
     except ImportError as error:
@@ -65,7 +71,8 @@ def rehearse(
         typer.echo("Close the window to end.")
 
     _check_alone()
-    rehearse(Rehearsal(settings, fps, lag / 1000, mishaps, truth), explain)
+    with signals_as_exit():
+        rehearse(Rehearsal(settings, fps, lag / 1000, mishaps, truth), explain)
 
 
 def _version(name: str) -> str:
@@ -75,25 +82,26 @@ def _version(name: str) -> str:
 
 
 def _size(text: str) -> Size:
-    parts = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text)
+    parts = re.fullmatch(r"([0-9]{1,5})x([0-9]{1,5})", text)
     if parts is None:
         raise UserError(f"no window has the size {text!r}: write width x height in pixels, such as 854x480")
     width, height = int(parts[1]), int(parts[2])
     if width < SMALLEST[0] or height < SMALLEST[1]:
         raise UserError(f"a window of {text} has no room for the game: at least {SMALLEST[0]}x{SMALLEST[1]}")
+    if width > LARGEST[0] or height > LARGEST[1]:
+        raise UserError(f"no screen is as large as {text}: at most {LARGEST[0]}x{LARGEST[1]}")
     return width, height
 
 
 def _check_alone() -> None:
     """UserError where a window of the game is open already: an agent could not tell the two apart."""
     try:
-        with this_system().open_window("^Minecraft"):
+        with this_system().open_window(WindowTable().title):
             pass
-    except NoWindowError:
+    except SeveralWindowsError:
+        pass
+    except DesktopError:  # none, or one that can't be used: the window itself says why, if it can't be opened
         return
-    except DesktopError as error:
-        if "windows' titles match" not in str(error):
-            return
     raise UserError("a window of Minecraft, or another rehearsal, is open: close it first")
 
 

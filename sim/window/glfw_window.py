@@ -1,6 +1,7 @@
 """A window of GLFW with an OpenGL context, and the desktop around it: its clipboard, its monitor, its time."""
 
 import os
+import re
 import sys
 import time
 from collections.abc import Iterator
@@ -50,14 +51,20 @@ class GlfwWindow:
         return bool(glfw.window_should_close(self.handle))
 
     def resize(self, size: tuple[int, int]) -> None:
-        """Ask for another size, in framebuffer pixels."""
+        """Ask for another size, in framebuffer pixels; one that the main screen has no room for is left out."""
         ratio = self.pixels_a_point
-        glfw.set_window_size(self.handle, round(size[0] / ratio), round(size[1] / ratio))
+        width, height = round(size[0] / ratio), round(size[1] / ratio)
+        _, _, across, high = glfw.get_monitor_workarea(glfw.get_primary_monitor())
+        if width <= across and height <= high:
+            glfw.set_window_size(self.handle, width, height)
+            self.shift(0, 0)
 
     def shift(self, right: int, down: int) -> None:
-        """Move it by some points of the desktop, but not above or left of it."""
-        x, y = glfw.get_window_pos(self.handle)
-        glfw.set_window_pos(self.handle, max(0, x + right), max(0, y + down))
+        """Move it by some points of the desktop, but not off the main screen."""
+        (x, y), (width, height) = glfw.get_window_pos(self.handle), glfw.get_window_size(self.handle)
+        left, top, across, high = glfw.get_monitor_workarea(glfw.get_primary_monitor())
+        furthest = max(left, left + across - width), max(top, top + high - height)
+        glfw.set_window_pos(self.handle, min(max(left, x + right), furthest[0]), min(max(top, y + down), furthest[1]))
 
     def set_front(self, *, is_in_front: bool) -> None:
         """Minimise it, or bring it back to the front."""
@@ -133,7 +140,7 @@ def open_glfw_window(title: str, size: tuple[int, int]) -> Iterator[GlfwWindow]:
             glfw.init()
         except glfw.GLFWError as error:
             raise DesktopError(
-                f"no window can be opened ({error}): run this in the desktop session of this computer"
+                f"no window can be opened ({_words(error)}): run this in a desktop session, on Wayland with Xwayland"
             ) from error
         try:
             yield GlfwWindow(_created(title, size))
@@ -154,6 +161,11 @@ def _created(title: str, size: tuple[int, int]) -> Any:
         glfw.swap_interval(0)
     except glfw.GLFWError as error:
         raise DesktopError(
-            f"this display offers no OpenGL 3.3 ({error}): update the graphics driver, or install Mesa's"
+            f"this display offers no OpenGL 3.3 ({_words(error)}): update the graphics driver, or install Mesa's"
         ) from error
     return handle
+
+
+def _words(error: Exception) -> str:
+    """GLFW's own words, which come as bytes behind a number."""
+    return re.sub(r"^\(\d+\) b?['\"](.*)['\"]$", r"\1", str(error))

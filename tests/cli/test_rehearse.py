@@ -23,6 +23,9 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str | Path) -> str:
         (["--size", "200x100"], "200x100 has no room for the game: at least 320x240"),
         (["--size", "wide"], "no window has the size 'wide': write width x height in pixels, such as 854x480"),
         (["--version", "1.7.10"], "no version '1.7.10' can be rehearsed: name one from 1.12 to 26.3"),
+        (["--size", "99999x99999"], "no screen is as large as 99999x99999: at most 7680x4320"),
+        (["--version", "29.9"], "no version '29.9' can be rehearsed"),
+        (["--truth", "missing/truth.json"], "missing is no folder: name a file in a folder that exists"),
         (["--version", "newest"], "no version 'newest' can be rehearsed"),
         (["--gui-scale", "9"], "--gui-scale"),
         (["--fps", "1"], "--fps"),
@@ -53,4 +56,6 @@ if sys.platform.startswith("linux"):
     ) -> None:
         for name in ("DISPLAY", "WAYLAND_DISPLAY"):
             monkeypatch.delenv(name, raising=False)
-        assert "no window can be opened" in refused(capsys)
+        said = refused(capsys)
+        assert "no window can be opened (X11: " in said
+        assert "on Wayland with Xwayland" in said

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from mc_nested.errors import DesktopError, NoWindowError
+from mc_nested.errors import DesktopError, NoWindowError, SeveralWindowsError
 
 SHOWN_TITLES = 8
 """Titles that an error names at most: enough to find a misspelling, and still one line."""
@@ -36,7 +36,7 @@ class GameWindow(Protocol):
 def matching_title(title: str, titles: Sequence[str]) -> int:
     """The index of the one title in which the regular expression ``title`` is found.
 
-    NoWindowError where there is none, another DesktopError where there are several.
+    NoWindowError where there is none, SeveralWindowsError where there are several.
     """
     found = [index for index, each in enumerate(titles) if re.search(title, each)]
     if len(found) == 1:
@@ -47,7 +47,7 @@ def matching_title(title: str, titles: Sequence[str]) -> int:
             f"no window's title matches {title!r}: start the game, or set window.title in the profile; "
             f"windows on this desktop: {known}"
         )
-    raise DesktopError(
+    raise SeveralWindowsError(
         f"{len(found)} windows' titles match {title!r}: {_listed([titles[index] for index in found])}: "
         "close all but the game's, or set window.title in the profile"
     )

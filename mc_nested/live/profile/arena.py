@@ -32,6 +32,7 @@ class Arena(ProfileTable):
         description="two opposite corners of the blocks that a reset may clear; nothing outside is ever touched"
     )
     floor: str | None = Field(
+        pattern=r"^[a-z0-9_.:/-]+$",
         default=None,
         description="the floor's block, as this game names it: a reset fills holes in the floor with it; left out, "
         "holes stay",

@@ -7,10 +7,10 @@ import re
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import AliasChoices, Field, field_validator
+from pydantic import AliasChoices, Field, field_validator, model_validator
 
 from mc_nested.errors import ProfileError
-from mc_nested.live.model.key_names import check_key
+from mc_nested.live.model.key_names import canonical, check_key
 from mc_nested.live.model.kinematics import INERTIA, SNEAKING, walk_response
 from mc_nested.live.model.timing import CAPTURE_LATENCY_S, INPUT_LATENCY_S
 from mc_nested.live.profile.arena import Arena, ProfileTable
@@ -93,6 +93,17 @@ class KeysTable(ProfileTable):
         except ProfileError as error:
             raise ValueError(str(error)) from error
         return names
+
+    @model_validator(mode="after")
+    def _are_different(self) -> "KeysTable":
+        uses = [(name, getattr(self, name)) for name in type(self).model_fields if name != "hotbar"]
+        uses += [(f"hotbar slot {slot}", key) for slot, key in enumerate(self.hotbar, 1)]
+        users: dict[str, str] = {}
+        for use, key in uses:
+            other = users.setdefault(canonical(key), use)
+            if other != use:
+                raise ValueError(f"{key!r} is given for {other} and for {use}: each needs a key of its own")
+        return self
 
 
 class ScreenTable(ProfileTable):

@@ -62,12 +62,12 @@ def test_the_hint_is_the_command_that_copies_it_back() -> None:
 
 
 def test_the_summary_says_what_became_of_floor_and_copy() -> None:
-    first, second = build_summary(COPIED, FREE)
+    first, second = build_summary(COPIED, FREE, "mc-nested undo")
     assert first == (
         "Arena from (-7, 64, 0) to (7, 65, 14), facing south; the floor of grass_block stayed, "
         "the border was seen on all four sides."
     )
-    assert second == "What stood there is copied to (-8, 127, -1): mc-nested calibrate arena --undo puts it back."
-    built = build_summary(ARENA, GroundSurvey(True, False, "grass_block", None))
+    assert second == "What stood there is copied to (-8, 127, -1): mc-nested undo puts it back."
+    built = build_summary(ARENA, GroundSurvey(True, False, "grass_block", None), "undo")
     assert "the floor is obsidian" in built[0]
     assert built[1].startswith("No copy was kept")

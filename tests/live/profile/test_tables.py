@@ -24,6 +24,12 @@ from mc_nested.live.profile.tables import BlocksTable, GameVersion, Profile, Wal
         ("[game]\nversion = 'newest'", "game.version: String should match pattern"),
         ("[screen]\nfont = 'ascii.png'", "screen.font: 'ascii.png' depends on where you are: write the whole path"),
         ("[keys]\nforward = 'up arrow'", "keys.forward: no key is named 'up arrow': write what a US keyboard types"),
+        ("[keys]\nback = 'w'", "keys: 'w' is given for forward and for back: each needs a key of its own"),
+        ("[keys]\nchat = 'f12'", "keys: 'f12' is given for chat and for panic"),
+        (
+            "[arena]\norigin = [1, 2, 3]\nfacing = 'south'\nmarked = [[1, 2, 3], [2, 3, 4]]\nfloor = 'a b'",
+            "arena.floor",
+        ),
         ("[keys]\nhotbar = ['1']", "keys.hotbar: Tuple should have at least 9 items"),
         ("[walk]\ncovered = [0.2, 0.4, 0.3, 0.8]", "walk.covered: must grow with every tick"),
         ("[points]\nRespawn = [0.5, 12]", "points.Respawn.1: Input should be less than or equal to 1, not 12"),

@@ -148,6 +148,12 @@ def test_it_ends_when_its_window_is_closed(played: Played) -> None:
     assert played.rehearsal.process.wait(SOON_S) == 0
 
 
+def test_it_ends_in_one_line_when_its_process_is_ended(played: Played) -> None:
+    played.rehearsal.process.terminate()
+    assert played.rehearsal.process.wait(SOON_S) == 128 + 15
+    assert played.rehearsal.log.read_text().splitlines()[-1] == "mc-nested: stopped"
+
+
 def test_a_second_one_is_refused(played: Played, tmp_path: Path) -> None:
     other = tmp_path / "other"
     other.mkdir()
