@@ -204,5 +204,5 @@ def test_a_window_that_is_closed_ends_the_training_in_one_line(training: Trainin
     training.display.sync()
     _, said = process.communicate(timeout=SOON_S)
     assert process.returncode == 2, said
-    assert "has closed: start the game again" in said
+    assert "has closed: start the game again" in said, said
     assert "Traceback" not in said

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from typing import Any
 
+from pynput._util.xorg import X11Error  # type: ignore[import-not-found]  # pynput raises it, and has it nowhere else
 from pynput.keyboard import Controller
 from Xlib import X
 from Xlib.display import Display
@@ -48,10 +49,7 @@ class X11KeySender:
     def type(self, character: str) -> None:
         # pynput has spare keys of its own, but takes one for several characters: the window then writes another one.
         if (keysym := _keysym(character)) in self._typist.keyboard_mapping:
-            try:
-                self._typist.press(character)
-            finally:
-                self._typist.release(character)
+            self._type_by_layout(character)
         elif key := self._spare_key(keysym):
             try:
                 self._write(event.KeyPress, *key)
@@ -59,6 +57,15 @@ class X11KeySender:
                 self._write(event.KeyRelease, *key)
         else:
             raise DesktopError(f"{character!r} can't be typed with this keyboard layout: switch to a Latin one")
+
+    def _type_by_layout(self, character: str) -> None:
+        try:
+            try:
+                self._typist.press(character)
+            finally:
+                self._typist.release(character)
+        except X11Error as error:  # the window in front is gone between its being asked for and being written to
+            raise DesktopError("the window that was typed into has closed: start the game again") from error
 
     def _spare_key(self, keysym: int) -> tuple[int, int] | None:
         if self._spare_keys is None:

@@ -134,6 +134,10 @@ def install_mouse(patch: pytest.MonkeyPatch) -> Mouse:
     return mouse
 
 
+class X11Error(Exception):
+    """pynput's, for what an X server has refused."""
+
+
 def install_pynput(patch: pytest.MonkeyPatch, buttons: Buttons | None = None) -> tuple[list[Listener], list[Listener]]:
     """From here on ``import pynput`` gives this; the listeners of the keyboard and of the mouse that are started."""
 
@@ -146,8 +150,10 @@ def install_pynput(patch: pytest.MonkeyPatch, buttons: Buttons | None = None) ->
     keyboard: Any = SimpleNamespace(Key=Key, KeyCode=KeyCode, Listener=KeyListener, Controller=Controller)
     named = {name: name for name in ("left", "right", "middle")}
     mouse: Any = SimpleNamespace(Listener=MoveListener, Controller=lambda: buttons, Button=named)
+    xorg: Any = SimpleNamespace(X11Error=X11Error)
     pynput: Any = SimpleNamespace(keyboard=keyboard, mouse=mouse)
-    for name, module in (("pynput", pynput), ("pynput.keyboard", keyboard), ("pynput.mouse", mouse)):
+    modules = {"pynput": pynput, "pynput.keyboard": keyboard, "pynput.mouse": mouse, "pynput._util.xorg": xorg}
+    for name, module in modules.items():
         patch.setitem(sys.modules, name, module)
     return KeyListener.started, MoveListener.started
 

@@ -14,7 +14,7 @@ if not sys.platform.startswith("linux"):
 from Xlib import X
 
 from mc_nested.live.desktop.x11_spare_keys import STATES, SpareKeys
-from tests.live.desktop.fake_devices import install_pynput, reloaded
+from tests.live.desktop.fake_devices import X11Error, install_pynput, reloaded
 from tests.live.desktop.fake_x_display import FakeXDisplay
 
 
@@ -25,14 +25,19 @@ class Typist:
         self.keyboard_mapping = {ord("t"): (28, 0), ord("p"): (33, 0)}
         self.sent: list[tuple[str, str]] = []
         self.is_interrupted = False
+        self.is_window_gone = False
 
     def press(self, character: str) -> None:
         self.sent.append(("press", character))
         if self.is_interrupted:
             raise KeyboardInterrupt
+        if self.is_window_gone:
+            raise X11Error("BadWindow")
 
     def release(self, character: str) -> None:
         self.sent.append(("release", character))
+        if self.is_window_gone:
+            raise X11Error("BadWindow")
 
 
 @pytest.fixture
@@ -52,6 +57,13 @@ def test_a_letter_of_the_layout_is_typed_by_pynput_and_leaves_the_layout_alone(m
     sender.type("t")
     assert typist.sent == [("press", "t"), ("release", "t")]
     assert display.changed == {}
+
+
+def test_a_window_that_closes_while_it_is_typed_into_is_one_line(module: Any) -> None:
+    sender, typist = sender_of(module, FakeXDisplay(spare=20))
+    typist.is_window_gone = True
+    with pytest.raises(DesktopError, match="the window that was typed into has closed: start the game again"):
+        sender.type("t")
 
 
 def test_a_letter_that_is_interrupted_after_its_press_goes_up_again(module: Any) -> None:
