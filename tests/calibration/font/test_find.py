@@ -209,9 +209,9 @@ def test_a_named_jar_that_can_not_be_read_is_reported_before_a_window_is_looked_
 
 def test_what_goes_wrong_leaves_the_old_profile_to_the_byte(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
-    file.write_text("# mine\n[keys]\nleft = 'd'\n", "utf-8")
+    file.write_text("# mine\n[keys]\nleft = 'd'\nright = 'a'\n", "utf-8")
     client = started(VirtualClient(font=flipped()))
     with pytest.raises((FontError, LiveError)):
         calibrate_font(file, context_of(client), font_file_in(tmp_path))
-    assert file.read_text("utf-8") == "# mine\n[keys]\nleft = 'd'\n"
+    assert file.read_text("utf-8") == "# mine\n[keys]\nleft = 'd'\nright = 'a'\n"
     assert not (tmp_path / "mine-font.png").exists()
