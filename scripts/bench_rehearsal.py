@@ -26,7 +26,7 @@ from rich.table import Table
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from scripts.rehearsal_window import ROOT, mc_nested, open_rehearsal
-from scripts.standin_parts import MissingError
+from scripts.standin_parts import MissingError, Say
 from scripts.window_display import install_programs, open_display
 
 MOST_MEDIAN_S = 0.36
@@ -89,6 +89,17 @@ def play(profile: Path, truth: Path, actions: int, seed: int, env: dict[str, str
     return figures
 
 
+def prepare(script: str, say: Say) -> bool:
+    """Install what a real window needs; False, and one line, where that is impossible."""
+    with tempfile.TemporaryDirectory(prefix="mc-nested-apt-") as logs:
+        try:
+            install_programs(say, Path(logs) / "apt.log")
+        except MissingError as error:
+            say(f"{script}: {error}")
+            return False
+    return True
+
+
 def is_right(condition: Condition, figures: dict[str, Any]) -> bool:
     """Whether nothing was wrong, and the usual condition is within its targets."""
     if "problem" in figures or figures["wrong_cells"] or figures["wrong_blocks"]:
@@ -108,12 +119,8 @@ def main() -> int:
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
     say = Console(stderr=True).print
-    with tempfile.TemporaryDirectory(prefix="mc-nested-apt-") as logs:
-        try:
-            install_programs(say, Path(logs) / "apt.log")
-        except MissingError as error:
-            say(f"bench_rehearsal: {error}")
-            return 2
+    if not prepare("bench_rehearsal", say):
+        return 2
     found: dict[str, dict[str, Any]] = {}
     all_right = True
     for condition in CONDITIONS:

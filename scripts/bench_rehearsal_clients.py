@@ -9,7 +9,6 @@ nothing beside it. Exit code 1 if a calibration failed, or a cell or a block was
 import argparse
 import json
 import sys
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -19,10 +18,9 @@ from rich.console import Console
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from scripts.bench_rehearsal import Condition, is_right, measure
+from scripts.bench_rehearsal import Condition, is_right, measure, prepare
 from scripts.calibration_clients import NARROWEST, VERSIONS
-from scripts.standin_parts import MissingError
-from scripts.window_display import SIZE, install_programs
+from scripts.window_display import SIZE
 from sim.client.settings import gui_scale
 
 LAYOUTS = ("us", "fr", "de", "dvorak", "ru")
@@ -60,12 +58,8 @@ def main() -> int:
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()
     say = Console(stderr=True).print
-    with tempfile.TemporaryDirectory(prefix="mc-nested-apt-") as logs:
-        try:
-            install_programs(say, Path(logs) / "apt.log")
-        except MissingError as error:
-            say(f"bench_rehearsal_clients: {error}")
-            return 2
+    if not prepare("bench_rehearsal_clients", say):
+        return 2
     found: dict[str, dict[str, Any]] = {}
     right = 0
     for condition in conditions(options.clients, options.seed):
