@@ -157,6 +157,7 @@ def doctor_for(client: VirtualClient, folder: Path) -> Examine:
             open_devices=open_devices,
             session=lambda: "virtual",
             processes=lambda: (),
+            font=folder / "ascii.png",
         ).checks
 
     return checks

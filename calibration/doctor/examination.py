@@ -4,6 +4,7 @@ import platform as computer
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from calibration.doctor.check import Check, CheckName, check_from_message
 from calibration.doctor.clipboard_row import clipboard_row
@@ -61,6 +62,7 @@ def examine(
     open_devices: Callable[[str], AbstractContextManager[Devices]] = open_desktop,
     session: Callable[[], str] = session_kind,
     processes: Callable[[], Sequence[Process] | None] | None = None,
+    font: Path | None = None,
 ) -> Examination:
     """Check everything that may keep an agent from playing. Checks that are impossible now are skipped, not left out.
 
@@ -72,6 +74,7 @@ def examine(
         open_devices: opens the window of a title.
         session: the kind of desktop session; raises DesktopError if there is none.
         processes: the running programs; default: ask the system.
+        font: the font to read the game with, instead of the profile's or one that is found.
     """
     findings = _Findings()
     profile, check = profile_row(profile_name)
@@ -87,13 +90,13 @@ def examine(
         is_closed, skip_reason = False, "no window of the game to look at"
         try:
             with open_devices((profile or Profile()).window.title) as devices:
-                _examine_window(devices, profile_name, profile, findings, system, say)
+                _examine_window(devices, profile_name, profile, findings, system, say, font)
         except DesktopError as error:
             is_closed = isinstance(error, NoWindowError)
             findings.add(check_from_message(CheckName.WINDOW, "fail", str(error)))
     running = processes() if processes else running_processes(system.platform)
     folder = _folder(system, _version(findings.snapshot, profile), running)
-    options = _examine_files(profile_name, profile, findings, system, folder)
+    options = _examine_files(profile_name, profile, findings, system, folder, font)
     checks = [findings.checks.get(each) or Check(each, "skip", skip_reason) for each in CheckName]
     return Examination(checks, profile or Profile(), folder, options, is_closed, running)
 
@@ -105,11 +108,12 @@ def _examine_window(
     findings: _Findings,
     system: System,
     say: Callable[[str], None],
+    named_font: Path | None,
 ) -> None:
     """The checks of an open window. DesktopError if it closes; the checks done by then stay."""
     settings = profile or Profile()
     version = version_in(devices.display.title()) or settings.game.version
-    font, check = font_row(profile, system, version)
+    font, check = font_row(profile, system, version, named_font)
     findings.add(check)
     overlay = overlay_of(settings)
     snapshot = findings.snapshot = wait_until_readable(devices, font, overlay, say)
@@ -121,12 +125,17 @@ def _examine_window(
 
 
 def _examine_files(
-    profile_name: str, profile: Profile | None, findings: _Findings, system: System, folder: GameFolder | None
+    profile_name: str,
+    profile: Profile | None,
+    findings: _Findings,
+    system: System,
+    folder: GameFolder | None,
+    named_font: Path | None,
 ) -> OptionsTxt | None:
     """The checks of files, with what the window has shown, if it was seen. Returns the options, if they were read."""
     snapshot = findings.snapshot
     if CheckName.FONT not in findings.checks:
-        font, check = font_row(profile, system, _version(snapshot, profile))
+        font, check = font_row(profile, system, _version(snapshot, profile), named_font)
         is_missing = font is None and (profile is None or profile.screen.font is None)
         findings.add(Check(check.name, "skip", check.detail, check.fix) if is_missing else check)
     if CheckName.PROFILE_FITS not in findings.checks:

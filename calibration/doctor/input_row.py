@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 from calibration.doctor.check import Check, CheckName, check_from_message
 from calibration.doctor.snapshot import WindowSnapshot
-from calibration.doctor.tried_keys import TriedWindow, is_menu, is_slot_seen_to_change, moving_key
+from calibration.doctor.tried_keys import SLOT_SHOWN_S, Step, TriedWindow, is_menu, is_slot_seen_to_change, moving_key
 from mc_nested.errors import DesktopError, NotInFrontError, WrongScreenError
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
@@ -17,6 +17,9 @@ from mc_nested.live.profile.tables import KeysTable
 
 TRIES = 3
 """Presses to turn the debug screen on again: one may get lost."""
+
+UNDONE = 0.05
+"""Blocks from where the player stood that count as there again: less than a sneaking tick."""
 
 _ROW = CheckName.INPUT
 
@@ -46,18 +49,18 @@ def input_row(
 
 
 def _try_keys(window: TriedWindow, keys: KeysTable) -> Check:
-    moved = moving_key(window, keys)
-    if moved is None:
+    step = moving_key(window, keys)
+    if step is None:
         tried = f"{keys.forward}, {keys.back} and {keys.left} were pressed with {keys.sneak}"
         return Check(_ROW, "fail", f"{tried}, and the player stayed where it was", _KEYS_LOST)
-    if not is_slot_seen_to_change(window, keys):
+    if not is_slot_seen_to_change(window, keys, max(SLOT_SHOWN_S, step.seen_s)):
         tried = f"{keys.hotbar[0]} and {keys.hotbar[1]} were pressed"
         remedy = "is the hotbar on the screen (F1)? Are keys.hotbar in the profile right?"
         return Check(_ROW, "warn", f"{tried}, and the hotbar's frame wasn't seen to move", remedy)
-    return _try_debug_key(window, keys, moved)
+    return _try_debug_key(window, keys, step)
 
 
-def _try_debug_key(window: TriedWindow, keys: KeysTable, moved: str) -> Check:
+def _try_debug_key(window: TriedWindow, keys: KeysTable, step: Step) -> Check:
     clock, key = window.devices.clock, keys.debug
     window.world()
     pressed_at = clock.now()
@@ -73,8 +76,9 @@ def _try_debug_key(window: TriedWindow, keys: KeysTable, moved: str) -> Check:
         if back := window.first(lambda seen: _is_on(seen) or is_menu(seen)):
             if is_menu(back):
                 break
-            seen = f"{moved}, {keys.hotbar[0]}, {keys.hotbar[1]} and {key} pressed, and seen"
-            return Check(_ROW, "pass", f"{seen}, {key} after {1000 * took:.0f} ms; all undone")
+            seen = f"{step.key}, {keys.hotbar[0]}, {keys.hotbar[1]} and {key} pressed, and seen"
+            undone = "all undone" if step.off <= UNDONE else f"undone but for {step.off:.2f} blocks of the step"
+            return Check(_ROW, "pass", f"{seen}, {key} after {1000 * took:.0f} ms; {undone}")
     return Check(_ROW, "warn", f"{key} works, but the debug screen didn't come back", f"press {key.upper()}")
 
 

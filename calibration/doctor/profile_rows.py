@@ -1,5 +1,7 @@
 """The profile's checks: whether it can be read and fits the window; and the font to read the game with."""
 
+from pathlib import Path
+
 from calibration.doctor.check import Check, CheckName, check_from_message
 from calibration.installation.folders import System, client_jars, jar_version
 from mc_nested.errors import FontError, ProfileError
@@ -44,8 +46,12 @@ def fit_row(name: str, profile: Profile | None, seen: Fingerprint | None) -> Che
     return Check(row, "pass", f"calibrated on this version, size and scale, on {profile.calibrated.date}")
 
 
-def font_row(profile: Profile | None, system: System, version: str | None) -> tuple[Font | None, Check]:
-    """A font to read this game with, the profile's or that of a client jar near the version; and its check."""
+def font_row(
+    profile: Profile | None, system: System, version: str | None, named: Path | None = None
+) -> tuple[Font | None, Check]:
+    """A font to read this game with, and its check: the one ``named``, the profile's, or of a jar near the version."""
+    if named is not None:
+        return _named_font(named.expanduser())
     problem: FontError | None = None
     if profile is not None and profile.screen.font is not None:
         path = profile.screen.font_path()
@@ -66,6 +72,13 @@ def font_row(profile: Profile | None, system: System, version: str | None) -> tu
         return None, _with_problem(problem, "")
     fix = "name your game's client jar: mc-nested calibrate font --font JAR"
     return None, Check(CheckName.FONT, "fail", "no client jar in any launcher's folder", fix)
+
+
+def _named_font(path: Path) -> tuple[Font | None, Check]:
+    try:
+        return load_font(path), Check(CheckName.FONT, "pass", f"as named: {path}")
+    except FontError as error:
+        return None, _with_problem(error, "")
 
 
 def _with_problem(problem: FontError, instead: str) -> Check:

@@ -4,6 +4,7 @@ The step is short and sneaking, so that the player falls nowhere, and is taken b
 chosen isn't on the debug screen: the frame around it is seen to move (FACTS: Screens and their buttons).
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -32,7 +33,8 @@ STILL_S = 0.2
 """Between two looks that must show the same position."""
 
 SLOT_SHOWN_S = 0.4
-"""From the press of a slot's key until its frame is certainly drawn and pictured, in a game of 10 frames a second."""
+"""From the press of a slot's key until its frame is drawn and pictured, in a game of 10 frames a second that doesn't
+lag. In one that does it is as long as a step took to be seen."""
 
 SLOT, BAR = 20, (182, 22)
 """GUI pixels from slot to slot, and the hotbar's width and height."""
@@ -76,31 +78,47 @@ def is_menu(snapshot: WindowSnapshot) -> bool:
     return snapshot.contents is not None and snapshot.contents.screen not in ("world", "unknown")
 
 
-def moving_key(window: TriedWindow, keys: KeysTable) -> str | None:
-    """The first movement key that was seen to move the player, who is back then; None where none does."""
+@dataclass(frozen=True)
+class Step:
+    """A step that was seen and taken back.
+
+    ``key`` led there, which was seen ``seen_s`` seconds after it went down; the player ended ``off`` blocks from where
+    it stood.
+    """
+
+    key: str
+    seen_s: float
+    off: float
+
+
+def moving_key(window: TriedWindow, keys: KeysTable) -> Step | None:
+    """The step of the first movement key that was seen to move the player; None where none does."""
     for there, back in ((keys.forward, keys.back), (keys.back, keys.forward), (keys.left, keys.right)):
-        start = window.world()
+        start, pressed_at = window.world(), window.devices.clock.now()
         window.controller.hold(there, STEP_TICKS, keys.sneak)
         if window.first(partial(_has_moved_or_stopped, start)):
+            seen_s = window.devices.clock.now() - pressed_at
             _stand_still(window)
             window.world()
             window.controller.hold(back, STEP_TICKS, keys.sneak)
-            _stand_still(window)
-            return there
+            return Step(there, seen_s, _distance(_position(start), _stand_still(window)))
     return None
 
 
-def is_slot_seen_to_change(window: TriedWindow, keys: KeysTable) -> bool:
-    """Whether the keys of the first two slots move the frame from one to the other; the slot before is chosen again."""
+def is_slot_seen_to_change(window: TriedWindow, keys: KeysTable, shown_s: float = SLOT_SHOWN_S) -> bool:
+    """Whether the keys of the first two slots move the frame from one to the other; the slot before is chosen again.
+
+    ``shown_s`` is how long a press may take to be seen, in seconds.
+    """
     contents = window.world().contents
     scale = (contents.scale if contents else None) or 1
     before = _bar(window.devices, scale)
     window.controller.tap(keys.hotbar[0])
-    window.controller.wait(SLOT_SHOWN_S)
+    window.controller.wait(shown_s)
     first = _bar(window.devices, scale)
     window.world()
     window.controller.tap(keys.hotbar[1])
-    window.controller.wait(SLOT_SHOWN_S)
+    window.controller.wait(shown_s)
     second = _bar(window.devices, scale)
     window.world()
     window.controller.tap(keys.hotbar[_slot_before(_changed_dots(before, first, scale))])
@@ -115,10 +133,14 @@ def _slot_before(changed_dots: list[float]) -> int:
 
 
 def _has_moved(start: WindowSnapshot, seen: WindowSnapshot) -> bool:
-    before, after = _position(start), _position(seen)
+    return _distance(_position(start), _position(seen)) > LEAST_STEP
+
+
+def _distance(before: XYZ | None, after: XYZ | None) -> float:
+    """Blocks over ground from one position to another; 0 where one of them wasn't read."""
     if before is None or after is None:
-        return False
-    return abs(after[0] - before[0]) + abs(after[2] - before[2]) > LEAST_STEP
+        return 0.0
+    return math.hypot(after[0] - before[0], after[2] - before[2])
 
 
 def _position(snapshot: WindowSnapshot) -> XYZ | None:
@@ -129,16 +151,17 @@ def _has_moved_or_stopped(start: WindowSnapshot, seen: WindowSnapshot) -> bool:
     return is_menu(seen) or _has_moved(start, seen)
 
 
-def _stand_still(window: TriedWindow) -> None:
-    """Wait until the player stands, or moves by no key of ours for EFFECT_S."""
+def _stand_still(window: TriedWindow) -> XYZ | None:
+    """Wait until the player stands, or moves by no key of ours for EFFECT_S; where it is then."""
     deadline, before = Deadline(window.devices.clock, EFFECT_S), _position(window.snapshot())
     window.controller.wait(STILL_S)
     while not deadline.has_passed:
         position = _position(window.snapshot())
         if position is not None and position == before:
-            return
+            break
         before = position
         window.controller.wait(STILL_S)
+    return before
 
 
 def _bar(devices: Devices, scale: int) -> Frame:

@@ -1,8 +1,8 @@
 """The walk step of calibration: measures which keys go which way, how far a hold leads, and the latencies.
 
-sneak a little with each key -> sneak out and back, to see how far the floor is free -> walk there, at all lengths and
-phases -> fit -> a few more holds, timed between two ticks and predicted before they are pressed -> back to the start,
-also where any of this fails
+sneak a little with each key -> sneak out and back, to see how far the floor is free (a little, where the arena was
+cleared: there it is) -> walk there, at all lengths and phases -> fit -> a few more holds, timed between two ticks and
+predicted before they are pressed -> back to the start, also where any of this fails
 """
 
 from collections.abc import Sequence
@@ -109,7 +109,7 @@ def walk(context: CalibrationContext, profile: Profile) -> StepResult:
         _wait_for_arrival(connection, profile, middle)
     survey = Survey(Walker(connection, profile), profile.keys, context.devices.clock)
     try:
-        result = _measure(profile, survey)
+        result = _measure(profile, survey, is_cleared=can_teleport)
     except (NotConfirmedError, UnreadableError, UserError):
         # Whoever calibrates again finds the player where the step began. Why it failed is what counts.
         with suppress(McNestedError):
@@ -122,24 +122,26 @@ def walk(context: CalibrationContext, profile: Profile) -> StepResult:
     return result
 
 
-def _measure(profile: Profile, survey: Survey) -> StepResult:
-    """The survey, and what fits it; without commands the player walks back at the end."""
+def _measure(profile: Profile, survey: Survey, *, is_cleared: bool) -> StepResult:
+    """The survey, and what fits it. Outside a cleared arena the player finds free floor and walks back at the end."""
     keys = survey.find_keys()
-    survey.find_floor()
+    if is_cleared:
+        survey.sneak_on_known_floor()
+    else:
+        survey.find_floor()
     survey.walk()
-    walks_back = profile.arena is None or profile.world is not None
     try:
         walk_model = fit_walk_model(survey.holds)
     except NotConfirmedError:
         found = empirical_walk(survey.holds, WalkTable())
         if found is None:
             raise
-        if walks_back:
+        if not is_cleared:
             _walk_back(found.table.covered, survey)
         return _empirical_result(profile, keys, found)
     errors = _predict(walk_model, survey)
     walk_model = fit_walk_model(survey.holds)
-    if walks_back:
+    if not is_cleared:
         _walk_back(walk_model.table.covered, survey, _between_ticks(walk_model))
     lines = (
         f"Keys: {describe_keys(profile.keys, keys)}.",

@@ -40,7 +40,7 @@ def calibrate(
     )
     steps = registered_steps(font, standing=standing, path=profile_path(profile))
     shown = Lines()
-    whole = calibrate_all(profile, context_of, _examined, steps, shown)
+    whole = calibrate_all(profile, context_of, partial(_examined, font), steps, shown)
     left_out = [TITLES.get(name, name) for name in whole.run.skipped]
     without = f", without: {', '.join(left_out)}" if left_out else ""
     typer.echo(f"calibrated in {shown.seconds:.0f} s{without}")
@@ -85,6 +85,6 @@ class Lines:
         self.seconds += seconds
 
 
-def _examined(profile_name: str) -> Sequence[Check]:
+def _examined(font: Path | None, profile_name: str) -> Sequence[Check]:
     say = partial(typer.echo, err=True)
-    return examine(profile_name, say=say, system=System.here(), clipboard=open_clipboard()).checks
+    return examine(profile_name, say=say, system=System.here(), clipboard=open_clipboard(), font=font).checks

@@ -39,7 +39,7 @@ def set_up(
     ]
     monkeypatch.setattr(calibrate_all, "context_opener", lambda *_, **__: context_opener_for(client))
     monkeypatch.setattr(calibrate_all, "registered_steps", lambda *_, **__: list(steps))
-    monkeypatch.setattr(calibrate_all, "_examined", lambda _name: rows)
+    monkeypatch.setattr(calibrate_all, "_examined", lambda _font, _name: rows)
 
 
 def with_font(folder: Path) -> CalibrationStep:

@@ -71,6 +71,7 @@ class Computer:
         open_devices: Callable[[str], AbstractContextManager[Devices]],
         clipboard: Clipboard | None = None,
         session: Callable[[], str] = lambda: "a virtual desktop",
+        font: Path | None = None,
     ) -> Examination:
         return examine(
             str(self.profile),
@@ -80,6 +81,7 @@ class Computer:
             clipboard=clipboard,
             session=session,
             processes=lambda: self.processes,
+            font=font,
         )
 
 

@@ -221,6 +221,13 @@ def test_a_font_is_found_in_a_launchers_folder_where_the_profile_names_none(comp
     assert found["debug screen"].status == "pass"
 
 
+def test_with_a_named_font_and_no_profile_the_keys_are_tried(computer: Computer) -> None:
+    computer.profile.unlink()
+    found = computer.examined(opened(client_in(as_it_was)), font=computer.font)
+    assert statuses(found)[CheckName.FONT] == "pass"
+    assert statuses(found)[CheckName.INPUT] == "pass"
+
+
 def test_a_font_that_can_not_be_read_is_a_fault_and_another_one_is_read_with(computer: Computer) -> None:
     computer.save(Profile(screen=ScreenTable(font=str(computer.system.home / "gone.jar"))))
     jar = computer.options.parent / "versions" / "1.20.1" / "1.20.1.jar"

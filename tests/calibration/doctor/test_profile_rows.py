@@ -94,3 +94,14 @@ def test_a_profile_of_a_newer_version_is_not_to_be_mended_but_the_program_update
     assert row.status == "fail"
     assert "a profile of format 99, by newer mc-nested" in row.detail
     assert row.fix.startswith("update mc-nested, or make a new one")
+
+
+def test_a_font_that_is_named_is_taken_before_the_profiles_own(tmp_path: Path) -> None:
+    named = font_file_in(tmp_path)
+    own = Profile(screen=ScreenTable(font=str(tmp_path / "gone.png")))
+    font, row = font_row(own, System("linux", tmp_path, {}), "1.20.1", named)
+    assert font is not None
+    assert (row.status, row.detail) == ("pass", f"as named: {named}")
+    font, row = font_row(own, System("linux", tmp_path, {}), "1.20.1", tmp_path / "none.png")
+    assert (font, row.status) == (None, "fail")
+    assert "none.png" in row.detail

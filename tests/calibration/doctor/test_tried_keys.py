@@ -1,5 +1,7 @@
 """Keys that the doctor tries in a virtual game: whichever moves the player, and the frame of the hotbar's slot."""
 
+import math
+
 import pytest
 
 from calibration.doctor.snapshot import take_snapshot
@@ -25,7 +27,20 @@ def window_of(client: VirtualClient) -> TriedWindow:
     ids=["forward", "back", "left"],
 )
 def test_the_first_movement_key_that_moves_the_player_is_named(keys: KeysTable, moved: str) -> None:
-    assert moving_key(window_of(started(VirtualClient())), keys) == moved
+    step = moving_key(window_of(started(VirtualClient())), keys)
+    assert step is not None
+    assert step.key == moved
+    assert 0.1 < step.seen_s < 0.5
+
+
+def test_how_far_the_step_was_not_undone_is_measured() -> None:
+    client = started(VirtualClient())
+    before = client.game.realm.player.feet
+    step = moving_key(window_of(client), KeysTable(back="i"))
+    assert step is not None
+    assert step.off > 0.1
+    client.clock.sleep(0.5)
+    assert step.off == pytest.approx(math.dist(client.game.realm.player.feet, before), abs=0.002)
 
 
 def test_without_a_key_that_moves_there_is_none() -> None:
