@@ -7,7 +7,7 @@ import os
 import subprocess
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
@@ -49,11 +49,16 @@ def open_display(
         folder = started.enter_context(tempfile.TemporaryDirectory(prefix="mc-nested-display-"))
         # Clipboards, caches and profiles of what runs there are nobody else's.
         env |= {"HOME": folder, "XDG_SESSION_TYPE": "x11"}
-        subprocess.run([SETXKBMAP.required(), "-layout", *_layout_words(layout)], env=env, check=True)  # noqa: S603 - fixed
+        set_layout(layout, env)
         if has_window_manager:
             started.enter_context(running([OPENBOX.required()], env=env))
             _wait_for_window_manager(env)
         yield env
+
+
+def set_layout(layout: str, env: Mapping[str, str]) -> None:
+    """Give the keyboard of a display the layout of a country, or Dvorak's."""
+    subprocess.run([SETXKBMAP.required(), "-layout", *_layout_words(layout)], env=dict(env), check=True)  # noqa: S603 - fixed
 
 
 @contextmanager

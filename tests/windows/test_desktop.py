@@ -2,12 +2,14 @@
 
 import json
 import math
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from mc_nested.live.model.key_places import PLACES
+from scripts.window_display import set_layout
 from scripts.windows_session import Session
 from tests.live.desktop.glfw_driver import TITLE
 from tests.live.desktop.test_keyboard import COMMAND, expected_events
@@ -40,6 +42,19 @@ def test_each_place_reaches_the_window_as_the_key_of_that_place(windows: Session
 
 
 def test_a_command_reaches_the_window_to_the_letter(windows: Session) -> None:
+    assert report_of(windows, GLFW_PROBE, "text", json.dumps(COMMAND)) == {"text": COMMAND}
+
+
+@pytest.fixture(params=["fr", "de", "ru"])
+def with_layout(request: pytest.FixtureRequest, windows: Session) -> Iterator[str]:
+    """The keyboard has another layout, which programs that start now take from the screen. (Not a variant such as Dvorak.)"""
+    set_layout(request.param, windows.env)
+    yield request.param
+    set_layout("us", windows.env)
+
+
+def test_on_other_layouts_each_place_is_the_same_and_text_is_to_the_letter(windows: Session, with_layout: str) -> None:
+    assert report_of(windows, GLFW_PROBE, "keys", json.dumps(list(PLACES))) == expected_events()
     assert report_of(windows, GLFW_PROBE, "text", json.dumps(COMMAND)) == {"text": COMMAND}
 
 
