@@ -46,14 +46,15 @@ def test_a_command_reaches_the_window_to_the_letter(windows: Session) -> None:
 
 
 @pytest.fixture(params=["fr", "de", "ru"])
-def with_layout(request: pytest.FixtureRequest, windows: Session) -> Iterator[str]:
-    """The keyboard has another layout, which programs that start now take from the screen. (Not a variant such as Dvorak.)"""
+def other_layout(request: pytest.FixtureRequest, windows: Session) -> Iterator[None]:
+    """Another keyboard layout, which Wine's programs take from the screen as they start; not a variant, as Dvorak's."""
     set_layout(request.param, windows.env)
-    yield request.param
+    yield
     set_layout("us", windows.env)
 
 
-def test_on_other_layouts_each_place_is_the_same_and_text_is_to_the_letter(windows: Session, with_layout: str) -> None:
+@pytest.mark.usefixtures("other_layout")
+def test_on_other_layouts_each_place_is_the_same_and_text_is_to_the_letter(windows: Session) -> None:
     assert report_of(windows, GLFW_PROBE, "keys", json.dumps(list(PLACES))) == expected_events()
     assert report_of(windows, GLFW_PROBE, "text", json.dumps(COMMAND)) == {"text": COMMAND}
 
