@@ -1,6 +1,11 @@
 """``mc-nested rehearse``: a window to learn in and to test in, without Minecraft."""
 
+import os
 import re
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -9,6 +14,7 @@ import typer
 from platformdirs import user_data_path
 
 from mc_nested.errors import DesktopError, SeveralWindowsError, UserError
+from mc_nested.file_lock import file_lock
 from mc_nested.live.desktop.system import this_system
 from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.profile.tables import WindowTable
@@ -70,8 +76,7 @@ def rehearse(
         typer.echo(f"  mc-nested calibrate all --profile rehearsal --font {font or _font_picture()}")
         typer.echo("Close the window to end.")
 
-    _check_alone()
-    with signals_as_exit():
+    with _alone(), signals_as_exit():
         rehearse(Rehearsal(settings, fps, lag / 1000, mishaps, truth), explain)
 
 
@@ -93,16 +98,31 @@ def _size(text: str) -> Size:
     return width, height
 
 
-def _check_alone() -> None:
-    """UserError where a window of the game is open already: an agent could not tell the two apart."""
+@contextmanager
+def _alone() -> Iterator[None]:
+    """UserError where a window of the game is open already, or opening: an agent could not tell the two apart."""
+    with file_lock(_lock_file()) as is_mine:
+        if not is_mine or _has_window():
+            raise UserError("a window of Minecraft, or another rehearsal, is open: close it first")
+        yield
+
+
+def _lock_file() -> Path:
+    """What one rehearsal at a time holds, of those of this user on the same desktop."""
+    user = "" if sys.platform == "win32" else f"-{os.getuid()}"  # Windows has a temporary folder for each
+    display = os.environ.get("DISPLAY", "") if sys.platform.startswith("linux") else ""
+    server = re.sub(r"[^A-Za-z0-9]+", "-", re.sub(r"\.[0-9]+$", "", display))  # a server's screens are one desktop
+    return Path(tempfile.gettempdir()) / f"mc-nested-rehearsal{user}{server}.lock"
+
+
+def _has_window() -> bool:
     try:
         with this_system().open_window(WindowTable().title):
-            pass
+            return True
     except SeveralWindowsError:
-        pass
+        return True
     except DesktopError:  # none, or one that can't be used: the window itself says why, if it can't be opened
-        return
-    raise UserError("a window of Minecraft, or another rehearsal, is open: close it first")
+        return False
 
 
 def _font_picture() -> Path:
