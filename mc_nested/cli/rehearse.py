@@ -2,6 +2,7 @@
 
 import os
 import re
+import secrets
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -32,10 +33,13 @@ INSTALL = "pip install -c constraints.txt -e '.[rehearse]'"
 LARGEST_SCALE = 8
 LOWEST_FPS, HIGHEST_FPS = 5.0, 300.0
 LONGEST_LAG_MS = 500.0
+SEEDS = 1_000_000
+"""One of so many is drawn: six digits are soon typed."""
+
 _VERSION = re.compile(r"1\.(1[2-9]|2[01])(\.[0-9]{1,2})?|26\.[1-3](\.[0-9]{1,2})?")
 
 
-def rehearse(
+def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     version: Annotated[str, typer.Option(help="the Minecraft version to be like, 1.12 to 26.3")] = "1.20.1",
     size: Annotated[str, typer.Option(metavar="WxH", help="width and height in pixels")] = "854x480",
     gui_scale: Annotated[int, typer.Option(min=0, max=LARGEST_SCALE, help="the GUI scale, if it fits; 0 is auto")] = 2,
@@ -48,6 +52,9 @@ def rehearse(
     mishaps: Annotated[
         float, typer.Option(min=0.0, max=60.0, help="how often a minute something goes wrong: a death, a menu, lag ...")
     ] = 0.0,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="the same seed gives the same mishaps (default: a new one)")
+    ] = None,
     font: Annotated[
         Path | None, typer.Option(help="a font picture ascii.png, or a client jar (default: a font of our own)")
     ] = None,
@@ -57,6 +64,7 @@ def rehearse(
 ) -> None:
     """Open a window that looks and acts like the game, to calibrate and train in without Minecraft; close it to end."""
     settings = ClientSettings(
+        seed=secrets.randbelow(SEEDS) if seed is None else seed,
         version=_version(version),
         size=_size(size),
         scale=gui_scale,
@@ -74,6 +82,8 @@ def rehearse(
         typer.echo(f"Rehearsing Minecraft {version}. Press F3+P in the window, or it pauses while another is in front.")
         typer.echo("To learn calibration, run this in another terminal, and switch to the window:")
         typer.echo(f"  mc-nested calibrate all --profile rehearsal --font {font or _font_picture()}")
+        if mishaps:
+            typer.echo(f"The same mishaps again: --mishaps {mishaps:g} --seed {settings.seed}")
         typer.echo("Close the window to end.")
 
     with _alone(), signals_as_exit():
