@@ -21,6 +21,8 @@ from Xlib.protocol import event
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.layout import VANILLA, Overlay
+from mc_nested.live.vision.overlay import find_debug_screen
+from mc_nested.live.vision.screen_lines import ScreenLines
 from scripts.rehearsal_window import ROOT, START_S, RehearsalWindow, open_rehearsal
 from scripts.window_display import open_display
 from tests.sim.client.playing import FONT
@@ -100,6 +102,22 @@ def test_its_text_is_that_of_the_game_to_the_dot(played: Played) -> None:
             return picture.shape == (size[1], size[0], 3) and reading.xyz == (0.5, 64.0, 0.5)
 
         assert soon(is_read)
+
+
+def test_its_debug_screen_names_its_own_frames_and_size(tmp_path: Path, display: dict[str, str]) -> None:
+    with open_rehearsal(display, tmp_path, "--fps", "37") as rehearsal, connected(display) as connection:
+        hands = Played(rehearsal, connection)
+        for size in ((854, 480), (1023, 767)):
+            hands.window.configure(width=size[0], height=size[1])
+            hands.display.sync()
+
+            def is_said(size: tuple[int, int] = size) -> bool:
+                found = find_debug_screen(hands.picture(), FONT)
+                lines = ScreenLines(found.dots, FONT, found.overlay) if found else None
+                said = ("37 fps T: 37 ", f"Display: {size[0]}x{size[1]} (AMD)")
+                return lines is not None and all(lines.holds(text) for text in said)
+
+            assert soon(is_said)
 
 
 def test_keys_are_places_whatever_the_layout(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
