@@ -84,14 +84,15 @@ class RehearsalWindow:
 
 @contextmanager
 def open_rehearsal(env: dict[str, str], folder: Path, *options: str) -> Iterator[RehearsalWindow]:
-    """A rehearsal on the display of ``env``, in front, with ``mc-nested rehearse``'s options; closed after the block.
+    """A rehearsal on the display of ``env``, in front, with ``mc-nested rehearse``'s options, seed 0; closed after it.
 
     What it writes is in ``folder``. RuntimeError with what it said if it doesn't open.
     """
     truth, log, font = (folder / name for name in ("truth.json", "rehearsal.log", "font.png"))
     truth.unlink(missing_ok=True)
     write_font(font)
-    command = [sys.executable, "-m", "mc_nested.cli", "rehearse", "--truth", str(truth), "--font", str(font), *options]
+    command = [sys.executable, "-m", "mc_nested.cli", "rehearse", "--seed", "0"]
+    command += ["--truth", str(truth), "--font", str(font), *options]
     with running(command, env={**env, "PYTHONPATH": str(ROOT)}, log=log) as process:
         end = time.monotonic() + START_S
         while not truth.exists():

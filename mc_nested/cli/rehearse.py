@@ -1,6 +1,12 @@
 """``mc-nested rehearse``: a window to learn in and to test in, without Minecraft."""
 
+import os
 import re
+import secrets
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -9,6 +15,7 @@ import typer
 from platformdirs import user_data_path
 
 from mc_nested.errors import DesktopError, SeveralWindowsError, UserError
+from mc_nested.file_lock import file_lock
 from mc_nested.live.desktop.system import this_system
 from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.profile.tables import WindowTable
@@ -26,10 +33,13 @@ INSTALL = "pip install -c constraints.txt -e '.[rehearse]'"
 LARGEST_SCALE = 8
 LOWEST_FPS, HIGHEST_FPS = 5.0, 300.0
 LONGEST_LAG_MS = 500.0
+SEEDS = 1_000_000
+"""One of so many is drawn: six digits are soon typed."""
+
 _VERSION = re.compile(r"1\.(1[2-9]|2[01])(\.[0-9]{1,2})?|26\.[1-3](\.[0-9]{1,2})?")
 
 
-def rehearse(
+def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     version: Annotated[str, typer.Option(help="the Minecraft version to be like, 1.12 to 26.3")] = "1.20.1",
     size: Annotated[str, typer.Option(metavar="WxH", help="width and height in pixels")] = "854x480",
     gui_scale: Annotated[int, typer.Option(min=0, max=LARGEST_SCALE, help="the GUI scale, if it fits; 0 is auto")] = 2,
@@ -42,6 +52,9 @@ def rehearse(
     mishaps: Annotated[
         float, typer.Option(min=0.0, max=60.0, help="how often a minute something goes wrong: a death, a menu, lag ...")
     ] = 0.0,
+    seed: Annotated[
+        int | None, typer.Option(min=0, help="the same seed gives the same mishaps (default: a new one)")
+    ] = None,
     font: Annotated[
         Path | None, typer.Option(help="a font picture ascii.png, or a client jar (default: a font of our own)")
     ] = None,
@@ -51,6 +64,7 @@ def rehearse(
 ) -> None:
     """Open a window that looks and acts like the game, to calibrate and train in without Minecraft; close it to end."""
     settings = ClientSettings(
+        seed=secrets.randbelow(SEEDS) if seed is None else seed,
         version=_version(version),
         size=_size(size),
         scale=gui_scale,
@@ -68,10 +82,11 @@ def rehearse(
         typer.echo(f"Rehearsing Minecraft {version}. Press F3+P in the window, or it pauses while another is in front.")
         typer.echo("To learn calibration, run this in another terminal, and switch to the window:")
         typer.echo(f"  mc-nested calibrate all --profile rehearsal --font {font or _font_picture()}")
+        if mishaps:
+            typer.echo(f"The same mishaps again: --mishaps {mishaps:g} --seed {settings.seed}")
         typer.echo("Close the window to end.")
 
-    _check_alone()
-    with signals_as_exit():
+    with _alone(), signals_as_exit():
         rehearse(Rehearsal(settings, fps, lag / 1000, mishaps, truth), explain)
 
 
@@ -93,16 +108,31 @@ def _size(text: str) -> Size:
     return width, height
 
 
-def _check_alone() -> None:
-    """UserError where a window of the game is open already: an agent could not tell the two apart."""
+@contextmanager
+def _alone() -> Iterator[None]:
+    """UserError where a window of the game is open already, or opening: an agent could not tell the two apart."""
+    with file_lock(_lock_file()) as is_mine:
+        if not is_mine or _has_window():
+            raise UserError("a window of Minecraft, or another rehearsal, is open: close it first")
+        yield
+
+
+def _lock_file() -> Path:
+    """What one rehearsal at a time holds, of those of this user on the same desktop."""
+    user = "" if sys.platform == "win32" else f"-{os.getuid()}"  # Windows has a temporary folder for each
+    display = os.environ.get("DISPLAY", "") if sys.platform.startswith("linux") else ""
+    server = re.sub(r"[^A-Za-z0-9]+", "-", re.sub(r"\.[0-9]+$", "", display))  # a server's screens are one desktop
+    return Path(tempfile.gettempdir()) / f"mc-nested-rehearsal{user}{server}.lock"
+
+
+def _has_window() -> bool:
     try:
         with this_system().open_window(WindowTable().title):
-            pass
+            return True
     except SeveralWindowsError:
-        pass
+        return True
     except DesktopError:  # none, or one that can't be used: the window itself says why, if it can't be opened
-        return
-    raise UserError("a window of Minecraft, or another rehearsal, is open: close it first")
+        return False
 
 
 def _font_picture() -> Path:

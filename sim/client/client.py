@@ -33,6 +33,7 @@ from sim.client.game.game import VirtualGame
 from sim.client.game.keys import BINDINGS, SIDES_SWAPPED, GameKeys
 from sim.client.game.physics import Ground
 from sim.client.game.realm import Player, Realm
+from sim.client.game.view import View
 from sim.client.game.world import AIR, VirtualWorld
 from sim.client.game.world_folder import read_world, write_world
 from sim.client.mishaps import Mishaps
@@ -89,7 +90,7 @@ class VirtualClient:
             settings.capture_latency_s,
             self._new_painter(),
             self._title,
-            self.game.view(),
+            self._view(),
         )
         self.keyboard = VirtualKeyboard(self.window, self.controls)
         self.pointer = VirtualPointer(self.clock, self.window, self.game, self.controls, lambda: self.scale)
@@ -196,6 +197,14 @@ class VirtualClient:
         settings, size = self.settings, self.window.size
         return Painter(size, self.scale, self._font, self.edition, settings.world, settings.seed, settings.words)
 
+    def _view(self) -> View:
+        """What the game shows, in this window."""
+        view, settings = self.game.view(), self.settings
+        if view.f3 is None:
+            return view
+        fps = round(settings.fps if settings.shown_fps is None else settings.shown_fps)
+        return dataclasses.replace(view, f3=dataclasses.replace(view.f3, fps=fps, size=self.window.size))
+
     def _title(self) -> str:
         state = self.settings.words.get("Singleplayer", "Singleplayer")
         return self.edition.title(in_world=self.game.is_in_world, state=state)
@@ -208,13 +217,13 @@ class VirtualClient:
             self._missed += 1
             return
         self.game.tick()
-        self.display.show(self.game.view())
+        self.display.show(self._view())
 
     def _catch_up(self) -> None:
         missed, self._missed = self._missed or 0, None
         for _ in range(min(missed, MOST_TICKS)):
             self.game.tick()
-        self.display.show(self.game.view())
+        self.display.show(self._view())
         self.window.resume()
 
     def _stay_unfocused(self, since: float) -> None:

@@ -17,7 +17,8 @@ class ClientSettings:
     """What a virtual client is like. Two clients of the same settings, used alike, behave the same to the bit.
 
     ``size`` is in framebuffer pixels, ``scale`` the GUI scale asked for (0 is auto). ``world`` is the kind of world
-    behind the text, of ``scenery.WORLDS``, bright or dark. ``font`` is the project's own if it is None. Latencies are
+    behind the text, of ``scenery.WORLDS``, bright or dark. ``shown_fps`` are the frames a second that the debug screen
+    names; None for ``fps``. ``font`` is the project's own if it is None. Latencies are
     from and to, in seconds: until an event reaches the game, and the age of a picture. ``feet``, ``yaw`` and ``pitch``
     are where the player starts, and restarts after a death. ``shows_target`` is whether the debug screen names the
     block looked at. ``slipperiness`` is the floor's, ``speed`` an effect's factor on every push. With ``swaps_sides``,
@@ -32,6 +33,7 @@ class ClientSettings:
     world: str = "noise"
     font: Font | None = None
     fps: float = 60.0
+    shown_fps: float | None = None
     input_latency_s: tuple[float, float] = (0.005, 0.020)
     capture_latency_s: tuple[float, float] = (0.010, 0.030)
     feet: Vector = (0.5, 64.0, 0.5)

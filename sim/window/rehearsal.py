@@ -38,10 +38,12 @@ class Rehearsal:
 
 def rehearse(rehearsal: Rehearsal, on_open: Callable[[], None]) -> None:
     """Open the window, call ``on_open``, and return when it is closed; DesktopError where none can be opened."""
-    lag = (rehearsal.lag_s, rehearsal.lag_s)
-    settings = dataclasses.replace(rehearsal.settings, fps=math.inf, input_latency_s=lag, capture_latency_s=lag)
-    with open_glfw_window(f"Minecraft {settings.version}", settings.size) as window:
+    with open_glfw_window(f"Minecraft {rehearsal.settings.version}", rehearsal.settings.size) as window:
         context = _context()
+        fps, lag = rehearsal.fps or refresh_rate(), (rehearsal.lag_s, rehearsal.lag_s)
+        settings = dataclasses.replace(
+            rehearsal.settings, fps=math.inf, shown_fps=fps, input_latency_s=lag, capture_latency_s=lag
+        )
         client = VirtualClient(settings, clipboard=window)
         client.resize(window.size)
         if rehearsal.mishaps_a_minute:
@@ -49,7 +51,7 @@ def rehearse(rehearsal: Rehearsal, on_open: Callable[[], None]) -> None:
             Mishaps(MishapWindow(window, client), rng).every(rehearsal.mishaps_a_minute / 60)
         truth = TruthFile(rehearsal.truth, client) if rehearsal.truth else None
         on_open()
-        _run(window, WindowPicture(context, client), client, rehearsal.fps or refresh_rate(), truth)
+        _run(window, WindowPicture(context, client), client, fps, truth)
 
 
 def _run(

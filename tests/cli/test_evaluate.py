@@ -1,13 +1,16 @@
 """``mc-nested evaluate``: the scores of a training's greedy policies."""
 
 import json
+import shutil
 import subprocess
 import sys
 from importlib import resources
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from mc_nested.learn.runs.policies import FILE as POLICIES
 from tests.cli.running import check_mistake, run
 
 
@@ -41,3 +44,34 @@ def test_a_mistake_is_one_line_and_exit_code_2(
     arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     check_mistake(arguments, says, trained, tmp_path, capsys)
+
+
+@pytest.mark.parametrize("words", [["play", "RUN"], ["evaluate", "RUN"], ["train", "--from", "RUN", "--out", "NEW"]])
+def test_policies_that_do_not_fit_the_run_are_one_line(
+    words: list[str], trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy, new = tmp_path / "copy", tmp_path / "new"
+    shutil.copytree(trained, copy)
+    file = copy / "checkpoint" / POLICIES
+    with np.load(file) as found:
+        arrays = {name: found[name] for name in found.files if name != "kept.low"}
+    np.savez(file, allow_pickle=False, **arrays)
+    assert run(*(word.replace("RUN", str(copy)).replace("NEW", str(new)) for word in words)) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err == (
+        f"mc-nested: {file}: has no array low: delete this file, the checkpoint beside it holds the policies too\n"
+    )
+    assert not new.exists()
+
+
+def test_policies_in_a_file_of_another_kind_are_taken_from_the_checkpoint(
+    trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copytree(trained, tmp_path / "copy")
+    with (tmp_path / "copy" / "checkpoint" / POLICIES).open("wb") as file:
+        np.save(file, np.zeros(3))
+    assert run("evaluate", trained) == 0
+    expected = capsys.readouterr().out
+    assert run("evaluate", tmp_path / "copy") == 0
+    assert capsys.readouterr().out == expected

@@ -1,11 +1,24 @@
 """``mc-nested rehearse``: what it refuses; the window itself is in tests/sim/window."""
 
+import re
 import sys
+import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.cli.running import run
+
+if TYPE_CHECKING:
+    from sim.window.rehearsal import Rehearsal
+
+
+@pytest.fixture(autouse=True)
+def a_lock_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Other tests, and people, may rehearse at the same time."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
 
 
 def refused(capsys: pytest.CaptureFixture[str], *words: str | Path) -> str:
@@ -30,6 +43,7 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str | Path) -> str:
         (["--gui-scale", "9"], "--gui-scale"),
         (["--fps", "1"], "--fps"),
         (["--lag", "-1"], "--lag"),
+        (["--seed", "-1"], "--seed"),
         (["--font", "nothing.png"], "nothing.png"),
     ],
 )
@@ -59,3 +73,36 @@ if sys.platform.startswith("linux"):
         said = refused(capsys)
         assert "no window can be opened (X11: " in said
         assert "on Wayland with Xwayland" in said
+
+    @pytest.fixture
+    def opened(monkeypatch: pytest.MonkeyPatch) -> list["Rehearsal"]:
+        """What was opened; in place of the window it says at once that it is there."""
+        from sim.window import rehearsal
+
+        found: list[rehearsal.Rehearsal] = []
+
+        def open_window(wanted: rehearsal.Rehearsal, on_open: Callable[[], None]) -> None:
+            found.append(wanted)
+            on_open()
+
+        monkeypatch.setattr(rehearsal, "rehearse", open_window)
+        monkeypatch.delenv("DISPLAY", raising=False)
+        return found
+
+    def test_mishaps_are_drawn_from_a_seed_that_is_named_or_new_and_said(
+        opened: list["Rehearsal"], capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        said = []
+        for words in (["--seed", "7"], [], []):
+            assert run("rehearse", "--mishaps", "6", *words) == 0
+            said += re.findall(
+                r"^The same mishaps again: --mishaps 6 --seed ([0-9]+)$", capsys.readouterr().out, re.MULTILINE
+            )
+        assert [str(each.settings.seed) for each in opened] == said
+        assert said[0] == "7"
+        assert len(set(said)) == 3
+
+    def test_without_mishaps_no_seed_is_said(opened: list["Rehearsal"], capsys: pytest.CaptureFixture[str]) -> None:
+        assert run("rehearse") == 0
+        assert opened[0].mishaps_a_minute == 0
+        assert "--seed" not in capsys.readouterr().out

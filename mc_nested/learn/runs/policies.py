@@ -6,6 +6,7 @@ as after a process was killed between the two, or beside one of an older version
 
 import hashlib
 import zipfile
+import zlib
 from collections.abc import Mapping
 from typing import Any
 
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from mc_nested.arrays import Arrays
 from mc_nested.atomic_file import atomic_write
+from mc_nested.errors import RunError
 from mc_nested.learn.runs.checkpoint import Checkpoint
 
 FILE = "policies.npz"
@@ -35,22 +37,39 @@ def save_policies(checkpoint: Checkpoint, kept: Mapping[str, NDArray[Any]]) -> N
         np.savez(file, allow_pickle=False, **arrays)
 
 
-def load_policies(checkpoint: Checkpoint) -> Arrays | None:
+def load_policies(checkpoint: Checkpoint, shapes: Mapping[str, tuple[int, ...]]) -> Arrays | None:
     """What ``save_policies`` wrote with this checkpoint; None where there is none, it is damaged, or of another save.
 
-    RunError if they are another training's.
+    RunError if they are another training's, or not of these ``shapes``, by name.
     """
+    path = checkpoint.file.with_name(FILE)
     try:
         # Opened here: NumPy leaves a file open that it can't read.
-        with checkpoint.file.with_name(FILE).open("rb") as file, np.load(file, allow_pickle=False) as found:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as found:
             identity, saved_with = str(found[_IDENTITY]), str(found[_SAVED_WITH])
             kept = {name.removeprefix(_KEPT): found[name] for name in found.files if name.startswith(_KEPT)}
             if saved_with != _hash_of(checkpoint):
                 return None
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
-        return None
+    except (OSError, ValueError, TypeError, KeyError, EOFError, NotImplementedError, zlib.error, zipfile.BadZipFile):
+        return None  # a TypeError: NumPy finds one array there instead of an archive
     checkpoint.check_identity(identity)
+    if misfit := misfit_of(kept, shapes):
+        raise RunError(f"{path}: {misfit}: delete this file, the checkpoint beside it holds the policies too")
     return kept
+
+
+def misfit_of(kept: Mapping[str, NDArray[Any]], shapes: Mapping[str, tuple[int, ...]]) -> str | None:
+    """What keeps these arrays from being policies of these shapes, by name, and their ``scores``; None if they fit."""
+    for name, shape in shapes.items():
+        if name not in kept:
+            return f"has no array {name}"
+        array = kept[name]
+        if array.shape != shape:
+            return f"its array {name} is {array.shape}, it should be {shape}"
+        # A policy that was never played has the score -inf.
+        if array.dtype.kind != "f" or not (np.isfinite(array) | (name == "scores") & np.isneginf(array)).all():
+            return f"its array {name} holds what is no number"
+    return None
 
 
 def _hash_of(checkpoint: Checkpoint) -> str:

@@ -21,7 +21,7 @@ from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.checkpoint import Checkpoint
 from mc_nested.learn.runs.folder_kind import FORMAT, check_config, check_free
-from mc_nested.learn.runs.policies import load_policies, save_policies
+from mc_nested.learn.runs.policies import load_policies, misfit_of, save_policies
 from mc_nested.learn.state_dict import part_of
 from mc_nested.learn.trainer import Trainer
 from mc_nested.toml_file import parse_toml, read_toml_text
@@ -137,11 +137,23 @@ class RunFolder:
         """The networks of the policies that the trials keep, by role, and their ``scores``, as last saved.
 
         Read without torch, except from a folder of an older version. RunError if nothing was saved yet, or it is
-        damaged or another training's.
+        damaged, of other shapes or another training's.
         """
         if self.only_begun:
             raise RunError(f"{self.path}: nothing is trained yet: go on with mc-nested train --resume {self.path}")
-        return load_policies(self.checkpoint) or part_of(self.checkpoint.state(), "kept")
+        shapes = self._shapes_kept()
+        if policies := load_policies(self.checkpoint, shapes):
+            return policies
+        kept = part_of(self.checkpoint.state(), "kept")
+        if misfit := misfit_of(kept, shapes):
+            raise RunError(f"{self.checkpoint.file}: {misfit}: bring back a whole copy, or train the run again")
+        return kept
+
+    def _shapes_kept(self) -> dict[str, tuple[int, ...]]:
+        trials = self.config.trials
+        alone = self.new_agent(1).online()
+        networks = {role: (len(online) * trials, online.shape[1]) for role, online in alone.items()}
+        return {**networks, "scores": (trials,)}
 
     def _save_checkpoint(self, trainer: Trainer) -> None:
         self.checkpoint.save(trainer, finished=trainer.finished)

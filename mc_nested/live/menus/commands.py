@@ -40,7 +40,9 @@ def floor_commands(arena: Arena, dialect: Dialect) -> list[str]:
     (x, y, z), (other_x, _, other_z) = arena.region
     low, high = (x, y - 1, z), (other_x, y - 1, other_z)
     data = " 0" if dialect == "1.12" else ""
-    return [f"/fill {_words(low)} {_words(high)} minecraft:{arena.floor}{data} keep"]
+    # A mod's block is named with its namespace, as the debug screen shows it.
+    block = arena.floor if ":" in arena.floor else f"minecraft:{arena.floor}"
+    return [f"/fill {_words(low)} {_words(high)} {block}{data} keep"]
 
 
 def teleport_command(arena: Arena, cell: Cell, pitch: float) -> str:

@@ -7,12 +7,17 @@ import numpy as np
 
 from mc_nested.errors import PictureError
 from mc_nested.live.model.reading import Reading
-from mc_nested.live.vision.debug_screen import read_debug_screen
+from mc_nested.live.vision.debug_screen import nothing_seen, read_found
 from mc_nested.live.vision.font import Font, decoded
 from mc_nested.live.vision.layout import Overlay
+from mc_nested.live.vision.overlay import find_debug_screen
+from mc_nested.live.vision.whole_window import shows_more_than_window
 
 _JPEG = b"\xff\xd8\xff"
 """How every JPEG file begins."""
+
+_ALONE = "and the picture has to be of the game's window alone, as F2 takes it"
+_MORE = "the picture shows more than the game's window: cut off the window's frame and the desktop, or take it with F2"
 
 
 def read_picture(path: Path, font: Font, overlay: Overlay | None = None) -> dict[str, object]:
@@ -42,7 +47,13 @@ def _read(path: Path, font: Font, overlay: Overlay | None) -> Reading:
     picture = decoded(data, cv2.IMREAD_COLOR)
     if picture is None:
         raise PictureError(f"{path} is not a picture: give a PNG of the game's window, as F2 takes it")
-    reading = read_debug_screen(np.asarray(picture, np.uint8), font, overlay)
+    found = find_debug_screen(np.asarray(picture, np.uint8), font, overlay)
+    if found is None:
+        reading = Reading(problem=f"{nothing_seen(overlay).problem}; {_ALONE}")
+    else:
+        reading = read_found(found, font)
+        if reading.problem is not None and shows_more_than_window(found, font):
+            reading = Reading(problem=_MORE)  # whatever else is said of it would mislead
     if reading.problem is not None and data.startswith(_JPEG):
         return Reading(
             problem=f"a JPEG blurs the text: give a PNG of the game's window, as F2 takes it; {reading.problem}"

@@ -43,7 +43,7 @@ class F3Screen:
     ``target`` is the block looked at, its id with the namespace where the layout shows one. ``properties`` and ``tags``
     are that block's. ``fluid`` is a water block looked at. ``swapped`` puts the groups of 1.21.9 and later on the other
     side; the game spreads them by their count. ``reduced`` is reducedDebugInfo. ``version`` is the game's, or empty for
-    one with this layout.
+    one with this layout. ``fps`` is the frames a second, ``size`` the window's width and height in framebuffer pixels.
     """
 
     layout: Layout
@@ -58,6 +58,8 @@ class F3Screen:
     swapped: bool = False
     reduced: bool = False
     version: str = ""
+    fps: int = 120
+    size: tuple[int, int] = (1920, 1080)
 
     @property
     def title(self) -> str:
@@ -99,7 +101,7 @@ def right_lines(screen: F3Screen) -> list[TextLine]:
         return [*machine, *_plain(*_position(screen))]
     return [
         *machine,
-        *_plain("Display: 1920x1080 (AMD)", "AMD Radeon", "4.6 Core Profile", ""),
+        *_plain("Display: {}x{} (AMD)".format(*screen.size), "AMD Radeon", "4.6 Core Profile", ""),
         *_right_groups(screen),
     ]
 
@@ -109,13 +111,14 @@ def _plain(*texts: str) -> list[TextLine]:
 
 
 def _counts(screen: F3Screen) -> list[str]:
+    rate, limit = f"{screen.fps} fps", f"T: {screen.fps}"
     if screen.layout == "1.8-1.12":
         return [
-            *("120 fps (0 chunk updates) T: 120 vsync fancy vbo", "C: 118/7225 (s) D: 8, pC: 000", "E: 1/22, B: 0"),
+            *(f"{rate} (0 chunk updates) {limit} vsync fancy vbo", "C: 118/7225 (s) D: 8, pC: 000", "E: 1/22, B: 0"),
             *("P: 0. T: All: 22", "MultiplayerChunkCache: 841, 841"),
         ]
     return [
-        *("120 fps T: 120 vsync fancy fancy-clouds", "Integrated server @ 4 ms ticks, 12 tx, 700 rx"),
+        *(f"{rate} {limit} vsync fancy fancy-clouds", "Integrated server @ 4 ms ticks, 12 tx, 700 rx"),
         *("C: 302/7225 (s) D: 8, pC: 000", "E: 1/22, B: 0, SD: 8", "P: 0. T: 22"),
         *("Chunks[C] W: 529, 361 E: 59,38,59", "Chunks[S] W: 3249 E: 59,38,59", "minecraft:overworld FC: 0"),
     ]

@@ -3,15 +3,19 @@
 import csv
 import json
 import re
+from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from mc_nested.arena.scenario_file import table_of
+from mc_nested.arrays import Arrays
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import view_of
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.runs.policies import FILE as POLICIES
+from mc_nested.learn.runs.policies import save_policies
 from mc_nested.learn.runs.run_folder import RunConfig, RunFolder, summarise
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
@@ -138,3 +142,40 @@ def test_a_disk_that_refuses_is_one_line_and_leaves_nothing_half_begun(
         folder.begin()
     with pytest.raises(RunError, match="make room, then mc-nested train --resume"):
         folder.save(trainer_in(folder), 0.0)
+
+
+DAMAGES: dict[str, Callable[[Arrays], object]] = {
+    "has no array low": lambda kept: kept.pop("low"),
+    "has no array scores": lambda kept: kept.pop("scores"),
+    "its array main is (1, 7), it should be (2, ": lambda kept: kept.update(main=np.zeros((1, 7), np.float32)),
+    "its array scores is (3,), it should be (2,)": lambda kept: kept.update(scores=np.zeros(3)),
+    "its array low holds what is no number": lambda kept: kept["low"].fill(np.nan),
+    "its array scores holds what is no number": lambda kept: kept["scores"].fill(np.nan),
+    "its array main holds what is no number": lambda kept: kept.update(main=kept["main"].astype(str)),
+}
+"""What policies can have wrong that were made by hand, by what is said of them."""
+
+
+@pytest.mark.parametrize("says", DAMAGES)
+def test_policies_that_do_not_fit_are_one_line_that_names_the_file(says: str, tmp_path: Path) -> None:
+    folder = begun(tmp_path)
+    trainer = trainer_in(folder)
+    folder.save(trainer, 1.0)
+    kept = {name: array.copy() for name, array in trainer.kept.items()}
+    save_policies(folder.checkpoint, kept)
+    assert folder.kept().keys() == kept.keys()
+    DAMAGES[says](kept)
+    save_policies(folder.checkpoint, kept)
+    with pytest.raises(RunError, match=re.escape(f"{tmp_path / 'checkpoint' / POLICIES}: {says}")) as caught:
+        folder.kept()
+    assert str(caught.value).endswith(": delete this file, the checkpoint beside it holds the policies too")
+
+
+def test_a_checkpoint_without_fitting_policies_is_damaged(tmp_path: Path) -> None:
+    folder = begun(tmp_path)
+    trainer = trainer_in(folder)
+    trainer.kept["main"].fill(np.nan)
+    folder.save(trainer, 1.0)
+    (tmp_path / "checkpoint" / POLICIES).unlink()
+    with pytest.raises(RunError, match="its array main holds what is no number: bring back a whole copy"):
+        folder.kept()

@@ -58,6 +58,16 @@ def test_holes_in_a_floor_that_is_known_are_filled_and_nothing_else(version: str
     assert commands[2].startswith("/tp")
 
 
+@pytest.mark.parametrize(
+    ("floor", "filled"), [("minecraft:stone_bricks", "minecraft:stone_bricks"), ("create:andesite", "create:andesite")]
+)
+def test_a_floor_that_names_its_namespace_keeps_it(floor: str, filled: str) -> None:
+    profile = _profile("1.20")
+    arena = profile.marked_arena().model_copy(update={"floor": floor})
+    commands = reset_commands(profile.model_copy(update={"arena": arena}), (7, 14), [])
+    assert commands[1].endswith(f" {filled} keep")
+
+
 @pytest.mark.parametrize(("facing", "yaw"), [("north", "180"), ("south", "0"), ("west", "90"), ("east", "-90")])
 def test_the_teleport_looks_the_arenas_way(facing: Facing, yaw: str) -> None:
     assert reset_commands(_profile(facing=facing), (0, 0), [])[1] == f"/tp @s 5.5 64 -19.5 {yaw} 65"

@@ -81,5 +81,25 @@ def test_a_png_without_a_debug_screen_is_not_called_a_jpeg(tmp_path: Path) -> No
     assert problem.startswith("no debug screen is to be seen at a GUI scale from 1 to 8")
 
 
+@pytest.mark.parametrize(("left", "top"), [(100, 62), (0, 0)])
+def test_a_picture_of_more_than_the_window_says_that_it_should_be_of_the_window_alone(
+    left: int, top: int, tmp_path: Path
+) -> None:
+    screen = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
+    desktop = np.full((top + 480 + 100, left + 854 + 300, 3), 90, np.uint8)
+    desktop[top : top + 480, left : left + 854] = paint(np.full((480, 854, 3), 60, np.uint8), screen, FONT)
+    cv2.imwrite(str(tmp_path / "desktop.png"), desktop)
+    assert read_picture(tmp_path / "desktop.png", FONT)["problem"] == (
+        "the picture shows more than the game's window: cut off the window's frame and the desktop, or take it with F2"
+    )
+
+
+def test_a_picture_without_a_debug_screen_may_be_of_more_than_the_window(tmp_path: Path) -> None:
+    cv2.imwrite(str(tmp_path / "world.png"), np.full((480, 854, 3), 60, np.uint8))
+    assert str(read_picture(tmp_path / "world.png", FONT)["problem"]).endswith(
+        "; and the picture has to be of the game's window alone, as F2 takes it"
+    )
+
+
 def test_a_jpeg_that_can_not_be_read_says_that_it_is_one(tmp_path: Path) -> None:
     assert "a JPEG blurs" in str(read_picture(picture(tmp_path / "screen.jpg"), FONT, None)["problem"])

@@ -1,5 +1,6 @@
 import dataclasses
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 from mc_nested.live.devices import Clipboard, Clock, Display, Keyboard, Pointer, Region
 from mc_nested.live.model.reading import Reading
 from sim.client.client import VirtualClient
+from sim.client.game.f3_text import left_lines, right_lines
 from sim.client.game.physics import displacement
 from sim.client.game.realm import Stack
 from sim.client.game.screens import MenuState, menu
@@ -378,6 +380,19 @@ def test_a_resized_window_is_read_at_its_new_scale() -> None:
     assert client.scale == 3
     assert client.display.grab().shape == (720, 1280, 3)
     assert read(client).problem is None
+
+
+@pytest.mark.parametrize(("choices", "fps"), [({"fps": 59.94}, 60), ({"fps": 20.0, "shown_fps": 144.0}, 144)])
+def test_the_debug_screen_says_the_clients_frames_and_size(choices: dict[str, Any], fps: int) -> None:
+    client = VirtualClient(version="1.20.1", size=(1023, 767), **choices)
+    client.clock.sleep(1.0)
+    for size in ((1023, 767), (1280, 720)):
+        client.resize(size)
+        client.clock.sleep(0.2)
+        screen = client.display.seen().f3
+        assert screen is not None
+        assert left_lines(screen)[1].text.startswith(f"{fps} fps T: {fps} vsync")
+        assert f"Display: {size[0]}x{size[1]} (AMD)" in [line.text for line in right_lines(screen)]
 
 
 def test_settings_are_taken_by_name_and_never_change() -> None:

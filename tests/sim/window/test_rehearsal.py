@@ -1,5 +1,6 @@
 """The rehearsal in a real GLFW window on a display of its own: what other programs see of it, and can do to it."""
 
+import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -20,7 +21,9 @@ from Xlib.protocol import event
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.layout import VANILLA, Overlay
-from scripts.rehearsal_window import RehearsalWindow, open_rehearsal
+from mc_nested.live.vision.overlay import find_debug_screen
+from mc_nested.live.vision.screen_lines import ScreenLines
+from scripts.rehearsal_window import ROOT, START_S, RehearsalWindow, open_rehearsal
 from scripts.window_display import open_display
 from tests.sim.client.playing import FONT
 
@@ -63,9 +66,9 @@ class Played:
         self.display.sync()
 
 
-def soon(is_so: Callable[[], bool]) -> bool:
+def soon(is_so: Callable[[], bool], patience_s: float = SOON_S) -> bool:
     """Whether it comes true before long."""
-    end = time.monotonic() + SOON_S
+    end = time.monotonic() + patience_s
     while not is_so():
         if time.monotonic() > end:
             return False
@@ -99,6 +102,22 @@ def test_its_text_is_that_of_the_game_to_the_dot(played: Played) -> None:
             return picture.shape == (size[1], size[0], 3) and reading.xyz == (0.5, 64.0, 0.5)
 
         assert soon(is_read)
+
+
+def test_its_debug_screen_names_its_own_frames_and_size(tmp_path: Path, display: dict[str, str]) -> None:
+    with open_rehearsal(display, tmp_path, "--fps", "37") as rehearsal, connected(display) as connection:
+        hands = Played(rehearsal, connection)
+        for size in ((854, 480), (1023, 767)):
+            hands.window.configure(width=size[0], height=size[1])
+            hands.display.sync()
+
+            def is_said(size: tuple[int, int] = size) -> bool:
+                found = find_debug_screen(hands.picture(), FONT)
+                lines = ScreenLines(found.dots, FONT, found.overlay) if found else None
+                said = ("37 fps T: 37 ", f"Display: {size[0]}x{size[1]} (AMD)")
+                return lines is not None and all(lines.holds(text) for text in said)
+
+            assert soon(is_said)
 
 
 def test_keys_are_places_whatever_the_layout(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
@@ -159,6 +178,35 @@ def test_a_second_one_is_refused(played: Played, tmp_path: Path) -> None:
     other.mkdir()
     with pytest.raises(RuntimeError, match="a window of Minecraft, or another rehearsal, is open: close it first"):
         open_rehearsal(played.rehearsal.env, other).__enter__()
+
+
+def test_of_several_that_start_at_the_same_moment_one_opens(display: dict[str, str], tmp_path: Path) -> None:
+    env = {**display, "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, "-m", "mc_nested.cli", "rehearse"]
+    both = [
+        subprocess.Popen(command, env=env, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        for _ in range(2)
+    ]
+    try:
+        assert soon(lambda: any(process.poll() is not None for process in both), START_S)
+        (refused,) = (process for process in both if process.poll() is not None)
+        assert refused.returncode == 2
+        assert refused.stderr is not None
+        assert refused.stderr.read() == (
+            "mc-nested: a window of Minecraft, or another rehearsal, is open: close it first\n"
+        )
+        with connected(display) as connection:
+            assert soon(lambda: len(connection.screen().root.query_tree().children) > 0, START_S)
+        (opened,) = (process for process in both if process is not refused)
+        opened.kill()
+        opened.wait()
+        # Its place is free again, though it could not tidy up.
+        with open_rehearsal(display, tmp_path) as another:
+            assert another.process.poll() is None
+    finally:
+        for process in both:
+            process.kill()
+            process.communicate()
 
 
 def test_a_display_without_opengl_is_one_line(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
