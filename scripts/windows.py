@@ -33,7 +33,10 @@ LOOK_S = 1.0
 """Seconds between two looks at what pytest has printed."""
 
 _UNIT = ("-q", "-m", "not (slow or standin or realtime or window or wine)")
-SUITES = ((*_UNIT, "tests/arena", "tests/live", "tests/sim"), (*_UNIT, "tests/calibration"))
+SUITES = (
+    (*_UNIT, "tests/arena", "tests/live", "tests/sim"),
+    (*_UNIT, "tests/calibration", "tests/test_file_lock.py"),
+)
 """What pytest is given, in two processes of about the same duration: the tests of what plays and calibrates."""
 
 PYTEST = ("-m", "pytest", "-p", "no:cacheprovider")
