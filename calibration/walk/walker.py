@@ -140,7 +140,7 @@ class Walker:
             recording.add(latest)
             return standstill.is_reached(latest.position, latest.at)
 
-        self._rest = self._key_hold.follow(pose, is_over, EVERY_LOOK).position
+        self._rest = self._key_hold.follow(pose, is_over, EVERY_LOOK, HALF_FRAME_S).position
         return self._rest
 
     def _look(self) -> PoseEstimate:

@@ -12,7 +12,13 @@ FRAME_S = 1 / 60
 """While the agent moves: a frame of the game, so that no wait is much longer than it must be."""
 
 HALF_FRAME_S = FRAME_S / 2
-"""While a step is to be timed: two looks a frame, so that it is seen within a frame of being drawn."""
+"""While a walk is recorded: two looks a frame, so that a step is seen within a frame of being drawn."""
+
+THIRD_FRAME_S = FRAME_S / 3
+"""While an action waits for a step: seen a few milliseconds later, the next press may be felt a whole tick later."""
+
+EARLY_LOOK_S = FRAME_S
+"""How long before a step is seen on average looks for it begin: latencies differ from step to step by a frame or so."""
 
 SAME_FRAME_S = 0.005
 """After a look: another one within this time would see the same frame."""

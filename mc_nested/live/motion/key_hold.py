@@ -11,14 +11,14 @@ from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
 from mc_nested.live.model.kinematics import TICK_S
-from mc_nested.live.model.timing import FRAME_S, HALF_FRAME_S
+from mc_nested.live.model.timing import FRAME_S, HALF_FRAME_S, THIRD_FRAME_S
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
 
-FAST_LOOKS = 3
-"""Looks that come twice a frame at first: a click that goes out a little sooner is felt a tick sooner."""
+FAST_LOOKS = 6
+"""Looks that come fast at first, for two frames: what goes out a little sooner is felt a tick sooner."""
 
 EVERY_LOOK = math.inf
-"""``fast_looks`` for a walk that is recorded: every look comes twice a frame."""
+"""``fast_looks`` for a walk that is recorded: every look comes fast."""
 
 SNEAK_FIRST_S = 3 * TICK_S
 """Seconds from the sneak key to the key of a hold: a tick, and a frame where only ten are drawn a second."""
@@ -91,14 +91,19 @@ class KeyHold:
         return release_at
 
     def follow(
-        self, pose: PoseEstimate, is_over: Callable[[PoseEstimate], bool], fast_looks: float = FAST_LOOKS
+        self,
+        pose: PoseEstimate,
+        is_over: Callable[[PoseEstimate], bool],
+        fast_looks: float = FAST_LOOKS,
+        fast_look_s: float = THIRD_FRAME_S,
     ) -> PoseEstimate:
         """Look, with every key up, until the walk is over; the last pose.
 
         Args:
             pose: the first pose, seen after the release.
             is_over: called with every pose.
-            fast_looks: how many of the looks come twice a frame.
+            fast_looks: how many of the looks come fast; the others come once a frame.
+            fast_look_s: seconds from one fast look to the next.
         """
         patience = Deadline(self._clock, self._patience_s)
         looks = 0
@@ -110,6 +115,6 @@ class KeyHold:
             looks += 1
             if looks % RELEASE_AGAIN_LOOKS == 0:
                 self._controller.release_again()
-            self._controller.wait(HALF_FRAME_S if looks <= fast_looks else FRAME_S)
+            self._controller.wait(fast_look_s if looks <= fast_looks else FRAME_S)
             pose = self._observer.look_and_check()
         return pose

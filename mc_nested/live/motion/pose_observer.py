@@ -13,7 +13,7 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
 from mc_nested.live.model.coordinates import GroundVector, cell_at, offset_from, turn_between
 from mc_nested.live.model.reading import XYZ, Target, WorldPose
-from mc_nested.live.model.timing import FRAME_S, SAME_FRAME_S
+from mc_nested.live.model.timing import EARLY_LOOK_S, FRAME_S, SAME_FRAME_S
 from mc_nested.live.motion.pose_reader import PoseReader
 from mc_nested.live.motion.tick_phase import TickPhase
 from mc_nested.live.profile.tables import Profile
@@ -135,8 +135,8 @@ class PoseObserver:
         self.permit_press(is_right)
 
     def wait_for_step(self, tick: float) -> None:
-        """Wait until the step of a tick is likely to be seen."""
-        self._controller.wait_until(tick + self._capture_latency_s)
+        """Wait until the step of a tick may be seen (FACTS: Latencies)."""
+        self._controller.wait_until(tick + self._capture_latency_s - EARLY_LOOK_S)
         self._timed_look = self._clock.now()
 
     def note_awaited_step(self) -> None:

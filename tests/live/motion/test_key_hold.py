@@ -8,7 +8,7 @@ import pytest
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.model.timing import FRAME_S, HALF_FRAME_S
+from mc_nested.live.model.timing import FRAME_S, HALF_FRAME_S, THIRD_FRAME_S
 from mc_nested.live.motion.key_hold import EVERY_LOOK, SNEAK_FIRST_S, KeyHold
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver
 from mc_nested.live.profile.arena import Arena
@@ -124,15 +124,16 @@ def test_a_look_that_fails_leaves_no_key_down(holding: Holding) -> None:
     assert holding.now() == pytest.approx(0.1)
 
 
-def test_the_first_looks_come_twice_a_frame_and_all_of_them_for_a_recorded_walk(holding: Holding) -> None:
-    for fast_looks, gaps in ((3, [HALF_FRAME_S] * 3 + [FRAME_S] * 2), (EVERY_LOOK, [HALF_FRAME_S] * 5)):
+@pytest.mark.parametrize("look_s", [THIRD_FRAME_S, HALF_FRAME_S])
+def test_the_first_looks_come_fast_and_all_of_them_for_a_recorded_walk(look_s: float, holding: Holding) -> None:
+    for fast_looks, gaps in ((3, [look_s] * 3 + [FRAME_S] * 2), (EVERY_LOOK, [look_s] * 5)):
         times: list[float] = []
 
         def is_over(pose: PoseEstimate, times: list[float] = times) -> bool:
             times.append(holding.now())
             return len(times) == 6 and pose.problem is None
 
-        last = holding.key_hold.follow(holding.observer.look(), is_over, fast_looks)
+        last = holding.key_hold.follow(holding.observer.look(), is_over, fast_looks, look_s)
         assert [after - before for before, after in itertools.pairwise(times)] == pytest.approx(gaps)
         assert last.position == (7.0, 7.0)
 
@@ -148,7 +149,7 @@ def test_keys_are_released_again_at_every_twentieth_look_until_the_patience_ends
     with pytest.raises(NotConfirmedError, match="does not stand still"):
         holding.key_hold.follow(holding.observer.look(), lambda _: False)
     again = [at for name, at in holding.keyboard.events[2:] if name == "w up"]
-    # 19 looks, three of them half a frame after the one before; then 20 looks a frame apart.
-    assert again[0] == pytest.approx(0.1 + 17.5 * FRAME_S)
+    # 19 looks, six of them a third of a frame after the one before; then 20 looks a frame apart.
+    assert again[0] == pytest.approx(0.1 + 15 * FRAME_S)
     assert again[1] == pytest.approx(again[0] + 20 * FRAME_S)
     assert holding.now() == pytest.approx(5.1, abs=FRAME_S)

@@ -7,7 +7,7 @@ import pytest
 from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
 from mc_nested.live.input.input_controller import FRESH_S
 from mc_nested.live.model.reading import Reading, Target, WorldPose
-from mc_nested.live.model.timing import FRAME_S
+from mc_nested.live.model.timing import EARLY_LOOK_S, FRAME_S
 from mc_nested.live.motion.pose_observer import PoseFrame, PoseObserver, check_pose
 from mc_nested.live.motion.tick_phase import TickPhase
 from mc_nested.live.profile.arena import Arena
@@ -138,7 +138,8 @@ def test_an_awaited_step_seen_by_the_first_look_is_a_sighting_since_a_frame_befo
     observed.observer.wait_for_step(tick)
     observed.observer.look()
     observed.observer.note_awaited_step()
-    assert observed.steps.seen == [pytest.approx((tick + 0.028 - FRAME_S, tick + 0.028))]
+    at = tick + 0.028 - EARLY_LOOK_S
+    assert observed.steps.seen == [pytest.approx((at - FRAME_S, at))]
 
 
 def test_an_awaited_step_seen_by_a_later_look_is_none(observed: Observed) -> None:

@@ -172,7 +172,7 @@ def test_walking_straight_on_never_sprints(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 @pytest.mark.parametrize(
-    ("latency_s", "median_s"), [((0.010, 0.030), 0.35), ((0.035, 0.060), 0.38), ((0.060, 0.090), 0.42)]
+    ("latency_s", "median_s"), [((0.010, 0.030), 0.35), ((0.035, 0.060), 0.36), ((0.060, 0.090), 0.362)]
 )
 def test_waits_follow_the_profiles_latencies(
     latency_s: tuple[float, float], median_s: float, monkeypatch: pytest.MonkeyPatch
