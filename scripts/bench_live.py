@@ -58,6 +58,9 @@ SOAK_FIGURES = (
     *("actions", "mishaps", "wrong_cells", "wrong_blocks", "unnoticed", "failed_actions", "resets", "recoveries"),
     *("gave_up", "left_down", "strays", "corrections", "second_clicks"),
 )
+GROUND_PITCH = 65.0
+"""Degrees down at which the ground is looked at: a screen that names a block is read ten times as fast."""
+
 LONGEST_LATENCY_MS = 500
 """The longest that a profile can hold."""
 
@@ -105,7 +108,7 @@ def play(
         client, walk_table = VirtualClient(seed=seed), None
     else:
         least, most = latency_ms
-        client = VirtualClient(seed=seed, capture_latency_s=(least / 1000, most / 1000))
+        client = VirtualClient(seed=seed, pitch=GROUND_PITCH, capture_latency_s=(least / 1000, most / 1000))
         walk_table = calibrated_walk(client)
     arena = Arena.around((-20, client.realm.world.floor, 31), "south")
     steps = track(range(count), "soak" if rate else "clean", console=Console(stderr=True))

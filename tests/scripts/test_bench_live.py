@@ -8,7 +8,7 @@ from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.live.model.timing import FRAME_S
 from mc_nested.live.profile.arena import Arena
-from scripts.bench_live import ClientTruth, PlayCounts, calibrated_walk, drawn_action, figures, main, play
+from scripts.bench_live import GROUND_PITCH, ClientTruth, PlayCounts, calibrated_walk, drawn_action, figures, main, play
 from sim.client.client import VirtualClient
 
 
@@ -23,7 +23,7 @@ def test_nothing_is_wrong_in_a_short_play_without_mishaps() -> None:
 
 
 def test_a_clients_older_pictures_are_found_by_calibration_and_played_with_as_well() -> None:
-    found = calibrated_walk(VirtualClient(capture_latency_s=(0.075, 0.075)))
+    found = calibrated_walk(VirtualClient(pitch=GROUND_PITCH, capture_latency_s=(0.075, 0.075)))
     assert found.input_latency_s + found.capture_latency_s == pytest.approx(0.075 + 0.0125 + FRAME_S / 2, abs=0.012)
     usual, slow = (play(40, 0.0, 1, load_scenario("diamond"), latency_ms) for latency_ms in (None, (60.0, 90.0)))
     assert usual.is_right
