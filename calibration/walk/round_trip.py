@@ -14,6 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.timing import CAPTURE_LATENCY_S, INPUT_LATENCY_S
@@ -23,6 +24,9 @@ LATE_S = 0.045
 
 LONGEST_S = 0.4
 """Seconds: the longest round trip that is considered."""
+
+FITS_S = 0.004
+"""Seconds by which an edge may lie outside its bounds and still fit: half of the time between two looks."""
 
 INPUT_SHARE = INPUT_LATENCY_S / (INPUT_LATENCY_S + CAPTURE_LATENCY_S)
 """The input latency's share of a round trip, by the default latencies."""
@@ -55,17 +59,30 @@ class HoldTiming:
 
 def round_trip_of(holds: Sequence[HoldTiming]) -> float:
     """Seconds from a press until its step is seen if a tick comes at once; the estimate from many holds."""
-    first = [hold.first_seen for hold in holds]
-    edges = np.array(
-        [
-            *(at - hold.pressed for hold, at in zip(holds, first, strict=True)),
-            *(at + hold.ticks * TICK_S - hold.released for hold, at in zip(holds, first, strict=True)),
-        ]
-    )
-    trips = np.arange(0.0, LONGEST_S, 0.0005)[:, np.newaxis]
-    short, long = trips - edges, edges - trips - TICK_S
-    outside = (np.maximum(short, 0) + np.maximum(long, 0)).sum(1)
+    trips = np.arange(0.0, LONGEST_S, 0.0005)
+    outside = _outside(_edges(holds), trips[:, np.newaxis]).sum(1)
     return float(np.median(trips[outside <= outside.min() + 1e-9]))
+
+
+def disagreeing(holds: Sequence[HoldTiming], round_trip_s: float) -> float:
+    """The share of all edges that don't fit a round trip: few where a game stalls at times, many where frames are slow.
+
+    In slow frames input waits for a frame and ticks come several at a time, so that edges spread over more than a tick.
+    """
+    return float(np.mean(_outside(_edges(holds), round_trip_s) > FITS_S))
+
+
+def _edges(holds: Sequence[HoldTiming]) -> NDArray[np.float64]:
+    """Seconds from each press, then from each release, until the step of the tick that it decides on is seen."""
+    first = [hold.first_seen for hold in holds]
+    pressed = [at - hold.pressed for hold, at in zip(holds, first, strict=True)]
+    released = [at + hold.ticks * TICK_S - hold.released for hold, at in zip(holds, first, strict=True)]
+    return np.array([*pressed, *released])
+
+
+def _outside(edges: NDArray[np.float64], trips: NDArray[np.float64] | float) -> NDArray[np.float64]:
+    """Seconds by which each edge is shorter than a round trip, or longer than it and a tick."""
+    return np.maximum(trips - edges, 0) + np.maximum(edges - trips - TICK_S, 0)
 
 
 def latencies(round_trip_s: float) -> tuple[float, float]:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from calibration.walk.gait_fit import GaitModel, HoldTrace, MatchedHold, fit_gait, match_hold, rms
-from calibration.walk.round_trip import HoldTiming, latencies, round_trip_of
+from calibration.walk.round_trip import HoldTiming, disagreeing, latencies, round_trip_of
 from calibration.walk.survey import SurveyHold
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.model.kinematics import INERTIA, TICK_S, displacement
@@ -29,6 +29,10 @@ PLAIN_SPEED = displacement(200) / 200 / TICK_S
 OTHER_SPEED, OTHER_INERTIA = 0.015, 0.01
 """How far speed (relative) and inertia (absolute) may be off the plain walker's before a warning says so."""
 
+SLOW_FRAMES = 0.15
+"""The share of presses and releases that don't fit the round trip where frames are slow: 0.18 and more at up to 18
+frames a second; 0.12 at most in a game of 60 that stalls every second or so."""
+
 LAGGING = 0.1
 """The share of all holds that may be outliers or late before a warning says so."""
 
@@ -40,6 +44,7 @@ class WalkModel:
     Attributes:
         walking, sneaking: the models of the two gaits.
         round_trip_s: seconds from a press to its step on the screen, without the wait for a tick.
+        disagreeing: the share of presses and releases that don't fit this round trip.
         good: the holds that it rests on, in order, each with its path.
         outliers: how many holds were not of whole ticks.
         late: how many holds had ticks that came late.
@@ -50,6 +55,7 @@ class WalkModel:
     walking: GaitModel
     sneaking: GaitModel
     round_trip_s: float
+    disagreeing: float
     good: tuple[MatchedHold, ...]
     outliers: int
     late: int
@@ -69,8 +75,8 @@ class WalkModel:
     @property
     def table(self) -> WalkTable:
         """The profile's table."""
-        # Ticks that come late, or several in a frame, make the round trip look too short.
-        shortest_s = INPUT_LATENCY_S + CAPTURE_LATENCY_S if self.is_lagging else 0.0
+        # Where several ticks come in a frame, the round trip looks too short.
+        shortest_s = INPUT_LATENCY_S + CAPTURE_LATENCY_S if self.disagreeing > SLOW_FRAMES else 0.0
         input_latency_s, capture_latency_s = latencies(max(self.round_trip_s, shortest_s))
         return WalkTable(
             covered=tuple(round(self.walking.covered(ticks), 4) for ticks in range(1, TICKS + 1)),
@@ -121,10 +127,12 @@ def fit_walk_model(holds: Sequence[SurveyHold]) -> WalkModel:
     timely = [timing for timing in timings if not timing.late_steps]
     if not timely:
         raise NotConfirmedError("every hold's ticks came late: close other programs, and calibrate again")
+    round_trip_s = round_trip_of(timely)
     walk_model = WalkModel(
         walking,
         sneaking,
-        round_trip_of(timely),
+        round_trip_s,
+        disagreeing(timely, round_trip_s),
         tuple(good),
         outliers=sum(hold.trace is not None for hold in holds) - len(good),
         late=len(timings) - len(timely),

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from calibration.walk.round_trip import HoldTiming, latencies, round_trip_of
+from calibration.walk.round_trip import HoldTiming, disagreeing, latencies, round_trip_of
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.timing import CAPTURE_LATENCY_S, INPUT_LATENCY_S
 
@@ -45,6 +45,22 @@ def test_a_few_holds_that_lag_delayed_move_it_little() -> None:
     holds = [hold(100 + index * 0.831, 0.2 + index % 5 * 0.037, 0.0125, 0.028) for index in range(60)]
     lagged = [hold(200 + index * 0.831, 0.25, 0.3, 0.2) for index in range(4)]
     assert round_trip_of([*holds, *lagged]) == pytest.approx(0.0405, abs=0.004)
+
+
+def test_few_edges_disagree_where_a_game_stalls_at_times_and_many_where_frames_are_slow() -> None:
+    holds = [hold(100 + index * 0.831, 0.2 + index % 5 * 0.037, 0.0125, 0.028) for index in range(60)]
+    lagged = [hold(200 + index * 0.831, 0.25, 0.3, 0.2) for index in range(4)]
+    assert disagreeing(holds, 0.0405) == 0.0
+    # 8 ms more: edges of 40.5 to 44.5 ms out of 40.5 to 90.5 don't fit.
+    assert disagreeing(holds, 0.0485) == pytest.approx(4 / 50, abs=0.03)
+    assert disagreeing([*holds, *lagged], 0.0405) == pytest.approx(4 / 64)
+    # A key waits for one of ten frames a second, and its tick is seen in the next one.
+    slow = [
+        HoldTiming(at, at + 0.25, 5, ((1, at + delay, at + delay),))
+        for index in range(50)
+        for at, delay in [(100 + index * 0.831, 0.028 + index * 0.002)]
+    ]
+    assert disagreeing(slow, round_trip_of(slow)) > 0.3
 
 
 def test_steps_off_the_tick_phase_of_their_hold_are_late() -> None:

@@ -12,6 +12,7 @@ from calibration.walk.walker import RecordedHold, Sighting
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.model.coordinates import GroundVector
 from mc_nested.live.model.kinematics import INERTIA, PUSH, SNEAKING, TICK_S, Gait, walk_response
+from mc_nested.live.model.timing import CAPTURE_LATENCY_S, INPUT_LATENCY_S
 
 HOME = GroundVector(0.5, -0.5)
 INPUT_S, CAPTURE_S = 0.0125, 0.0275
@@ -77,6 +78,15 @@ def test_a_game_lags_if_more_than_a_tenth_of_the_holds_is_late_or_an_outlier(pla
     assert replace(plain, late=5).is_lagging
     assert replace(plain, late=2, outliers=4).is_lagging
     assert not replace(plain, late=2, outliers=2).is_lagging
+
+
+def test_only_where_frames_are_slow_the_round_trip_is_taken_for_longer_than_it_looks(plain: WalkModel) -> None:
+    usual = INPUT_LATENCY_S + CAPTURE_LATENCY_S
+    quick = replace(plain, round_trip_s=0.011)
+    for stalling in (quick, replace(quick, late=10, outliers=6), replace(quick, disagreeing=0.12)):
+        assert stalling.table.input_latency_s + stalling.table.capture_latency_s == pytest.approx(0.011, abs=1e-4)
+    slow = replace(quick, disagreeing=0.18).table
+    assert slow.input_latency_s + slow.capture_latency_s == pytest.approx(usual, abs=1e-4)
 
 
 def moved(hold: SurveyHold, *, aside: float = 0.0, later_s: float = 0.0, further: float = 0.0) -> SurveyHold:
