@@ -25,6 +25,7 @@ from rich.table import Table
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from mc_nested.live.input.signals import signals_as_exit
 from scripts.rehearsal_window import ROOT, mc_nested, open_rehearsal
 from scripts.standin_parts import MissingError, Say
 from scripts.window_display import install_programs, open_display
@@ -61,6 +62,7 @@ CONDITIONS = (
 def measure(condition: Condition, actions: int, seed: int) -> dict[str, Any]:
     """Calibrate and play under one condition; ``problem`` says what failed."""
     with (
+        signals_as_exit(),  # or an ended benchmark would leave its window and its screen behind
         tempfile.TemporaryDirectory(prefix="mc-nested-rehearsal-") as temporary,
         open_display(layout=condition.layout, has_window_manager=condition.has_window_manager) as env,
         open_rehearsal(env, Path(temporary), "--fps", str(condition.fps), *condition.options) as window,
