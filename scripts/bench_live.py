@@ -61,8 +61,8 @@ SOAK_FIGURES = (
 GROUND_PITCH = 65.0
 """Degrees down at which the ground is looked at: a screen that names a block is read ten times as fast."""
 
-LONGEST_LATENCY_MS = 500
-"""The longest that a profile can hold."""
+LONGEST_LATENCY_MS = 350
+"""The longest that the walk's calibration finds, with the way of a press beside it."""
 
 TARGETS = {"median_action_s": 0.35, "p95_action_s": 0.55}
 

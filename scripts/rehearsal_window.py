@@ -84,7 +84,7 @@ class RehearsalWindow:
 
 @contextmanager
 def open_rehearsal(env: dict[str, str], folder: Path, *options: str) -> Iterator[RehearsalWindow]:
-    """A rehearsal on the display of ``env``, in front, with ``mc-nested rehearse``'s options, seed 0; closed after it.
+    """A rehearsal on the display of ``env``, in front, with ``mc-nested rehearse``'s options and seed 0.
 
     What it writes is in ``folder``. RuntimeError with what it said if it doesn't open.
     """

@@ -37,7 +37,8 @@ SUITES = (
     (*_UNIT, "tests/arena", "tests/live", "tests/sim"),
     (*_UNIT, "tests/calibration", "tests/test_file_lock.py"),
 )
-"""What pytest is given, in two processes of about the same duration: the tests of what plays and calibrates."""
+"""What pytest is given, in two processes of about the same duration: the tests of what plays and calibrates, and of the
+lock, which differs on Windows."""
 
 PYTEST = ("-m", "pytest", "-p", "no:cacheprovider")
 

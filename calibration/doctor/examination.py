@@ -136,7 +136,7 @@ def _examine_files(
     snapshot = findings.snapshot
     if CheckName.FONT not in findings.checks:
         font, check = font_row(profile, system, _version(snapshot, profile), named_font)
-        is_missing = font is None and (profile is None or profile.screen.font is None)
+        is_missing = named_font is None and font is None and (profile is None or profile.screen.font is None)
         findings.add(Check(check.name, "skip", check.detail, check.fix) if is_missing else check)
     if CheckName.PROFILE_FITS not in findings.checks:
         findings.add(fit_row(profile_name, profile, None))

@@ -19,7 +19,7 @@ TRIES = 3
 """Presses to turn the debug screen on again: one may get lost."""
 
 UNDONE = 0.05
-"""Blocks from where the player stood that count as there again: less than a sneaking tick."""
+"""A player this near to where it stood, in blocks, counts as back: less than a sneaking tick."""
 
 _ROW = CheckName.INPUT
 
@@ -77,9 +77,14 @@ def _try_debug_key(window: TriedWindow, keys: KeysTable, step: Step) -> Check:
             if is_menu(back):
                 break
             seen = f"{step.key}, {keys.hotbar[0]}, {keys.hotbar[1]} and {key} pressed, and seen"
-            undone = "all undone" if step.off <= UNDONE else f"undone but for {step.off:.2f} blocks of the step"
-            return Check(_ROW, "pass", f"{seen}, {key} after {1000 * took:.0f} ms; {undone}")
+            return Check(_ROW, "pass", f"{seen}, {key} after {1000 * took:.0f} ms; {_undone(step)}")
     return Check(_ROW, "warn", f"{key} works, but the debug screen didn't come back", f"press {key.upper()}")
+
+
+def _undone(step: Step) -> str:
+    if step.off is None:
+        return "whether the step was undone couldn't be read"
+    return "all undone" if step.off <= UNDONE else f"undone but for {step.off:.2f} blocks of the step"
 
 
 def _is_on(snapshot: WindowSnapshot) -> bool:

@@ -83,12 +83,12 @@ class Step:
     """A step that was seen and taken back.
 
     ``key`` led there, which was seen ``seen_s`` seconds after it went down; the player ended ``off`` blocks from where
-    it stood.
+    it stood, None where that couldn't be read.
     """
 
     key: str
     seen_s: float
-    off: float
+    off: float | None
 
 
 def moving_key(window: TriedWindow, keys: KeysTable) -> Step | None:
@@ -101,6 +101,8 @@ def moving_key(window: TriedWindow, keys: KeysTable) -> Step | None:
             _stand_still(window)
             window.world()
             window.controller.hold(back, STEP_TICKS, keys.sneak)
+            # In a game that lags the player is seen to stand before it is seen to go back.
+            window.controller.wait(seen_s)
             return Step(there, seen_s, _distance(_position(start), _stand_still(window)))
     return None
 
@@ -133,13 +135,13 @@ def _slot_before(changed_dots: list[float]) -> int:
 
 
 def _has_moved(start: WindowSnapshot, seen: WindowSnapshot) -> bool:
-    return _distance(_position(start), _position(seen)) > LEAST_STEP
+    return (_distance(_position(start), _position(seen)) or 0.0) > LEAST_STEP
 
 
-def _distance(before: XYZ | None, after: XYZ | None) -> float:
-    """Blocks over ground from one position to another; 0 where one of them wasn't read."""
+def _distance(before: XYZ | None, after: XYZ | None) -> float | None:
+    """Blocks over ground from one position to another; None where one of them wasn't read."""
     if before is None or after is None:
-        return 0.0
+        return None
     return math.hypot(after[0] - before[0], after[2] - before[2])
 
 

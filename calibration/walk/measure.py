@@ -1,8 +1,8 @@
 """The walk step of calibration: measures which keys go which way, how far a hold leads, and the latencies.
 
-sneak a little with each key -> sneak out and back, to see how far the floor is free (a little, where the arena was
-cleared: there it is) -> walk there, at all lengths and phases -> fit -> a few more holds, timed between two ticks and
-predicted before they are pressed -> back to the start, also where any of this fails
+sneak a little with each key -> sneak out and back, to see how far the floor is free (only a little in an arena that was
+cleared and its floor refilled) -> walk there, at all lengths and phases -> fit -> a few more holds, timed between two
+ticks and predicted before they are pressed -> back to the start, also where any of this fails
 """
 
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ from calibration.walk.walker import Walker
 from mc_nested.arena.rules import SIZE, Cell
 from mc_nested.errors import McNestedError, NotConfirmedError, ProfileError, UnreadableError, UserError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.menus.commands import clear_command, teleport_command
+from mc_nested.live.menus.commands import clear_command, floor_commands, teleport_command
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.kinematics import TICK_S, nearest_ticks
 from mc_nested.live.model.reading import WorldPose
@@ -85,8 +85,9 @@ def calibrate_walk(profile_name: str | Path, context_of: OpenContext) -> tuple[S
 def walk(context: CalibrationContext, profile: Profile) -> StepResult:
     """Measure how the player walks; the profile with its [walk] table, and the keys as they really go.
 
-    If there is a marked arena and commands are allowed, it walks in the arena's middle, cleared as by every reset. Else
-    it walks around where the player stands, never farther than ``survey.REACH`` blocks. It ends where it began.
+    If there is a marked arena and commands are allowed, it walks in the arena's middle, cleared as by every reset, its
+    floor refilled if the profile says what it is of. Else it walks around where the player stands. It never goes
+    farther than ``survey.REACH`` blocks, and ends where it began.
 
     Raises:
         ProfileError, FontError: the profile names no font, or one that can't be used.
@@ -104,12 +105,15 @@ def walk(context: CalibrationContext, profile: Profile) -> StepResult:
     can_teleport = profile.arena is not None and profile.world is None
     if profile.arena is not None and can_teleport:
         console.send(clear_command(profile.arena))
+        for command in floor_commands(profile.arena, profile.game.dialect):
+            console.send(command)
         console.send(teleport_command(profile.arena, MIDDLE, profile.body.pitch))
         middle = WorldPose(profile.arena.centre_of(MIDDLE), profile.arena.yaw, profile.body.pitch)
         _wait_for_arrival(connection, profile, middle)
     survey = Survey(Walker(connection, profile), profile.keys, context.devices.clock)
     try:
-        result = _measure(profile, survey, is_cleared=can_teleport)
+        is_floor_free = can_teleport and profile.arena is not None and profile.arena.floor is not None
+        result = _measure(profile, survey, is_floor_free=is_floor_free, walks_back=not can_teleport)
     except (NotConfirmedError, UnreadableError, UserError):
         # Whoever calibrates again finds the player where the step began. Why it failed is what counts.
         with suppress(McNestedError):
@@ -122,10 +126,10 @@ def walk(context: CalibrationContext, profile: Profile) -> StepResult:
     return result
 
 
-def _measure(profile: Profile, survey: Survey, *, is_cleared: bool) -> StepResult:
-    """The survey, and what fits it. Outside a cleared arena the player finds free floor and walks back at the end."""
+def _measure(profile: Profile, survey: Survey, *, is_floor_free: bool, walks_back: bool) -> StepResult:
+    """The survey, and what fits it. Where the floor isn't known to be free, it is found by sneaking."""
     keys = survey.find_keys()
-    if is_cleared:
+    if is_floor_free:
         survey.sneak_on_known_floor()
     else:
         survey.find_floor()
@@ -136,12 +140,12 @@ def _measure(profile: Profile, survey: Survey, *, is_cleared: bool) -> StepResul
         found = empirical_walk(survey.holds, WalkTable())
         if found is None:
             raise
-        if not is_cleared:
+        if walks_back:
             _walk_back(found.table.covered, survey)
         return _empirical_result(profile, keys, found)
     errors = _predict(walk_model, survey)
     walk_model = fit_walk_model(survey.holds)
-    if not is_cleared:
+    if walks_back:
         _walk_back(walk_model.table.covered, survey, _between_ticks(walk_model))
     lines = (
         f"Keys: {describe_keys(profile.keys, keys)}.",

@@ -1,7 +1,8 @@
 """Survey: the holds that a walk's calibration rests on. First sneaking, to find keys and free floor; then walking.
 
 Sneaking comes first because a sneaking player falls off no edge, and stops at a wall without harm: where it has led,
-walking is safe. Every hold leads towards the starting point or away from it, and never farther than sneaking went.
+walking is safe. Every hold leads towards the starting point or away from it, and never farther than sneaking went. On
+floor that is known to be free, as an arena's that a reset has refilled, it sneaks only for the speed of sneaking.
 """
 
 import statistics

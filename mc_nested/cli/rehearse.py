@@ -53,7 +53,7 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         float, typer.Option(min=0.0, max=60.0, help="how often a minute something goes wrong: a death, a menu, lag ...")
     ] = 0.0,
     seed: Annotated[
-        int | None, typer.Option(min=0, help="the same seed gives the same mishaps (default: a new one)")
+        int | None, typer.Option(min=0, help="the same seed draws the same mishaps (default: a new one)")
     ] = None,
     font: Annotated[
         Path | None, typer.Option(help="a font picture ascii.png, or a client jar (default: a font of our own)")
@@ -83,7 +83,7 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         typer.echo("To learn calibration, run this in another terminal, and switch to the window:")
         typer.echo(f"  mc-nested calibrate all --profile rehearsal --font {font or _font_picture()}")
         if mishaps:
-            typer.echo(f"The same mishaps again: --mishaps {mishaps:g} --seed {settings.seed}")
+            typer.echo(f"To draw the same mishaps again: --mishaps {mishaps:g} --seed {settings.seed}")
         typer.echo("Close the window to end.")
 
     with _alone(), signals_as_exit():
@@ -118,7 +118,7 @@ def _alone() -> Iterator[None]:
 
 
 def _lock_file() -> Path:
-    """What one rehearsal at a time holds, of those of this user on the same desktop."""
+    """The lock file of this user's rehearsals on this desktop: one at a time holds it."""
     user = "" if sys.platform == "win32" else f"-{os.getuid()}"  # Windows has a temporary folder for each
     display = os.environ.get("DISPLAY", "") if sys.platform.startswith("linux") else ""
     server = re.sub(r"[^A-Za-z0-9]+", "-", re.sub(r"\.[0-9]+$", "", display))  # a server's screens are one desktop

@@ -96,7 +96,7 @@ if sys.platform.startswith("linux"):
         for words in (["--seed", "7"], [], []):
             assert run("rehearse", "--mishaps", "6", *words) == 0
             said += re.findall(
-                r"^The same mishaps again: --mishaps 6 --seed ([0-9]+)$", capsys.readouterr().out, re.MULTILINE
+                r"^To draw the same mishaps again: --mishaps 6 --seed ([0-9]+)$", capsys.readouterr().out, re.MULTILINE
             )
         assert [str(each.settings.seed) for each in opened] == said
         assert said[0] == "7"

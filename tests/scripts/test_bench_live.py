@@ -39,7 +39,7 @@ def test_latencies_that_no_profile_holds_are_refused_in_a_line(
     monkeypatch.setattr("sys.argv", ["bench_live.py", "--latency-ms", *latency_ms])
     with pytest.raises(SystemExit, match="2"):
         main()
-    assert "--latency-ms must be two times from 0 to 500, the shorter one first" in capsys.readouterr().err
+    assert "--latency-ms must be two times from 0 to 350, the shorter one first" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("wrong", ["wrong_cells", "wrong_blocks", "unnoticed", "gave_up", "left_down", "strays"])

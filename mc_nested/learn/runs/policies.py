@@ -50,8 +50,8 @@ def load_policies(checkpoint: Checkpoint, shapes: Mapping[str, tuple[int, ...]])
             kept = {name.removeprefix(_KEPT): found[name] for name in found.files if name.startswith(_KEPT)}
             if saved_with != _hash_of(checkpoint):
                 return None
-    except (OSError, ValueError, TypeError, KeyError, EOFError, NotImplementedError, zlib.error, zipfile.BadZipFile):
-        return None  # a TypeError: NumPy finds one array there instead of an archive
+    except (OSError, ValueError, TypeError, KeyError, EOFError, RuntimeError, zlib.error, zipfile.BadZipFile):
+        return None  # TypeError: NumPy finds one array instead of an archive; RuntimeError: zipfile finds a password
     checkpoint.check_identity(identity)
     if misfit := misfit_of(kept, shapes):
         raise RunError(f"{path}: {misfit}: delete this file, the checkpoint beside it holds the policies too")

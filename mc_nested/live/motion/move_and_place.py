@@ -230,7 +230,7 @@ class Body:
         return is_near(state.end, cell, self._limits.tolerance) and is_near(pose.position, cell, COASTING_CLICK)
 
     def _wait_for_click(self) -> None:
-        """Wait until the effect of a click is likely to be seen."""
+        """Wait until the effect of a click may be seen."""
         tick_phase = self._observer.tick_phase
         if tick_phase.is_known:
             self._observer.wait_for_step(tick_phase.next(self._clock.now() + self._input_latency_s))

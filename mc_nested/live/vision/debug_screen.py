@@ -83,11 +83,18 @@ def _without_position(lines: DebugLines, known_by: str) -> str:
             "the debug screen is reduced and shows no XYZ: set Reduced Debug Info off in the game's options, "
             "and the gamerule reducedDebugInfo (from 1.21.11 on reduced_debug_info) to false"
         )
+    if version := unsupported_version(lines):
+        return f"the debug screen of {version} has a layout that can't be read yet: use a version from 1.8 to 26.3"
+    return f"no XYZ line is to be seen: press F3 if it is off (from 1.21.9 on, F3+F6 adds the line), else {CLEAR}"
+
+
+def unsupported_version(lines: DebugLines) -> str | None:
+    """The version that a debug screen's first line names, where its layout can't be read yet; else None."""
     title = lines.starting(TITLE)
     version = _VERSION.match(title[0].text) if title else None
-    if version and (int(version[1]), int(version[2])) >= _FIRST_UNSUPPORTED:
-        return f"the debug screen of {version[0]} has a layout that can't be read yet: use a version from 1.8 to 26.3"
-    return f"no XYZ line is to be seen: press F3 if it is off (from 1.21.9 on, F3+F6 adds the line), else {CLEAR}"
+    if version is None or (int(version[1]), int(version[2])) < _FIRST_UNSUPPORTED:
+        return None
+    return version[0]
 
 
 def nothing_seen(overlay: Overlay | None) -> Reading:

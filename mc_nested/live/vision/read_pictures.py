@@ -52,7 +52,8 @@ def _read(path: Path, font: Font, overlay: Overlay | None) -> Reading:
         reading = Reading(problem=f"{nothing_seen(overlay).problem}; {_ALONE}")
     else:
         reading = read_found(found, font)
-        if reading.problem is not None and shows_more_than_window(found, font):
+        is_blurred = data.startswith(_JPEG)
+        if reading.problem is not None and not is_blurred and shows_more_than_window(found, font):
             reading = Reading(problem=_MORE)  # whatever else is said of it would mislead
     if reading.problem is not None and data.startswith(_JPEG):
         return Reading(

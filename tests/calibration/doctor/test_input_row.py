@@ -62,7 +62,13 @@ def test_in_a_game_that_lags_the_slot_is_waited_for_as_long_as_the_step(lag_s: f
     lag = (lag_s, lag_s)
     client = started(VirtualClient(input_latency_s=lag, capture_latency_s=lag))
     client.clock.sleep(2 * lag_s)
-    assert tried(client).status == "pass"
+    before = client.game.realm.player.feet
+    row = tried(client)
+    assert row.status == "pass"
+    client.clock.sleep(2 * lag_s)
+    left = re.search(r"; undone but for (\d\.\d\d) blocks of the step$", row.detail)
+    said = float(left[1]) if left else 0.0
+    assert said == pytest.approx(math.dist(client.game.realm.player.feet, before), abs=0.05)
 
 
 @pytest.mark.parametrize("slot", range(9))

@@ -38,6 +38,7 @@ def test_how_far_the_step_was_not_undone_is_measured() -> None:
     before = client.game.realm.player.feet
     step = moving_key(window_of(client), KeysTable(back="i"))
     assert step is not None
+    assert step.off is not None
     assert step.off > 0.1
     client.clock.sleep(0.5)
     assert step.off == pytest.approx(math.dist(client.game.realm.player.feet, before), abs=0.002)

@@ -130,6 +130,26 @@ def test_a_walk_that_fails_brings_the_player_back(tmp_path: Path) -> None:
     assert (client.realm.player.yaw, client.realm.player.pitch) == (0.0, 20.0)
 
 
+@pytest.mark.parametrize("floor", [None, "stone"])
+def test_a_hole_in_a_marked_arena_is_refilled_or_found_before_it_walks(floor: str | None, tmp_path: Path) -> None:
+    client = VirtualClient(seed=2, pitch=20.0)
+    arena = Arena.around((-20, 64, 31), "east").model_copy(update={"floor": floor})
+    (x, y, z), _ = arena.region
+    middle = arena.block_of((7, 7))
+    hole = (middle[0] + 1, y - 1, middle[2])
+    assert x <= hole[0]
+    assert z <= hole[2]
+    client.realm.world.put(hole, "air")
+    profile = profile_of(client, tmp_path).model_copy(update={"arena": arena})
+    if floor is not None:
+        assert "Warning" not in " ".join(measured(client, tmp_path, profile).lines)
+        assert client.realm.world.block_at(hole) == floor
+    else:
+        with context_on(client)(profile) as context, pytest.raises(UserError, match="or the floor ends"):
+            walk(context, profile)
+        assert client.realm.player.feet == (0.5, 64.0, 0.5)
+
+
 def test_in_a_marked_arena_it_walks_in_the_middle_and_comes_back(tmp_path: Path) -> None:
     client = VirtualClient(seed=2, pitch=20.0, swaps_sides=True)
     arena = Arena.around((-20, 64, 31), "east")

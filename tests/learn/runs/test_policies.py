@@ -50,6 +50,10 @@ def test_without_the_file_or_with_a_part_of_it_there_are_none(saved: Checkpoint)
     with file.open("wb") as one_array:
         np.save(one_array, KEPT["main"])
     assert load_policies(saved, SHAPES) is None
+    # One flipped bit of the archive's directory: an entry with a password.
+    entry = whole.index(b"PK\x01\x02")
+    file.write_bytes(whole[: entry + 8] + bytes([whole[entry + 8] | 1]) + whole[entry + 9 :])
+    assert load_policies(saved, SHAPES) is None
     file.unlink()
     assert load_policies(saved, SHAPES) is None
 
