@@ -23,8 +23,8 @@ assert sys.platform == "win32"
 
 HOLD_S = 0.15
 TEXT = "/execute in minecraft:overworld run tp @s 0.5 64 é"
-STEPS = 6
-"""Pushes of the mouse into a corner, each by 23 pixels: the last ones lead beyond the screen."""
+PUSH, PUSH_S = 23, 0.02
+"""Pixels and seconds of a push of the mouse. Windows passes over a program that is slow to hear of one."""
 
 _user32 = ctypes.WinDLL("user32")
 
@@ -114,12 +114,11 @@ def corner_report(_: DrivenWindow, __: Devices) -> list[list[str]]:
         said: queue.SimpleQueue[str] = queue.SimpleQueue()
         _user32.SetCursorPos(x - 40 * right, y - 40 * down)
         with open_panic_switch("f12", said.put):
-            for _step in range(STEPS):
-                _user32.mouse_event(1, 23 * right, 23 * down, 0, 0)
-            try:
-                found.append([said.get(timeout=PATIENCE_S)])
-            except queue.Empty:
-                found.append([])
+            end = time.monotonic() + PATIENCE_S
+            while said.empty() and time.monotonic() < end:
+                _user32.mouse_event(1, PUSH * right, PUSH * down, 0, 0)
+                time.sleep(PUSH_S)
+            found.append([] if said.empty() else [said.get()])
     _user32.SetCursorPos(width // 2, height // 2)
     return found
 
