@@ -174,5 +174,5 @@ def _picture_bytes(path: Path) -> bytes:
     except FileNotFoundError:
         raise FontError(f"there is no {path}: {_GIVE}") from None
     # What zipfile raises for a jar that is cut off, damaged, packed in a way it doesn't know, or encrypted.
-    except (OSError, EOFError, zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError) as error:
+    except (OSError, EOFError, zipfile.BadZipFile, zlib.error, RuntimeError) as error:
         raise FontError(f"{path} can't be read ({error}): {_GIVE}") from None
