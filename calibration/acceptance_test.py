@@ -11,8 +11,8 @@ from statistics import median
 
 from calibration.context import CalibrationContext, ReportPicture, StepResult
 from mc_nested.arena import rules
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.game import Outcome
-from mc_nested.arena.rules import Action, Cell
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.live_game import LiveGame

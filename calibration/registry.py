@@ -14,7 +14,7 @@ from calibration.font.find import find_font, sources_for, sources_here
 from calibration.font.sources import FontSources
 from calibration.runner import CalibrationStep
 from calibration.walk.measure import walk
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.live.profile.tables import Profile
 
 

@@ -35,7 +35,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from calibration.context import CalibrationContext
 from calibration.walk.measure import walk
 from mc_nested.arena import rules
-from mc_nested.arena.rules import Action, Cell
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError

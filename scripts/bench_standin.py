@@ -26,7 +26,7 @@ from rich.progress import track
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from mc_nested.arena import rules
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena

@@ -9,9 +9,10 @@ from gymnasium.vector import VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.env import ArenaEnv, highest_observation, space_up_to
 from mc_nested.arena.game import Outcome, PlayLog, Resumable
-from mc_nested.arena.rules import PLACES, SIZE, STEP, Action, Cell, cells_of, grid_of, landing, moved
+from mc_nested.arena.rules import PLACES, SIZE, STEP, cells_of, grid_of, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options

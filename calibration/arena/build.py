@@ -24,7 +24,8 @@ from calibration.command_console import CommandConsole
 from calibration.context import CalibrationContext, ReportPicture, StepResult
 from calibration.open_context import OpenContext
 from calibration.report.kept import keep_or_warn
-from mc_nested.arena.rules import SIZE, Cell
+from mc_nested.arena.action import Cell
+from mc_nested.arena.rules import SIZE
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import NotConfirmedError, UserError
 from mc_nested.live.menus.commands import teleport_command

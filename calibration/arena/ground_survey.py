@@ -7,7 +7,7 @@ from calibration.arena.look_around import LookAroundResult, look_around, telepor
 from calibration.arena.mark import NEAR_MIDDLE
 from calibration.arena.plan import box_at, box_of, copy_positions, floor_of, is_good_floor
 from calibration.command_console import CommandConsole
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.errors import UserError
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from calibration.command_console import CommandConsole
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.live.model.coordinates import turn_between
 from mc_nested.live.model.reading import Block, Reading, Target
 from mc_nested.live.profile.arena import Arena

@@ -11,7 +11,8 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 
 from calibration.starting_profile import starting_profile
-from mc_nested.arena.rules import SIZE, Cell, is_inside
+from mc_nested.arena.action import Cell
+from mc_nested.arena.rules import SIZE, is_inside
 from mc_nested.errors import ProfileError, UserError
 from mc_nested.live.connection import connect
 from mc_nested.live.desktop import open_desktop

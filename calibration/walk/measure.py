@@ -23,7 +23,8 @@ from calibration.walk.gait_fit import rms
 from calibration.walk.survey import FORWARD_AXIS, SIDE_AXIS, Survey
 from calibration.walk.walk_model import PLAIN_SPEED, WalkModel, fit_walk_model
 from calibration.walk.walker import Walker
-from mc_nested.arena.rules import SIZE, Cell
+from mc_nested.arena.action import Cell
+from mc_nested.arena.rules import SIZE
 from mc_nested.errors import McNestedError, NotConfirmedError, ProfileError, UnreadableError, UserError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.menus.commands import clear_command, floor_commands, teleport_command

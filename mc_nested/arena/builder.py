@@ -6,7 +6,8 @@ in the way, and no state (x, y, b) repeats between two blocks.
 
 from itertools import groupby
 
-from mc_nested.arena.rules import STEP, Action, Cell, is_inside
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.rules import STEP, is_inside
 from mc_nested.arena.scenario import Scenario
 
 WITH_BLOCK = {Action.F: Action.FD, Action.B: Action.BD, Action.L: Action.LD, Action.R: Action.RD}

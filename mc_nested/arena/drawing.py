@@ -5,7 +5,8 @@ from collections.abc import Collection
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arena.rules import SIZE, Cell
+from mc_nested.arena.action import Cell
+from mc_nested.arena.rules import SIZE
 from mc_nested.arena.scenario import Scenario
 
 AGENT, BUILT, WRONG, MISSING, FREE = "^", "#", "x", "o", "."

@@ -1,6 +1,6 @@
 """ArenaEnv: a gymnasium.Env over any Game; every backend shares it.
 
-Actions 0 to 7 (rules.Action) go in; raw (x, y, b) comes out, b being the blocks left. Encoding belongs to learn/.
+Actions 0 to 7 (action.Action) go in; raw (x, y, b) comes out, b being the blocks left. Encoding belongs to learn/.
 """
 
 from collections.abc import Mapping
@@ -12,9 +12,10 @@ from gymnasium.error import ResetNeeded
 from gymnasium.spaces import Box, Discrete, Space
 from numpy.typing import NDArray
 
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.drawing import draw_picture, draw_text
 from mc_nested.arena.game import Game, Resumable
-from mc_nested.arena.rules import SIZE, Action, Cell, cells_of, grid_of
+from mc_nested.arena.rules import SIZE, cells_of, grid_of
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Int64s
 

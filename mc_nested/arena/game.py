@@ -6,7 +6,7 @@ from typing import Any, Protocol
 
 from numpy.typing import NDArray
 
-from mc_nested.arena.rules import Action, Cell
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arrays import Arrays
 
 

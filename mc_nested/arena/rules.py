@@ -4,29 +4,14 @@ Cells are (x, y): x to the right, y forward, the way the agent looks for the who
 """
 
 from collections.abc import Collection
-from enum import IntEnum
 
 import numpy as np
 
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arrays import Bools
-
-Cell = tuple[int, int]
 
 SIZE = 15
 """Cells along each side of the arena (paper, section 5: a 15 by 15 grid)."""
-
-
-class Action(IntEnum):
-    """The nested agent's actions in the paper's order (paper, section 5.1.2): a move, then with +D a block."""
-
-    F = 0
-    B = 1
-    L = 2
-    R = 3
-    FD = 4
-    LD = 5
-    RD = 6
-    BD = 7
 
 
 STEP: dict[Action, Cell] = {

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.errors import ScenarioError
 
 

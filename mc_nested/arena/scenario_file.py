@@ -5,7 +5,8 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from mc_nested.arena.rules import SIZE, Cell, is_inside
+from mc_nested.arena.action import Cell
+from mc_nested.arena.rules import SIZE, is_inside
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.errors import ScenarioError
 from mc_nested.toml_file import parse_toml, read_shipped_or_named

@@ -15,9 +15,9 @@ from gymnasium.vector import VectorEnv, VectorWrapper
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
+from mc_nested.arena.action import Action
 from mc_nested.arena.env import highest_observation, space_up_to
 from mc_nested.arena.game import Resumable
-from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import NO_ACTION, reset_options, resumable_arenas
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s

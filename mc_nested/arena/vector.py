@@ -12,9 +12,9 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
+from mc_nested.arena.action import Cell
 from mc_nested.arena.env import ArenaEnv, blank_observations
 from mc_nested.arena.game import Resumable
-from mc_nested.arena.rules import Cell
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 

@@ -15,8 +15,8 @@ from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
 from pydantic import AfterValidator
 
+from mc_nested.arena.action import Action
 from mc_nested.arena.env import highest_observation
-from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arrays import Arrays, Float64s, Int64s

@@ -4,8 +4,8 @@ from pathlib import Path
 from types import TracebackType
 
 from mc_nested.arena import rules
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.game import Outcome
-from mc_nested.arena.rules import Action, Cell
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import LiveError, ProfileError, StoppedError
 from mc_nested.live.action_log import ActionLog

@@ -5,8 +5,9 @@ from collections.abc import Collection
 from rich.console import Group
 from rich.text import Text
 
+from mc_nested.arena.action import Cell
 from mc_nested.arena.drawing import AGENT, BUILT, FREE, MISSING, WRONG, kind_of
-from mc_nested.arena.rules import SIZE, Cell
+from mc_nested.arena.rules import SIZE
 from mc_nested.arena.scenario import Scenario
 
 STYLES = {

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.reading import Block

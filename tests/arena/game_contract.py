@@ -2,8 +2,9 @@
 
 from collections.abc import Callable, Sequence
 
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.game import Game, Outcome
-from mc_nested.arena.rules import Action, Cell, landing, moved
+from mc_nested.arena.rules import landing, moved
 from mc_nested.arena.scenario import Scenario
 
 BUMPS = (

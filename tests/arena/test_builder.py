@@ -4,8 +4,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import build
-from mc_nested.arena.rules import SIZE, Cell, landing, moved
+from mc_nested.arena.rules import SIZE, landing, moved
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
 from sim.grid import arena_env

@@ -7,10 +7,10 @@ from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import check_env
 
 import mc_nested  # noqa: F401 - importing it registers the Env
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Outcome
-from mc_nested.arena.rules import Action, Cell
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, ScenarioError
 from sim.grid import GridGame, GridVectorEnv, arena_env

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
 from mc_nested.arena.game import Outcome
-from mc_nested.arena.rules import Action, Cell
 from mc_nested.arena.scenario_file import load_scenario
 from sim.grid import GridGame
 from tests.arena.game_contract import BUMPS, check_game

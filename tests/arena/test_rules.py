@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.arena.rules import SIZE, STEP, Action, Cell, front_of, is_inside, landing, moved
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.rules import SIZE, STEP, front_of, is_inside, landing, moved
 
 cells = st.tuples(st.integers(0, SIZE - 1), st.integers(0, SIZE - 1))
 actions = st.sampled_from(Action)

@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.arena.rules import SIZE, Cell
+from mc_nested.arena.action import Cell
+from mc_nested.arena.rules import SIZE
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import draw_grid, load_scenario, parse_scenario, scenario_of, table_of
 from mc_nested.errors import ScenarioError

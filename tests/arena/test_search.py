@@ -4,8 +4,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
-from mc_nested.arena.rules import SIZE, Action, Cell, landing, moved
+from mc_nested.arena.rules import SIZE, landing, moved
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.search import EXACT_UP_TO, FewestSteps, fewest_steps

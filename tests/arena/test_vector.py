@@ -3,9 +3,9 @@
 import numpy as np
 from gymnasium.wrappers.vector import RecordEpisodeStatistics
 
+from mc_nested.arena.action import Action
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game, Resumable
-from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arena.vector import ArenaVectorEnv, resumable_arenas

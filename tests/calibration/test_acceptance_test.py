@@ -9,7 +9,7 @@ import pytest
 from calibration.acceptance_test import ACTIONS, SCENARIO, run_acceptance_test
 from calibration.context import CalibrationContext
 from mc_nested.arena import rules
-from mc_nested.arena.rules import Action, Cell
+from mc_nested.arena.action import Action, Cell
 from mc_nested.errors import LiveError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Frame, Region

@@ -7,7 +7,7 @@ import pytest
 from calibration.font.sources import FontSources
 from calibration.registry import registered_steps
 from calibration.runner import CalibrationStep
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.errors import FontError, UserError
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile

@@ -9,8 +9,8 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 
+from mc_nested.arena.action import Action
 from mc_nested.arena.game import Outcome, Resumable
-from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli import options
 from mc_nested.errors import LiveError, McNestedError

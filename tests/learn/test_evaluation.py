@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mc_nested.arena.rules import Action
+from mc_nested.arena.action import Action
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from sim.grid import GridVectorEnv

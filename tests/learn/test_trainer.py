@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from gymnasium.wrappers.vector import RecordEpisodeStatistics
 
+from mc_nested.arena.action import Action
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Outcome, Resumable
-from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv

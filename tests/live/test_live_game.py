@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mc_nested.arena import rules
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
-from mc_nested.arena.rules import Action, Cell
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, LiveError, NotConfirmedError, NotInFrontError, ProfileError, StoppedError

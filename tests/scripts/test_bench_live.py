@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mc_nested.arena import rules
-from mc_nested.arena.rules import Action
+from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.live.model.timing import FRAME_S
 from mc_nested.live.profile.arena import Arena

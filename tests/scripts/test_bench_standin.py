@@ -2,7 +2,7 @@
 
 import dataclasses
 
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.live.profile.arena import Arena
 from scripts.bench_live import ClientTruth, live_game

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
-from mc_nested.arena.rules import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
 from sim.grid import GridVectorEnv, arena_env

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import Dialect, Profile
 

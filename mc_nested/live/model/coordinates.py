@@ -6,7 +6,7 @@ In the world east is +X and south is +Z; yaw 0 is south, 90 west, 180 north, -90
 import math
 from typing import Literal, NamedTuple
 
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.live.model.reading import XYZ, Block, WorldPose
 
 Facing = Literal["north", "south", "west", "east"]

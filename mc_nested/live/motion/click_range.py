@@ -1,6 +1,7 @@
 """Pure rules for the positions from which a click lands on the floor in front of a cell."""
 
-from mc_nested.arena.rules import Cell, is_inside
+from mc_nested.arena.action import Cell
+from mc_nested.arena.rules import is_inside
 from mc_nested.live.model.coordinates import GroundVector
 
 COASTING_CLICK = 0.19

@@ -7,7 +7,8 @@ place: see the floor ahead -> click, perhaps while still moving -> wait until th
 
 from collections.abc import Callable, Collection
 
-from mc_nested.arena.rules import Cell, front_of, is_inside
+from mc_nested.arena.action import Cell
+from mc_nested.arena.rules import front_of, is_inside
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.model.coordinates import GroundVector, cell_at

@@ -7,7 +7,7 @@ is not the expected one, or while the chat is open.
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from mc_nested.arena.rules import Cell
+from mc_nested.arena.action import Cell
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline

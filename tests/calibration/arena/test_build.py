@@ -12,7 +12,7 @@ from calibration.arena.copy_note import note_path, read_copy_note
 from calibration.arena.plan import FLOOR, box_of
 from calibration.arena.undo import undo_arena, undo_built_arena
 from calibration.context import StepResult
-from mc_nested.arena.rules import Action
+from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, ProfileError, UserError
 from mc_nested.live.live_game import LiveGame

@@ -14,7 +14,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibration.arena.mark import NEAR_MIDDLE, arena_from_reading, mark_arena, mark_question
-from mc_nested.arena.rules import SIZE, Cell
+from mc_nested.arena.action import Cell
+from mc_nested.arena.rules import SIZE
 from mc_nested.errors import DesktopError, ProfileError, UserError
 from mc_nested.live.devices import Devices, Frame, Region
 from mc_nested.live.model.coordinates import Facing, centre_of, yaw_of

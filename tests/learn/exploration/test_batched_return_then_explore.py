@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mc_nested.arena.rules import Action
+from mc_nested.arena.action import Action
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
 from mc_nested.learn.preset import ExcursionRule, Imitation

@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.arena.rules import SIZE, Cell
+from mc_nested.arena.action import Cell
+from mc_nested.arena.rules import SIZE
 from mc_nested.errors import NotConfirmedError, NotInFrontError, UnreadableError
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.model.reading import Reading, Target

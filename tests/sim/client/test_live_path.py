@@ -8,8 +8,9 @@ from typing import NamedTuple
 
 import pytest
 
+from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
-from mc_nested.arena.rules import Action, front_of
+from mc_nested.arena.rules import front_of
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError
 from mc_nested.live.input.input_controller import FRESH_S, PressTarget

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mc_nested.arena.rules import Action
+from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, StoppedError
 from mc_nested.live.input.panic import CORNER_REASON, KEY_REASON, corners_of

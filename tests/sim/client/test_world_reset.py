@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from mc_nested.arena.rules import Action
+from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, RunError
 from mc_nested.live.live_game import LiveGame
