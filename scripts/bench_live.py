@@ -174,7 +174,7 @@ def play_in(
         for _ in steps:
             while placed is None:
                 placed, cell, in_episode = _reset(game, truth, scenario, counts, rng)
-            action = drawn_action(rng, cell, placed)
+            action = drawn_action(rng, cell, placed, scenario.size)
             if rate:
                 client.mishaps.maybe(rate, MISHAP_WITHIN_S)
             counts.actions += 1
@@ -187,8 +187,8 @@ def play_in(
                 continue
             times = counts.placings_s if action in rules.PLACES else counts.moves_s
             times.append(client.clock.now() - act_began)
-            expected_cell = rules.moved(cell, action, placed)
-            expected_block = rules.landing(expected_cell, action, placed)
+            expected_cell = rules.moved(cell, action, placed, scenario.size)
+            expected_block = rules.landing(expected_cell, action, placed, scenario.size)
             placed |= {outcome.placed} if outcome.placed else set()
             cell = outcome.cell
             counts.wrong_cells += truth.cell() != outcome.cell
@@ -236,15 +236,15 @@ def _reset(
     return set(), cell, 0
 
 
-def drawn_action(rng: np.random.Generator, cell: Cell, placed: set[Cell]) -> Action:
+def drawn_action(rng: np.random.Generator, cell: Cell, placed: set[Cell], size: int) -> Action:
     """A random action among those that the rules don't void."""
-    return Action(int(rng.choice([int(action) for action in _possible(cell, placed)])))
+    return Action(int(rng.choice([int(action) for action in _possible(cell, placed, size)])))
 
 
-def _possible(cell: Cell, placed: set[Cell]) -> Iterator[Action]:
+def _possible(cell: Cell, placed: set[Cell], size: int) -> Iterator[Action]:
     for action in Action:
-        target = rules.moved(cell, action, placed)
-        if target != cell or rules.landing(target, action, placed) is not None:
+        target = rules.moved(cell, action, placed, size)
+        if target != cell or rules.landing(target, action, placed, size) is not None:
             yield action
 
 

@@ -90,8 +90,8 @@ def test_every_outcome_is_the_rules_outcome_and_the_worlds(facing: Facing, chose
     for action in chosen:
         presses = len(world.presses)
         outcome = game.act(action)
-        target = rules.moved(cell, action, placed)
-        landing = rules.landing(target, action, placed)
+        target = rules.moved(cell, action, placed, LINE.size)
+        landing = rules.landing(target, action, placed, LINE.size)
         if target == cell and landing is None:
             assert len(world.presses) == presses
         cell = target

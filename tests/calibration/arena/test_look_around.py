@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from calibration.arena.look_around import CELLS, look_around, look_at, teleport_and_look
+from calibration.arena.look_around import cells_to_look_at, look_around, look_at, teleport_and_look
 from mc_nested.live.model.reading import Reading, Target
 from mc_nested.live.profile.arena import Arena
 from tests.calibration.arena.scripted import ScriptedConsole
@@ -57,14 +57,14 @@ def test_a_view_that_can_not_be_read_is_not_there() -> None:
 
 
 def test_every_look_sees_the_floor_of_its_own_cell() -> None:
-    floors = iter([ARENA.block_of(cell) for cell in CELLS])
+    floors = iter([ARENA.block_of(cell) for cell in cells_to_look_at(15)])
 
     def respond(command: str) -> Reading:
         yaw, pitch = (float(part) for part in command.split()[-2:])
         x, y, z = next(floors)
         return Reading(xyz=(0.5, 64.0, 0.5), yaw=yaw, pitch=pitch, target=Target((x, y - 1, z), "minecraft:stone"))
 
-    seen = look_around(ScriptedConsole(respond), ARENA)
+    seen = look_around(ScriptedConsole(respond), ARENA, (7, 0))
     assert (seen.in_the_way, seen.floor, seen.looks) == ({}, 15, 15)
 
 
@@ -81,5 +81,5 @@ def test_every_look_sees_the_floor_of_its_own_cell() -> None:
 def test_blocks_from_the_level_of_the_feet_up_are_in_the_way(
     target: Target | None, in_the_way: dict[tuple[int, int, int], str]
 ) -> None:
-    seen = look_around(sees(target), ARENA)
+    seen = look_around(sees(target), ARENA, (7, 0))
     assert (seen.in_the_way, seen.floor, seen.looks) == (in_the_way, 0, 15)

@@ -5,7 +5,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.rules import SIZE
 from mc_nested.errors import NotConfirmedError, NotInFrontError, UnreadableError
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.model.reading import Reading, Target
@@ -269,7 +268,7 @@ def test_an_arrival_is_waited_for() -> None:
     with pytest.raises(
         NotConfirmedError, match=r"teleport to cell \(7, 14\) was not seen, the agent is at \(7.00, 7.00\)"
     ):
-        body.arrive((7, SIZE - 1))
+        body.arrive((7, 14))
 
 
 def test_a_window_that_goes_away_stops_a_move() -> None:
