@@ -126,6 +126,11 @@ def build_arena(
             "an arena of a calibration that ended early stands here: put back what stood there before, with "
             f"{undo_command(path)}, or stand where you stood then"
         )
+    elif path and (known := profile.arena) and known.size != size and _overlaps_copied(queries, known, arena):
+        raise UserError(
+            f"an arena of another size, {known.size} x {known.size} cells, stands here: put back what stood there "
+            f"before, with {undo_command(path)}, and calibrate again"
+        )
     if not yes and not context.ask(build_question(arena, ground, old, materials)):
         raise UserError("the arena was not built: nothing was changed, in the world or in the profile")
     if ground.copy_to is not None:

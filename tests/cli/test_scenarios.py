@@ -14,6 +14,9 @@ def test_scenarios_lists_the_designs(capsys: pytest.CaptureFixture[str]) -> None
         "optimum 21 fewest 13 steps",
         "optimum 21 fewest 25 steps",
         "optimum 26 fewest 38 steps; the scripted builder takes 52",
+        "blocks 6 materials wood -5, stone +10 optimum 16 fewest 27 steps; the scripted builder takes 27",
+        "blocks 40 materials wood -5, stone +10 optimum 50 fewest at most 108 (the scripted builder's: an upper bound)",
+        "blocks 100 materials wood -5, stone +10 optimum 110 fewest at most 107 (the scripted builder's: an upper",
     ):
         assert words in printed
 

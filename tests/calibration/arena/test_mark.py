@@ -283,3 +283,35 @@ def test_mistakes_are_reported_before_a_window_is_looked_for(tmp_path: Path, fon
             mark_arena(file, ask=lambda _: True, say=lambda _: None, standing=standing, font=font, open_devices=refused)
     assert broken.read_text("utf-8") == "[arena\n"
     assert not (tmp_path / "new.toml").exists()
+
+
+@pytest.mark.parametrize("size", [14, 33])
+def test_a_size_that_no_arena_has_is_one_line_before_a_window_is_looked_for(
+    size: int, tmp_path: Path, font_file: Path
+) -> None:
+    with pytest.raises(UserError, match=f"{size} x {size} cells: choose 15 to 32 cells along each side"):
+        mark_arena(
+            tmp_path / "new.toml",
+            ask=lambda _: True,
+            say=lambda _: None,
+            size=size,
+            font=font_file,
+            open_devices=refused,
+        )
+
+
+def test_a_larger_arena_is_marked_around_the_middle_of_its_near_edge(
+    tmp_path: Path, font_file: Path, opened: Open
+) -> None:
+    file, questions, told = tmp_path / "mine.toml", list[str](), list[str]()
+
+    def agree(question: str) -> bool:
+        questions.append(question)
+        return True
+
+    mark_arena(file, ask=agree, say=told.append, size=20, font=font_file, open_devices=opened)
+    # Facing west from block (-4, 64, 118): cell (0, 0) is 10 to the south.
+    assert load_profile(file).marked_arena() == Arena.around((-4, 64, 128), "west", size=20)
+    assert "size = 20" in file.read_text("utf-8")
+    assert "20 x 20 x 2 high" in questions[0]
+    assert "the middle of the arena's near edge" in told[0]

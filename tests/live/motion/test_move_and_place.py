@@ -154,6 +154,19 @@ def test_at_the_arenas_edge_no_click_goes_out_before_the_end_is_certain() -> Non
     assert on_the_way.clock.now() == one_by_one.clock.now()
 
 
+@pytest.mark.parametrize(("size", "is_known"), [(15, False), (16, True)])
+def test_what_stands_ahead_is_checked_up_to_the_edge_of_the_arena_of_its_size(size: int, is_known: bool) -> None:
+    profile = Profile(arena=Arena.around((14, 64, 0), "south", size=size))
+    game = _game((7, 14), profile)
+    game.blocks[profile.marked_arena().block_of((7, 15))] = "stone"
+    body = _body(game)
+    if not is_known:
+        body.check_floor_ahead()
+        return
+    with pytest.raises(NotConfirmedError, match="only the floor should be at"):
+        body.check_floor_ahead()
+
+
 def test_a_click_that_the_game_missed_is_repeated() -> None:
     game = _game()
     game.refuse_clicks = 2

@@ -32,6 +32,30 @@ def test_an_arena_around_an_origin_marks_its_cells_as_high_as_the_player() -> No
     assert arena.position_of((3.25, 64.0, -18.5)) == (2.25, 1.0)
 
 
+def test_a_profile_of_before_arenas_had_sizes_has_one_of_15_cells() -> None:
+    old = "[arena]\norigin = [0, 64, 0]\nfacing = 'south'\nmarked = [[0, 64, 0], [-14, 65, 14]]"
+    assert parse_profile(old, "mine.toml").marked_arena() == Arena.around((0, 64, 0), "south")
+    assert Arena.around((0, 64, 0), "south").size == 15
+
+
+@pytest.mark.parametrize(("size", "is_valid"), [(14, False), (15, True), (32, True), (33, False)])
+def test_a_profiles_arena_has_15_to_32_cells_a_side(size: int, is_valid: bool) -> None:
+    text = f"[arena]\norigin = [0, 64, 0]\nfacing = 'south'\nsize = {size}\nmarked = [[0, 64, 0], [-40, 65, 40]]"
+    if is_valid:
+        assert parse_profile(text, "mine.toml").marked_arena().size == size
+        return
+    with pytest.raises(ProfileError, match=r"arena\.size"):
+        parse_profile(text, "mine.toml")
+
+
+def test_the_marked_blocks_hold_an_arena_as_large_as_it_is() -> None:
+    arena = Arena.around((0, 64, 0), "south", size=20)
+    assert arena.region == ((-19, 64, 0), (0, 65, 19))
+    assert (arena.middle, arena.near_middle) == ((10, 10), (10, 0))
+    with pytest.raises(ValidationError, match="don't hold the whole arena"):
+        Arena(origin=(0, 64, 0), facing="south", size=21, marked=arena.marked)
+
+
 def test_a_region_has_its_lowest_corner_first_whichever_corners_are_marked() -> None:
     arena = Arena(origin=(0, 64, 0), facing="south", marked=((2, 64, 20), (-14, 66, -3)))
     assert arena.region == ((-14, 64, -3), (2, 66, 20))
