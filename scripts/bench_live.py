@@ -43,7 +43,7 @@ from mc_nested.live.action_log import percentile
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.arena import Arena, size_for
 from mc_nested.live.profile.tables import GameVersion, InputTable, Profile, ScreenTable, WalkTable
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.game_screen import WindowScreen
@@ -110,7 +110,7 @@ def play(
         least, most = latency_ms
         client = VirtualClient(seed=seed, pitch=GROUND_PITCH, capture_latency_s=(least / 1000, most / 1000))
         walk_table = calibrated_walk(client)
-    arena = Arena.around((-20, client.realm.world.floor, 31), "south")
+    arena = Arena.around((-20, client.realm.world.floor, 31), "south", size=size_for(scenario))
     steps = track(range(count), "soak" if rate else "clean", console=Console(stderr=True))
     return play_in(client, live_game(client, scenario, arena, walk_table), arena, scenario, steps, rate, seed)
 

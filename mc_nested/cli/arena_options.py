@@ -7,6 +7,7 @@ import typer
 from mc_nested.arena.scenario import DEFAULT_SIZE
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import UserError
+from mc_nested.live.profile.arena import size_for
 
 SizeOption = Annotated[
     int | None, typer.Option(metavar="CELLS", help=f"cells along each side, up to 32 [{DEFAULT_SIZE}]")
@@ -21,12 +22,12 @@ StandingOption = Annotated[
 
 
 def arena_size(size: int | None, scenario: str | None) -> int:
-    """Cells along each side of the arena to calibrate. A scenario smaller than the default is played in a part of it.
+    """Cells along each side of the arena to calibrate.
 
     UserError if both are given; ScenarioError if the scenario can't be used.
     """
     if size is not None and scenario is not None:
         raise UserError("--size and --scenario both say how large the arena is: give one of them")
     if scenario is not None:
-        return max(DEFAULT_SIZE, load_scenario(scenario).size)
+        return size_for(load_scenario(scenario))
     return DEFAULT_SIZE if size is None else size

@@ -5,7 +5,7 @@ import math
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE
+from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE, Scenario
 from mc_nested.live.model import coordinates
 from mc_nested.live.model.coordinates import Facing, GroundVector
 from mc_nested.live.model.reading import Block
@@ -17,6 +17,11 @@ FILL_LIMIT = 32768
 def near_middle(size: int) -> Cell:
     """The cell in the middle of an arena's near edge: where the player stands when it is marked."""
     return size // 2, 0
+
+
+def size_for(scenario: Scenario) -> int:
+    """Cells along each side of the arena to calibrate for a scenario; a small one is played in a part of it."""
+    return max(DEFAULT_SIZE, scenario.size)
 
 
 class ProfileTable(BaseModel):

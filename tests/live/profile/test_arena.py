@@ -3,8 +3,9 @@
 import pytest
 from pydantic import ValidationError
 
+from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.errors import ProfileError
-from mc_nested.live.profile.arena import FILL_LIMIT, Arena
+from mc_nested.live.profile.arena import FILL_LIMIT, Arena, size_for
 from mc_nested.live.profile.store import parse_profile
 
 
@@ -46,6 +47,13 @@ def test_a_profiles_arena_has_15_to_32_cells_a_side(size: int, is_valid: bool) -
         return
     with pytest.raises(ProfileError, match=r"arena\.size"):
         parse_profile(text, "mine.toml")
+
+
+@pytest.mark.parametrize(("needs", "gets"), [(5, 15), (15, 15), (16, 16), (32, 32)])
+def test_a_scenario_gets_an_arena_as_large_as_it_needs_and_never_a_smaller_one_than_the_papers(
+    needs: int, gets: int
+) -> None:
+    assert size_for(Scenario("any", frozenset({(1, 1)}), (0, 0), 9, (Material("stone", 0.0, "stone"),), needs)) == gets
 
 
 def test_the_marked_blocks_hold_an_arena_as_large_as_it_is() -> None:
