@@ -38,8 +38,8 @@ def run_acceptance_test(context: CalibrationContext, profile: Profile) -> StepRe
     cell, placed = game.reset(0), set[Cell]()
     for action in ACTIONS:
         outcome = game.act(action)
-        expected_cell = rules.moved(cell, action, placed)
-        expected_block = rules.landing(expected_cell, action, placed)
+        expected_cell = rules.moved(cell, action, placed, SCENARIO.size)
+        expected_block = rules.landing(expected_cell, action, placed, SCENARIO.size)
         if outcome != Outcome(expected_cell, expected_block):
             raise NotConfirmedError(
                 f"{action.name} from cell {cell} should end in {expected_cell} with a block at {expected_block}, it "

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from calibration.acceptance_test import run_acceptance_test
 from calibration.arena.build import build_arena
-from calibration.arena.mark import NEAR_MIDDLE, check_standing
+from calibration.arena.mark import check_standing
 from calibration.clicks.find import find_clicks_unattended
 from calibration.context import CalibrationContext, StepResult
 from calibration.cross_check import cross_check
@@ -15,6 +15,8 @@ from calibration.font.sources import FontSources
 from calibration.runner import CalibrationStep
 from calibration.walk.measure import walk
 from mc_nested.arena.action import Cell
+from mc_nested.arena.scenario import DEFAULT_SIZE
+from mc_nested.live.profile.arena import near_middle
 from mc_nested.live.profile.tables import Profile
 
 
@@ -22,22 +24,23 @@ def registered_steps(
     font: Path | None = None,
     sources: Callable[[str | None], FontSources] = sources_here,
     *,
-    standing: Cell = NEAR_MIDDLE,
+    size: int = DEFAULT_SIZE,
+    standing: Cell | None = None,
     path: Path | None = None,
 ) -> list[CalibrationStep]:
     """All steps. Missing buttons and an unreachable clipboard don't end the run.
 
-    ``font`` and ``sources`` are as in ``font.sources_for``. ``standing`` is the cell that the player stands on.
-    ``path`` is the profile's file, as in ``build_arena``. UserError for a cell outside the arena.
+    ``font`` and ``sources`` are as in ``font.sources_for``. ``size``, ``standing`` and ``path`` are as in
+    ``build_arena``. UserError as ``check_standing``.
     """
-    check_standing(standing)
+    check_standing(near_middle(size) if standing is None else standing, size)
 
     def find_font_step(context: CalibrationContext, profile: Profile) -> StepResult:
         return find_font(context, profile, sources_for(context, profile, font, sources))
 
     return [
         CalibrationStep("font", find_font_step),
-        CalibrationStep("arena", partial(build_arena, path=path, standing=standing)),
+        CalibrationStep("arena", partial(build_arena, path=path, size=size, standing=standing)),
         CalibrationStep("walk", walk),
         CalibrationStep("clicks", find_clicks_unattended, is_needed=False),
         CalibrationStep("cross-check", cross_check, is_needed=False),

@@ -43,6 +43,7 @@ from mc_nested.live.connection import GameConnection, connect
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile.arena import size_for
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.profile.tables import Profile
 from scripts.bench_live import PlayCounts, play_in
@@ -109,7 +110,7 @@ def calibrate_and_play(settings: ClientSettings, folder: Path, actions: int, sce
             str(profile_file),
             context_opener_for(client),
             doctor_for(client, folder),
-            registered_steps(write_font(folder)),
+            registered_steps(write_font(folder), size=size_for(scenario)),
             SilentProgress(),
         )
     except McNestedError as error:

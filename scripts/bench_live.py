@@ -43,7 +43,7 @@ from mc_nested.live.action_log import percentile
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.arena import Arena, size_for
 from mc_nested.live.profile.tables import GameVersion, InputTable, Profile, ScreenTable, WalkTable
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.game_screen import WindowScreen
@@ -110,7 +110,7 @@ def play(
         least, most = latency_ms
         client = VirtualClient(seed=seed, pitch=GROUND_PITCH, capture_latency_s=(least / 1000, most / 1000))
         walk_table = calibrated_walk(client)
-    arena = Arena.around((-20, client.realm.world.floor, 31), "south")
+    arena = Arena.around((-20, client.realm.world.floor, 31), "south", size=size_for(scenario))
     steps = track(range(count), "soak" if rate else "clean", console=Console(stderr=True))
     return play_in(client, live_game(client, scenario, arena, walk_table), arena, scenario, steps, rate, seed)
 
@@ -174,7 +174,7 @@ def play_in(
         for _ in steps:
             while placed is None:
                 placed, cell, in_episode = _reset(game, truth, scenario, counts, rng)
-            action = drawn_action(rng, cell, placed)
+            action = drawn_action(rng, cell, placed, scenario.size)
             if rate:
                 client.mishaps.maybe(rate, MISHAP_WITHIN_S)
             counts.actions += 1
@@ -187,8 +187,8 @@ def play_in(
                 continue
             times = counts.placings_s if action in rules.PLACES else counts.moves_s
             times.append(client.clock.now() - act_began)
-            expected_cell = rules.moved(cell, action, placed)
-            expected_block = rules.landing(expected_cell, action, placed)
+            expected_cell = rules.moved(cell, action, placed, scenario.size)
+            expected_block = rules.landing(expected_cell, action, placed, scenario.size)
             placed |= {outcome.placed} if outcome.placed else set()
             cell = outcome.cell
             counts.wrong_cells += truth.cell() != outcome.cell
@@ -236,15 +236,15 @@ def _reset(
     return set(), cell, 0
 
 
-def drawn_action(rng: np.random.Generator, cell: Cell, placed: set[Cell]) -> Action:
+def drawn_action(rng: np.random.Generator, cell: Cell, placed: set[Cell], size: int) -> Action:
     """A random action among those that the rules don't void."""
-    return Action(int(rng.choice([int(action) for action in _possible(cell, placed)])))
+    return Action(int(rng.choice([int(action) for action in _possible(cell, placed, size)])))
 
 
-def _possible(cell: Cell, placed: set[Cell]) -> Iterator[Action]:
+def _possible(cell: Cell, placed: set[Cell], size: int) -> Iterator[Action]:
     for action in Action:
-        target = rules.moved(cell, action, placed)
-        if target != cell or rules.landing(target, action, placed) is not None:
+        target = rules.moved(cell, action, placed, size)
+        if target != cell or rules.landing(target, action, placed, size) is not None:
             yield action
 
 

@@ -98,7 +98,7 @@ def play(game: LiveGame, scenario: Scenario, truth: WorldTruth, count: int, seed
     for _ in track(range(count), "actions", console=Console(stderr=True)):
         if placed is None:
             cell, placed, steps = game.reset(int(rng.integers(len(scenario.materials)))), set(), 0
-        action = drawn_action(rng, cell, placed)
+        action = drawn_action(rng, cell, placed, scenario.size)
         counts.actions += 1
         began = time.perf_counter()
         try:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.env import ArenaEnv, highest_observation, space_up_to
 from mc_nested.arena.game import Outcome, PlayLog, Resumable
-from mc_nested.arena.rules import PLACES, SIZE, STEP, cells_of, grid_of, landing, moved
+from mc_nested.arena.rules import PLACES, STEP, cells_of, grid_of, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options
@@ -23,7 +23,7 @@ class GridGame:
     """A Game that follows the rules and nothing else."""
 
     def __init__(self, scenario: Scenario) -> None:
-        self._start = scenario.start
+        self._start, self._size = scenario.start, scenario.size
         self._cell = scenario.start
         self._placed: set[Cell] = set()
 
@@ -43,15 +43,15 @@ class GridGame:
         return self._cell
 
     def act(self, action: Action) -> Outcome:
-        self._cell = moved(self._cell, action, self._placed)
-        block = landing(self._cell, action, self._placed)
+        self._cell = moved(self._cell, action, self._placed, self._size)
+        block = landing(self._cell, action, self._placed, self._size)
         if block is not None:
             self._placed.add(block)
         return Outcome(self._cell, block)
 
     def snapshot(self) -> Arrays:
         """The cell and the blocks, for ``restore``."""
-        return {"game_cell": np.array(self._cell), "game_placed": grid_of(self._placed)}
+        return {"game_cell": np.array(self._cell), "game_placed": grid_of(self._placed, self._size)}
 
     def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
         """Put the agent and the blocks back as they stood at ``snapshot``."""
@@ -72,21 +72,17 @@ def arena_vector_env(num_envs: int = 1, scenario: str | Scenario = "line") -> "G
     return GridVectorEnv([loaded] * num_envs)
 
 
-# A border of solid cells stops every move and every block at the arena's edge, so nothing has to test for it. The
-# arenas are one flat array, so that one index names a cell of a run, and a move is one addition to it.
-_SIDE = SIZE + 2
-_AREA = _SIDE * _SIDE
-_MOVE = np.array([STEP[action][0] * _SIDE + STEP[action][1] for action in Action])
 _PLACES = np.array([action in PLACES for action in Action])
 _FRONT = 1
 
 
-def _index(cell: Cell) -> int:
-    return (cell[0] + 1) * _SIDE + cell[1] + 1
-
-
 class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
-    """R arenas in NumPy arrays, each with its own scenario; the same as ArenaVectorEnv over GridGames, faster."""
+    """R arenas in NumPy arrays, each with its own scenario and size; as ArenaVectorEnv over GridGames, faster.
+
+    A border of solid cells stops every move and every block at each arena's edge, so nothing has to test for it. The
+    arenas are one flat array, so that one index names a cell of a run, and a move is one addition to it. All have the
+    room of the largest; in a smaller one everything beyond its edge is solid.
+    """
 
     metadata = METADATA
 
@@ -99,21 +95,25 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         self.observation_space = batch_space(self.single_observation_space, runs)
         self.action_space = batch_space(self.single_action_space, runs)
 
-        self._base = np.arange(runs) * _AREA
-        self._start = self._base + [_index(scenario.start) for scenario in self.scenarios]
+        self._side = max(scenario.size for scenario in self.scenarios) + 2
+        area = self._side * self._side
+        self._move = np.array([STEP[action][0] * self._side + STEP[action][1] for action in Action])
+        self._base = np.arange(runs) * area
+        self._start = self._base + [self._index(scenario.start) for scenario in self.scenarios]
         self._blocks = np.array([scenario.blocks for scenario in self.scenarios])
         self._step_limit = np.array([scenario.step_limit for scenario in self.scenarios])
-        self._design = np.zeros(runs * _AREA, dtype=np.bool_)
+        self._design = np.zeros(runs * area, dtype=np.bool_)
         for run, scenario in enumerate(self.scenarios):
-            self._design[self._base[run] + [_index(cell) for cell in scenario.design]] = True
-        border = np.pad(np.zeros((SIZE, SIZE), dtype=np.bool_), 1, constant_values=True)
-        self._border = border.ravel()
+            self._design[self._base[run] + [self._index(cell) for cell in scenario.design]] = True
+        self._border = np.ones((runs, area), dtype=np.bool_)
+        for run in range(runs):
+            self._cells(self._border, run)[:] = False
         choices = max(len(scenario.materials) for scenario in self.scenarios)
         self._worth = np.zeros((runs, choices))
         for run, scenario in enumerate(self.scenarios):
             self._worth[run, : len(scenario.materials)] = [material.p for material in scenario.materials]
 
-        self._solid = np.tile(self._border, runs)
+        self._solid = self._border.flatten()
         self._position = self._start.copy()
         self._blocks_left = self._blocks.copy()
         self._steps = np.zeros(runs, dtype=np.int64)
@@ -127,7 +127,7 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         """Begin an episode in the masked arenas (all, without a mask), each with its material (the best, without)."""
         super().reset(seed=seed if isinstance(seed, int) else None)
         mask, materials = reset_options(options, self.scenarios)
-        self._solid.reshape(-1, _AREA)[mask] = self._border
+        self._solid.reshape(self._border.shape)[mask] = self._border[mask]
         self._position[mask] = self._start[mask]
         self._blocks_left[mask] = self._blocks[mask]
         self._steps[mask] = 0
@@ -138,7 +138,7 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
         """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``."""
         running = ~(self._terminated | self._truncated) & (actions != NO_ACTION)
-        ahead = self._position + _MOVE[actions]
+        ahead = self._position + self._move[actions]
         self._position = np.where(self._solid[ahead] | ~running, self._position, ahead)
         front = self._position + _FRONT
         lands = _PLACES[actions] & ~self._solid[front] & running
@@ -155,8 +155,7 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
 
     def placed(self, run: int) -> frozenset[Cell]:
         """The cells where a block landed in that arena since its last reset."""
-        built = self._solid.reshape(-1, _SIDE, _SIDE)[run, 1:-1, 1:-1]
-        return cells_of(built)
+        return cells_of(self._cells(self._solid, run))
 
     @property
     def resumable(self) -> Resumable | None:
@@ -174,6 +173,15 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
 
     _STATE = ("_solid", "_position", "_blocks_left", "_steps", "_score", "_terminated", "_truncated")
 
+    def _index(self, cell: Cell) -> int:
+        """Where a cell is in its run's part of the flat array."""
+        return (cell[0] + 1) * self._side + cell[1] + 1
+
+    def _cells(self, solid: Bools, run: int) -> Bools:
+        """The part of all arenas' flat array that is the run's cells, (x, y), without the border."""
+        size = self.scenarios[run].size
+        return solid.reshape(-1, self._side, self._side)[run, 1 : size + 1, 1 : size + 1]
+
     def _observations(self) -> Int64s:
-        x, y = np.divmod(self._position - self._base, _SIDE)
+        x, y = np.divmod(self._position - self._base, self._side)
         return np.stack((x - 1, y - 1, self._blocks_left), axis=1)

@@ -72,8 +72,9 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design_in_a_real_window(
 @pytest.mark.standin
 def test_training_goes_on_in_a_real_window_after_a_kill(standin: Standin, tmp_path: Path) -> None:
     tiny = tmp_path / "tiny.toml"
+    grid = draw_grid(frozenset({(7, 13), (7, 12)}), 15)
     tiny.write_text(
-        f'name = "tiny"\nstart = [7, 13]\nstep_limit = 4\ndesign = """\n{draw_grid(frozenset({(7, 13), (7, 12)}))}"""\n'
+        f'name = "tiny"\nstart = [7, 13]\nstep_limit = 4\ndesign = """\n{grid}"""\n'
         '[[materials]]\nname = "stone"\np = 0\nblock = "stone"\n'
     )
     preset = Path(__file__).parents[1] / "mc_nested" / "learn" / "presets" / "paper.toml"

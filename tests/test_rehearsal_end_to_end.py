@@ -124,7 +124,7 @@ class Training:
     def __init__(self, rehearsal: RehearsalWindow, profile: Path, folder: Path, display: Display) -> None:
         self.rehearsal, self.display, self.run = rehearsal, display, folder / "run"
         tiny = folder / "tiny.toml"
-        grid = draw_grid(frozenset({(7, 13), (7, 12), (7, 11)}))
+        grid = draw_grid(frozenset({(7, 13), (7, 12), (7, 11)}), 15)
         tiny.write_text(
             f'name = "tiny"\nstart = [7, 13]\nstep_limit = 8\ndesign = """\n{grid}"""\n'
             '[[materials]]\nname = "stone"\np = 0\nblock = "stone"\n'

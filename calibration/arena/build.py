@@ -17,7 +17,7 @@ from calibration.arena.copy_note import (
 )
 from calibration.arena.ground_survey import is_copy_gone, survey_ground
 from calibration.arena.look_around import teleport_and_look
-from calibration.arena.mark import NEAR_MIDDLE, arena_from_reading, load_profile_with_font
+from calibration.arena.mark import arena_from_reading, load_profile_with_font
 from calibration.arena.messages import build_question, build_summary, undo_hint
 from calibration.arena.plan import FLOOR, border_block, box_of, build_commands, copy_command, do_overlap
 from calibration.command_console import CommandConsole
@@ -25,34 +25,25 @@ from calibration.context import CalibrationContext, ReportPicture, StepResult
 from calibration.open_context import OpenContext
 from calibration.report.kept import keep_or_warn
 from mc_nested.arena.action import Cell
-from mc_nested.arena.rules import SIZE
+from mc_nested.arena.scenario import DEFAULT_SIZE
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import NotConfirmedError, UserError
 from mc_nested.live.menus.commands import teleport_command
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.reading import Block
-from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.arena import Arena, near_middle
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.chat_region import without_chat
-
-MIDDLE: Cell = (SIZE // 2, SIZE // 2)
-
-EDGES: tuple[tuple[Cell, float], ...] = (
-    ((SIZE // 2, SIZE - 1), 0.0),
-    ((SIZE - 1, SIZE // 2), 90.0),
-    ((SIZE // 2, 0), 180.0),
-    ((0, SIZE // 2), -90.0),
-)
-"""Cells in front of the middle of each border, and the turn, in degrees to the right, that faces it from there."""
 
 
 def calibrate_built_arena(
     profile_name: str | Path,
     open_context: OpenContext,
     *,
-    standing: Cell = NEAR_MIDDLE,
+    size: int = DEFAULT_SIZE,
+    standing: Cell | None = None,
     font: Path | None = None,
     yes: bool = False,
 ) -> tuple[StepResult, Path]:
@@ -60,9 +51,11 @@ def calibrate_built_arena(
 
     ``font`` is the client jar or font picture to read with, recorded in the profile; default: the profile's own.
     """
-    path, profile = load_profile_with_font(profile_name, standing, font)
+    path, profile = load_profile_with_font(
+        profile_name, near_middle(size) if standing is None else standing, size, font
+    )
     with undo_hint_on_error(path), open_context(profile) as context:
-        result = build_arena(context, profile, path=path, standing=standing, yes=yes)
+        result = build_arena(context, profile, path=path, size=size, standing=standing, yes=yes)
     with undo_hint_on_error(path):
         save_profile(result.profile, path)
     remove_saved_copy_note(result.profile, path)
@@ -80,7 +73,8 @@ def build_arena(
     profile: Profile,
     *,
     path: Path | None = None,
-    standing: Cell = NEAR_MIDDLE,
+    size: int = DEFAULT_SIZE,
+    standing: Cell | None = None,
     yes: bool = False,
 ) -> StepResult:
     """Mark and build the arena around the player. The profile gets the arena, and the version in the window's title.
@@ -93,7 +87,8 @@ def build_arena(
         profile: with the font.
         path: the profile's file. The copy is noted beside it before anything is built. A copy that was noted earlier
             and never undone is kept. Default: nothing is noted.
-        standing: the cell that the player stands on.
+        size: cells along each side of the arena.
+        standing: the cell that the player stands on; default: the middle of the near edge.
         yes: build without asking.
 
     Raises:
@@ -107,13 +102,14 @@ def build_arena(
         raise UserError(
             "the profile's [world] has no commands: mark the arena only, with mc-nested calibrate arena --mark-only"
         )
+    standing = near_middle(size) if standing is None else standing
     materials = shipped_materials()
     connection = context.connection.for_profile(profile)
     display, screen = connection.devices.display, connection.screen
     context.say("Stand on the middle of the arena's near edge and look across it; then leave mouse and keys alone.")
     reading = wait_until_standing_still(connection)
     connection.check_single_player()
-    arena = arena_from_reading(reading, standing)
+    arena = arena_from_reading(reading, standing, size)
     profile = profile.model_copy(update={"game": game_in(display.title(), profile.game)})
     console = CommandConsole(connection, profile)
     queries = BlockQueries(console, profile, screen, arena.yaw)
@@ -129,6 +125,11 @@ def build_arena(
         raise UserError(
             "an arena of a calibration that ended early stands here: put back what stood there before, with "
             f"{undo_command(path)}, or stand where you stood then"
+        )
+    elif path and (known := profile.arena) and known.size != size and _overlaps_copied(queries, known, arena):
+        raise UserError(
+            f"an arena of another size, {known.size} x {known.size} cells, stands here: put back what stood there "
+            f"before, with {undo_command(path)}, and calibrate again"
         )
     if not yes and not context.ask(build_question(arena, ground, old, materials)):
         raise UserError("the arena was not built: nothing was changed, in the world or in the profile")
@@ -181,11 +182,16 @@ def _check_built(
 ) -> int:
     """Check that the floor in the arena's middle and each border are seen. Returns the number of looks."""
     pitch, prefix = profile.body.pitch, profile.blocks.shown_prefix
-    x, y, z = arena.block_of((MIDDLE[0], MIDDLE[1] + 1))
-    expected = [(MIDDLE, 0.0, (x, y - 1, z), floor)]
-    outside = {0.0: (0, 1), 90.0: (1, 0), 180.0: (0, -1), -90.0: (-1, 0)}
-    for cell, turn in EDGES:
-        right, forward = outside[turn]
+    middle, last = arena.middle, arena.size - 1
+    x, y, z = arena.block_of((middle[0], middle[1] + 1))
+    expected = [(middle, 0.0, (x, y - 1, z), floor)]
+    # From the cell before the middle of each border: the way to it, and the turn to the right that faces it.
+    for cell, (right, forward), turn in (
+        ((middle[0], last), (0, 1), 0.0),
+        ((last, middle[1]), (1, 0), 90.0),
+        ((middle[0], 0), (0, -1), 180.0),
+        ((0, middle[1]), (-1, 0), -90.0),
+    ):
         block = arena.block_of((cell[0] + right, cell[1] + forward))
         expected.append((cell, turn, block, border_block(materials)))
     for cell, turn, block, name in expected:

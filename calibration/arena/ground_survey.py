@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 from calibration.arena.block_queries import BlockQueries
 from calibration.arena.look_around import LookAroundResult, look_around, teleport_and_look
-from calibration.arena.mark import NEAR_MIDDLE
 from calibration.arena.plan import box_at, box_of, copy_positions, floor_of, is_good_floor
 from calibration.command_console import CommandConsole
 from mc_nested.arena.action import Cell
@@ -57,7 +56,7 @@ def survey_ground(
         is_flat = queries.is_uniform(floor_of(arena))
         if is_flat is None and profile.game.dialect != "1.12":
             raise UserError("part of the ground isn't loaded: go nearer to its middle, or raise the render distance")
-    view = None if is_free and is_flat else look_around(console, arena)
+    view = None if is_free and is_flat else look_around(console, arena, standing)
     return GroundSurvey(is_free, is_flat, floor, copy_to, view)
 
 
@@ -66,7 +65,7 @@ def is_copy_gone(queries: BlockQueries, arena: Arena) -> bool:
     if arena.copied_to is None:
         return True
     copy = box_at(box_of(arena), arena.copied_to)
-    x, _, z = arena.block_of(NEAR_MIDDLE)
+    x, _, z = arena.block_of(arena.near_middle)
     # One block of its floor mostly decides it. If that is air, the copied floor may just have had a hole there.
     if queries.is_air((x, copy[0][1], z)) is not True:
         return False

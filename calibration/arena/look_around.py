@@ -12,8 +12,11 @@ from mc_nested.live.profile.arena import Arena
 EYE_HEIGHT = 1.62
 """Blocks from the feet to the eyes (FACTS: Standing, looking, placing)."""
 
-CELLS: tuple[Cell, ...] = tuple((x, y) for y in (3, 8, 13) for x in (1, 4, 7, 10, 13))
-"""Cells whose floor is looked at, spread over the arena."""
+SIGHT = 19.5
+"""Blocks from the eyes to the farthest floor that is looked at (FACTS: the target block is named up to 20 away)."""
+
+ACROSS, ALONG = (1, 4, 7, 10, 13), (3, 8, 13)
+"""Where the cells lie whose floor is looked at, in fifteenths of the arena's size, spread over it."""
 
 VIEW_S = 1.0
 """How long a new view may take to be seen."""
@@ -24,18 +27,34 @@ ANGLE_TOLERANCE_DEG = 0.2
 
 @dataclass(frozen=True)
 class LookAroundResult:
-    """Blocks that stand in the arena's way, and how many of the looks saw the expected floor."""
+    """Blocks that stand in the arena's way, and how many of the looks saw the expected floor.
+
+    ``out_of_sight`` cells were too far away to be looked at.
+    """
 
     in_the_way: dict[Block, str]
     floor: int
     looks: int
+    out_of_sight: int = 0
 
 
-def look_around(console: CommandConsole, arena: Arena) -> LookAroundResult:
-    """Look at the floor of some cells; the player's feet stay where they are."""
+def cells_to_look_at(size: int) -> list[Cell]:
+    """Cells spread over an arena."""
+    return [(size * x // 15, size * y // 15) for y in ALONG for x in ACROSS]
+
+
+def is_in_sight(cell: Cell, standing: Cell) -> bool:
+    """Whether a cell's floor can be seen from ``standing``: in an arena of 15 cells a side, each can from anywhere."""
+    return math.hypot(math.dist(cell, standing), EYE_HEIGHT) <= SIGHT
+
+
+def look_around(console: CommandConsole, arena: Arena, standing: Cell) -> LookAroundResult:
+    """Look at the floor of some cells; the player's feet stay where they are, on the cell ``standing``."""
     in_the_way: dict[Block, str] = {}
     floor = 0
-    for cell in CELLS:
+    spread = cells_to_look_at(arena.size)
+    cells = [cell for cell in spread if is_in_sight(cell, standing)]
+    for cell in cells:
         x, y, z = arena.block_of(cell)
         target = look_at(console, (x + 0.5, float(y), z + 0.5))
         if target is None or target.pos is None:
@@ -44,7 +63,7 @@ def look_around(console: CommandConsole, arena: Arena) -> LookAroundResult:
             floor += 1
         elif target.pos[1] >= y:
             in_the_way[target.pos] = target.id or "a block"
-    return LookAroundResult(in_the_way, floor, len(CELLS))
+    return LookAroundResult(in_the_way, floor, len(cells), len(spread) - len(cells))
 
 
 def look_at(console: CommandConsole, point: tuple[float, float, float]) -> Target | None:

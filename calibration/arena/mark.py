@@ -12,7 +12,8 @@ from pathlib import Path
 
 from calibration.starting_profile import starting_profile
 from mc_nested.arena.action import Cell
-from mc_nested.arena.rules import SIZE, is_inside
+from mc_nested.arena.rules import is_inside
+from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE
 from mc_nested.errors import ProfileError, UserError
 from mc_nested.live.connection import connect
 from mc_nested.live.desktop import open_desktop
@@ -20,14 +21,11 @@ from mc_nested.live.devices import SWITCH_KEYS, Devices
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.coordinates import block_of, facing_of, turn_between, yaw_of
 from mc_nested.live.model.reading import Reading
-from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.arena import Arena, near_middle
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import GameVersion, Profile
 from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.font import load_font
-
-NEAR_MIDDLE: Cell = (SIZE // 2, 0)
-"""The cell that the player stands on by default: the whole arena lies in plain view in front of it."""
 
 TOLERANCE_DEG = 20.0
 """How far the view may differ from an axis of the world and still mean it; halfway between two axes is 45."""
@@ -41,7 +39,8 @@ def mark_arena(
     *,
     ask: Callable[[str], bool],
     say: Callable[[str], None],
-    standing: Cell = NEAR_MIDDLE,
+    size: int = DEFAULT_SIZE,
+    standing: Cell | None = None,
     font: Path | None = None,
     yes: bool = False,
     open_devices: Callable[[str], AbstractContextManager[Devices]] = open_desktop,
@@ -54,7 +53,8 @@ def mark_arena(
         profile_name: a name or a file; a new profile is made if there is none.
         ask: asks the player a yes-or-no question.
         say: tells the player what to do.
-        standing: the cell that the player stands on.
+        size: cells along each side of the arena.
+        standing: the cell that the player stands on; default: the middle of the near edge.
         font: the client jar or font picture to read with, recorded in the profile; default: the profile's own.
         yes: mark without asking.
         open_devices: opens the window of a title.
@@ -63,16 +63,17 @@ def mark_arena(
         UserError: the profile, font or desktop can't be used, or no arena can be where the player stands.
         LiveError: the game did not come to the front, or its debug screen could not be read.
     """
-    path, profile = load_profile_with_font(profile_name, standing, font)
+    standing = near_middle(size) if standing is None else standing
+    path, profile = load_profile_with_font(profile_name, standing, size, font)
     with open_devices(profile.window.title) as devices:
         say(
-            f"Switch to the game with {SWITCH_KEYS}, stand on {_cell_text(standing)}, look across it "
+            f"Switch to the game with {SWITCH_KEYS}, stand on {_cell_text(standing, size)}, look across it "
             f"along an axis of the world, and turn the debug screen on (F3). Stand still."
         )
         reading = wait_until_standing_still(connect(profile, devices))
         title_version = version_in(devices.display.title())
     game = GameVersion(version=title_version) if title_version else profile.game
-    arena = arena_from_reading(reading, standing)
+    arena = arena_from_reading(reading, standing, size)
     if not yes and not ask(mark_question(arena)):
         return None
     save_profile(profile.model_copy(update={"arena": arena, "game": game}), path)
@@ -81,12 +82,14 @@ def mark_arena(
     return path
 
 
-def load_profile_with_font(profile_name: str | Path, standing: Cell, font: Path | None) -> tuple[Path, Profile]:
+def load_profile_with_font(
+    profile_name: str | Path, standing: Cell, size: int, font: Path | None
+) -> tuple[Path, Profile]:
     """The profile's file and the profile, with that font recorded in it. No window is needed.
 
-    UserError if the cell is outside the arena, or the profile or font can't be used.
+    UserError as ``check_standing``, or if the profile or font can't be used.
     """
-    check_standing(standing)
+    check_standing(standing, size)
     path, profile = starting_profile(profile_name)
     if font is not None:
         screen = profile.screen.model_copy(update={"font": str(font.expanduser().resolve())})
@@ -97,14 +100,22 @@ def load_profile_with_font(profile_name: str | Path, standing: Cell, font: Path 
     return path, profile
 
 
-def check_standing(standing: Cell) -> None:
-    """UserError for a cell outside the arena."""
-    if not is_inside(standing):
-        raise UserError(f"cell {standing} lies outside the arena: choose 0 to {SIZE - 1} for x and y")
+def check_standing(standing: Cell, size: int) -> None:
+    """UserError for a size that no arena in a game has, or a cell outside the arena."""
+    if not DEFAULT_SIZE <= size <= LARGEST_SIZE:
+        raise UserError(
+            f"an arena of {size} x {size} cells: choose {DEFAULT_SIZE} to {LARGEST_SIZE} cells along each side; a "
+            "smaller scenario is played in a part of it"
+        )
+    if not is_inside(standing, size):
+        raise UserError(f"cell {standing} lies outside the arena: choose 0 to {size - 1} for x and y")
 
 
-def arena_from_reading(reading: Reading, standing: Cell) -> Arena:
-    """The arena of a player who stands on cell ``standing`` and looks forward. UserError if there can be none."""
+def arena_from_reading(reading: Reading, standing: Cell, size: int) -> Arena:
+    """The arena of a player who stands on cell ``standing`` and looks forward. UserError if there can be none.
+
+    ``size`` is the number of cells along each side.
+    """
     if reading.xyz is None or reading.yaw is None:
         raise UserError("the debug screen shows no position or no facing: turn the whole of it on (F3)")
     facing = facing_of(reading.yaw)
@@ -118,7 +129,7 @@ def arena_from_reading(reading: Reading, standing: Cell) -> Arena:
     feet = (math.floor(x), round(y), math.floor(z))
     shift = block_of((0, 0, 0), facing, standing)
     origin = (feet[0] - shift[0], feet[1], feet[2] - shift[2])
-    return Arena.around(origin, facing)
+    return Arena.around(origin, facing, size=size)
 
 
 def mark_question(arena: Arena) -> str:
@@ -131,5 +142,5 @@ def mark_question(arena: Arena) -> str:
     )
 
 
-def _cell_text(cell: Cell) -> str:
-    return "the middle of the arena's near edge" if cell == NEAR_MIDDLE else f"cell {cell} of the arena"
+def _cell_text(cell: Cell, size: int) -> str:
+    return "the middle of the arena's near edge" if cell == near_middle(size) else f"cell {cell} of the arena"

@@ -56,4 +56,5 @@ def _seen_in(ground: GroundSurvey) -> str:
         return ""
     blocks = [f"{name} at {block}" for block, name in list(ground.view.in_the_way.items())[:6]]
     looks = f"{ground.view.floor} of {ground.view.looks} looks saw the floor"
-    return f" ({', '.join([*blocks, looks])})"
+    far = [f"{ground.view.out_of_sight} more cells are out of sight"] if ground.view.out_of_sight else []
+    return f" ({', '.join([*blocks, looks, *far])})"

@@ -1,6 +1,6 @@
 """The blocks and commands that build an arena. Pure. A box is two corners, the lowest and the highest, both inside.
 
-border       a ring of blocks on the ground around the 15 x 15 cells
+border       a ring of blocks on the ground around the arena's cells
 . . . . . . . . .     the marked region: two blocks of air above the floor
 # # # # # # # # #     the floor, under the cells and the border
 """
@@ -8,7 +8,6 @@ border       a ring of blocks on the ground around the 15 x 15 cells
 import re
 from collections.abc import Sequence
 
-from mc_nested.arena.rules import SIZE
 from mc_nested.live.menus.commands import clear_command, item_command
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena
@@ -111,7 +110,8 @@ def build_commands(profile: Profile, arena: Arena, materials: Sequence[str], *, 
 
 def border_of(arena: Arena) -> list[Box]:
     """The four sides of the ring."""
-    corners = [arena.block_of(cell) for cell in ((-1, -1), (SIZE, -1), (SIZE, SIZE), (-1, SIZE))]
+    size = arena.size
+    corners = [arena.block_of(cell) for cell in ((-1, -1), (size, -1), (size, size), (-1, size))]
     return [_ordered(one, other) for one, other in zip(corners, [*corners[1:], corners[0]], strict=True)]
 
 

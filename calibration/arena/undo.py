@@ -5,7 +5,6 @@ from pathlib import Path
 from calibration.arena.block_queries import BlockQueries
 from calibration.arena.copy_note import read_copy_note, remove_copy_note
 from calibration.arena.ground_survey import is_copy_gone
-from calibration.arena.mark import NEAR_MIDDLE
 from calibration.arena.plan import box_at, box_of, copy_command, fill_command
 from calibration.command_console import CommandConsole
 from calibration.context import CalibrationContext, StepResult
@@ -56,7 +55,7 @@ def undo_arena(context: CalibrationContext, profile: Profile) -> StepResult:
     queries = BlockQueries(console, profile, connection.screen, arena.yaw)
     box = box_of(arena)
     copy = box_at(box, copied_to)
-    console.send(teleport_command(arena, NEAR_MIDDLE, profile.body.pitch))
+    console.send(teleport_command(arena, arena.near_middle, profile.body.pitch))
     if is_copy_gone(queries, arena):
         raise NotConfirmedError(f"no copy is at {copy[0]} any more, nothing was touched: is this the arena's world?")
     console.send(copy_command(copy, box[0]))

@@ -23,8 +23,6 @@ from calibration.walk.gait_fit import rms
 from calibration.walk.survey import FORWARD_AXIS, SIDE_AXIS, Survey
 from calibration.walk.walk_model import PLAIN_SPEED, WalkModel, fit_walk_model
 from calibration.walk.walker import Walker
-from mc_nested.arena.action import Cell
-from mc_nested.arena.rules import SIZE
 from mc_nested.errors import McNestedError, NotConfirmedError, ProfileError, UnreadableError, UserError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.menus.commands import clear_command, floor_commands, teleport_command
@@ -35,9 +33,6 @@ from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObs
 from mc_nested.live.motion.pose_reader import PoseReader
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import KeysTable, Profile, WalkTable
-
-MIDDLE: Cell = (SIZE // 2, SIZE // 2)
-"""The cell with the most room around it."""
 
 TIMED = (5, 5, 4, 4, 6, 6, 2, 2)
 """Ticks of the holds that are predicted before they are pressed, there and back; most are about one cell long."""
@@ -108,8 +103,8 @@ def walk(context: CalibrationContext, profile: Profile) -> StepResult:
         console.send(clear_command(profile.arena))
         for command in floor_commands(profile.arena, profile.game.dialect):
             console.send(command)
-        console.send(teleport_command(profile.arena, MIDDLE, profile.body.pitch))
-        middle = WorldPose(profile.arena.centre_of(MIDDLE), profile.arena.yaw, profile.body.pitch)
+        console.send(teleport_command(profile.arena, profile.arena.middle, profile.body.pitch))
+        middle = WorldPose(profile.arena.centre_of(profile.arena.middle), profile.arena.yaw, profile.body.pitch)
         _wait_for_arrival(connection, profile, middle)
     survey = Survey(Walker(connection, profile), profile.keys, context.devices.clock)
     try:

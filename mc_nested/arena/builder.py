@@ -20,7 +20,7 @@ def build(scenario: Scenario) -> list[Action]:
     cell = scenario.start
     for target in _order(scenario):
         stand = (target[0], target[1] - 1)
-        path = _walk(cell, stand) or _step_aside(cell)
+        path = _walk(cell, stand) or _step_aside(cell, scenario.size)
         actions += [*path[:-1], WITH_BLOCK[path[-1]]]
         cell = stand
     return actions
@@ -44,11 +44,11 @@ def _walk(start: Cell, goal: Cell) -> list[Action]:
     return [Action.F if along > 0 else Action.B] * abs(along) + [Action.R if across > 0 else Action.L] * abs(across)
 
 
-def _step_aside(cell: Cell) -> list[Action]:
+def _step_aside(cell: Cell, size: int) -> list[Action]:
     """Away and back: the agent is in the right cell, but every action that places a block begins with a move."""
     there_and_back = ((Action.B, Action.F), (Action.L, Action.R), (Action.R, Action.L))
     return next(
         [there, back]
         for there, back in there_and_back
-        if is_inside((cell[0] + STEP[there][0], cell[1] + STEP[there][1]))
+        if is_inside((cell[0] + STEP[there][0], cell[1] + STEP[there][1]), size)
     )

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.rules import SIZE
 from mc_nested.arena.scenario import Scenario
 
 AGENT, BUILT, WRONG, MISSING, FREE = "^", "#", "x", "o", "."
@@ -34,17 +33,19 @@ def kind_of(scenario: Scenario, agent: Cell | None, placed: Collection[Cell], ce
 
 
 def draw_text(scenario: Scenario, agent: Cell | None, placed: Collection[Cell]) -> str:
-    """The arena as 15 lines of text, two characters a cell so that it looks square in a terminal."""
-    rows = (" ".join(kind_of(scenario, agent, placed, (x, y)) for x in range(SIZE)) for y in reversed(range(SIZE)))
+    """The arena as a line of text a row, two characters a cell so that it looks square in a terminal."""
+    across = range(scenario.size)
+    rows = (" ".join(kind_of(scenario, agent, placed, (x, y)) for x in across) for y in reversed(across))
     return "\n".join(rows)
 
 
 def draw_picture(scenario: Scenario, agent: Cell | None, placed: Collection[Cell]) -> NDArray[np.uint8]:
-    """The arena as (240, 240, 3) RGB: a square per cell, with thin lines between."""
-    picture = np.full((SIZE * CELL_PX, SIZE * CELL_PX, 3), 200, dtype=np.uint8)
-    for x in range(SIZE):
-        for y in range(SIZE):
-            top, left = (SIZE - 1 - y) * CELL_PX, x * CELL_PX
+    """The arena as (16 size, 16 size, 3) RGB: a square per cell, with thin lines between."""
+    size = scenario.size
+    picture = np.full((size * CELL_PX, size * CELL_PX, 3), 200, dtype=np.uint8)
+    for x in range(size):
+        for y in range(size):
+            top, left = (size - 1 - y) * CELL_PX, x * CELL_PX
             colour = COLOURS[kind_of(scenario, agent, placed, (x, y))]
             picture[top + 1 : top + CELL_PX, left + 1 : left + CELL_PX] = colour
     return picture

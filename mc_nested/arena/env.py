@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.drawing import draw_picture, draw_text
 from mc_nested.arena.game import Game, Resumable
-from mc_nested.arena.rules import SIZE, cells_of, grid_of
+from mc_nested.arena.rules import cells_of, grid_of
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Int64s
 
@@ -38,7 +38,7 @@ class Info(TypedDict, total=False):
 
 def highest_observation(scenario: Scenario) -> Observation:
     """The highest value of each part of an observation; the lowest is 0."""
-    return np.array([SIZE - 1, SIZE - 1, scenario.blocks])
+    return np.array([scenario.size - 1, scenario.size - 1, scenario.blocks])
 
 
 def space_up_to(highest: Int64s) -> Space[Any]:
@@ -136,7 +136,7 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
         """The current episode, the game's part included, for ``restore``. The game must be resumable."""
         stands_at = np.array([self._material, *self._cell, self._steps, self._running])
         game = self.game.resumable.snapshot() if self.game.resumable else {}
-        return {**game, "env_stands_at": stands_at, "env_placed": grid_of(self._placed)}
+        return {**game, "env_stands_at": stands_at, "env_placed": grid_of(self._placed, self.scenario.size)}
 
     def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
         """Put the episode back as it stood at ``snapshot``."""

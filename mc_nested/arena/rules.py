@@ -1,6 +1,7 @@
 """The rules of the task: where a move leads and where a block lands (README: the task).
 
 Cells are (x, y): x to the right, y forward, the way the agent looks for the whole episode (paper, section 5).
+``size`` is the number of cells along each side of the arena (Scenario.size).
 """
 
 from collections.abc import Collection
@@ -9,10 +10,6 @@ import numpy as np
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arrays import Bools
-
-SIZE = 15
-"""Cells along each side of the arena (paper, section 5: a 15 by 15 grid)."""
-
 
 STEP: dict[Action, Cell] = {
     Action.F: (0, 1),
@@ -30,9 +27,9 @@ PLACES = frozenset({Action.FD, Action.LD, Action.RD, Action.BD})
 """The actions that place a block after their move."""
 
 
-def is_inside(cell: Cell) -> bool:
+def is_inside(cell: Cell, size: int) -> bool:
     """Whether the cell belongs to the arena."""
-    return 0 <= cell[0] < SIZE and 0 <= cell[1] < SIZE
+    return 0 <= cell[0] < size and 0 <= cell[1] < size
 
 
 def front_of(cell: Cell) -> Cell:
@@ -40,24 +37,24 @@ def front_of(cell: Cell) -> Cell:
     return cell[0], cell[1] + 1
 
 
-def moved(cell: Cell, action: Action, placed: Collection[Cell]) -> Cell:
+def moved(cell: Cell, action: Action, placed: Collection[Cell], size: int) -> Cell:
     """The cell that the action's move leads to: the same cell if a block or the arena's edge stops it."""
     right, forward = STEP[action]
     ahead = (cell[0] + right, cell[1] + forward)
-    return ahead if is_inside(ahead) and ahead not in placed else cell
+    return ahead if is_inside(ahead, size) and ahead not in placed else cell
 
 
-def landing(cell: Cell, action: Action, placed: Collection[Cell]) -> Cell | None:
+def landing(cell: Cell, action: Action, placed: Collection[Cell], size: int) -> Cell | None:
     """Where the action's block lands once the agent has moved to ``cell``; None if the rules void it."""
     front = front_of(cell)
-    if action not in PLACES or not is_inside(front) or front in placed:
+    if action not in PLACES or not is_inside(front, size) or front in placed:
         return None
     return front
 
 
-def grid_of(cells: Collection[Cell]) -> Bools:
-    """The cells as a grid (x, y)."""
-    grid = np.zeros((SIZE, SIZE), dtype=np.bool_)
+def grid_of(cells: Collection[Cell], size: int) -> Bools:
+    """The cells as a grid (x, y), (size, size)."""
+    grid = np.zeros((size, size), dtype=np.bool_)
     for cell in cells:
         grid[cell] = True
     return grid

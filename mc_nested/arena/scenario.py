@@ -1,9 +1,16 @@
-"""Scenario: the design to build, the start cell, the step limit, and the value of each material."""
+"""Scenario: the arena's size, the design to build, the start cell, the step limit, and each material's value."""
 
 from dataclasses import dataclass
 
 from mc_nested.arena.action import Cell
 from mc_nested.errors import ScenarioError
+
+DEFAULT_SIZE = 15
+"""Cells along each side of the arena, unless a scenario says otherwise (paper, section 5: a 15 by 15 grid)."""
+
+SMALLEST_SIZE, LARGEST_SIZE = 5, 32
+"""The sizes that an arena may have, both included. An arena of 32 is cleared, and copied, by one command
+(FACTS: Commands), and seen whole in a terminal."""
 
 
 @dataclass(frozen=True)
@@ -20,13 +27,32 @@ class Material:
 
 @dataclass(frozen=True)
 class Scenario:
-    """A task: build the design's cells, one block each, from the start cell within the step limit."""
+    """A task: build the design's cells, one block each, from the start cell within the step limit.
+
+    The arena is ``size`` by ``size`` cells. ScenarioError if it can't be that large, or a cell lies outside.
+    """
 
     name: str
     design: frozenset[Cell]
     start: Cell
     step_limit: int
     materials: tuple[Material, ...]
+    size: int = DEFAULT_SIZE
+
+    def __post_init__(self) -> None:
+        if not SMALLEST_SIZE <= self.size <= LARGEST_SIZE:
+            raise ScenarioError(
+                f"design: {self.size} x {self.size} cells: an arena has {SMALLEST_SIZE} to {LARGEST_SIZE} a side"
+            )
+        cells = range(self.size)
+        outside = sorted(cell for cell in self.design if cell[0] not in cells or cell[1] not in cells)
+        if outside:
+            raise ScenarioError(
+                f"design: cell {outside[0]} lies outside the arena of {self.size} x {self.size} cells: "
+                "make the arena larger, or the design smaller"
+            )
+        if self.start[0] not in cells or self.start[1] not in cells:
+            raise ScenarioError(f"start: {self.start} lies outside: choose 0 to {self.size - 1} for x and y")
 
     @property
     def blocks(self) -> int:

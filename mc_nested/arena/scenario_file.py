@@ -1,4 +1,7 @@
-"""Scenario files: TOML with the design as an ASCII grid, the far edge (y = 14) on top."""
+"""Scenario files: TOML with the design as an ASCII grid, the far edge on top.
+
+The drawing's size is the arena's: N rows of N characters make an arena of N x N cells.
+"""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,8 +9,7 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.rules import SIZE, is_inside
-from mc_nested.arena.scenario import Material, Scenario
+from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE, Material, Scenario
 from mc_nested.errors import ScenarioError
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
 
@@ -40,9 +42,14 @@ class ScenarioTable(BaseModel):
     materials: Annotated[list[MaterialTable], Field(min_length=1)]
 
 
-def shipped_scenarios() -> list[str]:
-    """Names of the scenarios that come with the project, easiest first."""
+def paper_scenarios() -> list[str]:
+    """Names of the paper's three scenarios, easiest first: what experiments run unless others are named."""
     return ["line", "zigzag", "diamond"]
+
+
+def shipped_scenarios() -> list[str]:
+    """Names of the scenarios that come with the project: the paper's, then larger ones and one in two parts."""
+    return [*paper_scenarios(), "islands", "house", "square"]
 
 
 def load_scenario(name_or_file: str | Path) -> Scenario:
@@ -59,13 +66,18 @@ def parse_scenario(text: str, source: str) -> Scenario:
 
 def scenario_of(table: ScenarioTable, source: str) -> Scenario:
     """The scenario of a table; ScenarioError, one line that names ``source``, if it can't be built."""
-    scenario = Scenario(
-        name=table.name,
-        design=_parse_grid(table.design, source),
-        start=(table.start[0], table.start[1]),
-        step_limit=table.step_limit,
-        materials=tuple(Material(m.name, m.p, m.block) for m in table.materials),
-    )
+    design, size = _parse_grid(table.design, source)
+    try:
+        scenario = Scenario(
+            name=table.name,
+            design=design,
+            start=(table.start[0], table.start[1]),
+            step_limit=table.step_limit,
+            materials=tuple(Material(m.name, m.p, m.block) for m in table.materials),
+            size=size,
+        )
+    except ScenarioError as error:
+        raise ScenarioError(f"{source}: {error}") from None
     _check(scenario, source)
     return scenario
 
@@ -76,26 +88,35 @@ def table_of(scenario: Scenario) -> ScenarioTable:
         name=scenario.name,
         start=list(scenario.start),
         step_limit=scenario.step_limit,
-        design=draw_grid(scenario.design),
+        design=draw_grid(scenario.design, scenario.size),
         materials=[MaterialTable(name=m.name, p=m.p, block=m.block) for m in scenario.materials],
     )
 
 
-def draw_grid(cells: frozenset[Cell]) -> str:
-    """The cells as the ASCII grid of a scenario file, the far edge (y = 14) on top."""
-    rows = ("".join(BLOCK if (x, y) in cells else FREE for x in range(SIZE)) for y in reversed(range(SIZE)))
+def draw_grid(cells: frozenset[Cell], size: int) -> str:
+    """The cells as the ASCII grid of a scenario file: ``size`` rows, the far edge on top."""
+    rows = ("".join(BLOCK if (x, y) in cells else FREE for x in range(size)) for y in reversed(range(size)))
     return "".join(row + "\n" for row in rows)
 
 
-def _parse_grid(grid: str, source: str) -> frozenset[Cell]:
+def _parse_grid(grid: str, source: str) -> tuple[frozenset[Cell], int]:
+    """The cells of a drawing, and how many it has along each side."""
     rows = grid.split()
-    if len(rows) != SIZE or any(len(row) != SIZE or set(row) - {BLOCK, FREE} for row in rows):
-        raise ScenarioError(
-            f"{source}: design: write {SIZE} rows of {SIZE} characters, {BLOCK!r} for a block and {FREE!r} for none"
-        )
-    return frozenset(
-        (x, SIZE - 1 - row) for row, line in enumerate(rows) for x, character in enumerate(line) if character == BLOCK
+    size = len(rows)
+    for number, row in enumerate(rows, 1):
+        if set(row) - {BLOCK, FREE}:
+            raise ScenarioError(
+                f"{source}: design: row {number} is {row!r}: write {BLOCK!r} for a block and {FREE!r} for none"
+            )
+        if len(row) != size:
+            raise ScenarioError(
+                f"{source}: design: {size} rows, and row {number} has {len(row)} characters: draw a square, "
+                f"{SMALLEST_SIZE} to {LARGEST_SIZE} rows of as many characters"
+            )
+    cells = frozenset(
+        (x, size - 1 - row) for row, line in enumerate(rows) for x, character in enumerate(line) if character == BLOCK
     )
+    return cells, size
 
 
 def _check(scenario: Scenario, source: str) -> None:
@@ -109,8 +130,6 @@ def _check(scenario: Scenario, source: str) -> None:
             f"{source}: design: cell {unreachable[0]} can't be reached, a block lands in front of the agent: "
             f"keep the bottom row free"
         )
-    if not is_inside(scenario.start):
-        raise ScenarioError(f"{source}: start: {scenario.start} lies outside: choose 0 to {SIZE - 1} for x and y")
     if scenario.step_limit < scenario.blocks:
         raise ScenarioError(
             f"{source}: step_limit: {scenario.step_limit} steps can't place {scenario.blocks} blocks: raise it"

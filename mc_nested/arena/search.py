@@ -1,26 +1,25 @@
 """The fewest steps that build a whole design: exact search over every order of its blocks.
 
 A state is (which blocks are placed, where the agent is). Only states without a wasted block count, so the blocks are
-one of the 2^n subsets of the design. For each subset, the cells that the agent can be in after t steps are 15 rows of
-15 bits. So one step of every subset at once is a few shifts over an array of shape (2^n, 15).
+one of the 2^n subsets of the design. For each subset, the cells that the agent can be in after t steps are a row of
+bits for each y. So one step of every subset at once is a few shifts over an array of shape (2^n, size).
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import build
-from mc_nested.arena.rules import SIZE
 from mc_nested.arena.scenario import Scenario
 
 EXACT_UP_TO = 18
 """Blocks up to which the search is exact: beyond, time and memory double with each block."""
 
-Rows = NDArray[np.uint16]
-"""(2^n, 15): a row of 15 bits for each y of each subset of the blocks."""
-
-FULL_ROW = np.uint16((1 << SIZE) - 1)
+Rows = NDArray[np.unsignedinteger[Any]]
+"""(2^n, size): a row of bits for each y of each subset of the blocks, bit x for the cell (x, y)."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +40,7 @@ def fewest_steps(scenario: Scenario) -> FewestSteps:
 def _search(scenario: Scenario) -> int:
     """Breadth first from the start cell until the whole design is built."""
     blocks = sorted(scenario.design)
-    free = _free_cells(blocks)
+    free = _free_cells(blocks, scenario.size)
     reached = np.zeros_like(free)
     reached[0, scenario.start[1]] = 1 << scenario.start[0]
     steps = 0
@@ -54,18 +53,18 @@ def _search(scenario: Scenario) -> int:
     return steps
 
 
-def _free_cells(blocks: list[tuple[int, int]]) -> Rows:
-    """(2^n, 15) uint16: bit x of [subset, y] is set where no block of the subset stands."""
+def _free_cells(blocks: list[Cell], size: int) -> Rows:
+    """Bit x of [subset, y] is set where no block of the subset stands."""
     subsets = np.arange(1 << len(blocks))
-    free = np.full((len(subsets), SIZE), FULL_ROW, dtype=np.uint16)
+    free: Rows = np.full((len(subsets), size), (1 << size) - 1, dtype=np.uint16 if size <= 16 else np.uint32)
     for index, (x, y) in enumerate(blocks):
-        free[(subsets >> index) & 1 == 1, y] &= FULL_ROW & ~np.uint16(1 << x)
+        free[(subsets >> index) & 1 == 1, y] &= ~free.dtype.type(1 << x)
     return free
 
 
 def _after_one_move(reached: Rows, free: Rows) -> Rows:
     """Where the agent can be after exactly one move: in a free neighbour, or stopped where it was."""
-    left, right = reached >> 1, (reached << 1) & FULL_ROW
+    left, right = reached >> np.uint8(1), reached << np.uint8(1)
     back, forward = np.zeros_like(reached), np.zeros_like(reached)
     back[:, :-1], forward[:, 1:] = reached[:, 1:], reached[:, :-1]
     moved: Rows = ((left | right | back | forward) & free) | _stopped(reached, free)
@@ -74,10 +73,11 @@ def _after_one_move(reached: Rows, free: Rows) -> Rows:
 
 def _stopped(reached: Rows, free: Rows) -> Rows:
     """Where a move can be stopped: cells with a block or the arena's edge on some side."""
-    solid = ~free & FULL_ROW
-    edge = np.uint16(1 | 1 << (SIZE - 1))
-    beside = ((solid << 1) | (solid >> 1) | edge) & FULL_ROW
-    beside[:, 0] = beside[:, -1] = FULL_ROW
+    size = free.shape[1]
+    full_row, edge = free.dtype.type((1 << size) - 1), free.dtype.type(1 | 1 << (size - 1))
+    solid = ~free & full_row
+    beside = (solid << 1) | (solid >> 1) | edge
+    beside[:, 0] = beside[:, -1] = full_row
     beside[:, 1:] |= solid[:, :-1]
     beside[:, :-1] |= solid[:, 1:]
     stopped: Rows = reached & beside
@@ -86,6 +86,6 @@ def _stopped(reached: Rows, free: Rows) -> Rows:
 
 def _place(moved: Rows, reached: Rows, index: int, x: int, y: int) -> None:
     """Place block ``index`` in every subset without it in which the agent moved to (x, y), right before it."""
-    without = moved.reshape(-1, 2, 1 << index, SIZE)[:, 0, :, y]
-    with_block = reached.reshape(-1, 2, 1 << index, SIZE)[:, 1, :, y]
-    with_block |= without & np.uint16(1 << x)
+    without = moved.reshape(-1, 2, 1 << index, moved.shape[1])[:, 0, :, y]
+    with_block = reached.reshape(-1, 2, 1 << index, reached.shape[1])[:, 1, :, y]
+    with_block |= without & reached.dtype.type(1 << x)

@@ -7,7 +7,6 @@ from typing import Annotated
 
 import typer
 
-from calibration.arena.mark import NEAR_MIDDLE
 from calibration.calibrate_all import calibrate_all
 from calibration.context import StepResult
 from calibration.doctor.check import Check
@@ -16,6 +15,7 @@ from calibration.installation.folders import System
 from calibration.open_context import context_opener
 from calibration.registry import registered_steps
 from calibration.report.page import TITLES
+from mc_nested.cli.arena_options import ForScenarioOption, SizeOption, StandingOption, arena_size
 from mc_nested.cli.calibrate_report import report_path, write_report
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite, ServerOption
 from mc_nested.errors import ProfileError
@@ -29,16 +29,16 @@ def calibrate(
     font: Annotated[
         Path | None, typer.Option(metavar="JAR|PNG", help="take this client jar, resource pack or ascii.png")
     ] = None,
-    standing: Annotated[
-        tuple[int, int], typer.Option(metavar="X Y", help="the cell you stand on; 7 0 is the middle of the near edge")
-    ] = NEAR_MIDDLE,
+    size: SizeOption = None,
+    scenario: ForScenarioOption = None,
+    standing: StandingOption = None,
     server_allowed: ServerOption = False,
 ) -> None:
     """Do all of it in one go, in about two minutes; stand on the middle of the arena's near edge and look across it."""
     context_of = context_opener(
         typer.echo, (lambda _: True) if yes else typer.confirm, is_server_allowed=server_allowed
     )
-    steps = registered_steps(font, standing=standing, path=profile_path(profile))
+    steps = registered_steps(font, size=arena_size(size, scenario), standing=standing, path=profile_path(profile))
     shown = Lines()
     whole = calibrate_all(profile, context_of, partial(_examined, font), steps, shown)
     left_out = [TITLES.get(name, name) for name in whole.run.skipped]

@@ -6,23 +6,24 @@ from typing import Annotated
 import typer
 
 from calibration.arena.build import calibrate_built_arena
-from calibration.arena.mark import NEAR_MIDDLE, mark_arena
+from calibration.arena.mark import mark_arena
 from calibration.arena.undo import undo_built_arena
 from calibration.open_context import context_opener
+from mc_nested.cli.arena_options import ForScenarioOption, SizeOption, StandingOption, arena_size
 from mc_nested.cli.options import DEFAULT_PROFILE, ServerOption
 from mc_nested.errors import UserError
 
 
-def arena(
+def arena(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     profile: Annotated[
         str, typer.Option(metavar="NAME|FILE", help="the profile to write; new if there is none")
     ] = DEFAULT_PROFILE,
     font: Annotated[
         Path | None, typer.Option(metavar="PNG|JAR", help="the game's client jar, needed the first time")
     ] = None,
-    standing: Annotated[
-        tuple[int, int], typer.Option(metavar="X Y", help="the cell you stand on; 7 0 is the middle of the near edge")
-    ] = NEAR_MIDDLE,
+    size: SizeOption = None,
+    scenario: ForScenarioOption = None,
+    standing: StandingOption = None,
     yes: Annotated[bool, typer.Option("--yes", help="build, or mark, without asking")] = False,
     mark_only: Annotated[bool, typer.Option("--mark-only", help="type no commands, write only where it is")] = False,
     undo: Annotated[bool, typer.Option("--undo", help="put back what stood there before it was built")] = False,
@@ -31,15 +32,16 @@ def arena(
     """Build the arena where you stand and look, with commands; what stood there is shown, asked about and copied."""
     if mark_only and undo:
         raise UserError("--mark-only and --undo do different things: choose one of them")
+    cells = arena_size(size, scenario)
     if mark_only:
-        path = mark_arena(profile, ask=typer.confirm, say=typer.echo, standing=standing, font=font, yes=yes)
+        path = mark_arena(profile, ask=typer.confirm, say=typer.echo, size=cells, standing=standing, font=font, yes=yes)
         typer.echo(f"arena written to {path}" if path else "nothing was written")
         return
     context_of = context_opener(typer.echo, typer.confirm, is_server_allowed=server_allowed)
     if undo:
         found, file = undo_built_arena(profile, context_of)
     else:
-        found, file = calibrate_built_arena(profile, context_of, standing=standing, font=font, yes=yes)
+        found, file = calibrate_built_arena(profile, context_of, size=cells, standing=standing, font=font, yes=yes)
     for line in found.lines:
         typer.echo(line)
     if file.is_file():

@@ -57,7 +57,7 @@ def best_policy(run: Path, wanted: RunFolder) -> Arrays:
     if (theirs.spec, theirs.sizes) != (ours.spec, ours.sizes):
         raise RunError(
             f"{run}: its {folder.config.agent} agent has other networks than this {wanted.config.agent} agent: take "
-            f"the same agent, a preset with the same networks, and a design of as many blocks"
+            f"the same agent, a preset with the same networks, and a design of as many blocks in an arena as large"
         )
     kept = folder.kept()
     rows = load_agent(folder).rows_of(int(kept["scores"].argmax()))

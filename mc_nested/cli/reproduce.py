@@ -11,7 +11,7 @@ from rich.text import Text
 
 from mc_nested.arena.builder import build
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios, table_of
+from mc_nested.arena.scenario_file import load_scenario, paper_scenarios, table_of
 from mc_nested.cli.experiment import (
     MOST_TRIALS,
     JobsOption,
@@ -88,7 +88,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         longer=longer or 0,
         preset_name=preset or PRESET,
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
-        scenarios=[table_of(load_scenario(name)) for name in scenario or shipped_scenarios()],
+        scenarios=[table_of(load_scenario(name)) for name in scenario or paper_scenarios()],
     )
     if longer and not (config.longer_agents and config.longer_scenarios):
         raise UserError(

@@ -9,7 +9,7 @@ from rich.text import Text
 from mc_nested.arena.builder import build
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
-from mc_nested.arena.search import fewest_steps
+from mc_nested.arena.search import EXACT_UP_TO, fewest_steps
 from mc_nested.report.terminal import arena_view
 
 
@@ -27,13 +27,17 @@ def scenarios(
 
 def _facts(scenario: Scenario) -> Group:
     fewest = fewest_steps(scenario)
-    steps = f"{fewest.steps}" if fewest.exact else f"at most {fewest.steps} (the scripted builder's: an upper bound)"
+    if fewest.exact:
+        steps = f"{fewest.steps} steps; the scripted builder takes {len(build(scenario))}"
+    else:
+        steps = f"at most {fewest.steps} steps, the scripted builder's: searched up to {EXACT_UP_TO} blocks"
     materials = ", ".join(f"{material.name} {material.p:+g}" for material in scenario.materials)
     lines = [
+        f"arena      {scenario.size} x {scenario.size} cells",
         f"blocks     {scenario.blocks}",
         f"materials  {materials}",
         f"optimum    {scenario.optimum:g}",
-        f"fewest     {steps} steps; the scripted builder takes {len(build(scenario))}",
+        f"fewest     {steps}",
         f"limit      {scenario.step_limit} steps",
     ]
     drawing = arena_view(scenario, scenario.start, ())

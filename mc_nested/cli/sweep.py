@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios, table_of
+from mc_nested.arena.scenario_file import load_scenario, paper_scenarios, table_of
 from mc_nested.cli.experiment import (
     MOST_TRIALS,
     JobsOption,
@@ -52,7 +52,7 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         return
     path = check_new_folder(out)
     base = load_preset(preset or PRESET).model_copy(update={"episodes": episodes or EPISODES})
-    scenarios = [load_scenario(name) for name in scenario or shipped_scenarios()]
+    scenarios = [load_scenario(name) for name in scenario or paper_scenarios()]
     config = SweepConfig(
         trials=trials or TRIALS,
         seed=seed or 0,

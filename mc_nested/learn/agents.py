@@ -72,7 +72,7 @@ class Agent:
     """One of the paper's agents in R runs, one scenario a run.
 
     ``main`` is the main or top agent, None for the single agent. ``low_level`` is the nested agent, the low-level
-    agents of the hierarchy (a row for each run and material), or the single agent.
+    agents of the hierarchy (a row for each run and material), or the single agent. ``size`` is the largest arena's.
 
     Args:
         spec: which agent.
@@ -98,6 +98,7 @@ class Agent:
         streams = [initial_stream(seed, run) for run in self.runs]
         materials = len(scenarios[0].materials)
         observed = np.stack([highest_observation(scenario) for scenario in scenarios])
+        self.size = max(scenario.size for scenario in scenarios)
         self.spec = spec
         encoding = preset.encoding
         self.main = Learner(StateSpace(observed, materials, encoding), preset, streams) if spec.has_main else None

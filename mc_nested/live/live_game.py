@@ -23,6 +23,26 @@ RESET_TRIES = 4
 """Attempts at a reset before its error is raised."""
 
 
+def check_fits(scenario: Scenario, profile: Profile, profile_name: str | None = None) -> None:
+    """ProfileError, one line, if a scenario can't be played with a profile: too many materials, or too small an arena.
+
+    A smaller scenario is played in the arena's near left corner. ``profile_name`` is for the step to repeat.
+    """
+    if len(scenario.materials) > len(profile.keys.hotbar):
+        raise ProfileError(
+            f"scenario {scenario.name} has {len(scenario.materials)} materials, the hotbar only "
+            f"{len(profile.keys.hotbar)} slots: choose a scenario with fewer"
+        )
+    size = profile.marked_arena().size
+    if scenario.size > size:
+        named = f" --profile {profile_name}" if profile_name else ""
+        marked = " --mark-only" if profile.world else ""
+        raise ProfileError(
+            f"scenario {scenario.name} needs {scenario.size} x {scenario.size} cells, and the profile's arena has "
+            f"{size} x {size}: run mc-nested calibrate arena --size {scenario.size}{marked}{named}"
+        )
+
+
 class LiveGame:
     """A scenario's arena in a running game.
 
@@ -38,7 +58,7 @@ class LiveGame:
         evidence: the folder for the last frames, written when a reset fails for good.
 
     Raises:
-        ProfileError: the profile has no arena, or fewer hotbar slots than the scenario has materials.
+        ProfileError: the profile has no arena, or ``check_fits`` refuses it.
     """
 
     resumable = None
@@ -53,11 +73,7 @@ class LiveGame:
         points: ClickPoints | None = None,
         evidence: Path | None = None,
     ) -> None:
-        if len(scenario.materials) > len(profile.keys.hotbar):
-            raise ProfileError(
-                f"scenario {scenario.name} has {len(scenario.materials)} materials, the hotbar only "
-                f"{len(profile.keys.hotbar)} slots: choose a scenario with fewer"
-            )
+        check_fits(scenario, profile)
         self._scenario = scenario
         self._profile = profile
         self._arena = profile.marked_arena()
@@ -136,8 +152,8 @@ class LiveGame:
         return type(error)(f"{error}; what was seen last: {files[-1]}") if files else error
 
     def _perform(self, cell: Cell, action: Action) -> Outcome:
-        target = rules.moved(cell, action, self._placed)
-        landing = rules.landing(target, action, self._placed)
+        target = rules.moved(cell, action, self._placed, self._scenario.size)
+        landing = rules.landing(target, action, self._placed, self._scenario.size)
         if target == cell and landing is None:
             return Outcome(self._body.stay_in(cell), None)
         shown_id = self._profile.shown_id(self._scenario.materials[self._material].block)

@@ -9,7 +9,7 @@ from mc_nested.live.connection import connect
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
 from mc_nested.live.input.watchdog import watched
-from mc_nested.live.live_game import LiveGame
+from mc_nested.live.live_game import LiveGame, check_fits
 from mc_nested.live.menus.point_pictures import load_click_points
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.profile.fingerprint import Fingerprint, check_fit
@@ -45,7 +45,7 @@ def open_live_game(
         LiveError: the game did not come to the front.
     """
     profile = load_profile(profile_name)
-    profile.marked_arena()
+    check_fits(scenario, profile, profile_name)
     load_font(profile.screen.font_path())
     with open_devices(profile.window.title) as devices:
         connection = connect(profile, devices, is_server_allowed=is_server_allowed)

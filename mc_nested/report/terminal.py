@@ -7,7 +7,6 @@ from rich.text import Text
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.drawing import AGENT, BUILT, FREE, MISSING, WRONG, kind_of
-from mc_nested.arena.rules import SIZE
 from mc_nested.arena.scenario import Scenario
 
 STYLES = {
@@ -24,9 +23,9 @@ NAMES = {AGENT: "the agent", BUILT: "built", WRONG: "off the design", MISSING: "
 def arena_view(scenario: Scenario, agent: Cell | None, placed: Collection[Cell]) -> Group:
     """The arena from above, the far edge on top, and what each sign means."""
     rows = []
-    for y in reversed(range(SIZE)):
+    for y in reversed(range(scenario.size)):
         row = Text("  ")
-        for x in range(SIZE):
+        for x in range(scenario.size):
             kind = kind_of(scenario, agent, placed, (x, y))
             row.append(f"{kind} ", style=STYLES[kind])
         rows.append(row)

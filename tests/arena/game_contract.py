@@ -33,8 +33,8 @@ def check_game(game: Game, scenario: Scenario, actions: Sequence[Action], truth:
     for step, action in enumerate(actions):
         if game.resumable and step == half:
             kept = game.resumable.snapshot()
-        cell = moved(cell, action, placed)
-        block = landing(cell, action, placed)
+        cell = moved(cell, action, placed, scenario.size)
+        block = landing(cell, action, placed, scenario.size)
         outcome = game.act(action)
         said.append(outcome)
         assert outcome.cell == cell, f"{action.name} leads to {cell}"

@@ -6,8 +6,8 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import build
-from mc_nested.arena.rules import SIZE, landing, moved
-from mc_nested.arena.scenario import Material, Scenario
+from mc_nested.arena.rules import landing, moved
+from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE, Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
 from sim.grid import arena_env
 
@@ -30,23 +30,28 @@ def test_a_policy_over_x_y_b_can_follow_the_builder(name: str) -> None:
     cell, placed = scenario.start, set[Cell]()
     for action in build(scenario):
         states.append((*cell, scenario.blocks - len(placed)))
-        cell = moved(cell, action, placed)
-        block = landing(cell, action, placed)
+        cell = moved(cell, action, placed, scenario.size)
+        block = landing(cell, action, placed, scenario.size)
         placed |= {block} if block else set()
     assert len(set(states)) == len(states)
 
 
-cells = st.tuples(st.integers(0, SIZE - 1), st.integers(1, SIZE - 1))
+@st.composite
+def scenarios(draw: st.DrawFn) -> Scenario:
+    """Any design off the near edge, in an arena of any size, from any start."""
+    size = draw(st.integers(SMALLEST_SIZE, LARGEST_SIZE))
+    cells = st.tuples(st.integers(0, size - 1), st.integers(0, size - 1))
+    design = draw(st.frozensets(cells.filter(lambda cell: cell[1] > 0), min_size=1))
+    return Scenario("any", design, draw(cells), size * size, (Material("stone", 0.0, "stone"),), size)
 
 
-@given(design=st.frozensets(cells, min_size=1), start=st.tuples(st.integers(0, SIZE - 1), st.integers(0, SIZE - 1)))
+@given(scenarios())
 @settings(max_examples=200)
-def test_any_design_off_the_near_edge_is_built_from_anywhere(design: frozenset[Cell], start: Cell) -> None:
-    scenario = Scenario("any", design, start, 225, (Material("stone", 0.0, "stone"),))
-    cell, placed = start, set[Cell]()
+def test_any_design_off_the_near_edge_is_built_from_anywhere(scenario: Scenario) -> None:
+    cell, placed = scenario.start, set[Cell]()
     for action in build(scenario):
-        cell = moved(cell, action, placed)
-        block = landing(cell, action, placed)
+        cell = moved(cell, action, placed, scenario.size)
+        block = landing(cell, action, placed, scenario.size)
         if block is not None:
             placed.add(block)
-    assert placed == design
+    assert placed == scenario.design

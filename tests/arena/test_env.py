@@ -9,8 +9,10 @@ from gymnasium.utils.env_checker import check_env
 import mc_nested  # noqa: F401 - importing it registers the Env
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
+from mc_nested.arena.drawing import CELL_PX
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Outcome
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, ScenarioError
 from sim.grid import GridGame, GridVectorEnv, arena_env
@@ -37,6 +39,22 @@ def test_observations_are_raw_x_y_b() -> None:
     assert info == {"material": "stone"}
     assert env.observation_space == gymnasium.spaces.Box(np.array([0, 0, 0]), np.array([14, 14, 11]), dtype=np.int64)
     assert env.action_space == gymnasium.spaces.Discrete(8)
+
+
+@pytest.mark.parametrize("size", [5, 20, 32])
+def test_spaces_pictures_and_the_checker_follow_the_arenas_size(size: int) -> None:
+    material = load_scenario("line").materials
+    scenario = Scenario("corner", frozenset({(size - 1, size - 1)}), (size - 1, 0), size, material, size)
+    env = arena_env(scenario, "rgb_array")
+    check_env(env, skip_render_check=True)
+    highest = np.array([size - 1, size - 1, 1])
+    assert env.observation_space == gymnasium.spaces.Box(np.zeros(3, np.int64), highest, dtype=np.int64)
+    env.reset()
+    picture = env.render()
+    assert picture.shape == (size * CELL_PX, size * CELL_PX, 3)
+    steps = [env.step(action) for action in build(scenario)]
+    assert steps[-1][2]
+    assert env.placed == scenario.design
 
 
 def test_a_block_on_the_design_earns_1_and_one_off_it_nothing() -> None:

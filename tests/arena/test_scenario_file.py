@@ -1,15 +1,23 @@
 """Scenario files: the shipped ones are the task's table, a user's own is read whole or refused in one line."""
 
+import itertools
 from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.arena.action import Cell
-from mc_nested.arena.rules import SIZE
-from mc_nested.arena.scenario import Material, Scenario
-from mc_nested.arena.scenario_file import draw_grid, load_scenario, parse_scenario, scenario_of, table_of
+from mc_nested.arena.builder import build
+from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE, SMALLEST_SIZE, Material, Scenario
+from mc_nested.arena.scenario_file import (
+    draw_grid,
+    load_scenario,
+    paper_scenarios,
+    parse_scenario,
+    scenario_of,
+    shipped_scenarios,
+    table_of,
+)
 from mc_nested.errors import ScenarioError
 
 WOOD, STONE = Material("wood", -5.0, "oak_planks"), Material("stone", 10.0, "stone")
@@ -17,7 +25,7 @@ WOOD, STONE = Material("wood", -5.0, "oak_planks"), Material("stone", 10.0, "sto
 DESIGNS = {
     "line": {(7, y) for y in range(2, 13)},
     "zigzag": set(zip([7, 8, 9, 8, 7, 6, 5, 6, 7, 8, 9], range(2, 13), strict=True)),
-    "diamond": {(x, y) for x in range(SIZE) for y in range(SIZE) if abs(x - 7) + abs(y - 7) == 4},
+    "diamond": {(x, y) for x in range(15) for y in range(15) if abs(x - 7) + abs(y - 7) == 4},
 }
 
 OWN = f"""
@@ -25,7 +33,7 @@ name = "dot"
 start = [3, 4]
 step_limit = 9
 design = '''
-{draw_grid(frozenset({(2, 5)}))}'''
+{draw_grid(frozenset({(2, 5)}), DEFAULT_SIZE)}'''
 [[materials]]
 name = "glass"
 p = 1
@@ -56,18 +64,73 @@ def test_a_file_that_begins_with_a_byte_order_mark_is_read(tmp_path: Path) -> No
     assert load_scenario(tmp_path / "dot.toml").name == "dot"
 
 
-buildable = st.tuples(st.integers(0, SIZE - 1), st.integers(1, SIZE - 1))
+def test_experiments_run_the_papers_three_and_more_are_shipped() -> None:
+    assert paper_scenarios() == ["line", "zigzag", "diamond"]
+    assert shipped_scenarios() == ["line", "zigzag", "diamond", "islands", "house", "square"]
 
 
-@given(
-    design=st.frozensets(buildable, min_size=1),
-    start=st.tuples(st.integers(0, SIZE - 1), st.integers(0, SIZE - 1)),
-    worth=st.lists(st.floats(-100, 100), min_size=1, max_size=9),
-)
-def test_a_scenario_survives_its_table(design: frozenset[Cell], start: Cell, worth: list[float]) -> None:
+@pytest.mark.parametrize(("name", "blocks"), [("islands", 6), ("house", 40), ("square", 100)])
+def test_the_other_shipped_scenarios_can_be_built_with_half_as_many_steps_again_as_the_builder_takes(
+    name: str, blocks: int
+) -> None:
+    scenario = load_scenario(name)
+    assert (scenario.blocks, scenario.size, scenario.start) == (blocks, 15, (7, 14))
+    assert scenario.materials == (WOOD, STONE)
+    assert scenario.step_limit >= 1.45 * len(build(scenario))
+
+
+def test_the_square_is_filled_and_the_islands_are_two() -> None:
+    assert load_scenario("square").design == {(x, y) for x in range(3, 13) for y in range(2, 12)}
+    islands = sorted(load_scenario("islands").design)
+    assert [max(abs(x - i), abs(y - j)) <= 1 for (x, y), (i, j) in itertools.pairwise(islands)] == (
+        [True, True, False, True, True]
+    )
+
+
+@given(st.integers(SMALLEST_SIZE, LARGEST_SIZE), st.lists(st.floats(-100, 100), min_size=1, max_size=9), st.data())
+def test_a_scenario_survives_its_table(size: int, worth: list[float], data: st.DataObject) -> None:
     materials = tuple(Material(f"m{index}", p, "stone") for index, p in enumerate(worth))
-    scenario = Scenario("any", design, start, 225, materials)
+    buildable = st.tuples(st.integers(0, size - 1), st.integers(1, size - 1))
+    start = data.draw(st.tuples(st.integers(0, size - 1), st.integers(0, size - 1)))
+    scenario = Scenario("any", data.draw(st.frozensets(buildable, min_size=1)), start, size * size, materials, size)
     assert scenario_of(table_of(scenario), "here") == scenario
+
+
+def drawn(rows: list[str], start: str = "[3, 4]") -> str:
+    """A scenario file with that drawing."""
+    head = OWN.replace("start = [3, 4]", f"start = {start}").partition("design")[0]
+    lines = "".join(row + "\n" for row in rows)
+    return f"{head}design = '''\n{lines}'''\n" + '[[materials]]\nname = "glass"\np = 1\nblock = "glass"\n'
+
+
+@pytest.mark.parametrize("size", [5, 14, 20, 32])
+def test_the_drawings_size_is_the_arenas(size: int) -> None:
+    rows = ["." * (size - 1) + "#", *["." * size] * (size - 2), "." * size]
+    scenario = parse_scenario(drawn(rows, f"[0, {size - 1}]"), "dot.toml")
+    assert scenario.size == size
+    assert scenario.design == {(size - 1, size - 1)}
+    assert scenario.start == (0, size - 1)
+
+
+@pytest.mark.parametrize(
+    ("rows", "start", "says"),
+    [
+        (["...#"] + ["...."] * 3, "[0, 0]", "design: 4 x 4 cells: an arena has 5 to 32 a side"),
+        (["#" + "." * 32] + ["." * 33] * 32, "[0, 0]", "design: 33 x 33 cells: an arena has 5 to 32 a side"),
+        (["#...."] + ["....."] * 5, "[0, 0]", "6 rows, and row 1 has 5 characters: draw a square"),
+        (["#....", "....", ".....", ".....", "....."], "[0, 0]", "5 rows, and row 2 has 4 characters: draw a square"),
+        ([], "[0, 0]", "design: 0 x 0 cells"),
+        (["#...."] + ["....."] * 4, "[5, 4]", "start: (5, 4) lies outside: choose 0 to 4 for x and y"),
+        (["#" + "." * 19] + ["." * 20] * 19, "[0, 20]", "start: (0, 20) lies outside: choose 0 to 19 for x and y"),
+        (["#" + "." * 19] + ["." * 20] * 19, "[-1, 0]", "start: (-1, 0) lies outside: choose 0 to 19 for x and y"),
+    ],
+)
+def test_a_drawing_that_makes_no_arena_is_refused_in_one_line(rows: list[str], start: str, says: str) -> None:
+    with pytest.raises(ScenarioError) as caught:
+        parse_scenario(drawn(rows, start), "dot.toml")
+    assert str(caught.value).startswith("dot.toml: ")
+    assert says in str(caught.value)
+    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(
@@ -85,8 +148,8 @@ def test_a_scenario_survives_its_table(design: frozenset[Cell], start: Cell, wor
         (('name = "dot"', 'name = "dot"\ncolour = "red"'), "colour"),
         (('name = "dot"', "name = dot"), "not TOML"),
         (("#", "."), "has no block"),
-        (("#", "?"), "15 rows of 15"),
-        (("..#............", "..#..........."), "15 rows of 15"),
+        (("#", "?"), "design: row 10 is '..?............': write '#' for a block and '.' for none"),
+        (("..#............", "..#..........."), "15 rows, and row 10 has 14 characters: draw a square"),
         (("p = 1", 'p = "much"'), "materials.0.p"),
         (('block = "glass"', 'block = "Glass Pane"'), "materials.0.block"),
         (("[[materials]]", '[[materials]]\nname="glass"\np=2\nblock="glass"\n[[materials]]'), "same name"),
@@ -101,7 +164,7 @@ def test_a_mistake_in_a_file_is_one_line_that_names_it(change: tuple[str, str], 
 
 
 def test_a_cell_on_the_near_edge_is_refused_as_unreachable() -> None:
-    near = OWN.replace(draw_grid(frozenset({(2, 5)})), draw_grid(frozenset({(2, 5), (4, 0)})))
+    near = OWN.replace(draw_grid(frozenset({(2, 5)}), 15), draw_grid(frozenset({(2, 5), (4, 0)}), 15))
     with pytest.raises(ScenarioError, match=r"cell \(4, 0\) can't be reached.*keep the bottom row free"):
         parse_scenario(near, "dot.toml")
 
@@ -113,7 +176,7 @@ def test_too_few_steps_for_the_blocks_are_refused() -> None:
 
 
 def test_an_unknown_name_lists_the_known_ones() -> None:
-    with pytest.raises(ScenarioError, match="no scenario 'pyramid': name one of line, zigzag, diamond"):
+    with pytest.raises(ScenarioError, match="no scenario 'pyramid': name one of line, zigzag, diamond, islands"):
         load_scenario("pyramid")
 
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
-from mc_nested.arena.rules import SIZE, landing, moved
+from mc_nested.arena.rules import landing, moved
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.search import EXACT_UP_TO, FewestSteps, fewest_steps
@@ -23,20 +23,34 @@ def test_beyond_the_exact_search_the_builders_count_is_an_upper_bound() -> None:
     assert fewest_steps(scenario) == FewestSteps(len(build(scenario)), exact=False)
 
 
-cells = st.tuples(st.integers(4, 8), st.integers(4, 8))
+def test_the_exact_search_fits_the_largest_arena() -> None:
+    # Blocks in the two far corners: up along the right side, 30 steps, one block, and across, 31 steps.
+    scenario = _scenario(frozenset({(31, 31), (0, 31)}), (31, 1), 32)
+    assert fewest_steps(scenario) == FewestSteps(29 + 31, exact=True)
 
 
-@given(design=st.frozensets(cells, min_size=1, max_size=3), start=cells)
-@settings(max_examples=25)
-def test_a_plain_search_finds_the_same(design: frozenset[Cell], start: Cell) -> None:
-    scenario = _scenario(design, start)
+cells = st.tuples(st.integers(1, 5), st.integers(1, 5))
+
+
+@given(
+    design=st.frozensets(cells, min_size=1, max_size=3),
+    start=cells,
+    off=st.integers(0, 10),
+    size=st.sampled_from([15, 16, 17, 32]),
+)
+@settings(max_examples=40)
+def test_a_plain_search_finds_the_same(design: frozenset[Cell], start: Cell, off: int, size: int) -> None:
+    # From the near left corner to the far right one, where a row of bits ends.
+    shift = size - 6 if off > 5 else off
+    design = frozenset((x + shift, y + shift) for x, y in design)
+    scenario = _scenario(design, (start[0] + shift, start[1] + shift), size)
     found = fewest_steps(scenario)
     assert found == FewestSteps(_plain_search(scenario), exact=True)
     assert found.steps <= len(build(scenario))
 
 
-def _scenario(design: frozenset[Cell], start: Cell) -> Scenario:
-    return Scenario("any", design, start, SIZE * SIZE, (Material("stone", 0.0, "stone"),))
+def _scenario(design: frozenset[Cell], start: Cell, size: int = 15) -> Scenario:
+    return Scenario("any", design, start, size * size, (Material("stone", 0.0, "stone"),), size)
 
 
 def _plain_search(scenario: Scenario) -> int:
@@ -48,8 +62,8 @@ def _plain_search(scenario: Scenario) -> int:
         ahead = set()
         for cell, placed in frontier:
             for action in Action:
-                stands = moved(cell, action, placed)
-                block = landing(stands, action, placed)
+                stands = moved(cell, action, placed, scenario.size)
+                block = landing(stands, action, placed, scenario.size)
                 if block is None or block in scenario.design:
                     ahead.add((stands, placed | {block} if block else placed))
         frontier = ahead - seen

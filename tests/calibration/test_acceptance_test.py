@@ -41,9 +41,9 @@ def test_its_actions_are_the_eight_and_fill_the_design_by_the_rules() -> None:
     assert sorted(ACTIONS) == list(Action)
     cell, placed = SCENARIO.start, set[Cell]()
     for action in ACTIONS:
-        target = rules.moved(cell, action, placed)
+        target = rules.moved(cell, action, placed, SCENARIO.size)
         assert target != cell, "each of them moves"
-        landing = rules.landing(target, action, placed)
+        landing = rules.landing(target, action, placed, SCENARIO.size)
         assert (landing is not None) == (action in rules.PLACES)
         placed |= {landing} if landing else set()
         cell = target

@@ -39,6 +39,23 @@ def test_every_corner_of_the_arena_is_a_cell_to_stand_on(cell: Cell) -> None:
     assert len(registered_steps(standing=cell)) == 6
 
 
+def test_an_arena_of_another_size_has_other_corners_and_too_large_a_one_is_refused() -> None:
+    assert len(registered_steps(size=32, standing=(31, 31))) == 6
+    assert len(registered_steps(size=32)) == 6
+    with pytest.raises(UserError, match="outside the arena: choose 0 to 31"):
+        registered_steps(size=32, standing=(32, 0))
+    with pytest.raises(UserError, match="choose 15 to 32 cells along each side"):
+        registered_steps(size=33)
+
+
+def test_the_arena_step_is_told_the_size(tmp_path: Path) -> None:
+    client = started(VirtualClient(pitch=65.0))
+    profile = profile_in(tmp_path)
+    found = step(registered_steps(size=17), "arena").run(context_over(client), profile)
+    assert found.profile.marked_arena().size == 17
+    assert client.cell(found.profile.marked_arena()) == (8, 0)
+
+
 def test_the_font_step_takes_the_font_that_is_named_and_looks_for_no_other(tmp_path: Path) -> None:
     font = font_file_in(tmp_path)
     steps = registered_steps(font, lambda _: pytest.fail("it looked for fonts"))

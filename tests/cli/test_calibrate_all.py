@@ -141,8 +141,10 @@ def test_the_steps_know_the_profiles_file_and_the_game_whether_a_server_is_allow
 
     monkeypatch.setattr(calibrate_all, "registered_steps", steps)
     assert code_of(tmp_path / "mine.toml") in (0, None)
-    assert given == {"standing": (7, 0), "path": tmp_path / "mine.toml"}
+    assert given == {"size": 15, "standing": None, "path": tmp_path / "mine.toml"}
     assert allowed == {"is_server_allowed": False}
+    assert code_of(tmp_path / "mine.toml", "--size", "20", "--standing", "3", "4") in (0, None)
+    assert given == {"size": 20, "standing": (3, 4), "path": tmp_path / "mine.toml"}
     assert code_of(tmp_path / "mine.toml", "--server-allowed") in (0, None)
     assert allowed == {"is_server_allowed": True}
 

@@ -57,6 +57,22 @@ def test_an_arena_is_built_and_undone_where_that_is_allowed_and_each_says_which_
     assert capsys.readouterr().out.splitlines()[-1] == f"written to {file}"
 
 
+def test_the_arena_is_as_large_as_was_asked_for_and_a_size_that_none_has_is_one_line(
+    client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "mine.toml"
+    save_profile(profile_of(client, tmp_path), file)
+    before = file.read_bytes()
+    assert code_of("calibrate", "arena", "--yes", "--server-allowed", "--profile", file, "--size", "33") == 2
+    assert capsys.readouterr().err == (
+        "mc-nested: an arena of 33 x 33 cells: choose 15 to 32 cells along each side; a smaller scenario is played in "
+        "a part of it\n"
+    )
+    assert (file.read_bytes(), client.built) == (before, {})
+    assert code_of("calibrate", "arena", "--yes", "--server-allowed", "--profile", file, "--size", "20") in (0, None)
+    assert load_profile(file).marked_arena().size == 20
+
+
 def test_marking_and_undoing_at_once_is_one_line_and_nothing_is_written(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

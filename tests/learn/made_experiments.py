@@ -31,7 +31,7 @@ def scenario_text(scenario: Scenario) -> str:
     )
     return (
         f'name = "{scenario.name}"\nstart = {list(scenario.start)}\nstep_limit = {scenario.step_limit}\n'
-        f'design = """\n{draw_grid(scenario.design)}"""\n{materials}\n'
+        f'design = """\n{draw_grid(scenario.design, scenario.size)}"""\n{materials}\n'
     )
 
 

@@ -12,17 +12,18 @@ from hypothesis import strategies as st
 from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
+from mc_nested.arena.game import Outcome
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, LiveError, NotConfirmedError, NotInFrontError, ProfileError, StoppedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.live_game import RESET_TRIES, LiveGame
+from mc_nested.live.live_game import RESET_TRIES, LiveGame, check_fits
 from mc_nested.live.menus.commands import reset_commands
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.profile.arena import Arena
-from mc_nested.live.profile.tables import GameVersion, Profile
+from mc_nested.live.profile.tables import GameVersion, Profile, WorldTable
 from tests.arena.game_contract import BUMPS, check_game
 from tests.live.fake_game import FakeDisplay, FakeGame, FakeScreen, connection_to, devices_of
 
@@ -90,8 +91,8 @@ def test_every_outcome_is_the_rules_outcome_and_the_worlds(facing: Facing, chose
     for action in chosen:
         presses = len(world.presses)
         outcome = game.act(action)
-        target = rules.moved(cell, action, placed)
-        landing = rules.landing(target, action, placed)
+        target = rules.moved(cell, action, placed, LINE.size)
+        landing = rules.landing(target, action, placed, LINE.size)
         if target == cell and landing is None:
             assert len(world.presses) == presses
         cell = target
@@ -321,3 +322,41 @@ def test_as_many_materials_as_the_hotbar_has_slots_are_fine() -> None:
     nine = dataclasses.replace(LINE, materials=tuple(Material(f"m{index}", 0.0, "stone") for index in range(9)))
     _play(world, nine).reset(8)
     assert world.slot == 8
+
+
+def _large(size: int) -> Scenario:
+    return dataclasses.replace(LINE, name="large", size=size)
+
+
+def test_a_scenario_larger_than_the_profiles_arena_is_refused_with_the_step_to_repeat() -> None:
+    world = _world()
+    with pytest.raises(ProfileError) as caught:
+        _play(world, _large(20))
+    assert str(caught.value) == (
+        "scenario large needs 20 x 20 cells, and the profile's arena has 15 x 15: "
+        "run mc-nested calibrate arena --size 20"
+    )
+    assert world.presses == []
+
+
+def test_the_step_to_repeat_names_the_profile_and_types_no_commands_where_it_has_none() -> None:
+    world = WorldTable(name="mine", folder="/saves/mine", template="/saves/template")
+    profile = Profile(arena=Arena.around((0, 64, 0), "south", size=16), world=world)
+    check_fits(_large(16), profile, "mine")
+    step = "run mc-nested calibrate arena --size 17 --mark-only --profile mine"
+    with pytest.raises(ProfileError, match=f"arena has 16 x 16: {step}$"):
+        check_fits(_large(17), profile, "mine")
+
+
+@settings(max_examples=20)
+@given(facings, st.lists(actions, max_size=14))
+def test_in_a_larger_arena_a_scenario_ends_where_its_own_edge_is(facing: Facing, chosen: list[Action]) -> None:
+    world = FakeGame(Profile(arena=Arena.around((-20, 64, 31), facing, size=18)))
+    game, near_edge = _play(world), (Action.R,) * 7
+    cell, placed = game.reset(STONE), set[Cell]()
+    for action in (*near_edge, *chosen):
+        cell = rules.moved(cell, action, placed, 15)
+        block = rules.landing(cell, action, placed, 15)
+        placed |= {block} if block else set()
+        assert game.act(action) == Outcome(cell, block)
+        assert _cell_of(world) == cell

@@ -1,5 +1,7 @@
 """Opening a live game: what can't be played is refused before anything is pressed."""
 
+import dataclasses
+import re
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
@@ -83,6 +85,18 @@ def test_a_profile_that_can_not_be_played_with_opens_no_window(tmp_path: Path) -
         opened = open_live_game(LINE, saved(profile, tmp_path), print, open_devices=opener(VirtualClient(), titles))
         with pytest.raises(error), opened:
             pass
+    assert titles == []
+
+
+def test_a_scenario_larger_than_the_calibrated_arena_opens_no_window_and_names_the_step_to_repeat(
+    tmp_path: Path,
+) -> None:
+    titles: list[str] = []
+    profile = saved(Profile(screen=font_in(tmp_path), arena=ARENA), tmp_path)
+    large = dataclasses.replace(LINE, size=20)
+    opened = open_live_game(large, profile, print, open_devices=opener(VirtualClient(), titles))
+    with pytest.raises(ProfileError, match=rf"calibrate arena --size 20 --profile {re.escape(profile)}$"), opened:
+        pass
     assert titles == []
 
 

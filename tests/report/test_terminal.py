@@ -1,5 +1,7 @@
 """The arena in a terminal: what is where, and a legend."""
 
+import dataclasses
+
 from rich.console import Console
 
 from mc_nested.arena.scenario_file import load_scenario
@@ -18,3 +20,12 @@ def test_the_far_edge_is_on_top_and_every_sign_is_explained() -> None:
     assert lines[11] == "  . . . x . . . o . . . . . . ."
     for word in ("the agent", "built", "off the design", "still to build"):
         assert word in lines[15]
+
+
+def test_a_larger_arena_is_shown_whole() -> None:
+    corner = dataclasses.replace(load_scenario("line"), design=frozenset({(31, 31)}), start=(0, 0), size=32)
+    console = Console(width=80, force_terminal=False)
+    with console.capture() as capture:
+        console.print(arena_view(corner, (0, 0), ()))
+    lines = [line.rstrip() for line in capture.get().splitlines()]
+    assert (lines[0], lines[31]) == ("  " + ". " * 31 + "o", "  ^" + " ." * 31)

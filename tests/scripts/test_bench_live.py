@@ -68,10 +68,10 @@ def test_the_clients_world_is_as_built_only_with_these_cells_and_what_was_there(
 def test_only_actions_that_do_something_are_drawn() -> None:
     rng = np.random.default_rng(0)
     corner, placed = (0, 0), {(1, 0)}
-    drawn = {drawn_action(rng, corner, placed) for _ in range(200)}
+    drawn = {drawn_action(rng, corner, placed, 15) for _ in range(200)}
     for action in Action:
-        target = rules.moved(corner, action, placed)
-        does_something = target != corner or rules.landing(target, action, placed) is not None
+        target = rules.moved(corner, action, placed, 15)
+        does_something = target != corner or rules.landing(target, action, placed, 15) is not None
         assert (action in drawn) == does_something
     assert 0 < len(drawn) < len(Action)
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
 from sim.grid import GridVectorEnv, arena_env
@@ -39,6 +40,41 @@ def test_arrays_and_single_arenas_agree_on_everything(seed: int) -> None:
         material = random.integers(0, 2, 4)
         options = {"reset_mask": mask, "material": material}
         np.testing.assert_array_equal(arrays.reset(options=options)[0], singles.reset(options=options)[0])
+
+
+def corners(size: int) -> Scenario:
+    """An arena of that size with a block in both far corners, and one at the near edge's row."""
+    cells = frozenset({(0, size - 1), (size - 1, size - 1), (size // 2, 1)})
+    return Scenario(f"corners of {size}", cells, (size // 2, size // 2), 4 * size, LINE.materials, size)
+
+
+@given(st.lists(st.sampled_from([5, 9, 15, 20, 32]), min_size=1, max_size=5), st.integers(0, 2**32 - 1))
+@settings(max_examples=30)
+def test_arenas_of_different_sizes_each_have_their_own_edge(sizes: list[int], seed: int) -> None:
+    scenarios = [corners(size) for size in sizes]
+    random = np.random.default_rng(seed)
+    arrays, singles = GridVectorEnv(scenarios), ArenaVectorEnv([arena_env(scenario) for scenario in scenarios])
+    np.testing.assert_array_equal(arrays.reset()[0], singles.reset()[0])
+    assert arrays.single_observation_space.contains(np.array([max(sizes) - 1, max(sizes) - 1, 3]))
+    assert not arrays.single_observation_space.contains(np.array([max(sizes), 0, 3]))
+    # A drift to one side and one end, so that every edge is met.
+    side, end = random.choice([Action.L, Action.R]), random.choice([Action.F, Action.B])
+    for _ in range(120):
+        actions = random.choice([side, end, *Action], len(sizes), p=[0.3, 0.3, *[0.05] * 8])
+        ours, theirs = arrays.step(actions), singles.step(actions)
+        for one, other in zip(ours[:4], theirs[:4], strict=True):
+            np.testing.assert_array_equal(one, other)
+        assert [arrays.placed(run) for run in range(len(sizes))] == [singles.placed(run) for run in range(len(sizes))]
+        ended = ours[2] | ours[3]
+        if ended.any():
+            options = {"reset_mask": ended}
+            np.testing.assert_array_equal(arrays.reset(options=options)[0], singles.reset(options=options)[0])
+
+
+def test_the_arrays_of_arenas_of_15_cells_keep_the_shape_that_checkpoints_have() -> None:
+    kept = GridVectorEnv([LINE, DIAMOND]).snapshot()
+    assert kept["_solid"].shape == (2 * 17 * 17,)
+    assert arena_env(LINE).snapshot()["env_placed"].shape == (15, 15)
 
 
 def test_every_run_can_have_a_scenario_of_its_own() -> None:
@@ -98,13 +134,13 @@ def test_an_arena_without_an_action_stands_still(form: type[GridVectorEnv]) -> N
 
 
 def test_a_snapshot_brings_every_arena_back() -> None:
-    envs = GridVectorEnv([LINE, DIAMOND])
+    envs = GridVectorEnv([LINE, corners(20), DIAMOND])
     envs.reset()
     random = np.random.default_rng(1)
     for _ in range(20):
-        envs.step(random.integers(0, 8, 2))
+        envs.step(random.integers(0, 8, 3))
     kept = envs.snapshot()
-    ahead = random.integers(0, 8, (40, 2))
+    ahead = random.integers(0, 8, (40, 3))
     first = [envs.step(actions)[0].tolist() for actions in ahead]
     envs.restore(kept)
     assert [envs.step(actions)[0].tolist() for actions in ahead] == first

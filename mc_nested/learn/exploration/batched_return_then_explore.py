@@ -28,7 +28,7 @@ class BatchedReturnThenExplore:
 
     def __init__(self, rule: ExcursionRule, agent: Agent) -> None:
         self._low_level = agent.low_level
-        self._explorers = [ReturnThenExplore(rule, agent.low_level.space.actions) for _ in agent.runs]
+        self._explorers = [ReturnThenExplore(rule, agent.low_level.space.actions, agent.size) for _ in agent.runs]
 
     def begin(self, runs: Int64s, numbers: Float64s) -> None:
         """Begin an episode in each of the named runs; ``numbers`` (all runs, NUMBERS) plan the excursions.

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arena.rules import SIZE
+from mc_nested.arena.scenario import DEFAULT_SIZE
 from mc_nested.arrays import Arrays, Float64s
 from mc_nested.learn.preset import ExcursionRule
 
@@ -43,13 +43,14 @@ class ReturnThenExplore:
     Args:
         rule: how often and how far an excursion leaves the best episode.
         actions: how many actions the agent has.
+        size: cells along each side of the arena.
     """
 
-    def __init__(self, rule: ExcursionRule, actions: int) -> None:
+    def __init__(self, rule: ExcursionRule, actions: int, size: int = DEFAULT_SIZE) -> None:
         self.best: list[EpisodeStep] = []
         self.best_row = 0
         self._rule = rule
-        self._effects = np.zeros((SIZE, SIZE, actions), dtype=np.int8)
+        self._effects = np.zeros((size, size, actions), dtype=np.int8)
         self._walk: list[EpisodeStep] = []
         self._clean = True
         self._leave_at = self._wander_until = 0

@@ -27,10 +27,13 @@ def hits_floor(position: GroundVector, cell: Cell) -> bool:
     return abs(right) <= BESIDE and -BEHIND <= forward <= COASTING_CLICK
 
 
-def is_click_right(position: GroundVector, end_if_late: GroundVector, cell: Cell) -> bool:
-    """Whether a click is right from a position and from everywhere up to where one tick more would carry the agent."""
+def is_click_right(position: GroundVector, end_if_late: GroundVector, cell: Cell, size: int) -> bool:
+    """Whether a click is right from a position and from everywhere up to where one tick more would carry the agent.
+
+    ``size`` is the arena's: what stands beyond its edge isn't known.
+    """
     way = end_if_late.right - position.right, end_if_late.forward - position.forward
     axis = 1 if abs(way[1]) >= abs(way[0]) else 0
     beyond = list(cell)
     beyond[axis] += STRAY_CELLS if way[axis] > 0 else -STRAY_CELLS
-    return is_inside((beyond[0], beyond[1])) and hits_floor(position, cell) and hits_floor(end_if_late, cell)
+    return is_inside((beyond[0], beyond[1]), size) and hits_floor(position, cell) and hits_floor(end_if_late, cell)

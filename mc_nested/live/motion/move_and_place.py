@@ -102,7 +102,7 @@ class Body:
         def click_early(pose: PoseEstimate) -> None:
             if clicked or not self._looks_at_floor(pose, block):
                 return
-            if is_click_right(pose.position, self._locomotion.end_if_late, cell):
+            if is_click_right(pose.position, self._locomotion.end_if_late, cell, self._arena.size):
                 self._click(0, lambda seen: self._looks_at_floor(seen, block) and hits_floor(seen.position, cell))
                 clicked.append(pose)
 
@@ -127,7 +127,7 @@ class Body:
         A block too many, or a missing one, is an error whatever its cause. Outside the arena nothing is known.
         """
         front = front_of(pose.cell)
-        if not is_inside(front):
+        if not is_inside(front, self._arena.size):
             return
         x, y, z = block = self._arena.block_of(front)
         is_built = front in built

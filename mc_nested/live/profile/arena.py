@@ -5,13 +5,23 @@ import math
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.rules import SIZE
+from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE, Scenario
 from mc_nested.live.model import coordinates
 from mc_nested.live.model.coordinates import Facing, GroundVector
 from mc_nested.live.model.reading import Block
 
 FILL_LIMIT = 32768
 """Blocks that one /fill may change (FACTS: Commands)."""
+
+
+def near_middle(size: int) -> Cell:
+    """The cell in the middle of an arena's near edge: where the player stands when it is marked."""
+    return size // 2, 0
+
+
+def size_for(scenario: Scenario) -> int:
+    """Cells along each side of the arena to calibrate for a scenario; a small one is played in a part of it."""
+    return max(DEFAULT_SIZE, scenario.size)
 
 
 class ProfileTable(BaseModel):
@@ -28,6 +38,12 @@ class Arena(ProfileTable):
     )
     facing: Facing = Field(
         description="the way the agent looks: where the cells' y grows",
+    )
+    size: int = Field(
+        default=DEFAULT_SIZE,
+        ge=DEFAULT_SIZE,
+        le=LARGEST_SIZE,
+        description="cells along each side that calibrate arena was told: no larger scenario is played here",
     )
     marked: tuple[Block, Block] = Field(
         description="two opposite corners of the blocks that a reset may clear; nothing outside is ever touched"
@@ -46,7 +62,7 @@ class Arena(ProfileTable):
     @model_validator(mode="after")
     def _is_marked(self) -> "Arena":
         low, high = self.region
-        corners = (self.block_of((0, 0)), self.block_of((SIZE - 1, SIZE - 1)))
+        corners = (self.block_of((0, 0)), self.block_of((self.size - 1, self.size - 1)))
         if any(not low[axis] <= corner[axis] <= high[axis] for corner in corners for axis in range(3)):
             raise ValueError("the marked blocks don't hold the whole arena: run mc-nested calibrate arena")
         if low[1] < self.origin[1]:
@@ -58,10 +74,10 @@ class Arena(ProfileTable):
         return self
 
     @classmethod
-    def around(cls, origin: Block, facing: Facing, height: int = 2) -> "Arena":
+    def around(cls, origin: Block, facing: Facing, height: int = 2, size: int = DEFAULT_SIZE) -> "Arena":
         """The arena that starts at ``origin``, marked ``height`` blocks high: 2 is as tall as the player."""
-        x, y, z = coordinates.block_of(origin, facing, (SIZE - 1, SIZE - 1))
-        return cls(origin=origin, facing=facing, marked=(origin, (x, y + height - 1, z)))
+        x, y, z = coordinates.block_of(origin, facing, (size - 1, size - 1))
+        return cls(origin=origin, facing=facing, size=size, marked=(origin, (x, y + height - 1, z)))
 
     @property
     def region(self) -> tuple[Block, Block]:
@@ -71,6 +87,16 @@ class Arena(ProfileTable):
             (min(one[0], other[0]), min(one[1], other[1]), min(one[2], other[2])),
             (max(one[0], other[0]), max(one[1], other[1]), max(one[2], other[2])),
         )
+
+    @property
+    def middle(self) -> Cell:
+        """The cell with the most room around it."""
+        return self.size // 2, self.size // 2
+
+    @property
+    def near_middle(self) -> Cell:
+        """The cell in the middle of the near edge: the whole arena lies in plain view in front of it."""
+        return near_middle(self.size)
 
     @property
     def yaw(self) -> float:

@@ -86,7 +86,8 @@ def reads_as(dots: Frame, text: str, font: Font) -> bool:
 def _ends(line: str, room: int, font: Font) -> Iterator[bytes]:
     """The columns of a line; of one that is too long for so many of them, those of each end that about fills them.
 
-    The game shows the end of such a line, and leaves room for a letter or two.
+    The game shows the end of such a line, and leaves room for a letter or two. It counts the free column behind the
+    last letter, so a line that would end at the very edge may be shown whole or as its end.
     """
     for first in range(max(1, len(line))):
         columns = font.columns(line[first:]).rstrip(b"\0")
@@ -94,5 +95,5 @@ def _ends(line: str, room: int, font: Font) -> Iterator[bytes]:
             if first and len(columns) < room - _LEFT_FREE:
                 return
             yield columns
-            if not first:
+            if not first and len(columns) < room:
                 return

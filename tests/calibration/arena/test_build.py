@@ -12,7 +12,9 @@ from calibration.arena.copy_note import note_path, read_copy_note
 from calibration.arena.plan import FLOOR, box_of
 from calibration.arena.undo import undo_arena, undo_built_arena
 from calibration.context import StepResult
-from mc_nested.arena.action import Action
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.builder import build as build_of
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, ProfileError, UserError
 from mc_nested.live.live_game import LiveGame
@@ -134,6 +136,112 @@ def test_a_game_that_can_neither_compare_nor_copy_says_so_and_asks(
     assert found.profile.marked_arena() == HERE.model_copy(update={"floor": FLOOR})
     with context_on(client)(found.profile) as context, pytest.raises(UserError, match="no copy is known"):
         undo_arena(context, found.profile)
+
+
+@pytest.mark.parametrize(("size", "standing"), [(20, None), (32, (3, 5))])
+def test_a_larger_arena_is_built_copied_checked_and_undone(
+    size: int, standing: tuple[int, int] | None, tmp_path: Path
+) -> None:
+    client = VirtualClient()
+    spoil(client)
+    client.realm.world.put((-9, 64, 18), "dirt")
+    before, questions = client.built, list[str]()
+
+    def agree(question: str) -> bool:
+        questions.append(question)
+        return True
+
+    profile = profile_of(client, tmp_path)
+    with context_on(client, ask=agree)(profile) as context:
+        arena = build_arena(context, profile, size=size, standing=standing).profile.marked_arena()
+    assert (arena.size, client.cell(arena)) == (size, standing or (size // 2, 0))
+    low, high = arena.region
+    assert [high[axis] - low[axis] + 1 for axis in range(3)] == [size, 2, size]
+    assert "Something stands there (" in questions[0]
+    assert ("7 of 7 looks saw the floor, 8 more cells are out of sight" in questions[0]) == (size == 32)
+    world = client.realm.world
+    floor = {world.block_at((x, 63, z)) for x in range(low[0] - 1, high[0] + 2) for z in range(low[2] - 1, high[2] + 2)}
+    assert floor == {"obsidian"}
+    ring = {block for block, name in client.built.items() if name == "lapis_block" and block[1] == 64}
+    assert len(ring) == 4 * (size + 1)
+    assert {world.block_at(arena.block_of((x, y))) for x in range(size) for y in range(size)} == {"air"}
+    with context_on(client)(profile) as context:
+        undo_arena(context, profile.model_copy(update={"arena": arena}))
+    assert client.built == before
+
+
+def test_what_lies_beyond_15_cells_is_built_to_the_block_in_an_arena_of_20(tmp_path: Path) -> None:
+    client = VirtualClient()
+    profile = profile_of(client, tmp_path)
+    with context_on(client)(profile) as context:
+        profile = build_arena(context, profile, size=20).profile
+    arena = profile.marked_arena()
+    far = frozenset({(19, 19), (18, 19), (16, 17), (19, 16)})
+    stone = load_scenario("line").materials[1]
+    scenario = Scenario("far corner", far, (17, 14), 60, (stone,), 20)
+    with LiveGame(scenario, profile, connection_to(client)) as game:
+        for _ in range(2):
+            assert game.reset(0) == scenario.start == client.cell(arena)
+            assert standing_on(client, arena) == set()
+            placed = set[Cell]()
+            # Up to the far edge and the right one, which stop it; then the design.
+            for action in (*[Action.R] * 3, *[Action.F] * 6, *[Action.B] * 5, *[Action.L] * 2, *build_of(scenario)):
+                outcome = game.act(action)
+                placed |= {outcome.placed} if outcome.placed else set()
+                assert outcome.cell == client.cell(arena)
+                assert standing_on(client, arena) == placed
+            assert placed == far
+    assert client.window.strays == []
+
+
+def test_a_scenario_smaller_than_its_arena_is_played_in_the_arenas_near_left_corner(tmp_path: Path) -> None:
+    client = VirtualClient()
+    profile = profile_of(client, tmp_path)
+    with context_on(client)(profile) as context:
+        profile = build_arena(context, profile, size=18).profile
+    arena, line = profile.marked_arena(), load_scenario("line")
+    with LiveGame(line, profile, connection_to(client)) as game:
+        assert game.reset(line.best_material) == line.start == client.cell(arena)
+        # The scenario's far edge stops the agent and voids its block, though the arena goes on.
+        for action in (Action.F, Action.LD, Action.RD, *build_of(line)):
+            assert game.act(action).cell == client.cell(arena)
+    assert standing_on(client, arena) == line.design
+
+
+def standing_on(client: VirtualClient, arena: Arena) -> set[Cell]:
+    """The cells of the arena that hold a block."""
+    return {
+        (x, y)
+        for x in range(arena.size)
+        for y in range(arena.size)
+        if client.realm.world.block_at(arena.block_of((x, y))) != "air"
+    }
+
+
+@pytest.mark.parametrize("has_sky", [True, False])
+def test_an_arena_of_another_size_is_not_built_over_one_that_can_be_put_back(has_sky: bool, tmp_path: Path) -> None:
+    client = VirtualClient()
+    if not has_sky:
+        client.realm.world.put((0, 128, 5), "glass")
+        client.realm.world.put((0, 96, 5), "glass")
+        client.realm.world.put((0, 80, 5), "glass")
+    spoil(client)
+    before, file = client.built, tmp_path / "mine.toml"
+    save_profile(profile_of(client, tmp_path), file)
+    calibrate_built_arena(file, context_on(client))
+    after = client.built
+    if not has_sky:
+        # Nothing could be copied, so nothing can be lost.
+        calibrate_built_arena(file, context_on(client), size=20)
+        assert load_profile(file).marked_arena().size == 20
+        return
+    with pytest.raises(UserError, match=rf"another size, 15 x 15 .*--undo --profile {re.escape(str(file))}"):
+        calibrate_built_arena(file, context_on(client), size=20)
+    assert client.built == after
+    undo_built_arena(file, context_on(client))
+    calibrate_built_arena(file, context_on(client), size=20)
+    undo_built_arena(file, context_on(client))
+    assert client.built == before
 
 
 def test_building_again_at_the_same_position_keeps_the_first_copy(tmp_path: Path) -> None:

@@ -3,7 +3,6 @@
 import pytest
 
 from calibration.arena.ground_survey import GroundSurvey, is_copy_gone, survey_ground
-from calibration.arena.mark import NEAR_MIDDLE
 from calibration.arena.plan import box_at, box_of
 from mc_nested.errors import UserError
 from mc_nested.live.model.reading import Reading, Target
@@ -26,7 +25,7 @@ def console(target: Target | None) -> ScriptedConsole:
 
 def survey(queries: ScriptedQueries, version: str = "1.20.1", target: str = "minecraft:grass_block") -> GroundSurvey:
     profile = Profile(game=GameVersion(version=version))
-    return survey_ground(console(Target((0, 63, 1), target)), queries, profile, ARENA, NEAR_MIDDLE)
+    return survey_ground(console(Target((0, 63, 1), target)), queries, profile, ARENA, ARENA.near_middle)
 
 
 def test_free_and_flat_ground_is_copied_highest_and_not_looked_around_on() -> None:
@@ -49,7 +48,7 @@ def test_a_copy_lies_where_its_corner_is_air_and_it_equals_the_box_above(
 
 
 def test_without_any_room_in_the_sky_nothing_is_copied_and_whether_it_is_free_is_unknown() -> None:
-    below = ARENA.block_of(NEAR_MIDDLE)
+    below = ARENA.block_of(ARENA.near_middle)
     ground = survey(ScriptedQueries({below: True}, otherwise=False))
     assert (ground.is_free, ground.is_flat, ground.copy_to) == (None, True, None)
     assert ground.view is not None
@@ -84,7 +83,7 @@ def test_a_slippery_floor_does_not_stay() -> None:
 def test_a_block_that_is_not_seen_or_has_no_name_ends_it(target: Target | None) -> None:
     screen = console(target)
     with pytest.raises(UserError, match="allow cheats"):
-        survey_ground(screen, ScriptedQueries(), Profile(), ARENA, NEAR_MIDDLE)
+        survey_ground(screen, ScriptedQueries(), Profile(), ARENA, ARENA.near_middle)
     assert len(looks(screen.sent)) == 1
 
 

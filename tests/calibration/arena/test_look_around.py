@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from calibration.arena.look_around import CELLS, look_around, look_at, teleport_and_look
+from calibration.arena.look_around import cells_to_look_at, is_in_sight, look_around, look_at, teleport_and_look
 from mc_nested.live.model.reading import Reading, Target
 from mc_nested.live.profile.arena import Arena
 from tests.calibration.arena.scripted import ScriptedConsole
@@ -57,14 +57,14 @@ def test_a_view_that_can_not_be_read_is_not_there() -> None:
 
 
 def test_every_look_sees_the_floor_of_its_own_cell() -> None:
-    floors = iter([ARENA.block_of(cell) for cell in CELLS])
+    floors = iter([ARENA.block_of(cell) for cell in cells_to_look_at(15)])
 
     def respond(command: str) -> Reading:
         yaw, pitch = (float(part) for part in command.split()[-2:])
         x, y, z = next(floors)
         return Reading(xyz=(0.5, 64.0, 0.5), yaw=yaw, pitch=pitch, target=Target((x, y - 1, z), "minecraft:stone"))
 
-    seen = look_around(ScriptedConsole(respond), ARENA)
+    seen = look_around(ScriptedConsole(respond), ARENA, (7, 0))
     assert (seen.in_the_way, seen.floor, seen.looks) == ({}, 15, 15)
 
 
@@ -81,5 +81,26 @@ def test_every_look_sees_the_floor_of_its_own_cell() -> None:
 def test_blocks_from_the_level_of_the_feet_up_are_in_the_way(
     target: Target | None, in_the_way: dict[tuple[int, int, int], str]
 ) -> None:
-    seen = look_around(sees(target), ARENA)
+    seen = look_around(sees(target), ARENA, (7, 0))
     assert (seen.in_the_way, seen.floor, seen.looks) == (in_the_way, 0, 15)
+
+
+def test_of_an_arena_of_15_cells_all_that_is_looked_at_is_in_sight_from_every_cell() -> None:
+    assert cells_to_look_at(15) == [(x, y) for y in (3, 8, 13) for x in (1, 4, 7, 10, 13)]
+    corners = [(0, 0), (14, 0), (0, 14), (14, 14)]
+    assert all(is_in_sight(cell, corner) for cell in cells_to_look_at(15) for corner in corners)
+
+
+@pytest.mark.parametrize(("cell", "is_seen"), [((16, 19), True), ((16, 20), False), ((0, 11), True), ((0, 12), False)])
+def test_a_floor_is_in_sight_where_the_game_names_its_block(cell: tuple[int, int], is_seen: bool) -> None:
+    # From (16, 0), eyes 1.62 up: 19.07 and 20.07, 19.48 and 20.06 blocks away.
+    assert is_in_sight(cell, (16, 0)) is is_seen
+
+
+@pytest.mark.parametrize(("size", "looks"), [(20, 15), (32, 8)])
+def test_what_is_out_of_sight_is_counted_and_not_looked_at(size: int, looks: int) -> None:
+    arena = Arena.around((7, 64, 0), "south", size=size)
+    console = sees(None)
+    seen = look_around(console, arena, arena.near_middle)
+    assert len(cells_to_look_at(size)) == 15
+    assert (seen.looks, seen.out_of_sight, len(console.sent)) == (looks, 15 - looks, looks)

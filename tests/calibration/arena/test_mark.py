@@ -13,9 +13,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from calibration.arena.mark import NEAR_MIDDLE, arena_from_reading, mark_arena, mark_question
+from calibration.arena.mark import arena_from_reading, mark_arena, mark_question
 from mc_nested.arena.action import Cell
-from mc_nested.arena.rules import SIZE
 from mc_nested.errors import DesktopError, ProfileError, UserError
 from mc_nested.live.devices import Devices, Frame, Region
 from mc_nested.live.model.coordinates import Facing, centre_of, yaw_of
@@ -30,24 +29,24 @@ from sim.client.game.f3_text import F3Screen
 Open = Callable[[str], AbstractContextManager[Devices]]
 
 FACINGS: list[Facing] = ["north", "south", "west", "east"]
-CELLS = st.tuples(st.integers(0, SIZE - 1), st.integers(0, SIZE - 1))
+CELLS = st.tuples(st.integers(0, 14), st.integers(0, 14))
 BLOCKS = st.tuples(st.integers(-30000, 30000), st.integers(-60, 300), st.integers(-30000, 30000))
 WITHIN = st.floats(-0.45, 0.45)
 
 
-@given(BLOCKS, st.sampled_from(FACINGS), CELLS, WITHIN, WITHIN, st.floats(-19.9, 19.9))
+@given(BLOCKS, st.sampled_from(FACINGS), CELLS, WITHIN, WITHIN, st.floats(-19.9, 19.9), st.integers(15, 32))
 def test_the_arena_is_the_one_that_the_player_stands_in(
-    origin: Block, facing: Facing, standing: Cell, east: float, south: float, turned: float
+    origin: Block, facing: Facing, standing: Cell, east: float, south: float, turned: float, size: int
 ) -> None:
     x, y, z = centre_of(origin, facing, standing)
     yaw = (yaw_of(facing) + turned + 180) % 360 - 180
-    arena = arena_from_reading(Reading((x + east, y, z + south), yaw, 30.0), standing)
-    assert (arena.origin, arena.facing) == (origin, facing)
+    arena = arena_from_reading(Reading((x + east, y, z + south), yaw, 30.0), standing, size)
+    assert arena == Arena.around(origin, facing, size=size)
 
 
 def test_a_player_at_the_near_edge_has_the_arena_before_and_beside_them() -> None:
     # Facing south, +Z is ahead and west, -X, to the right (FACTS: The F3 debug screen).
-    arena = arena_from_reading(Reading((100.5, 64.0, 200.5), 0.0, 30.0), NEAR_MIDDLE)
+    arena = arena_from_reading(Reading((100.5, 64.0, 200.5), 0.0, 30.0), (7, 0), 15)
     assert arena.region == ((93, 64, 200), (107, 65, 214))
 
 
@@ -63,13 +62,13 @@ def test_a_player_at_the_near_edge_has_the_arena_before_and_beside_them() -> Non
 )
 def test_a_view_between_two_axes_is_refused_with_how_to_turn(yaw: float, message: str) -> None:
     with pytest.raises(UserError, match=message):
-        arena_from_reading(Reading((0.5, 64.0, 0.5), yaw, 30.0), NEAR_MIDDLE)
+        arena_from_reading(Reading((0.5, 64.0, 0.5), yaw, 30.0), (7, 0), 15)
 
 
 @pytest.mark.parametrize("height", [64.5, 63.9375, 64.42])
 def test_feet_off_a_whole_blocks_top_mark_nothing(height: float) -> None:
     with pytest.raises(UserError, match="top of a whole block"):
-        arena_from_reading(Reading((0.5, height, 0.5), 0.0, 30.0), NEAR_MIDDLE)
+        arena_from_reading(Reading((0.5, height, 0.5), 0.0, 30.0), (7, 0), 15)
 
 
 def test_the_question_names_the_corners_and_says_that_what_stands_there_is_unknown() -> None:
@@ -275,12 +274,44 @@ def test_mistakes_are_reported_before_a_window_is_looked_for(tmp_path: Path, fon
     broken = tmp_path / "broken.toml"
     broken.write_text("[arena\n", "utf-8")
     for file, standing, font, error, message in (
-        (broken, NEAR_MIDDLE, font_file, ProfileError, "not TOML"),
+        (broken, (7, 0), font_file, ProfileError, "not TOML"),
         (tmp_path / "new.toml", (15, 0), font_file, UserError, "outside the arena"),
-        (tmp_path / "new.toml", NEAR_MIDDLE, None, ProfileError, "font"),
-        (tmp_path / "new.toml", NEAR_MIDDLE, font_file, DesktopError, "no window"),
+        (tmp_path / "new.toml", (7, 0), None, ProfileError, "font"),
+        (tmp_path / "new.toml", (7, 0), font_file, DesktopError, "no window"),
     ):
         with pytest.raises(error, match=message):
             mark_arena(file, ask=lambda _: True, say=lambda _: None, standing=standing, font=font, open_devices=refused)
     assert broken.read_text("utf-8") == "[arena\n"
     assert not (tmp_path / "new.toml").exists()
+
+
+@pytest.mark.parametrize("size", [14, 33])
+def test_a_size_that_no_arena_has_is_one_line_before_a_window_is_looked_for(
+    size: int, tmp_path: Path, font_file: Path
+) -> None:
+    with pytest.raises(UserError, match=f"{size} x {size} cells: choose 15 to 32 cells along each side"):
+        mark_arena(
+            tmp_path / "new.toml",
+            ask=lambda _: True,
+            say=lambda _: None,
+            size=size,
+            font=font_file,
+            open_devices=refused,
+        )
+
+
+def test_a_larger_arena_is_marked_around_the_middle_of_its_near_edge(
+    tmp_path: Path, font_file: Path, opened: Open
+) -> None:
+    file, questions, told = tmp_path / "mine.toml", list[str](), list[str]()
+
+    def agree(question: str) -> bool:
+        questions.append(question)
+        return True
+
+    mark_arena(file, ask=agree, say=told.append, size=20, font=font_file, open_devices=opened)
+    # Facing west from block (-4, 64, 118): cell (0, 0) is 10 to the south.
+    assert load_profile(file).marked_arena() == Arena.around((-4, 64, 128), "west", size=20)
+    assert "size = 20" in file.read_text("utf-8")
+    assert "20 x 20 x 2 high" in questions[0]
+    assert "the middle of the arena's near edge" in told[0]

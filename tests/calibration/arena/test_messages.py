@@ -32,6 +32,12 @@ def test_what_was_seen_in_the_way_is_named_six_blocks_at_most() -> None:
     assert "The floor, ice, is not of one block: it is replaced by obsidian." in asked
 
 
+def test_cells_that_were_out_of_sight_are_counted() -> None:
+    ground = GroundSurvey(None, None, "stone", None, LookAroundResult({}, 9, 10, 5))
+    asked = build_question(Arena.around((7, 64, 0), "south", size=32), ground, None, ())
+    assert "What stands there is not known (9 of 10 looks saw the floor, 5 more cells are out of sight)." in asked
+
+
 def test_ground_that_is_unknown_is_said_to_be() -> None:
     asked = build_question(ARENA, GroundSurvey(None, None, "sand", None), None, ())
     assert "What stands there is not known." in asked

@@ -14,6 +14,7 @@ from calibration.arena.plan import (
     box_at,
     box_of,
     build_commands,
+    copy_command,
     copy_positions,
     do_overlap,
     floor_of,
@@ -30,16 +31,18 @@ ORIGINS = st.tuples(st.integers(-999, 999), st.integers(-60, 200), st.integers(-
 ARENA = Arena.around((10, 64, 20), "south")
 
 
-@given(ORIGINS, st.sampled_from(FACINGS))
-def test_the_border_is_the_ring_around_the_cells_and_nothing_else(origin: tuple[int, int, int], facing: Facing) -> None:
-    arena = Arena.around(origin, facing)
+@given(ORIGINS, st.sampled_from(FACINGS), st.integers(15, 32))
+def test_the_border_is_the_ring_around_the_cells_and_nothing_else(
+    origin: tuple[int, int, int], facing: Facing, size: int
+) -> None:
+    arena = Arena.around(origin, facing, size=size)
     ring = {
         (x, origin[1], z)
         for (low, high) in border_of(arena)
         for x, z in itertools.product(range(low[0], high[0] + 1), range(low[2], high[2] + 1))
     }
-    around = {arena.block_of((x, y)) for x in range(-1, 16) for y in range(-1, 16)}
-    cells = {arena.block_of((x, y)) for x in range(15) for y in range(15)}
+    around = {arena.block_of((x, y)) for x in range(-1, size + 1) for y in range(-1, size + 1)}
+    cells = {arena.block_of((x, y)) for x in range(size) for y in range(size)}
     assert ring == around - cells
     assert all(low[1] == high[1] == origin[1] for low, high in border_of(arena))
 
@@ -107,6 +110,16 @@ def test_everything_is_written_out_for_one_arena() -> None:
         "/item replace entity @s hotbar.0 with minecraft:oak_planks 64",
         "/item replace entity @s hotbar.1 with minecraft:stone 64",
     ]
+
+
+def test_no_command_for_the_largest_arena_changes_more_blocks_than_the_game_allows() -> None:
+    arena = Arena.around((10, 64, 20), "south", size=32)
+    boxes = [box_of(arena), floor_of(arena), arena.region, *border_of(arena)]
+    assert [volume(box) for box in boxes] == [34 * 34 * 3, 34 * 34, 32 * 32 * 2, *[34] * 4]
+    assert max(volume(box) for box in boxes) <= FILL_LIMIT
+    far = Arena.around((-29_999_960, 300, 29_999_900), "west", size=32)
+    commands = [*build_commands(Profile(), far, ("stone",), builds_floor=True), copy_command(box_of(far), (0, 0, 0))]
+    assert max(map(len, commands)) < 256, "what the chat takes"
 
 
 def test_a_floor_that_will_do_stays() -> None:

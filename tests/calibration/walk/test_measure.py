@@ -150,9 +150,10 @@ def test_a_hole_in_a_marked_arena_is_refilled_or_found_before_it_walks(floor: st
         assert client.realm.player.feet == (0.5, 64.0, 0.5)
 
 
-def test_in_a_marked_arena_it_walks_in_the_middle_and_comes_back(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("size", "middle"), [(15, 7), (20, 10)])
+def test_in_a_marked_arena_it_walks_in_the_middle_and_comes_back(size: int, middle: int, tmp_path: Path) -> None:
     client = VirtualClient(seed=2, pitch=20.0, swaps_sides=True)
-    arena = Arena.around((-20, 64, 31), "east")
+    arena = Arena.around((-20, 64, 31), "east", size=size)
     visited = set()
     tick = client.game.tick
 
@@ -163,9 +164,9 @@ def test_in_a_marked_arena_it_walks_in_the_middle_and_comes_back(tmp_path: Path)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(client.game, "tick", noted)
         found = measured(client, tmp_path, profile_of(client, tmp_path).model_copy(update={"arena": arena}))
-    inside = {cell for cell in visited if max(abs(cell[0] - 7), abs(cell[1] - 7)) < 10}
-    assert {(7, 7), (8, 7), (6, 7), (7, 8), (7, 6)} <= inside
-    assert all(abs(x - 7) <= 3 and abs(y - 7) <= 3 for x, y in inside)
+    inside = {cell for cell in visited if max(abs(cell[0] - middle), abs(cell[1] - middle)) < 8}
+    assert {(middle + x, middle + y) for x, y in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1))} <= inside
+    assert all(abs(x - middle) <= 3 and abs(y - middle) <= 3 for x, y in inside)
     assert client.realm.player.feet == (0.5, 64.0, 0.5)
     assert (client.realm.player.yaw, client.realm.player.pitch) == (0.0, 20.0)
     assert (found.profile.keys.left, found.profile.keys.right) == ("d", "a")

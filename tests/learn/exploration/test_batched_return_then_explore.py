@@ -1,5 +1,7 @@
 """The exploration of many runs: each run's own episodes, and the best of them handed to the right learner's row."""
 
+import dataclasses
+
 import numpy as np
 
 from mc_nested.arena.action import Action
@@ -78,3 +80,16 @@ def test_without_imitation_no_best_episode_is_kept_for_it() -> None:
     explorer.end(np.array([0]), np.array([0]))
     assert agent.low_level.best is None
     assert explorer.state()["0.best"].shape == (1, 8)
+
+
+def test_in_a_larger_arena_it_remembers_what_happened_beyond_15_cells() -> None:
+    far = dataclasses.replace(DOT, design=frozenset({(19, 19)}), start=(19, 19), size=20)
+    explorer = BatchedReturnThenExplore(RULE, Agent(AGENT_SPECS["hierarchical"], [far], PRESET, 0))
+    only, start, after = np.array([0]), np.array([[19, 19, 1]]), np.array([[19, 18, 0]])
+    explorer.begin(only, np.zeros((1, NUMBERS)))
+    explorer.observe(only, start, start, np.array([int(Action.BD)]), np.ones(1), after, np.array([True]))
+    assert explorer.state()["0.came_to"].shape == (20, 20, 8)
+    assert explorer.state()["0.came_to"][19, 19].any()
+    explorer.end(only, only)
+    explorer.begin(only, np.zeros((1, NUMBERS)))
+    assert explorer.act(only, start, np.zeros((1, NUMBERS))).tolist() == [Action.BD]

@@ -4,7 +4,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.arena.rules import SIZE
 from mc_nested.errors import ProfileError
 from mc_nested.live.menus.commands import reset_commands
 from mc_nested.live.model.coordinates import Facing
@@ -73,13 +72,16 @@ def test_the_teleport_looks_the_arenas_way(facing: Facing, yaw: str) -> None:
     assert reset_commands(_profile(facing=facing), (0, 0), [])[1] == f"/tp @s 5.5 64 -19.5 {yaw} 65"
 
 
-@given(st.sampled_from(["north", "south", "west", "east"]), st.integers(-5000, 5000), st.integers(-5000, 5000))
-def test_the_fill_takes_the_arenas_cells_two_high_and_no_block_more(facing: Facing, x: int, z: int) -> None:
-    arena = Arena.around((x, 64, z), facing)
+sizes = st.integers(15, 32)
+
+
+@given(st.sampled_from(["north", "south", "west", "east"]), st.integers(-5000, 5000), st.integers(-5000, 5000), sizes)
+def test_the_fill_takes_the_arenas_cells_two_high_and_no_block_more(facing: Facing, x: int, z: int, size: int) -> None:
+    arena = Arena.around((x, 64, z), facing, size=size)
     words = reset_commands(Profile(arena=arena), (7, 14), [])[0].split()
     low, high = [int(word) for word in words[1:4]], [int(word) for word in words[4:7]]
     filled = {(east, south) for east in range(low[0], high[0] + 1) for south in range(low[2], high[2] + 1)}
-    assert filled == {arena.block_of((column, row))[::2] for column in range(SIZE) for row in range(SIZE)}
+    assert filled == {arena.block_of((column, row))[::2] for column in range(size) for row in range(size)}
     assert (low[1], high[1]) == (64, 65)
 
 

@@ -40,9 +40,9 @@ def test_the_floor_ahead_is_hit_from_a_little_beside_behind_and_before_the_middl
 
 def test_a_click_is_right_only_if_the_floor_is_hit_from_now_until_the_latest_end() -> None:
     near, far = GroundVector(6.7, 7.0), GroundVector(6.5, 7.0)
-    assert is_click_right(near, GroundVector(7.2, 7.0), CELL)
-    assert not is_click_right(far, GroundVector(7.2, 7.0), CELL)
-    assert not is_click_right(near, GroundVector(7.5, 7.0), CELL)
+    assert is_click_right(near, GroundVector(7.2, 7.0), CELL, 15)
+    assert not is_click_right(far, GroundVector(7.2, 7.0), CELL, 15)
+    assert not is_click_right(near, GroundVector(7.5, 7.0), CELL, 15)
 
 
 @pytest.mark.parametrize(
@@ -65,4 +65,5 @@ def test_near_the_edge_towards_which_the_agent_moves_no_early_click_is_right(
     cell: tuple[int, int], towards: tuple[float, float], expected: bool
 ) -> None:
     end = GroundVector(cell[0] + towards[0], cell[1] + towards[1])
-    assert is_click_right(GroundVector(*cell), end, cell) is expected
+    assert is_click_right(GroundVector(*cell), end, cell, 15) is expected
+    assert is_click_right(GroundVector(*cell), end, cell, 20) is (expected or min(cell) > 1)

@@ -5,7 +5,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.rules import SIZE
 from mc_nested.errors import NotConfirmedError, NotInFrontError, UnreadableError
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.model.reading import Reading, Target
@@ -155,6 +154,19 @@ def test_at_the_arenas_edge_no_click_goes_out_before_the_end_is_certain() -> Non
     assert on_the_way.clock.now() == one_by_one.clock.now()
 
 
+@pytest.mark.parametrize(("size", "is_known"), [(15, False), (16, True)])
+def test_what_stands_ahead_is_checked_up_to_the_edge_of_the_arena_of_its_size(size: int, is_known: bool) -> None:
+    profile = Profile(arena=Arena.around((14, 64, 0), "south", size=size))
+    game = _game((7, 14), profile)
+    game.blocks[profile.marked_arena().block_of((7, 15))] = "stone"
+    body = _body(game)
+    if not is_known:
+        body.check_floor_ahead()
+        return
+    with pytest.raises(NotConfirmedError, match="only the floor should be at"):
+        body.check_floor_ahead()
+
+
 def test_a_click_that_the_game_missed_is_repeated() -> None:
     game = _game()
     game.refuse_clicks = 2
@@ -269,7 +281,7 @@ def test_an_arrival_is_waited_for() -> None:
     with pytest.raises(
         NotConfirmedError, match=r"teleport to cell \(7, 14\) was not seen, the agent is at \(7.00, 7.00\)"
     ):
-        body.arrive((7, SIZE - 1))
+        body.arrive((7, 14))
 
 
 def test_a_window_that_goes_away_stops_a_move() -> None:

@@ -3,8 +3,9 @@
 import pytest
 from pydantic import ValidationError
 
+from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.errors import ProfileError
-from mc_nested.live.profile.arena import FILL_LIMIT, Arena
+from mc_nested.live.profile.arena import FILL_LIMIT, Arena, size_for
 from mc_nested.live.profile.store import parse_profile
 
 
@@ -30,6 +31,37 @@ def test_an_arena_around_an_origin_marks_its_cells_as_high_as_the_player() -> No
     assert arena.block_of((2, 1)) == (3, 64, -19)
     assert arena.centre_of((2, 1)) == (3.5, 64.0, -18.5)
     assert arena.position_of((3.25, 64.0, -18.5)) == (2.25, 1.0)
+
+
+def test_a_profile_of_before_arenas_had_sizes_has_one_of_15_cells() -> None:
+    old = "[arena]\norigin = [0, 64, 0]\nfacing = 'south'\nmarked = [[0, 64, 0], [-14, 65, 14]]"
+    assert parse_profile(old, "mine.toml").marked_arena() == Arena.around((0, 64, 0), "south")
+    assert Arena.around((0, 64, 0), "south").size == 15
+
+
+@pytest.mark.parametrize(("size", "is_valid"), [(14, False), (15, True), (32, True), (33, False)])
+def test_a_profiles_arena_has_15_to_32_cells_a_side(size: int, is_valid: bool) -> None:
+    text = f"[arena]\norigin = [0, 64, 0]\nfacing = 'south'\nsize = {size}\nmarked = [[0, 64, 0], [-40, 65, 40]]"
+    if is_valid:
+        assert parse_profile(text, "mine.toml").marked_arena().size == size
+        return
+    with pytest.raises(ProfileError, match=r"arena\.size"):
+        parse_profile(text, "mine.toml")
+
+
+@pytest.mark.parametrize(("needs", "gets"), [(5, 15), (15, 15), (16, 16), (32, 32)])
+def test_a_scenario_gets_an_arena_as_large_as_it_needs_and_never_a_smaller_one_than_the_papers(
+    needs: int, gets: int
+) -> None:
+    assert size_for(Scenario("any", frozenset({(1, 1)}), (0, 0), 9, (Material("stone", 0.0, "stone"),), needs)) == gets
+
+
+def test_the_marked_blocks_hold_an_arena_as_large_as_it_is() -> None:
+    arena = Arena.around((0, 64, 0), "south", size=20)
+    assert arena.region == ((-19, 64, 0), (0, 65, 19))
+    assert (arena.middle, arena.near_middle) == ((10, 10), (10, 0))
+    with pytest.raises(ValidationError, match="don't hold the whole arena"):
+        Arena(origin=(0, 64, 0), facing="south", size=21, marked=arena.marked)
 
 
 def test_a_region_has_its_lowest_corner_first_whichever_corners_are_marked() -> None:

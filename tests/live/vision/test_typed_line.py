@@ -94,3 +94,12 @@ def test_of_a_line_too_long_its_end_is_enough_where_it_fills_the_line() -> None:
     assert reads_as(painted(end, columns=wide + 14), text, FONT)
     assert not reads_as(painted(end, columns=wide + 15), text, FONT), "another letter or two would have fitted"
     assert not reads_as(painted(end[:-1], columns=wide), text, FONT)
+
+
+def test_of_a_line_that_would_end_at_the_very_edge_the_first_letter_may_be_gone() -> None:
+    # The game counts the free column behind the last letter too, so such a line is too long for it.
+    text = "/fill 100 200 300 minecraft:stone"
+    wide = len(FONT.columns(f"{text}_").rstrip(b"\0"))
+    for shown in (text, text[1:]):
+        assert reads_as(painted(f"{shown}_", columns=wide), text, FONT)
+    assert not reads_as(painted(f"{text[1:]}_", columns=wide + 1), text, FONT), "the whole line would have fitted"

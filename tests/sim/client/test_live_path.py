@@ -196,6 +196,20 @@ def test_at_any_frame_rate_what_is_built_is_right(fps: float, seed: int) -> None
     assert len(client.placed(arena)) == len(client.built) == LINE.blocks
 
 
+@pytest.mark.parametrize("name", ["islands", "house", "square"])
+def test_a_design_of_up_to_100_blocks_is_built_to_the_block(name: str) -> None:
+    scenario = load_scenario(name)
+    client = VirtualClient(seed=4)
+    arena = arena_of(client)
+    with play(client, scenario) as game:
+        game.reset(scenario.best_material)
+        for action in build(scenario):
+            assert game.act(action).cell == client.cell(arena)
+    assert client.placed(arena) == scenario.design
+    assert len(client.built) == scenario.blocks
+    assert set(client.built.values()) == {"stone"}
+
+
 def test_a_look_that_is_too_old_on_a_busy_machine_is_taken_again(monkeypatch: pytest.MonkeyPatch) -> None:
     client = VirtualClient(seed=1)
     looks = itertools.count(1)
