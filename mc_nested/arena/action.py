@@ -1,0 +1,19 @@
+"""What an agent can do, and where: the eight actions and a cell. What an action leads to is for the rules to say."""
+
+from enum import IntEnum
+
+Cell = tuple[int, int]
+"""(x, y): x to the right, y forward, the way the agent looks for the whole episode (paper, section 5)."""
+
+
+class Action(IntEnum):
+    """The nested agent's actions in the paper's order (paper, section 5.1.2): a move, then with +D a block."""
+
+    F = 0
+    B = 1
+    L = 2
+    R = 3
+    FD = 4
+    LD = 5
+    RD = 6
+    BD = 7
