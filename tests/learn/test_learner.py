@@ -63,6 +63,6 @@ def test_what_follows_counts_by_gamma_unless_the_episode_terminated() -> None:
     one = learner([[14]])
     for over in (False, True):
         one.store(np.array([0]), np.array([[3]]), np.array([1]), np.array([1.0]), np.array([[4]]), np.array([over]))
-    kept = one.replay.added_since(np.array([0]))
+    kept = one.replay.added_since(None)
     assert kept["discounts"].tolist() == [pytest.approx(0.95), 0.0]
     assert kept["states"].tolist() == [[3, 4], [3, 4]]

@@ -63,9 +63,14 @@ def main_of(agent: Agent) -> Learner:
 
 def kept_by(learner: Learner, row: int) -> Arrays:
     """The transitions that a row remembers, oldest first."""
-    every = learner.replay.added_since(np.zeros(learner.space.rows, dtype=np.int64))
+    every = learner.replay.added_since(None)
     ends = np.cumsum(every["counts"])
     return {name: kept[ends[row] - every["counts"][row] : ends[row]] for name, kept in every.items()}
+
+
+def added_to(agent: Agent) -> list[list[int]]:
+    """How many transitions each row of each learner has stored."""
+    return [learner.replay.added.tolist() for learner in _learners(agent)]
 
 
 def saved(trainer: Trainer) -> tuple[Arrays, list[Arrays]]:
@@ -382,21 +387,53 @@ LIVE = load_preset("live").model_copy(update={"episodes": 20})
 def test_an_abandoned_episode_is_never_learnt_from(spec: AgentSpec, preset: Preset) -> None:
     agent = Agent(spec, [LINE], preset, 0)
     trainer = Trainer(view_of(spec, ArenaVectorEnv([ArenaEnv(Spoils(LINE), LINE)]), [LINE]), [LINE], agent, preset, 0)
-    known: list[tuple[Arrays, Arrays]] = []
+    known: list[tuple[Arrays, list[list[int]]]] = []
     ended = 0
     with suppress(ConnectionError):
         while trainer.ticks < 100:
             trainer.tick()
             if len(trainer.episode_rows) + len(trainer.evaluation_rows) > ended:
                 ended = len(trainer.episode_rows) + len(trainer.evaluation_rows)
-                known.append(({name: kept.copy() for name, kept in agent.state().items()}, agent.marks()))
+                known.append(({name: kept.copy() for name, kept in agent.state().items()}, added_to(agent)))
     assert trainer.ticks < 100, "the fiftieth action broke down"
     trainer.abandon_episodes()
-    before, marks = known[-1]
-    assert {name: kept.tolist() for name, kept in agent.marks().items()} == {k: v.tolist() for k, v in marks.items()}
+    before, added = known[-1]
+    assert added_to(agent) == added
     for name, kept in before.items():
         assert np.array_equal(agent.state()[name], kept), name
     assert [row.episode for row in finish(trainer).episode_rows] == list(range(1, 21))
+
+
+@pytest.mark.parametrize("capacity", [40, 90, 1_000_000])
+@pytest.mark.parametrize("ticks_after", [3, 25, 70])
+def test_a_training_resumed_after_a_mishap_holds_the_transitions_of_the_one_that_went_on(
+    capacity: int, ticks_after: int
+) -> None:
+    preset = LIVE.model_copy(update={"replay_capacity": capacity})
+
+    def training() -> tuple[Spoils, Trainer]:
+        game = Spoils(LINE)
+        game.acts_left = 10_000
+        agent = Agent(NESTED, [LINE], preset, 0)
+        return game, Trainer(ArenaVectorEnv([ArenaEnv(game, LINE)]), [LINE], agent, preset, 0)
+
+    game, trainer = training()
+    while not (len(trainer.episode_rows) == 3 and trainer.state()["runs.steps_in_episode"][0] == 30):
+        trainer.tick()
+    journals, marks = [trainer.journal(None)], trainer.marks()  # a save, thirty steps into an episode
+    game.acts_left = 4
+    with pytest.raises(ConnectionError):
+        finish(trainer)
+    trainer.abandon_episodes()
+    for _ in range(ticks_after):
+        trainer.tick()
+    journals.append(trainer.journal(marks))
+    _, resumed = training()
+    resumed.load({name: kept.copy() for name, kept in trainer.state().items()}, journals)
+    for one, other in zip(_learners(trainer.agent), _learners(resumed.agent), strict=True):
+        held, brought_back = kept_by(one, 0), kept_by(other, 0)
+        for name, kept in held.items():
+            np.testing.assert_array_equal(brought_back[name], kept)
 
 
 @pytest.mark.parametrize(

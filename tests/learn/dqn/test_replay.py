@@ -64,22 +64,60 @@ def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
     assert numbers(drawn_from(replay, np.array([0]), np.array([[uniform]])))[0][0] in range(size)
 
 
-@given(st.integers(0, 30), st.integers(0, 9))
-def test_what_is_forgotten_is_never_drawn_again(before: int, since: int) -> None:
-    replay = Replay(runs=2, states=200, capacity=20)
+@given(before=st.integers(0, 50), since=st.integers(0, 30), capacity=st.integers(5, 40))
+def test_taken_back_it_holds_exactly_what_it_held(before: int, since: int, capacity: int) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(replay_module, "FIRST_ROOM", 4)
+        replay = Replay(runs=2, states=200, capacity=capacity)
     for step in range(before):
         replay.add(np.array([0]), transition(step))
-    marks = replay.added.copy()
+    mark = replay.mark(30)
     for step in range(since):
         replay.add(np.array([0]), transition(100 + step))
-    replay.forget_since(marks)
+    replay.take_back(mark)
     held = int(replay.sizes()[0])
-    assert held == min(before, 20)
-    seen = {int(number) for number in numbers(replay.gather(np.array([0]), np.arange(held)[None, :]))[0]}
-    if before + since <= 20:
-        assert seen == set(range(before))
-    else:
-        assert seen <= set(range(max(0, before - 20), before))
+    assert held == min(before, capacity)
+    seen = numbers(replay.gather(np.array([0]), np.arange(held)[None, :]))[0]
+    assert sorted(seen) == list(range(max(0, before - capacity), before))
+
+
+def test_a_mark_is_good_for_as_many_additions_as_it_was_made_for() -> None:
+    replay = Replay(runs=1, states=200, capacity=3)
+    mark = replay.mark(2)
+    for step in range(3):
+        replay.add(np.array([0]), transition(step))
+    with pytest.raises(ValueError, match="more than 2 additions"):
+        replay.take_back(mark)
+
+
+@given(
+    before=st.integers(0, 40),
+    spoiled=st.lists(st.tuples(st.integers(0, 12), st.integers(0, 12)), max_size=3),
+    after=st.integers(0, 40),
+    capacity=st.integers(5, 30),
+)
+def test_journals_around_what_was_taken_back_bring_back_what_is_held(
+    before: int, spoiled: list[tuple[int, int]], after: int, capacity: int
+) -> None:
+    replay, copy = (Replay(runs=1, states=200, capacity=capacity) for _ in range(2))
+    row = np.array([0])
+    for step in range(before):
+        replay.add(row, transition(step))
+    marks = None
+    for until_saved, since_saved in spoiled:
+        mark = replay.mark(24)
+        for step in range(until_saved + since_saved):
+            if step == until_saved:
+                copy.extend(replay.added_since(marks))
+                marks = replay.marks()
+            replay.add(row, transition(100 + step))
+        replay.take_back(mark)
+    for step in range(after):
+        replay.add(row, transition(before + step))
+    copy.extend(replay.added_since(marks))
+    assert copy.added.tolist() == replay.added.tolist()
+    held = np.arange(int(replay.sizes()[0]))[None]
+    assert numbers(copy.gather(row, held)) == numbers(replay.gather(row, held))
 
 
 def test_draws_are_uniform() -> None:
@@ -101,7 +139,7 @@ def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> N
     for step in range(steps):
         for replay in (grown, large):
             replay.add(np.array([0]), transition(step))
-    copy.extend(grown.added_since(np.array([0])))
+    copy.extend(grown.added_since(None))
     grid = (np.arange(50) / 50)[None]
     expected = numbers(drawn_from(large, np.array([0]), grid))
     assert set(expected[0]) == set(range(max(0, steps - capacity), steps))
@@ -116,7 +154,7 @@ def test_what_was_added_in_parts_is_the_whole(parts: list[int], capacity: int) -
         replay, copy = (Replay(runs=2, states=200, capacity=capacity) for _ in range(2))
     number = 0
     for part in parts:
-        marks = replay.added.copy()
+        marks = replay.marks()
         for _ in range(part):
             replay.add(np.array([1]), transition(number))
             number += 1
@@ -138,6 +176,6 @@ def test_states_are_kept_in_as_few_bytes_as_their_number_takes(states: int, byte
     replay.add(
         np.array([0]), Transitions(np.full((2, 1), states - 1), np.array([7]), np.array([1.0]), np.array([0.95]))
     )
-    kept = replay.added_since(np.array([0]))
+    kept = replay.added_since(None)
     assert kept["states"].itemsize == bytes_a_number
     assert kept["states"].tolist() == [[states - 1] * 2]
