@@ -9,11 +9,11 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from mc_nested.arrays import Bools, Float32s, Int64s, Integers
 from mc_nested.learn.dqn.adam import adam_step
+from mc_nested.learn.dqn.compiled import compiled
 from mc_nested.learn.dqn.networks import Sizes, backward, forward, hidden_for, parameter_count
 from mc_nested.learn.dqn.self_imitation import rival
 from mc_nested.learn.dqn.state_space import StateSpace
@@ -192,7 +192,7 @@ def _workspace(sizes: Sizes, batch: int) -> _Workspace:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def td_target(reward: float, discount: float, next_online: Float32s, next_target: Float32s) -> float:
     """Y = r + γ Q(s', argmax Q(s'; θ); θ⁻), the bootstrap dropped where the episode terminated (paper, equation 4).
 
@@ -202,14 +202,14 @@ def td_target(reward: float, discount: float, next_online: Float32s, next_target
     return target
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def _look_up(states: Int64s, table: Float32s, inputs: Float32s) -> None:
     for column in range(len(states)):
         for feature in range(inputs.shape[0]):
             inputs[feature, column] = table[states[column], feature]
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def _value(
     rows: Int64s,
     states: Int64s,
@@ -225,7 +225,7 @@ def _value(
         forward(online[rows[at]], sizes, inputs, hidden, values[at].reshape(-1, 1))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def _update(
     rows: Int64s,
     networks: _Networks,

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from mc_nested.arrays import Float64s, Int64s, Integers
+from mc_nested.learn.dqn.compiled import compiled
 
 FIRST_ROOM = 4096
 """Transitions per run that memory is allocated for at first; it doubles when full."""
@@ -163,7 +163,7 @@ class Replay:
         )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def _store(rows: Int64s, added: Int64s, capacity: int, kept: Transitions, new: Transitions) -> None:
     for at in range(len(rows)):
         row = rows[at]
@@ -176,7 +176,7 @@ def _store(rows: Int64s, added: Int64s, capacity: int, kept: Transitions, new: T
         added[row] += 1
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def _gather(rows: Int64s, indices: Int64s, kept: Transitions, drawn: Transitions) -> None:
     for at in range(len(rows)):
         row = rows[at]

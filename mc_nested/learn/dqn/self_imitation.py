@@ -5,9 +5,9 @@ own best episode: max_a [Q(s, a) + margin · (a ≠ a*)] - Q(s, a*).
 """
 
 import numpy as np
-from numba import njit
 
 from mc_nested.arrays import Bools, Float32s, Float64s, Int64s
+from mc_nested.learn.dqn.compiled import compiled
 from mc_nested.learn.dqn.replay import Transitions
 
 
@@ -52,7 +52,7 @@ class BestEpisodes:
         return imitated
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def rival(values: Float32s, action: int, margin: float) -> int:
     """The action that the large-margin loss pushes down for ``action`` to be greedy, of values (actions,).
 

@@ -7,9 +7,9 @@ a period takes less than a third of the time of computing those of a batch at ev
 from collections.abc import Sequence
 
 import numpy as np
-from numba import njit
 
 from mc_nested.arrays import Float32s, Int64s
+from mc_nested.learn.dqn.compiled import compiled
 from mc_nested.learn.dqn.networks import Sizes, forward, hidden_for
 from mc_nested.learn.dqn.state_space import StateSpace
 
@@ -44,7 +44,7 @@ class TargetValues:
             _value_all(parameters, self._sizes, features, self._inputs, self._hidden, self._some, self.values[row])
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def _value_all(
     parameters: Float32s,
     sizes: Int64s,
