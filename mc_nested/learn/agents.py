@@ -101,7 +101,8 @@ class Agent:
         observed = np.stack([highest_observation(scenario) for scenario in scenarios])
         self.spec = spec
         encoding = preset.encoding
-        self.main = Learner(StateSpace(observed, materials, encoding), preset, streams) if spec.has_main else None
+        chooses = StateSpace(observed, materials, encoding)
+        self.main = Learner(chooses, preset.for_main(), streams) if spec.has_main else None
         self._low_levels = materials if spec.low_level_per_material else 1
         highest = np.hstack([observed, *_highest_appended(spec, len(scenarios), materials)])
         self._width = highest.shape[1]

@@ -26,7 +26,7 @@ from mc_nested.learn.exploration.schedules import LinearDecay
 from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.preset import Exploration, Preset
 from mc_nested.learn.state_dict import named_for, part_of
-from mc_nested.learn.streams import Streams
+from mc_nested.learn.streams import Streams, main_updates_stream
 
 EXCURSIONS_ONLY = LinearDecay(1.0, 1.0, 1.0)
 """The nested agent's ε if every training episode is an excursion: no step is the greedy policy's."""
@@ -90,6 +90,7 @@ class Trainer:
         widths = [CHOICE_NUMBERS, batch, CHOICE_NUMBERS, batch * preset.updates_a_step, exploring]
         ends = [sum(widths[: part + 1]) for part in range(len(widths))]
         self._numbers = [slice(end - width, end) for width, end in zip(widths, ends, strict=True)]
+        self._seed = seed
         self._streams = Streams(seed, agent.runs, sum(widths))
         self._runs = _Runs(
             observations=blank_observations(env.single_observation_space, runs),
@@ -281,7 +282,16 @@ class Trainer:
         # The main agent has one transition per episode: after its choice there is nothing left to decide.
         ended, start, after = np.ones(len(rows), dtype=np.bool_), self._start[rows], runs.observations[rows]
         self.agent.main.store(rows, start, runs.materials[rows], scores[rows], after, ended)
-        self.agent.main.learn(rows, draws[rows])
+        for update in self._main_draws(rows, draws):
+            self.agent.main.learn(rows, update)
+
+    def _main_draws(self, rows: Int64s, draws: Float64s) -> Float64s:
+        """The numbers that select the batches of the main agent's updates now, (updates, k, batch)."""
+        if self.preset.main is None:
+            return draws[None, rows]
+        shape = self.preset.main.updates_an_episode, self.preset.update.batch
+        runs = [self.agent.runs[row] for row in rows]
+        return np.stack([main_updates_stream(self._seed, run, self.ticks).random(shape) for run in runs], axis=1)
 
     def _end_evaluations(self, rows: Int64s, scores: Float64s) -> None:
         runs = self._runs

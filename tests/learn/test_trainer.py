@@ -18,7 +18,7 @@ from mc_nested.arrays import Arrays, Float32s, Int64s
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec, view_of
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.learner import Learner
-from mc_nested.learn.preset import ExcursionRule, Imitation, Preset, Prioritized, load_preset
+from mc_nested.learn.preset import ExcursionRule, Imitation, MainUpdates, Preset, Prioritized, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridGame, GridVectorEnv, arena_env
 
@@ -113,6 +113,26 @@ def test_the_nested_agent_updates_once_a_step_and_the_main_agent_once_an_episode
     # From 16 transitions on: the first 15 steps, and the first 15 episodes, bring none.
     assert int(three_runs.agent.low_level.ddqn.updates.sum()) == steps - 3 * 15
     assert main_of(three_runs.agent).ddqn.updates.tolist() == [5] * 3
+
+
+def test_a_main_agent_of_its_own_table_learns_from_its_second_episode_on() -> None:
+    preset = SHORT.model_copy(update={"episodes": 4, "main": MainUpdates(learning_starts=2, updates_an_episode=50)})
+    agent = finish(trainer_of([LINE, LINE], preset)).agent
+    assert main_of(agent).ddqn.updates.tolist() == [150] * 2
+    chosen = main_of(agent).act(np.array([[7, 14, 11]] * 2), np.zeros(2), np.ones((2, 2)))
+    for run in (0, 1):
+        kept = kept_by(main_of(agent), run)
+        tried = {int(material): kept["rewards"][kept["actions"] == material].mean() for material in kept["actions"]}
+        assert len(tried) == 1 or chosen[run] == max(tried, key=lambda material: tried[material])
+    alone = finish(trainer_of([LINE], preset)).agent
+    np.testing.assert_array_equal(main_of(alone).ddqn.online[0], main_of(agent).ddqn.online[0])
+
+
+def test_a_main_agents_own_table_leaves_what_the_nested_agent_draws() -> None:
+    preset = SHORT.model_copy(update={"episodes": 2, "evaluate_every": 10})
+    with_table = preset.model_copy(update={"main": MainUpdates(learning_starts=2, updates_an_episode=3)})
+    one, other = finish(trainer_of([LINE], preset)), finish(trainer_of([LINE], with_table))
+    assert one.episode_rows == other.episode_rows
 
 
 def test_evaluations_are_neither_learnt_from_nor_counted_as_training(three_runs: Trainer) -> None:
