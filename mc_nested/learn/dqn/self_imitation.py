@@ -37,6 +37,10 @@ class BestEpisodes:
         """Drop that row's best episode: the best is another row's now."""
         self._length[row] = 0
 
+    def replaced(self, rows: Int64s) -> Int64s:
+        """How many of the sampled transitions ``mix_in`` replaces in each of the named rows (k,)."""
+        return np.where(self._length[rows] > 0, self.share, 0)
+
     def mix_in(self, rows: Int64s, drawn: Transitions, uniforms: Float64s) -> Bools:
         """Replace the first of the sampled transitions (k, batch) by steps of the best episodes.
 
