@@ -79,7 +79,7 @@ def prioritized_imitator(share: int = 8) -> Learner:
         state = np.array([[number]])
         one.store(row, state, np.array([0]), np.ones(1), state, last)
     assert one.best is not None
-    one.best.keep(0, Transitions(np.array([[120], [120]]), np.array([1]), np.ones(1), np.zeros(1)))
+    one.best.keep(0, Transitions(np.array([[120], [120]]), np.array([1]), np.full(1, 1000.0), np.zeros(1)))
     return one
 
 
@@ -104,6 +104,7 @@ def test_what_is_imitated_changes_no_priority() -> None:
         changed = np.flatnonzero(one.priorities.state()["leaves"][0] != before)
         assert set(changed) <= set(indices[~batch.imitated])
         assert len(changed) > 10
+    assert one.priorities.state()["highest"][0] < 100, "the imitated step's error is some 1,000"
     all_imitated = prioritized_imitator(share=32)
     assert all_imitated.priorities is not None
     before = all_imitated.priorities.state()["leaves"][0].copy()
