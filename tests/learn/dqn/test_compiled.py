@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import mc_nested
-from mc_nested.learn.dqn.compiled import PACKAGE, SOURCES, compiled, fingerprint_of
+from mc_nested.learn.dqn.compiled import ROOT, _imported_by, compiled, fingerprint_of
 
 STEP_BY_HALF = """
 import numpy as np
@@ -52,7 +51,7 @@ print(ddqn.online.astype(np.float64).sum())
 @pytest.fixture
 def copy(tmp_path: Path) -> Path:
     """A copy of the package, whose files a test may change."""
-    shutil.copytree(PACKAGE, tmp_path / "mc_nested", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(ROOT / "mc_nested", tmp_path / "mc_nested", ignore=shutil.ignore_patterns("__pycache__"))
     return tmp_path / "mc_nested"
 
 
@@ -86,25 +85,43 @@ def test_an_update_is_computed_by_the_adam_that_stands_in_the_file(copy: Path) -
     assert after == run(copy, UPDATES, "another cache")
 
 
-def test_a_fingerprint_follows_every_file_and_its_name(tmp_path: Path) -> None:
+def test_a_fingerprint_follows_every_file_that_is_imported(tmp_path: Path) -> None:
     def fingerprint() -> str:
         fingerprint_of.cache_clear()
-        return fingerprint_of((tmp_path,))
+        return fingerprint_of(tmp_path / "made/a.py", tmp_path)
 
-    (tmp_path / "a.py").write_text("1")
-    first = fingerprint()
-    (tmp_path / "a.py").write_text("2")
-    second = fingerprint()
-    (tmp_path / "a.py").rename(tmp_path / "b.py")
-    assert len({first, second, fingerprint()}) == 3
+    (tmp_path / "made/inner").mkdir(parents=True)
+    files = {
+        "made/a.py": "import numpy\nfrom made.inner import (\n    b,\n)\n",
+        "made/inner/__init__.py": "",
+        "made/inner/b.py": "import made.c as c\n",
+        "made/c.py": "from made.a import nothing\nCONSTANT = 1\n",
+    }
+    for name, text in files.items():
+        (tmp_path / name).write_text(text)
+    seen = {fingerprint()}
+    for name, text in files.items():
+        (tmp_path / name).write_text(text + "# changed\n")
+        seen.add(fingerprint())
+    assert len(seen) == 1 + len(files)
+    (tmp_path / "made/d.py").write_text("not imported")
+    assert fingerprint() in seen
 
 
-def test_every_compiled_file_is_looked_at() -> None:
-    root = Path(mc_nested.__file__).parent
-    files = [path for path in root.rglob("*.py") if "@compiled(" in path.read_text("utf-8")]
-    assert len(files) >= 6
-    assert all(any(path.is_relative_to(folder) for folder in SOURCES) for path in files)
-    assert not [path for path in root.rglob("*.py") if "njit(" in path.read_text("utf-8") and path.stem != "compiled"]
+def test_an_update_needs_adam_but_not_the_trainer() -> None:
+    needed: set[Path] = set()
+    new = {ROOT / "mc_nested/learn/dqn/ddqn.py"}
+    while new:
+        needed |= new
+        new = {path for source in new for path in _imported_by(source, ROOT)} - needed
+    names = {path.name for path in needed}
+    assert {"adam.py", "networks.py", "self_imitation.py"} < names
+    assert "trainer.py" not in names
+
+
+def test_nothing_is_compiled_by_numbas_own_decorator() -> None:
+    used = [path for path in (ROOT / "mc_nested").rglob("*.py") if "njit" in path.read_text("utf-8")]
+    assert [path.name for path in used] == ["compiled.py"]
 
 
 def test_a_compiled_function_takes_the_flags_of_its_own() -> None:
