@@ -52,7 +52,7 @@ class Learner:
             ),
             np.stack([initial_parameters(sizes, stream) for stream in streams]),
         )
-        self.replay = Replay(space.rows, space.count, preset.replay_capacity)
+        self.replay = Replay(space.rows, space.count, space.actions, preset.replay_capacity)
         wanted = preset.prioritized
         self.priorities = Priorities(space.rows, FIRST_ROOM, wanted.alpha, wanted.beta) if wanted else None
         self._gamma = update.gamma

@@ -45,13 +45,14 @@ class Replay:
     Args:
         runs: how many runs.
         states: how many states there are.
+        actions: how many actions there are.
         capacity: transitions kept per run; the oldest is overwritten.
     """
 
-    def __init__(self, runs: int, states: int, capacity: int) -> None:
+    def __init__(self, runs: int, states: int, actions: int, capacity: int) -> None:
         self.capacity = capacity
         self.added = np.zeros(runs, dtype=np.int64)
-        self._index_type = np.min_scalar_type(states)
+        self._index_type, self._action_type = np.min_scalar_type(states), np.min_scalar_type(actions - 1)
         self._room = min(FIRST_ROOM, capacity)
         self._kept = self._memory(runs, self._room)
         self._taken_back_to: list[Int64s] = []
@@ -157,7 +158,7 @@ class Replay:
     def _memory(self, runs: int, room: int) -> Transitions:
         return Transitions(
             states=np.zeros((runs, room, 2), dtype=self._index_type),
-            actions=np.zeros((runs, room), dtype=np.uint8),
+            actions=np.zeros((runs, room), dtype=self._action_type),
             rewards=np.zeros((runs, room), dtype=np.float32),
             discounts=np.zeros((runs, room), dtype=np.float32),
         )
