@@ -12,12 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arrays import Bools, Float32s, Int64s, Integers
+from mc_nested.errors import DivergedError
 from mc_nested.learn.dqn.adam import adam_step
 from mc_nested.learn.dqn.compiled import compiled
 from mc_nested.learn.dqn.networks import Sizes, backward, forward, hidden_for, parameter_count
 from mc_nested.learn.dqn.self_imitation import rival
 from mc_nested.learn.dqn.state_space import StateSpace
 from mc_nested.learn.dqn.target_values import TargetValues
+
+
+EXPONENT = np.int32(0x7F800000)
+"""The bits of a 32-bit float's exponent: all are set in what is infinite or no number."""
 
 
 class UpdateRule(NamedTuple):
@@ -131,10 +136,11 @@ class DDQN:
         """One update of each of the named rows (k,), each on its own part of the batch; the TD errors, (k, batch).
 
         By the gradient of the mean Huber loss, and of the mean large-margin loss of what is imitated.
+        DivergedError if a parameter is no number afterwards, before anything can be saved.
         """
         self.updates[rows] += 1
         estimates = _Estimates(np.empty_like(batch.rewards), np.empty_like(batch.rewards))
-        _update(
+        finite = _update(
             rows,
             _Networks(self.online, self._first_moment, self._second_moment, self.updates),
             batch,
@@ -144,6 +150,11 @@ class DDQN:
             self._learning,
             estimates,
         )
+        if not finite:
+            raise DivergedError(
+                f"learning_rate {self.rule.learning_rate:g} is too high: after {self.updates[rows].max()} updates the "
+                f"networks hold what is no number: lower it in the preset's [update], and train again"
+            )
         self._last_values[rows], self._last_errors[rows] = estimates
         due = rows[self.updates[rows] % self.rule.target_period == 0]
         if len(due):
@@ -235,8 +246,9 @@ def _update(
     rule: UpdateRule,
     work: _Workspace,
     estimates: _Estimates,
-) -> None:
-    """``DDQN.update``, row by row."""
+) -> bool:
+    """``DDQN.update``, row by row; returns whether all parameters are numbers afterwards."""
+    finite = True
     count = batch.actions.shape[1]
     slope = work.slope
     next_values, values = np.empty_like(slope), np.empty_like(slope)
@@ -265,3 +277,14 @@ def _update(
         backward(online, sizes, work.inputs, work.hidden, slope, work.gradient, work.scratch)
         moments = networks.first_moment[row], networks.second_moment[row]
         adam_step(online, *moments, work.gradient, networks.updates[row], rule.learning_rate)
+        finite = finite and all_finite(online)
+    return finite
+
+
+@compiled()
+def all_finite(values: Float32s) -> bool:
+    """Whether all of the values are numbers, by their bits, which takes a tenth of the time of asking each of them."""
+    highest = np.int32(0)
+    for bits in values.view(np.int32):
+        highest = max(highest, bits & EXPONENT)
+    return bool(highest != EXPONENT)

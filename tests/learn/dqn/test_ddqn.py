@@ -5,7 +5,8 @@ import pytest
 import torch
 from torch import Tensor, nn
 
-from mc_nested.learn.dqn.ddqn import DDQN, Batch, UpdateRule, td_target
+from mc_nested.errors import DivergedError
+from mc_nested.learn.dqn.ddqn import DDQN, Batch, UpdateRule, all_finite, td_target
 from mc_nested.learn.dqn.networks import initial_parameters
 from mc_nested.learn.dqn.state_space import StateSpace
 from tests.learn.dqn.test_networks import reference
@@ -177,3 +178,23 @@ def test_a_loaded_learner_goes_on_to_the_bit() -> None:
 def test_networks_of_another_shape_are_refused() -> None:
     with pytest.raises(ValueError, match="networks of"):
         learners(2).load_online(np.zeros((2, 5), np.float32))
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("place", [0, 500, -1])
+def test_what_is_no_number_is_noticed_wherever_it_is(value: float, place: int) -> None:
+    values = np.random.default_rng(0).standard_normal(1480).astype(np.float32)
+    values[:3] = 0.0, -0.0, np.finfo(np.float32).max
+    assert all_finite(values)
+    values[place] = value
+    assert not all_finite(values)
+
+
+def test_networks_that_diverge_are_an_error_that_names_the_learning_rate_at_once() -> None:
+    ddqn = learners(2)
+    ddqn.rule = RULE._replace(learning_rate=1e38)
+    with pytest.raises(DivergedError, match=r"learning_rate 1e\+38 is too high: after \d updates") as caught:
+        for update in range(10):
+            assert np.isfinite(ddqn.online).all(), "no update may pass that leaves what is no number"
+            ddqn.update(np.arange(2), batch_of(2, update))
+    assert "\n" not in str(caught.value)
