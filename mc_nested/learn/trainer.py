@@ -19,6 +19,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import resumable_arenas
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.agents import Agent, chosen_materials
+from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
 from mc_nested.learn.episode_rollback import EpisodeRollback
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
@@ -140,6 +141,7 @@ class Trainer:
         self._kept = {role: taken.copy() for role, taken in self.agent.online().items()}
         self._runs.evaluated_at[:] = -1
 
+    @on_one_blas_thread
     def tick(self) -> None:
         """One step of every run that isn't finished.
 

@@ -16,10 +16,10 @@ from mc_nested.errors import DivergedError
 from mc_nested.learn.dqn.adam import adam_step
 from mc_nested.learn.dqn.compiled import compiled
 from mc_nested.learn.dqn.networks import Sizes, backward, forward, hidden_for, parameter_count
+from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.dqn.self_imitation import rival
 from mc_nested.learn.dqn.state_space import StateSpace
 from mc_nested.learn.dqn.target_values import TargetValues
-
 
 EXPONENT = np.int32(0x7F800000)
 """The bits of a 32-bit float's exponent: all are set in what is infinite or no number."""
@@ -100,6 +100,7 @@ class DDQN:
         online: initial parameters, (rows, parameters).
     """
 
+    @on_one_blas_thread
     def __init__(self, space: StateSpace, sizes: Sizes, rule: UpdateRule, online: Float32s) -> None:
         self.space = space
         self.sizes = sizes
@@ -116,6 +117,7 @@ class DDQN:
         self._acting = _workspace(sizes, 1)
         self._learning = _workspace(sizes, rule.batch)
 
+    @on_one_blas_thread
     def load_online(self, online: Float32s) -> None:
         """Continue with other networks (rows, parameters), the targets too; ValueError if their shape differs."""
         if online.shape != self.online.shape:
@@ -123,6 +125,7 @@ class DDQN:
         self.online[:] = self.target[:] = online
         self._target_values.renew(self._every_row, self.target)
 
+    @on_one_blas_thread
     def q_values(self, states: Int64s, rows: Int64s | None = None) -> Float32s:
         """The online networks' values (k, actions) of one state index per row (k,); of all rows unless named."""
         named = self._every_row if rows is None else rows
@@ -132,6 +135,7 @@ class DDQN:
         _value(named, states + firsts, self.online, self._widths, self.space.table, work.inputs, work.hidden, values)
         return values
 
+    @on_one_blas_thread
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         """One update of each of the named rows (k,), each on its own part of the batch; the TD errors, (k, batch).
 
@@ -184,6 +188,7 @@ class DDQN:
             "updates": self.updates,
         }
 
+    @on_one_blas_thread
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if the shape differs."""
         for name, own in self.state().items():
@@ -283,7 +288,7 @@ def _update(
 
 @compiled()
 def all_finite(values: Float32s) -> bool:
-    """Whether all of the values are numbers, by their bits, which takes a tenth of the time of asking each of them."""
+    """Whether all of the values are numbers, by their bits: fast mathematics may take for granted that they are."""
     highest = np.int32(0)
     for bits in values.view(np.int32):
         highest = max(highest, bits & EXPONENT)

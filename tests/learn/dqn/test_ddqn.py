@@ -194,7 +194,11 @@ def test_networks_that_diverge_are_an_error_that_names_the_learning_rate_at_once
     ddqn = learners(2)
     ddqn.rule = RULE._replace(learning_rate=1e38)
     with pytest.raises(DivergedError, match=r"learning_rate 1e\+38 is too high: after \d updates") as caught:
-        for update in range(10):
-            assert np.isfinite(ddqn.online).all(), "no update may pass that leaves what is no number"
-            ddqn.update(np.arange(2), batch_of(2, update))
+        _update_while_finite(ddqn)
     assert "\n" not in str(caught.value)
+
+
+def _update_while_finite(ddqn: DDQN) -> None:
+    for update in range(10):
+        assert np.isfinite(ddqn.online).all(), "no update may pass that leaves what is no number"
+        ddqn.update(np.arange(2), batch_of(2, update))
