@@ -296,6 +296,41 @@ def test_excursions_find_more_than_chance_does(exploring: Trainer) -> None:
         assert best[0] > best[1]
 
 
+class Slips(GridVectorEnv):
+    """One action in ten is another."""
+
+    def __init__(self, scenarios: Sequence[Scenario]) -> None:
+        super().__init__(scenarios)
+        self._random = np.random.default_rng(3)
+
+    def step(self, actions: Int64s) -> Any:
+        slips = self._random.random(len(actions)) < 0.1
+        return super().step(np.where(slips, self._random.integers(0, 8, len(actions)), actions))
+
+
+def test_where_actions_slip_the_best_episode_is_followed_only_from_its_own_states() -> None:
+    trainer = Trainer(Slips([LINE]), [LINE], Agent(NESTED, [LINE], SCOUTING, 0), SCOUTING, 0)
+    explorer = trainer._explorer
+    assert explorer is not None
+    one = explorer._explorers[0]
+    followed, left = 0, 0
+    while not trainer.finished:
+        best, walked, leaves_at = list(one.best), len(one._walk), one._leave_at
+        following, observation = one._following, trainer._runs.observations[0].copy()
+        between = bool(trainer._runs.between_episodes[0] or trainer._runs.evaluating[0])
+        trainer.tick()
+        if following is None or between or walked >= leaves_at:
+            continue
+        placed = sum(step.used_block for step in best[:following])
+        if (best[following].x, best[following].y, 11 - placed) == tuple(observation[:3]):
+            followed += 1
+        else:
+            left += 1
+            assert one._leave_at <= walked, "what comes next in the best episode belongs to another state"
+    assert followed > 100
+    assert left > 5
+
+
 def test_a_run_keeps_its_best_policy_where_the_preset_says_so(exploring: Trainer) -> None:
     scores = [max(row.score for row in exploring.evaluation_rows if row.trial == run) for run in (0, 1)]
     assert exploring.kept_scores.tolist() == scores
