@@ -1,7 +1,9 @@
 """Training R runs of an agent, one tick at a time (paper, Algorithm 1).
 
 A tick is one step of every run that isn't finished: choose, step, store, update. Every run is in an episode of its own:
-a training episode, or a greedy evaluation that is neither learned from nor counted. The trainer sees the arenas only as
+a training episode, or a greedy evaluation, which isn't counted, stored in a replay or updated on. In presets with
+excursions a greedy evaluation is learned from in another way: what its actions did is remembered, and if it is the best
+episode so far, excursions follow it and updates imitate it. The trainer sees the arenas only as
 a gymnasium VectorEnv with autoreset disabled, so a simulated and a live game look the same to it. The arenas
 themselves say whether episodes can be saved half-way.
 """

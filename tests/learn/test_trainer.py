@@ -135,7 +135,7 @@ def test_a_main_agents_own_table_leaves_what_the_nested_agent_draws() -> None:
     assert one.episode_rows == other.episode_rows
 
 
-def test_evaluations_are_neither_learnt_from_nor_counted_as_training(three_runs: Trainer) -> None:
+def test_evaluations_are_neither_stored_nor_counted_as_training(three_runs: Trainer) -> None:
     assert three_runs.evaluation_steps == sum(row.steps for row in three_runs.evaluation_rows)
 
 
@@ -287,6 +287,19 @@ SCOUTING = SHORT.model_copy(
 @pytest.fixture(scope="module")
 def exploring() -> Trainer:
     return finish(trainer_of([LINE, DIAMOND], SCOUTING))
+
+
+def test_with_excursions_what_a_greedy_evaluation_did_is_remembered_but_not_stored() -> None:
+    trainer = trainer_of([LINE], SCOUTING)
+    trainer.begin_from({role: online[[0]] for role, online in trainer.agent.online().items()})
+    explorer = trainer._explorer
+    assert explorer is not None
+    while not trainer.evaluation_rows:
+        trainer.tick()
+    assert not trainer.episode_rows, "the first episode is greedy: its policy was begun from"
+    assert (explorer._explorers[0]._effects != 0).any()
+    assert trainer.agent.low_level.replay.added.tolist() == [0]
+    assert trainer.agent.updates == 0
 
 
 def test_excursions_find_more_than_chance_does(exploring: Trainer) -> None:
