@@ -19,7 +19,7 @@ from mc_nested.learn.dqn.networks import Sizes, backward, forward, hidden_for, p
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.dqn.self_imitation import rival
 from mc_nested.learn.dqn.state_space import StateSpace
-from mc_nested.learn.dqn.target_values import TargetValues
+from mc_nested.learn.dqn.target_values import TargetValues, table_pays
 
 EXPONENT = np.int32(0x7F800000)
 """The bits of a 32-bit float's exponent: all are set in what is infinite or no number."""
@@ -64,11 +64,15 @@ class _Networks(NamedTuple):
 
 
 class _StateTable(NamedTuple):
-    """What is known of every state: the features, where each named row's begin (k,), and the target's values."""
+    """What is known of every state: the features, where each named row's begin (k,), and the target's values.
+
+    Without a table of values, (rows, 0, actions), a batch's come from the target networks, (rows, parameters).
+    """
 
     features: Float32s
     first: Int64s
     target_values: Float32s
+    target: Float32s
 
 
 class _Workspace(NamedTuple):
@@ -109,7 +113,8 @@ class DDQN:
         self.target = online.copy()
         self.updates: Int64s = np.zeros(len(online), dtype=np.int64)
         self._first_moment, self._second_moment = np.zeros_like(online), np.zeros_like(online)
-        self._target_values = TargetValues(space, sizes, self.target)
+        tabulated = table_pays(space.count, rule.batch, rule.target_period)
+        self._target_values = TargetValues(space, sizes, self.target, tabulated)
         self._last_values = np.full((len(online), rule.batch), np.nan, np.float32)
         self._last_errors = np.full((len(online), rule.batch), np.nan, np.float32)
         self._every_row = np.arange(len(online))
@@ -148,7 +153,7 @@ class DDQN:
             rows,
             _Networks(self.online, self._first_moment, self._second_moment, self.updates),
             batch,
-            _StateTable(self.space.table, self.space.first_of(rows), self._target_values.values),
+            _StateTable(self.space.table, self.space.first_of(rows), self._target_values.values, self.target),
             self._widths,
             self.rule,
             self._learning,
@@ -256,20 +261,24 @@ def _update(
     finite = True
     count = batch.actions.shape[1]
     slope = work.slope
-    next_values, values = np.empty_like(slope), np.empty_like(slope)
+    next_values, values, next_targets = np.empty_like(slope), np.empty_like(slope), np.empty_like(slope)
+    tabulated = states.target_values.shape[1] > 0
     for at in range(len(rows)):
         row = rows[at]
         online = networks.online[row]
         _look_up(batch.states[0, at] + states.first[at], states.features, work.inputs)
         _look_up(batch.states[1, at] + states.first[at], states.features, work.next_inputs)
+        if not tabulated:
+            forward(states.target[row], sizes, work.next_inputs, work.next_hidden, next_targets)
         forward(online, sizes, work.next_inputs, work.next_hidden, next_values)
         forward(online, sizes, work.inputs, work.hidden, values)
         slope[:] = np.float32(0)
         for column in range(count):
             action = batch.actions[at, column]
-            next_target = states.target_values[row, batch.states[1, at, column]]
-            discount = batch.discounts[at, column]
-            target = td_target(batch.rewards[at, column], discount, next_values[:, column], next_target)
+            if tabulated:
+                next_targets[:, column] = states.target_values[row, batch.states[1, at, column]]
+            discount, reward = batch.discounts[at, column], batch.rewards[at, column]
+            target = td_target(reward, discount, next_values[:, column], next_targets[:, column])
             error = values[action, column] - target
             estimates.values[at, column], estimates.errors[at, column] = values[action, column], error
             clipped = min(max(error, -rule.huber_delta), rule.huber_delta)
