@@ -7,6 +7,7 @@ McNestedError
 │   ├── ProfileError     a profile that can't be found or read, or doesn't fit the screen
 │   ├── FontError        a font picture or jar that can't be used
 │   ├── PictureError     a file that is no picture, so that nothing can be read of it
+│   ├── DivergedError    a training whose networks hold what is no number
 │   ├── RunError         an output folder, a run or a checkpoint that can't be used
 │   └── DesktopError     no display, a Wayland session without Xwayland, a window that can't be used
 │       ├── NoWindowError     no window of that title is there
@@ -47,6 +48,10 @@ class FontError(UserError):
 
 class PictureError(UserError):
     """A file that is no picture, or can't be opened."""
+
+
+class DivergedError(UserError):
+    """A training whose networks hold what is no number: its learning rate is too high."""
 
 
 class RunError(UserError):

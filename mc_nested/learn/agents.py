@@ -22,6 +22,7 @@ from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arrays import Arrays, Float64s, Int64s
 from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.networks import Sizes, parameter_count
+from mc_nested.learn.dqn.replay import ReplayMark
 from mc_nested.learn.dqn.state_space import StateSpace
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import Preset
@@ -101,17 +102,18 @@ class Agent:
         self.size = max(scenario.size for scenario in scenarios)
         self.spec = spec
         encoding = preset.encoding
-        self.main = Learner(StateSpace(observed, materials, encoding), preset, streams) if spec.has_main else None
+        chooses = StateSpace(observed, materials, encoding)
+        self.main = Learner(chooses, preset.for_main(), streams) if spec.has_main else None
         self._low_levels = materials if spec.low_level_per_material else 1
         highest = np.hstack([observed, *_highest_appended(spec, len(scenarios), materials)])
         self._width = highest.shape[1]
         actions = len(Action) + (0 if spec.has_main else materials)
-        longest = max(scenario.step_limit for scenario in scenarios)
+        self._longest = max(scenario.step_limit for scenario in scenarios)
         self.low_level = Learner(
             StateSpace(np.repeat(highest, self._low_levels, axis=0), actions, encoding),
             preset,
             [stream for stream in streams for _ in range(self._low_levels)],
-            (preset.imitation, longest) if preset.imitation else None,
+            (preset.imitation, self._longest) if preset.imitation else None,
         )
 
     def low_level_states(self, observations: Int64s, materials: Int64s) -> Int64s:
@@ -202,17 +204,19 @@ class Agent:
         return {"main": slice(run, run + 1), "low": slice(run * self._low_levels, (run + 1) * self._low_levels)}
 
     def marks(self) -> Arrays:
-        """How many transitions each row has stored so far, by role."""
-        return {role: learner.replay.added.copy() for role, learner in self._learners().items()}
-
-    def transitions_since(self, marks: Mapping[str, NDArray[Any]] | None) -> Arrays:
-        """What was stored since those marks; everything if there are none."""
+        """Where a journal of the transitions ends now, for ``transitions_since``."""
         return {
             k: v
             for role, learner in self._learners().items()
-            for k, v in named_for(
-                role, learner.replay.added_since(marks[role] if marks else np.zeros_like(learner.replay.added))
-            ).items()
+            for k, v in named_for(role, learner.replay.marks()).items()
+        }
+
+    def transitions_since(self, marks: Mapping[str, NDArray[Any]] | None) -> Arrays:
+        """What ``store_again`` needs to know since those marks; everything if there are none."""
+        return {
+            k: v
+            for role, learner in self._learners().items()
+            for k, v in named_for(role, learner.replay.added_since(part_of(marks, role) if marks else None)).items()
         }
 
     def store_again(self, transitions: Mapping[str, NDArray[Any]]) -> None:
@@ -220,10 +224,14 @@ class Agent:
         for role, learner in self._learners().items():
             learner.replay.extend(part_of(transitions, role))
 
-    def forget_since(self, marks: Mapping[str, NDArray[Any]]) -> None:
-        """Forget what was stored since those marks."""
+    def mark(self) -> dict[str, ReplayMark]:
+        """The replays now, by role, for ``take_back`` within an episode."""
+        return {role: learner.replay.mark(self._longest) for role, learner in self._learners().items()}
+
+    def take_back(self, marks: Mapping[str, ReplayMark]) -> None:
+        """Hold exactly the transitions that were held at ``mark``."""
         for role, learner in self._learners().items():
-            learner.replay.forget_since(marks[role])
+            learner.replay.take_back(marks[role])
 
     def networks_of(self, run: int) -> Arrays:
         """One run's networks, for ``load_networks`` of an agent in that run alone."""

@@ -52,7 +52,7 @@ class Learner:
             ),
             np.stack([initial_parameters(sizes, stream) for stream in streams]),
         )
-        self.replay = Replay(space.rows, space.count, preset.replay_capacity)
+        self.replay = Replay(space.rows, space.count, space.actions, preset.replay_capacity)
         wanted = preset.prioritized
         self.priorities = Priorities(space.rows, FIRST_ROOM, wanted.alpha, wanted.beta) if wanted else None
         self._gamma = update.gamma
@@ -86,9 +86,10 @@ class Learner:
         if len(rows):
             indices, batch = self._batch(rows, uniforms)
             errors = self.ddqn.update(rows, batch)
-            if self.priorities:
-                drawn = slice(self.best.share if self.best else 0, None)
-                self.priorities.update_priorities(rows, indices[:, drawn], errors[:, drawn])
+            drew = ~batch.imitated[:, -1]  # what is imitated comes first in its row, and wasn't drawn
+            if self.priorities and drew.any():
+                own = np.where(batch.imitated, errors[:, -1:], errors)
+                self.priorities.update_priorities(rows[drew], indices[drew], own[drew])
 
     def state(self) -> Arrays:
         """The networks, optimisers and priorities, by name: with the replay, all that later updates depend on."""
@@ -101,12 +102,16 @@ class Learner:
             self.priorities.load(part_of(state, "priorities"))
 
     def _batch(self, rows: Int64s, uniforms: Float64s) -> tuple[Int64s, Batch]:
-        sample = self.priorities.sample if self.priorities else self.replay.sample
-        indices = sample(rows, uniforms)
+        if self.priorities:
+            indices = self.priorities.sample(rows, uniforms, self.best.replaced(rows) if self.best else None)
+        else:
+            indices = self.replay.sample(rows, uniforms)
         drawn = self.replay.gather(rows, indices)
         imitated = self.best.mix_in(rows, drawn, uniforms) if self.best else np.zeros(indices.shape, dtype=np.bool_)
         weights = np.ones(indices.shape, np.float32)
         if self.priorities:
+            # What is imitated wasn't drawn: it has no part in the largest weight either.
+            indices = np.where(imitated, indices[:, -1:], indices)
             weights = self.priorities.weights(rows, indices, self.replay.sizes()[rows])
             weights[imitated] = 1.0
         return indices, Batch(drawn.states, drawn.actions, drawn.rewards, drawn.discounts, imitated, weights)

@@ -2,9 +2,9 @@
 
 from importlib import resources
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from mc_nested.errors import PresetError
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
@@ -75,8 +75,19 @@ class Update(_Table):
     huber_delta: Positive
 
 
+class MainUpdates(_Table):
+    """When the main agent learns from its one transition an episode, and how many updates follow each of them."""
+
+    learning_starts: Count
+    updates_an_episode: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)]
+
+
 class Preset(_Table):
-    """A training's hyper-parameters; ``paper`` is README's table."""
+    """A training's hyper-parameters; ``paper`` is README's table.
+
+    Without ``main``, the main agent learns as the paper's: by one update an episode, from [update] ``learning_starts``
+    transitions on, of which it has one an episode.
+    """
 
     episodes: Count
     evaluate_every: Count
@@ -91,6 +102,22 @@ class Preset(_Table):
     excursions: ExcursionRule | None = None
     imitation: Imitation | None = None
     prioritized: Prioritized | None = None
+    main: MainUpdates | None = None
+
+    @model_serializer(mode="wrap")
+    def _dumped(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """What was saved before there was ``main`` keeps its identity: without it, it isn't named."""
+        dumped: dict[str, Any] = dump(self)
+        if self.main is None:
+            dumped.pop("main", None)
+        return dumped
+
+    def for_main(self) -> "Preset":
+        """The main agent's, which may begin to learn earlier."""
+        if self.main is None:
+            return self
+        update = self.update.model_copy(update={"learning_starts": self.main.learning_starts})
+        return self.model_copy(update={"update": update})
 
     @model_validator(mode="after")
     def _check_exploration(self) -> "Preset":

@@ -12,14 +12,18 @@ from mc_nested.arrays import Float64s
 TICKS_A_CHUNK = 256
 """Ticks whose numbers are drawn at once; another value changes the numbers of every seed."""
 
-INITIAL = 0
-TICKS = 1
-"""What a stream is for: a run's initial parameters, or its ticks."""
+INITIAL, TICKS, MAIN_UPDATES = 0, 1, 2
+"""What a stream is for: a run's initial parameters, its ticks, or its main agent's updates after an episode."""
 
 
 def initial_stream(seed: int, run: int) -> np.random.Generator:
     """The generator of a run's initial parameters."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, INITIAL))))
+
+
+def main_updates_stream(seed: int, run: int, tick: int) -> np.random.Generator:
+    """The generator of the main agent's batches after the episode of that run that ended at that tick."""
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, MAIN_UPDATES, tick))))
 
 
 class Streams:

@@ -1,7 +1,9 @@
 """Training R runs of an agent, one tick at a time (paper, Algorithm 1).
 
 A tick is one step of every run that isn't finished: choose, step, store, update. Every run is in an episode of its own:
-a training episode, or a greedy evaluation that is neither learned from nor counted. The trainer sees the arenas only as
+a training episode, or a greedy evaluation, which isn't counted, stored in a replay or updated on. In presets with
+excursions a greedy evaluation is learned from in another way: what its actions did is remembered, and if it is the best
+episode so far, excursions follow it and updates imitate it. The trainer sees the arenas only as
 a gymnasium VectorEnv with autoreset disabled, so a simulated and a live game look the same to it. The arenas
 themselves say whether episodes can be saved half-way.
 """
@@ -19,6 +21,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import resumable_arenas
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.agents import Agent, chosen_materials
+from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
 from mc_nested.learn.episode_rollback import EpisodeRollback
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
@@ -26,7 +29,7 @@ from mc_nested.learn.exploration.schedules import LinearDecay
 from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.preset import Exploration, Preset
 from mc_nested.learn.state_dict import named_for, part_of
-from mc_nested.learn.streams import Streams
+from mc_nested.learn.streams import Streams, main_updates_stream
 
 EXCURSIONS_ONLY = LinearDecay(1.0, 1.0, 1.0)
 """The nested agent's ε if every training episode is an excursion: no step is the greedy policy's."""
@@ -90,6 +93,7 @@ class Trainer:
         widths = [CHOICE_NUMBERS, batch, CHOICE_NUMBERS, batch * preset.updates_a_step, exploring]
         ends = [sum(widths[: part + 1]) for part in range(len(widths))]
         self._numbers = [slice(end - width, end) for width, end in zip(widths, ends, strict=True)]
+        self._seed = seed
         self._streams = Streams(seed, agent.runs, sum(widths))
         self._runs = _Runs(
             observations=blank_observations(env.single_observation_space, runs),
@@ -139,6 +143,7 @@ class Trainer:
         self._kept = {role: taken.copy() for role, taken in self.agent.online().items()}
         self._runs.evaluated_at[:] = -1
 
+    @on_one_blas_thread
     def tick(self) -> None:
         """One step of every run that isn't finished.
 
@@ -281,7 +286,16 @@ class Trainer:
         # The main agent has one transition per episode: after its choice there is nothing left to decide.
         ended, start, after = np.ones(len(rows), dtype=np.bool_), self._start[rows], runs.observations[rows]
         self.agent.main.store(rows, start, runs.materials[rows], scores[rows], after, ended)
-        self.agent.main.learn(rows, draws[rows])
+        for update in self._main_draws(rows, draws):
+            self.agent.main.learn(rows, update)
+
+    def _main_draws(self, rows: Int64s, draws: Float64s) -> Float64s:
+        """The numbers that select the batches of the main agent's updates now, (updates, k, batch)."""
+        if self.preset.main is None:
+            return draws[None, rows]
+        shape = self.preset.main.updates_an_episode, self.preset.update.batch
+        runs = [self.agent.runs[row] for row in rows]
+        return np.stack([main_updates_stream(self._seed, run, self.ticks).random(shape) for run in runs], axis=1)
 
     def _end_evaluations(self, rows: Int64s, scores: Float64s) -> None:
         runs = self._runs

@@ -55,6 +55,20 @@ def test_the_preset_live_reaches_the_optimum_on_the_line_in_few_episodes(optimal
         assert summary["played_to_optimum"][trial]["steps"] == steps
 
 
+def test_networks_that_diverge_end_the_training_in_one_line_and_are_not_saved(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    preset = tmp_path / "wild.toml"
+    paper = (resources.files("mc_nested.learn") / "presets/paper.toml").read_text("utf-8")
+    preset.write_text(paper.replace("learning_rate = 1e-3", "learning_rate = 1e38"))
+    capsys.readouterr()
+    assert run("train", "--preset", preset, "--episodes", "30", "--out", tmp_path / "new") == 2
+    said = capsys.readouterr().err
+    assert said.startswith("mc-nested: learning_rate 1e+38 is too high")
+    assert said.count("\n") == 1
+    assert {path.name for path in (tmp_path / "new").iterdir()} <= {"config.toml", "tensorboard"}
+
+
 def test_a_training_begun_from_another_has_its_policy_before_the_first_episode(optimal: Path, tmp_path: Path) -> None:
     live = ("train", "--preset", "live", "--episodes", "6", "--trials", "2", "--seed", "9")
     assert run(*live, "--from", optimal, "--out", tmp_path / "on") == 0

@@ -76,3 +76,12 @@ def test_figures_are_nan_before_an_update_and_then_the_mean_over_a_runs_learners
     assert agent.last_figures()["q/low"].tolist() == pytest.approx([3.0, np.nan], nan_ok=True)
     agent.low_level.ddqn._last_values[0] = 5.0
     assert agent.last_figures()["q/low"].tolist() == pytest.approx([4.0, np.nan], nan_ok=True)
+
+
+def test_a_main_agent_remembers_which_of_300_materials_it_chose() -> None:
+    many = replace(DOT, materials=tuple(replace(DOT.materials[0], name=f"m{number}") for number in range(300)))
+    main = Agent(NESTED, [many], PRESET, 0).main
+    assert main is not None
+    start = np.array([many.start_state])
+    main.store(np.array([0]), start, np.array([290]), np.ones(1), start, np.array([True]))
+    assert main.replay.added_since(None)["actions"].tolist() == [290]

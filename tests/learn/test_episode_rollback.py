@@ -41,7 +41,7 @@ def test_what_an_episode_taught_is_undone() -> None:
 def test_without_exploration_the_agent_alone_is_restored() -> None:
     agent = Agent(AGENT_SPECS["nested"], [DOT], small_preset(), 0)
     before, online = EpisodeRollback.of(agent, None), agent.low_level.ddqn.online.copy()
-    play(agent, BatchedReturnThenExplore(RULE, agent), 5)
+    play(agent, BatchedReturnThenExplore(RULE, agent), 4)
     before.restore(agent, None)
     np.testing.assert_array_equal(agent.low_level.ddqn.online, online)
     assert agent.low_level.replay.added.tolist() == [0]

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from mc_nested.learn.dqn.replay import Transitions
 from mc_nested.learn.dqn.state_space import StateSpace
 from mc_nested.learn.learner import Learner
-from mc_nested.learn.preset import load_preset
+from mc_nested.learn.preset import Imitation, Prioritized, load_preset
 
 PAPER = load_preset("paper")
 
@@ -63,6 +64,49 @@ def test_what_follows_counts_by_gamma_unless_the_episode_terminated() -> None:
     one = learner([[14]])
     for over in (False, True):
         one.store(np.array([0]), np.array([[3]]), np.array([1]), np.array([1.0]), np.array([[4]]), np.array([over]))
-    kept = one.replay.added_since(np.array([0]))
+    kept = one.replay.added_since(None)
     assert kept["discounts"].tolist() == [pytest.approx(0.95), 0.0]
     assert kept["states"].tolist() == [[3, 4], [3, 4]]
+
+
+def prioritized_imitator(share: int = 8) -> Learner:
+    """A learner of one row with 100 transitions of equal priority, which imitates an episode of one step."""
+    preset = PAPER.model_copy(update={"prioritized": Prioritized(alpha=0.6, beta=0.4)})
+    space, streams = StateSpace(np.array([[120]]), 2), [np.random.default_rng(0)]
+    one = Learner(space, preset, streams, (Imitation(batch=share, margin=0.5), 60))
+    row, last = np.array([0]), np.array([True])
+    for number in range(100):
+        state = np.array([[number]])
+        one.store(row, state, np.array([0]), np.ones(1), state, last)
+    assert one.best is not None
+    one.best.keep(0, Transitions(np.array([[120], [120]]), np.array([1]), np.full(1, 1000.0), np.zeros(1)))
+    return one
+
+
+def test_beside_imitation_the_oldest_are_drawn_as_often_as_the_others() -> None:
+    one, random = prioritized_imitator(), np.random.default_rng(1)
+    counts = np.zeros(121)
+    for _ in range(200):
+        _, batch = one._batch(np.array([0]), random.random((1, 32)))
+        np.add.at(counts, batch.states[0, 0], 1)
+    assert counts[120] == 200 * 8
+    for fifth in counts[:100].reshape(5, 20).sum(axis=1):
+        assert fifth == pytest.approx(200 * 24 / 5, rel=0.1)
+
+
+def test_what_is_imitated_changes_no_priority() -> None:
+    one, random = prioritized_imitator(), np.random.default_rng(1)
+    assert one.priorities is not None
+    for _ in range(50):
+        before = one.priorities.state()["leaves"][0].copy()
+        indices, batch = one._batch(np.array([0]), uniforms := random.random((1, 32)))
+        one.learn(np.array([0]), uniforms)
+        changed = np.flatnonzero(one.priorities.state()["leaves"][0] != before)
+        assert set(changed) <= set(indices[~batch.imitated])
+        assert len(changed) > 10
+    assert one.priorities.state()["highest"][0] < 20, "the imitated step's error is some 1,000"
+    all_imitated = prioritized_imitator(share=32)
+    assert all_imitated.priorities is not None
+    before = all_imitated.priorities.state()["leaves"][0].copy()
+    all_imitated.learn(np.array([0]), random.random((1, 32)))
+    np.testing.assert_array_equal(all_imitated.priorities.state()["leaves"][0], before)

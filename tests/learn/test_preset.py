@@ -71,6 +71,8 @@ TUNED = (Path(__file__).parents[2] / "mc_nested/learn/presets/tuned.toml").read_
         ),
         (("[imitation]\nbatch = 8", "[imitation]\nbatch = 33"), "no more than that"),
         (("wander = 12", "wander = 0"), "excursions.wander"),
+        (("updates_an_episode = 50", "updates_an_episode = 0"), "main.updates_an_episode"),
+        (("updates_an_episode = 50", ""), "main.updates_an_episode"),
     ],
 )
 def test_excursions_that_do_not_fit_the_rest_are_one_line(change: tuple[str, str], says: str) -> None:
@@ -89,3 +91,16 @@ def test_a_file_that_is_no_text_is_refused(tmp_path: Path) -> None:
     (tmp_path / "bad.toml").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(PresetError, match="not UTF-8 text"):
         load_preset(tmp_path / "bad.toml")
+
+
+def test_a_preset_without_a_table_for_the_main_agent_is_saved_as_before_there_was_one() -> None:
+    assert "main" not in load_preset("paper").model_dump()
+    tuned = load_preset("tuned")
+    assert tuned.model_dump()["main"] == {"learning_starts": 2, "updates_an_episode": 50}
+    assert Preset.model_validate(tuned.model_dump()) == tuned
+
+
+def test_the_main_agent_may_begin_to_learn_before_the_others() -> None:
+    tuned = load_preset("tuned")
+    assert (tuned.for_main().update.learning_starts, tuned.update.learning_starts) == (2, 32)
+    assert load_preset("paper").for_main() == load_preset("paper")

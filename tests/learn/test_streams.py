@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mc_nested.learn.streams import TICKS_A_CHUNK, Streams, initial_stream
+from mc_nested.learn.streams import TICKS_A_CHUNK, Streams, initial_stream, main_updates_stream
 
 TICKS = [0, 1, TICKS_A_CHUNK - 1, TICKS_A_CHUNK, 10 * TICKS_A_CHUNK + 3]
 
@@ -30,3 +30,10 @@ def test_seeds_runs_and_ticks_all_differ() -> None:
 def test_initial_streams_differ_by_seed_and_run() -> None:
     drawn = {initial_stream(seed, run).random() for seed in (0, 1) for run in (0, 1)}
     assert len(drawn) == 4
+
+
+def test_the_main_agents_batches_differ_by_seed_run_and_tick() -> None:
+    ways = [(seed, run, tick) for seed in (0, 1) for run in (0, 1) for tick in (0, 1, 5000)]
+    drawn = [main_updates_stream(*way).random() for way in ways]
+    assert len({*drawn, initial_stream(0, 0).random(), Streams(0, [0], 1).at(0)[0, 0]}) == len(ways) + 2
+    assert drawn == [main_updates_stream(*way).random() for way in ways]

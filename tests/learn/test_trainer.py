@@ -18,7 +18,7 @@ from mc_nested.arrays import Arrays, Float32s, Int64s
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec, view_of
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.learner import Learner
-from mc_nested.learn.preset import ExcursionRule, Imitation, Preset, Prioritized, load_preset
+from mc_nested.learn.preset import ExcursionRule, Imitation, MainUpdates, Preset, Prioritized, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridGame, GridVectorEnv, arena_env
 
@@ -63,9 +63,14 @@ def main_of(agent: Agent) -> Learner:
 
 def kept_by(learner: Learner, row: int) -> Arrays:
     """The transitions that a row remembers, oldest first."""
-    every = learner.replay.added_since(np.zeros(learner.space.rows, dtype=np.int64))
+    every = learner.replay.added_since(None)
     ends = np.cumsum(every["counts"])
     return {name: kept[ends[row] - every["counts"][row] : ends[row]] for name, kept in every.items()}
+
+
+def added_to(agent: Agent) -> list[list[int]]:
+    """How many transitions each row of each learner has stored."""
+    return [learner.replay.added.tolist() for learner in _learners(agent)]
 
 
 def saved(trainer: Trainer) -> tuple[Arrays, list[Arrays]]:
@@ -110,7 +115,27 @@ def test_the_nested_agent_updates_once_a_step_and_the_main_agent_once_an_episode
     assert main_of(three_runs.agent).ddqn.updates.tolist() == [5] * 3
 
 
-def test_evaluations_are_neither_learnt_from_nor_counted_as_training(three_runs: Trainer) -> None:
+def test_a_main_agent_of_its_own_table_learns_from_its_second_episode_on() -> None:
+    preset = SHORT.model_copy(update={"episodes": 4, "main": MainUpdates(learning_starts=2, updates_an_episode=50)})
+    agent = finish(trainer_of([LINE, LINE], preset)).agent
+    assert main_of(agent).ddqn.updates.tolist() == [150] * 2
+    chosen = main_of(agent).act(np.array([[7, 14, 11]] * 2), np.zeros(2), np.ones((2, 2)))
+    for run in (0, 1):
+        kept = kept_by(main_of(agent), run)
+        tried = {int(material): kept["rewards"][kept["actions"] == material].mean() for material in kept["actions"]}
+        assert len(tried) == 1 or chosen[run] == max(tried, key=lambda material: tried[material])
+    alone = finish(trainer_of([LINE], preset)).agent
+    np.testing.assert_array_equal(main_of(alone).ddqn.online[0], main_of(agent).ddqn.online[0])
+
+
+def test_a_main_agents_own_table_leaves_what_the_nested_agent_draws() -> None:
+    preset = SHORT.model_copy(update={"episodes": 2, "evaluate_every": 10})
+    with_table = preset.model_copy(update={"main": MainUpdates(learning_starts=2, updates_an_episode=3)})
+    one, other = finish(trainer_of([LINE], preset)), finish(trainer_of([LINE], with_table))
+    assert one.episode_rows == other.episode_rows
+
+
+def test_evaluations_are_neither_stored_nor_counted_as_training(three_runs: Trainer) -> None:
     assert three_runs.evaluation_steps == sum(row.steps for row in three_runs.evaluation_rows)
 
 
@@ -264,11 +289,59 @@ def exploring() -> Trainer:
     return finish(trainer_of([LINE, DIAMOND], SCOUTING))
 
 
+def test_with_excursions_what_a_greedy_evaluation_did_is_remembered_but_not_stored() -> None:
+    trainer = trainer_of([LINE], SCOUTING)
+    trainer.begin_from({role: online[[0]] for role, online in trainer.agent.online().items()})
+    explorer = trainer._explorer
+    assert explorer is not None
+    while not trainer.evaluation_rows:
+        trainer.tick()
+    assert not trainer.episode_rows, "the first episode is greedy: its policy was begun from"
+    assert (explorer._explorers[0]._effects != 0).any()
+    assert trainer.agent.low_level.replay.added.tolist() == [0]
+    assert trainer.agent.updates == 0
+
+
 def test_excursions_find_more_than_chance_does(exploring: Trainer) -> None:
     by_chance = finish(trainer_of([LINE, DIAMOND], SHORT.model_copy(update={"episodes": 60})))
     for run in (0, 1):
         best = [max(row.score for row in t.episode_rows if row.trial == run) for t in (exploring, by_chance)]
         assert best[0] > best[1]
+
+
+class Slips(GridVectorEnv):
+    """One action in ten is another."""
+
+    def __init__(self, scenarios: Sequence[Scenario]) -> None:
+        super().__init__(scenarios)
+        self._random = np.random.default_rng(3)
+
+    def step(self, actions: Int64s) -> Any:
+        slips = self._random.random(len(actions)) < 0.1
+        return super().step(np.where(slips, self._random.integers(0, 8, len(actions)), actions))
+
+
+def test_where_actions_slip_the_best_episode_is_followed_only_from_its_own_states() -> None:
+    trainer = Trainer(Slips([LINE]), [LINE], Agent(NESTED, [LINE], SCOUTING, 0), SCOUTING, 0)
+    explorer = trainer._explorer
+    assert explorer is not None
+    one = explorer._explorers[0]
+    followed, left = 0, 0
+    while not trainer.finished:
+        best, walked, leaves_at = list(one.best), len(one._walk), one._leave_at
+        following, observation = one._following, trainer._runs.observations[0].copy()
+        between = bool(trainer._runs.between_episodes[0] or trainer._runs.evaluating[0])
+        trainer.tick()
+        if following is None or between or walked >= leaves_at:
+            continue
+        placed = sum(step.used_block for step in best[:following])
+        if (best[following].x, best[following].y, 11 - placed) == tuple(observation[:3]):
+            followed += 1
+        else:
+            left += 1
+            assert one._leave_at <= walked, "what comes next in the best episode belongs to another state"
+    assert followed > 100
+    assert left > 5
 
 
 def test_a_run_keeps_its_best_policy_where_the_preset_says_so(exploring: Trainer) -> None:
@@ -382,21 +455,53 @@ LIVE = load_preset("live").model_copy(update={"episodes": 20})
 def test_an_abandoned_episode_is_never_learnt_from(spec: AgentSpec, preset: Preset) -> None:
     agent = Agent(spec, [LINE], preset, 0)
     trainer = Trainer(view_of(spec, ArenaVectorEnv([ArenaEnv(Spoils(LINE), LINE)]), [LINE]), [LINE], agent, preset, 0)
-    known: list[tuple[Arrays, Arrays]] = []
+    known: list[tuple[Arrays, list[list[int]]]] = []
     ended = 0
     with suppress(ConnectionError):
         while trainer.ticks < 100:
             trainer.tick()
             if len(trainer.episode_rows) + len(trainer.evaluation_rows) > ended:
                 ended = len(trainer.episode_rows) + len(trainer.evaluation_rows)
-                known.append(({name: kept.copy() for name, kept in agent.state().items()}, agent.marks()))
+                known.append(({name: kept.copy() for name, kept in agent.state().items()}, added_to(agent)))
     assert trainer.ticks < 100, "the fiftieth action broke down"
     trainer.abandon_episodes()
-    before, marks = known[-1]
-    assert {name: kept.tolist() for name, kept in agent.marks().items()} == {k: v.tolist() for k, v in marks.items()}
+    before, added = known[-1]
+    assert added_to(agent) == added
     for name, kept in before.items():
         assert np.array_equal(agent.state()[name], kept), name
     assert [row.episode for row in finish(trainer).episode_rows] == list(range(1, 21))
+
+
+@pytest.mark.parametrize("capacity", [40, 90, 1_000_000])
+@pytest.mark.parametrize("ticks_after", [3, 25, 70])
+def test_a_training_resumed_after_a_mishap_holds_the_transitions_of_the_one_that_went_on(
+    capacity: int, ticks_after: int
+) -> None:
+    preset = LIVE.model_copy(update={"replay_capacity": capacity})
+
+    def training() -> tuple[Spoils, Trainer]:
+        game = Spoils(LINE)
+        game.acts_left = 10_000
+        agent = Agent(NESTED, [LINE], preset, 0)
+        return game, Trainer(ArenaVectorEnv([ArenaEnv(game, LINE)]), [LINE], agent, preset, 0)
+
+    game, trainer = training()
+    while not (len(trainer.episode_rows) == 3 and trainer.state()["runs.steps_in_episode"][0] == 30):
+        trainer.tick()
+    journals, marks = [trainer.journal(None)], trainer.marks()  # a save, thirty steps into an episode
+    game.acts_left = 4
+    with pytest.raises(ConnectionError):
+        finish(trainer)
+    trainer.abandon_episodes()
+    for _ in range(ticks_after):
+        trainer.tick()
+    journals.append(trainer.journal(marks))
+    _, resumed = training()
+    resumed.load({name: kept.copy() for name, kept in trainer.state().items()}, journals)
+    for one, other in zip(_learners(trainer.agent), _learners(resumed.agent), strict=True):
+        held, brought_back = kept_by(one, 0), kept_by(other, 0)
+        for name, kept in held.items():
+            np.testing.assert_array_equal(brought_back[name], kept)
 
 
 @pytest.mark.parametrize(

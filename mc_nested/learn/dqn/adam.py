@@ -1,15 +1,15 @@
 """Adam (Kingma and Ba, 2015), compiled."""
 
 import numpy as np
-from numba import njit
 
 from mc_nested.arrays import Float32s
+from mc_nested.learn.dqn.compiled import compiled
 
 BETA_1, BETA_2, EPSILON = 0.9, 0.999, 1e-8
 """The constants that its authors propose."""
 
 
-@njit(cache=True, fastmath=True, error_model="numpy")
+@compiled(fastmath=True)
 def adam_step(
     parameters: Float32s, first: Float32s, second: Float32s, gradient: Float32s, steps: int, rate: float
 ) -> None:

@@ -9,15 +9,20 @@ from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from mc_nested.arrays import Bools, Float32s, Int64s, Integers
+from mc_nested.errors import DivergedError
 from mc_nested.learn.dqn.adam import adam_step
+from mc_nested.learn.dqn.compiled import compiled
 from mc_nested.learn.dqn.networks import Sizes, backward, forward, hidden_for, parameter_count
+from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.dqn.self_imitation import rival
 from mc_nested.learn.dqn.state_space import StateSpace
-from mc_nested.learn.dqn.target_values import TargetValues
+from mc_nested.learn.dqn.target_values import TargetValues, table_pays
+
+EXPONENT = np.int32(0x7F800000)
+"""The bits of a 32-bit float's exponent: all are set in what is infinite or no number."""
 
 
 class UpdateRule(NamedTuple):
@@ -59,11 +64,15 @@ class _Networks(NamedTuple):
 
 
 class _StateTable(NamedTuple):
-    """What is known of every state: the features, where each named row's begin (k,), and the target's values."""
+    """What is known of every state: the features, where each named row's begin (k,), and the target's values.
+
+    Without a table of values, (rows, 0, actions), a batch's come from the target networks, (rows, parameters).
+    """
 
     features: Float32s
     first: Int64s
     target_values: Float32s
+    target: Float32s
 
 
 class _Workspace(NamedTuple):
@@ -95,6 +104,7 @@ class DDQN:
         online: initial parameters, (rows, parameters).
     """
 
+    @on_one_blas_thread
     def __init__(self, space: StateSpace, sizes: Sizes, rule: UpdateRule, online: Float32s) -> None:
         self.space = space
         self.sizes = sizes
@@ -103,7 +113,8 @@ class DDQN:
         self.target = online.copy()
         self.updates: Int64s = np.zeros(len(online), dtype=np.int64)
         self._first_moment, self._second_moment = np.zeros_like(online), np.zeros_like(online)
-        self._target_values = TargetValues(space, sizes, self.target)
+        tabulated = table_pays(space.count, rule.batch, rule.target_period)
+        self._target_values = TargetValues(space, sizes, self.target, tabulated)
         self._last_values = np.full((len(online), rule.batch), np.nan, np.float32)
         self._last_errors = np.full((len(online), rule.batch), np.nan, np.float32)
         self._every_row = np.arange(len(online))
@@ -111,6 +122,7 @@ class DDQN:
         self._acting = _workspace(sizes, 1)
         self._learning = _workspace(sizes, rule.batch)
 
+    @on_one_blas_thread
     def load_online(self, online: Float32s) -> None:
         """Continue with other networks (rows, parameters), the targets too; ValueError if their shape differs."""
         if online.shape != self.online.shape:
@@ -118,6 +130,7 @@ class DDQN:
         self.online[:] = self.target[:] = online
         self._target_values.renew(self._every_row, self.target)
 
+    @on_one_blas_thread
     def q_values(self, states: Int64s, rows: Int64s | None = None) -> Float32s:
         """The online networks' values (k, actions) of one state index per row (k,); of all rows unless named."""
         named = self._every_row if rows is None else rows
@@ -127,23 +140,30 @@ class DDQN:
         _value(named, states + firsts, self.online, self._widths, self.space.table, work.inputs, work.hidden, values)
         return values
 
+    @on_one_blas_thread
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         """One update of each of the named rows (k,), each on its own part of the batch; the TD errors, (k, batch).
 
         By the gradient of the mean Huber loss, and of the mean large-margin loss of what is imitated.
+        DivergedError if a parameter is no number afterwards, before anything can be saved.
         """
         self.updates[rows] += 1
         estimates = _Estimates(np.empty_like(batch.rewards), np.empty_like(batch.rewards))
-        _update(
+        finite = _update(
             rows,
             _Networks(self.online, self._first_moment, self._second_moment, self.updates),
             batch,
-            _StateTable(self.space.table, self.space.first_of(rows), self._target_values.values),
+            _StateTable(self.space.table, self.space.first_of(rows), self._target_values.values, self.target),
             self._widths,
             self.rule,
             self._learning,
             estimates,
         )
+        if not finite:
+            raise DivergedError(
+                f"learning_rate {self.rule.learning_rate:g} is too high: after {self.updates[rows].max()} updates the "
+                f"networks hold what is no number: lower it in the preset's [update], and train again"
+            )
         self._last_values[rows], self._last_errors[rows] = estimates
         due = rows[self.updates[rows] % self.rule.target_period == 0]
         if len(due):
@@ -173,6 +193,7 @@ class DDQN:
             "updates": self.updates,
         }
 
+    @on_one_blas_thread
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if the shape differs."""
         for name, own in self.state().items():
@@ -192,7 +213,7 @@ def _workspace(sizes: Sizes, batch: int) -> _Workspace:
     )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def td_target(reward: float, discount: float, next_online: Float32s, next_target: Float32s) -> float:
     """Y = r + γ Q(s', argmax Q(s'; θ); θ⁻), the bootstrap dropped where the episode terminated (paper, equation 4).
 
@@ -202,14 +223,14 @@ def td_target(reward: float, discount: float, next_online: Float32s, next_target
     return target
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def _look_up(states: Int64s, table: Float32s, inputs: Float32s) -> None:
     for column in range(len(states)):
         for feature in range(inputs.shape[0]):
             inputs[feature, column] = table[states[column], feature]
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def _value(
     rows: Int64s,
     states: Int64s,
@@ -225,7 +246,7 @@ def _value(
         forward(online[rows[at]], sizes, inputs, hidden, values[at].reshape(-1, 1))
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def _update(
     rows: Int64s,
     networks: _Networks,
@@ -235,24 +256,29 @@ def _update(
     rule: UpdateRule,
     work: _Workspace,
     estimates: _Estimates,
-) -> None:
-    """``DDQN.update``, row by row."""
+) -> bool:
+    """``DDQN.update``, row by row; returns whether all parameters are numbers afterwards."""
+    finite = True
     count = batch.actions.shape[1]
     slope = work.slope
-    next_values, values = np.empty_like(slope), np.empty_like(slope)
+    next_values, values, next_targets = np.empty_like(slope), np.empty_like(slope), np.empty_like(slope)
+    tabulated = states.target_values.shape[1] > 0
     for at in range(len(rows)):
         row = rows[at]
         online = networks.online[row]
         _look_up(batch.states[0, at] + states.first[at], states.features, work.inputs)
         _look_up(batch.states[1, at] + states.first[at], states.features, work.next_inputs)
+        if not tabulated:
+            forward(states.target[row], sizes, work.next_inputs, work.next_hidden, next_targets)
         forward(online, sizes, work.next_inputs, work.next_hidden, next_values)
         forward(online, sizes, work.inputs, work.hidden, values)
         slope[:] = np.float32(0)
         for column in range(count):
             action = batch.actions[at, column]
-            next_target = states.target_values[row, batch.states[1, at, column]]
-            discount = batch.discounts[at, column]
-            target = td_target(batch.rewards[at, column], discount, next_values[:, column], next_target)
+            if tabulated:
+                next_targets[:, column] = states.target_values[row, batch.states[1, at, column]]
+            discount, reward = batch.discounts[at, column], batch.rewards[at, column]
+            target = td_target(reward, discount, next_values[:, column], next_targets[:, column])
             error = values[action, column] - target
             estimates.values[at, column], estimates.errors[at, column] = values[action, column], error
             clipped = min(max(error, -rule.huber_delta), rule.huber_delta)
@@ -265,3 +291,14 @@ def _update(
         backward(online, sizes, work.inputs, work.hidden, slope, work.gradient, work.scratch)
         moments = networks.first_moment[row], networks.second_moment[row]
         adam_step(online, *moments, work.gradient, networks.updates[row], rule.learning_rate)
+        finite = finite and all_finite(online)
+    return finite
+
+
+@compiled()
+def all_finite(values: Float32s) -> bool:
+    """Whether all of the values are numbers, by their bits: fast mathematics may take for granted that they are."""
+    highest = np.int32(0)
+    for bits in values.view(np.int32):
+        highest = max(highest, bits & EXPONENT)
+    return bool(highest != EXPONENT)

@@ -12,9 +12,9 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
-from numba import njit
 
 from mc_nested.arrays import Float32s, Int64s
+from mc_nested.learn.dqn.compiled import compiled
 
 Sizes = tuple[int, ...]
 """Widths from the input to the output: (4, 32, 32, 8) has two hidden layers of 32."""
@@ -36,7 +36,7 @@ def hidden_for(sizes: Sizes, batch: int) -> tuple[Float32s, ...]:
     return tuple(np.ones((width + 1, batch), np.float32) for width in sizes[1:-1])
 
 
-@njit(cache=True, fastmath=True, error_model="numpy")
+@compiled(fastmath=True)
 def forward(
     parameters: Float32s, sizes: Int64s, inputs: Float32s, hidden: Sequence[Float32s], values: Float32s
 ) -> None:
@@ -53,7 +53,7 @@ def forward(
     np.dot(parameters[start:].reshape(sizes[-1], sizes[-2] + 1), below, values)
 
 
-@njit(cache=True, fastmath=True, error_model="numpy")
+@compiled(fastmath=True)
 def backward(
     parameters: Float32s,
     sizes: Int64s,
@@ -84,7 +84,7 @@ def backward(
         end = start
 
 
-@njit(cache=True, fastmath=True, error_model="numpy")
+@compiled(fastmath=True)
 def tanh_in_place(values: Float32s) -> None:
     """The hyperbolic tangent as a quotient of polynomials, which vectorises; within 3e-7.
 

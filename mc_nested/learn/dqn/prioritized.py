@@ -43,13 +43,16 @@ class Priorities:
             self._grow()
         self._put(rows[:, None], indices[:, None], self._highest[rows, None])
 
-    def sample(self, rows: Int64s, numbers: Float64s) -> Int64s:
-        """Indices (k, batch) in proportion to the priorities of the named runs, one from each of ``batch`` equal parts.
+    def sample(self, rows: Int64s, numbers: Float64s, replaced: Int64s | None = None) -> Int64s:
+        """Indices (k, batch) in proportion to the priorities of the named runs, one from each of equal parts.
 
-        ``numbers`` in [0, 1), (k, batch), say where in its part. 0 if a run has none.
+        ``numbers`` in [0, 1), (k, batch), say where in its part. The first ``replaced`` (k,) of each row will be
+        replaced by others: there are as many parts as indices without them. 0 if a run has none.
         """
-        parts = numbers.shape[1]
-        left = (np.arange(parts) + numbers) / parts * self._tree[rows, 1, None]
+        batch = numbers.shape[1]
+        skipped = np.zeros(len(rows), dtype=np.int64) if replaced is None else np.minimum(replaced, batch - 1)
+        part = np.maximum(np.arange(batch) - skipped[:, None], 0)
+        left = (part + numbers) / (batch - skipped[:, None]) * self._tree[rows, 1, None]
         node = np.ones_like(left, dtype=np.int64)
         across = rows[:, None]
         while node[0, 0] < self.room:

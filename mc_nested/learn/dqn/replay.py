@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from mc_nested.arrays import Float64s, Int64s, Integers
+from mc_nested.learn.dqn.compiled import compiled
 
 FIRST_ROOM = 4096
 """Transitions per run that memory is allocated for at first; it doubles when full."""
@@ -26,21 +26,36 @@ class Transitions(NamedTuple):
     discounts: NDArray[Any]
 
 
+class ReplayMark(NamedTuple):
+    """A moment that a replay can be taken back to: the counts (runs,), and what the next additions overwrite.
+
+    ``overwritten`` are k transitions, each at a run's place; the arrays of both are (k,).
+    """
+
+    added: Int64s
+    steps: int
+    runs: Int64s
+    places: Int64s
+    overwritten: Transitions
+
+
 class Replay:
     """The last ``capacity`` transitions of each run; what a run samples depends on its own transitions only.
 
     Args:
         runs: how many runs.
         states: how many states there are.
+        actions: how many actions there are.
         capacity: transitions kept per run; the oldest is overwritten.
     """
 
-    def __init__(self, runs: int, states: int, capacity: int) -> None:
+    def __init__(self, runs: int, states: int, actions: int, capacity: int) -> None:
         self.capacity = capacity
         self.added = np.zeros(runs, dtype=np.int64)
-        self._index_type = np.min_scalar_type(states)
+        self._index_type, self._action_type = np.min_scalar_type(states), np.min_scalar_type(actions - 1)
         self._room = min(FIRST_ROOM, capacity)
         self._kept = self._memory(runs, self._room)
+        self._taken_back_to: list[Int64s] = []
 
     def sizes(self) -> Int64s:
         """How many transitions each run holds, (runs,)."""
@@ -69,12 +84,18 @@ class Replay:
         _gather(rows, indices, self._kept, drawn)
         return drawn
 
-    def added_since(self, marks: Int64s) -> dict[str, NDArray[Any]]:
-        """What was added to each run since it had added so many (runs,): by name, run after run, oldest first.
+    def marks(self) -> dict[str, Int64s]:
+        """Where a journal ends now, for ``added_since``: the counts (runs,), and how often it was taken back."""
+        return {"added": self.added.copy(), "taken_back": np.array([len(self._taken_back_to)])}
 
-        What has been overwritten since is left out.
+    def added_since(self, marks: Mapping[str, Int64s] | None) -> dict[str, NDArray[Any]]:
+        """What ``extend`` needs to know since those marks: by name, run after run, oldest first; all without marks.
+
+        What has been overwritten since is left out. Where the replay was taken back to before the marks, it begins
+        there.
         """
-        begins = np.maximum(marks, self.added - self.sizes())
+        oldest = self.added - self.sizes()
+        begins = oldest if marks is None else np.maximum(self._known_since(marks), oldest)
         counts = self.added - begins
         spans = self._spans(begins, counts)
         found = {
@@ -95,16 +116,29 @@ class Replay:
                 kept[run, span] = part
         self.added[:] = begins + counts
 
-    def forget_since(self, marks: Int64s) -> None:
-        """Forget what was added to each run since it had added so many (runs,).
+    def mark(self, steps: int) -> ReplayMark:
+        """This moment, for ``take_back`` after at most so many additions a run."""
+        counts = self.added[:, None] + np.arange(steps)
+        overwriting = (counts >= self.capacity) & (counts - self.capacity < self.added[:, None])
+        runs, places = np.nonzero(overwriting)[0], counts[overwriting] % self.capacity
+        overwritten = Transitions(*(kept[runs, places] for kept in self._kept))
+        return ReplayMark(self.added.copy(), steps, runs, places, overwritten)
 
-        What it had overwritten is gone: a full run holds the transitions before it twice instead.
-        """
-        for run in np.flatnonzero((self.added > marks) & (self.added > self.capacity)):
-            forgotten = np.arange(marks[run], self.added[run])
-            for kept in self._kept:
-                kept[run, forgotten % self.capacity] = kept[run, (forgotten - len(forgotten)) % self.capacity]
-        self.added[:] = marks
+    def take_back(self, mark: ReplayMark) -> None:
+        """Hold exactly what was held at that mark; ValueError if more was added since than it was made for."""
+        if (self.added - mark.added).max(initial=0) > mark.steps:
+            raise ValueError(f"more than {mark.steps} additions since the mark")
+        for kept, before in zip(self._kept, mark.overwritten, strict=True):
+            kept[mark.runs, mark.places] = before
+        self.added[:] = mark.added
+        self._taken_back_to.append(mark.added)
+
+    def _known_since(self, marks: Mapping[str, Int64s]) -> Int64s:
+        """From which count on each run's transitions may differ from those at the marks, (runs,)."""
+        lowest: Int64s = np.min([marks["added"], *self._taken_back_to[int(marks["taken_back"][0]) :]], axis=0)
+        # What was forgotten had overwritten the oldest, which are held again: a journal brings them too.
+        overwrote = (marks["added"] > self.added) & (marks["added"] > self.capacity)
+        return np.where(overwrote, 0, lowest)
 
     def _spans(self, begins: Int64s, counts: Int64s) -> list[tuple[int, slice]]:
         """Where each run's transitions from ``begins`` on are, oldest first: two spans, since they may wrap around."""
@@ -124,13 +158,13 @@ class Replay:
     def _memory(self, runs: int, room: int) -> Transitions:
         return Transitions(
             states=np.zeros((runs, room, 2), dtype=self._index_type),
-            actions=np.zeros((runs, room), dtype=np.uint8),
+            actions=np.zeros((runs, room), dtype=self._action_type),
             rewards=np.zeros((runs, room), dtype=np.float32),
             discounts=np.zeros((runs, room), dtype=np.float32),
         )
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def _store(rows: Int64s, added: Int64s, capacity: int, kept: Transitions, new: Transitions) -> None:
     for at in range(len(rows)):
         row = rows[at]
@@ -143,7 +177,7 @@ def _store(rows: Int64s, added: Int64s, capacity: int, kept: Transitions, new: T
         added[row] += 1
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def _gather(rows: Int64s, indices: Int64s, kept: Transitions, drawn: Transitions) -> None:
     for at in range(len(rows)):
         row = rows[at]

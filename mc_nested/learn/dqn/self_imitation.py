@@ -5,9 +5,9 @@ own best episode: max_a [Q(s, a) + margin · (a ≠ a*)] - Q(s, a*).
 """
 
 import numpy as np
-from numba import njit
 
 from mc_nested.arrays import Bools, Float32s, Float64s, Int64s
+from mc_nested.learn.dqn.compiled import compiled
 from mc_nested.learn.dqn.replay import Transitions
 
 
@@ -37,6 +37,10 @@ class BestEpisodes:
         """Drop that row's best episode: the best is another row's now."""
         self._length[row] = 0
 
+    def replaced(self, rows: Int64s) -> Int64s:
+        """How many of the sampled transitions ``mix_in`` replaces in each of the named rows (k,)."""
+        return np.where(self._length[rows] > 0, self.share, 0)
+
     def mix_in(self, rows: Int64s, drawn: Transitions, uniforms: Float64s) -> Bools:
         """Replace the first of the sampled transitions (k, batch) by steps of the best episodes.
 
@@ -52,7 +56,7 @@ class BestEpisodes:
         return imitated
 
 
-@njit(cache=True, error_model="numpy")
+@compiled()
 def rival(values: Float32s, action: int, margin: float) -> int:
     """The action that the large-margin loss pushes down for ``action`` to be greedy, of values (actions,).
 

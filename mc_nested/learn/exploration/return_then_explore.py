@@ -6,6 +6,9 @@ and a record of what each action did in each cell of the arena. It returns by re
 start, never by restoring a simulator's state. Exploration is random, but avoids what wasted a block in that cell
 before. Where it meets a later cell of the best episode, it may follow that episode again; a block that had been skipped
 is then one more.
+
+The best episode is followed only while x, y and b are those that it leads to. Where an action slipped, they aren't:
+what comes next in the best episode was right in another cell, and the excursion explores from there instead.
 """
 
 from typing import Any, NamedTuple
@@ -70,6 +73,8 @@ class ReturnThenExplore:
         rejoins, repeats, which = numbers
         effects = self._effects[x, y]
         done = len(self._walk)
+        if self._following is not None and not self._is_where_it_leads(self._following, x, y):
+            self._stop_following(done)
         if self._may_rejoin(done):
             here = [i for i in range(self._leave_at, len(self.best)) if (self.best[i].x, self.best[i].y) == (x, y)]
             if here and rejoins < self._rule.rejoin:
@@ -130,6 +135,23 @@ class ReturnThenExplore:
 
     def _may_rejoin(self, done: int) -> bool:
         return self._following is None and self._clean and self._leave_at < done <= self._wander_until
+
+    def _is_where_it_leads(self, index: int, x: int, y: int) -> bool:
+        """Whether the last step did what it did in the best episode, if it was that episode's step before ``index``.
+
+        The start is the same, so x, y and b agree with it as long as every step does. Having rejoined, b may differ by
+        the blocks that one has more than the other.
+        """
+        if (x, y) != (self.best[index].x, self.best[index].y):
+            return False
+        return not self._walk or not index or self._walk[-1].used_block == self.best[index - 1].used_block
+
+    def _stop_following(self, done: int) -> None:
+        """Explore from here, as far as planned from where the best episode was to be left."""
+        if done < self._leave_at:
+            self._wander_until += done - self._leave_at
+            self._leave_at = done
+        self._following = None
 
     def _follow(self, index: int, done: int) -> int:
         """The best episode's action at that index; the next step follows it too, up to where it is left."""

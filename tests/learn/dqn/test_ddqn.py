@@ -5,7 +5,8 @@ import pytest
 import torch
 from torch import Tensor, nn
 
-from mc_nested.learn.dqn.ddqn import DDQN, Batch, UpdateRule, td_target
+from mc_nested.errors import DivergedError
+from mc_nested.learn.dqn.ddqn import DDQN, Batch, UpdateRule, all_finite, td_target
 from mc_nested.learn.dqn.networks import initial_parameters
 from mc_nested.learn.dqn.state_space import StateSpace
 from tests.learn.dqn.test_networks import reference
@@ -29,10 +30,10 @@ def test_a_terminated_transition_is_worth_its_reward_alone() -> None:
     assert found == pytest.approx(-1.9)
 
 
-def learners(rows: int) -> DDQN:
+def learners(rows: int, rule: UpdateRule = RULE) -> DDQN:
     space = StateSpace(np.array([[14, 14, 11, 1]] * rows), actions=8)
     online = np.stack([initial_parameters(SIZES, np.random.default_rng(row)) for row in range(rows)])
-    return DDQN(space, SIZES, RULE, online)
+    return DDQN(space, SIZES, rule, online)
 
 
 def batch_of(rows: int, seed: int) -> Batch:
@@ -54,8 +55,11 @@ def part(batch: Batch, rows: list[int]) -> Batch:
 
 
 @pytest.mark.parametrize("rows", [1, 4])
-def test_updates_are_those_of_torchs_adam_on_the_huber_and_the_large_margin_loss(rows: int) -> None:
-    ours = learners(rows)
+@pytest.mark.parametrize("tabulated", [True, False])
+def test_updates_are_those_of_torchs_adam_on_the_huber_and_the_large_margin_loss(rows: int, tabulated: bool) -> None:
+    ours = learners(rows, RULE._replace(target_period=1000) if tabulated else RULE)
+    assert bool(ours._target_values.values.size) is tabulated
+    ours.rule = RULE
     parameters = [nn.Parameter(torch.from_numpy(row.copy())) for row in ours.online]
     optimisers = [torch.optim.Adam([parameter], lr=RULE.learning_rate) for parameter in parameters]
     targets = [parameter.detach().clone() for parameter in parameters]
@@ -92,6 +96,19 @@ def _reference_update(
     (huber + imitation).backward()  # type: ignore[no-untyped-call]  # torch
     optimiser.step()
     return np.array((chosen - goal).detach().numpy())
+
+
+def test_values_of_a_batch_alone_are_those_of_the_table_of_all_states() -> None:
+    tabulated, by_batch = (learners(2, RULE._replace(target_period=period)) for period in (1000, 3))
+    assert tabulated._target_values.values.size
+    assert not by_batch._target_values.values.size
+    by_batch.rule = tabulated.rule
+    for ddqn in (tabulated, by_batch):
+        ddqn.load_online(ddqn.online[::-1].copy())
+    for update in range(5):
+        errors = [ddqn.update(np.arange(2), batch_of(2, update)) for ddqn in (tabulated, by_batch)]
+        np.testing.assert_allclose(errors[0], errors[1], rtol=1e-5, atol=1e-6)
+        tabulated.online[:] = by_batch.online  # so that rounding in one update isn't the next one's
 
 
 def test_the_target_network_follows_every_period_and_stands_still_between() -> None:
@@ -177,3 +194,27 @@ def test_a_loaded_learner_goes_on_to_the_bit() -> None:
 def test_networks_of_another_shape_are_refused() -> None:
     with pytest.raises(ValueError, match="networks of"):
         learners(2).load_online(np.zeros((2, 5), np.float32))
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("place", [0, 500, -1])
+def test_what_is_no_number_is_noticed_wherever_it_is(value: float, place: int) -> None:
+    values = np.random.default_rng(0).standard_normal(1480).astype(np.float32)
+    values[:3] = 0.0, -0.0, np.finfo(np.float32).max
+    assert all_finite(values)
+    values[place] = value
+    assert not all_finite(values)
+
+
+def test_networks_that_diverge_are_an_error_that_names_the_learning_rate_at_once() -> None:
+    ddqn = learners(2)
+    ddqn.rule = RULE._replace(learning_rate=1e38)
+    with pytest.raises(DivergedError, match=r"learning_rate 1e\+38 is too high: after \d updates") as caught:
+        _update_while_finite(ddqn)
+    assert "\n" not in str(caught.value)
+
+
+def _update_while_finite(ddqn: DDQN) -> None:
+    for update in range(10):
+        assert np.isfinite(ddqn.online).all(), "no update may pass that leaves what is no number"
+        ddqn.update(np.arange(2), batch_of(2, update))

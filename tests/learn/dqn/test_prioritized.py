@@ -29,6 +29,13 @@ def test_draws_are_in_proportion_to_the_errors() -> None:
     assert counts(priorities_of([1.0, 3.0, 0.0, 6.0]), 4) == pytest.approx([100, 300, 0, 600], abs=1)
 
 
+def test_the_parts_are_those_of_what_is_not_replaced() -> None:
+    priorities = priorities_of([1.0] * 4)
+    drawn = priorities.sample(np.array([0, 0]), np.full((2, 6), 0.5), np.array([2, 0]))
+    assert drawn[0, 2:].tolist() == [0, 1, 2, 3]
+    assert drawn[1].tolist() == priorities.sample(ROW, np.full((1, 6), 0.5))[0].tolist()
+
+
 def test_alpha_takes_roots_and_0_is_uniform() -> None:
     assert counts(priorities_of([1.0, 16.0], alpha=0.5), 2) == pytest.approx([200, 800], abs=1)
     assert counts(priorities_of([1.0, 16.0], alpha=0.0), 2) == [500, 500]

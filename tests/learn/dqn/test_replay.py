@@ -31,7 +31,7 @@ def numbers(drawn: Transitions) -> list[list[int]]:
 
 
 def test_what_the_numbers_point_at_is_drawn() -> None:
-    replay = Replay(runs=2, states=200, capacity=10)
+    replay = Replay(runs=2, states=200, actions=8, capacity=10)
     for step in range(4):
         replay.add(np.array([0, 1]), transition(step, 100 + step))
     uniforms = np.array([[0.0, 0.24, 0.25, 0.5, 0.999999], [0.75, 0.0, 0.5, 0.26, 0.3]])
@@ -39,7 +39,7 @@ def test_what_the_numbers_point_at_is_drawn() -> None:
 
 
 def test_runs_fill_at_their_own_pace() -> None:
-    replay = Replay(runs=3, states=200, capacity=10)
+    replay = Replay(runs=3, states=200, actions=8, capacity=10)
     replay.add(np.array([2]), transition(7))
     replay.add(np.array([0, 2]), transition(8, 9))
     assert replay.sizes().tolist() == [1, 0, 2]
@@ -47,7 +47,7 @@ def test_runs_fill_at_their_own_pace() -> None:
 
 
 def test_the_oldest_gives_way_when_it_is_full() -> None:
-    replay = Replay(runs=1, states=200, capacity=3)
+    replay = Replay(runs=1, states=200, actions=8, capacity=3)
     for step in range(5):
         replay.add(np.array([0]), transition(step))
     assert replay.sizes().tolist() == [3]
@@ -57,33 +57,71 @@ def test_the_oldest_gives_way_when_it_is_full() -> None:
 
 @given(uniform=st.floats(0, 1, exclude_max=True), size=st.integers(1, 9))
 def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
-    replay = Replay(runs=2, states=200, capacity=100)
+    replay = Replay(runs=2, states=200, actions=8, capacity=100)
     for step in range(size):
         replay.add(np.array([0]), transition(step))
     replay.add(np.array([1]), transition(50))
     assert numbers(drawn_from(replay, np.array([0]), np.array([[uniform]])))[0][0] in range(size)
 
 
-@given(st.integers(0, 30), st.integers(0, 9))
-def test_what_is_forgotten_is_never_drawn_again(before: int, since: int) -> None:
-    replay = Replay(runs=2, states=200, capacity=20)
+@given(before=st.integers(0, 50), since=st.integers(0, 30), capacity=st.integers(5, 40))
+def test_taken_back_it_holds_exactly_what_it_held(before: int, since: int, capacity: int) -> None:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(replay_module, "FIRST_ROOM", 4)
+        replay = Replay(runs=2, states=200, actions=8, capacity=capacity)
     for step in range(before):
         replay.add(np.array([0]), transition(step))
-    marks = replay.added.copy()
+    mark = replay.mark(30)
     for step in range(since):
         replay.add(np.array([0]), transition(100 + step))
-    replay.forget_since(marks)
+    replay.take_back(mark)
     held = int(replay.sizes()[0])
-    assert held == min(before, 20)
-    seen = {int(number) for number in numbers(replay.gather(np.array([0]), np.arange(held)[None, :]))[0]}
-    if before + since <= 20:
-        assert seen == set(range(before))
-    else:
-        assert seen <= set(range(max(0, before - 20), before))
+    assert held == min(before, capacity)
+    seen = numbers(replay.gather(np.array([0]), np.arange(held)[None, :]))[0]
+    assert sorted(seen) == list(range(max(0, before - capacity), before))
+
+
+def test_a_mark_is_good_for_as_many_additions_as_it_was_made_for() -> None:
+    replay = Replay(runs=1, states=200, actions=8, capacity=3)
+    mark = replay.mark(2)
+    for step in range(3):
+        replay.add(np.array([0]), transition(step))
+    with pytest.raises(ValueError, match="more than 2 additions"):
+        replay.take_back(mark)
+
+
+@given(
+    before=st.integers(0, 40),
+    spoiled=st.lists(st.tuples(st.integers(0, 12), st.integers(0, 12)), max_size=3),
+    after=st.integers(0, 40),
+    capacity=st.integers(5, 30),
+)
+def test_journals_around_what_was_taken_back_bring_back_what_is_held(
+    before: int, spoiled: list[tuple[int, int]], after: int, capacity: int
+) -> None:
+    replay, copy = (Replay(runs=1, states=200, actions=8, capacity=capacity) for _ in range(2))
+    row = np.array([0])
+    for step in range(before):
+        replay.add(row, transition(step))
+    marks = None
+    for until_saved, since_saved in spoiled:
+        mark = replay.mark(24)
+        for step in range(until_saved + since_saved):
+            if step == until_saved:
+                copy.extend(replay.added_since(marks))
+                marks = replay.marks()
+            replay.add(row, transition(100 + step))
+        replay.take_back(mark)
+    for step in range(after):
+        replay.add(row, transition(before + step))
+    copy.extend(replay.added_since(marks))
+    assert copy.added.tolist() == replay.added.tolist()
+    held = np.arange(int(replay.sizes()[0]))[None]
+    assert numbers(copy.gather(row, held)) == numbers(replay.gather(row, held))
 
 
 def test_draws_are_uniform() -> None:
-    replay = Replay(runs=1, states=200, capacity=100)
+    replay = Replay(runs=1, states=200, actions=8, capacity=100)
     for step in range(8):
         replay.add(np.array([0]), transition(step))
     uniforms = np.random.default_rng(0).random((1, 80_000))
@@ -95,13 +133,13 @@ def test_draws_are_uniform() -> None:
 def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(replay_module, "FIRST_ROOM", 4)
-        grown = Replay(runs=1, states=200, capacity=capacity)
-        copy = Replay(runs=1, states=200, capacity=capacity)
-    large = Replay(runs=1, states=200, capacity=capacity)
+        grown = Replay(runs=1, states=200, actions=8, capacity=capacity)
+        copy = Replay(runs=1, states=200, actions=8, capacity=capacity)
+    large = Replay(runs=1, states=200, actions=8, capacity=capacity)
     for step in range(steps):
         for replay in (grown, large):
             replay.add(np.array([0]), transition(step))
-    copy.extend(grown.added_since(np.array([0])))
+    copy.extend(grown.added_since(None))
     grid = (np.arange(50) / 50)[None]
     expected = numbers(drawn_from(large, np.array([0]), grid))
     assert set(expected[0]) == set(range(max(0, steps - capacity), steps))
@@ -113,10 +151,10 @@ def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> N
 def test_what_was_added_in_parts_is_the_whole(parts: list[int], capacity: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(replay_module, "FIRST_ROOM", 4)
-        replay, copy = (Replay(runs=2, states=200, capacity=capacity) for _ in range(2))
+        replay, copy = (Replay(runs=2, states=200, actions=8, capacity=capacity) for _ in range(2))
     number = 0
     for part in parts:
-        marks = replay.added.copy()
+        marks = replay.marks()
         for _ in range(part):
             replay.add(np.array([1]), transition(number))
             number += 1
@@ -127,17 +165,31 @@ def test_what_was_added_in_parts_is_the_whole(parts: list[int], capacity: int) -
 
 
 def test_a_run_that_holds_nothing_yields_blanks() -> None:
-    replay = Replay(runs=2, states=200, capacity=10)
+    replay = Replay(runs=2, states=200, actions=8, capacity=10)
     replay.add(np.array([1]), transition(8))
     assert drawn_from(replay, np.array([0, 1]), np.array([[0.0], [0.9]])).states[0].tolist() == [[0], [8]]
 
 
 @pytest.mark.parametrize(("states", "bytes_a_number"), [(256, 2), (65_535, 2), (200_000, 4)])
 def test_states_are_kept_in_as_few_bytes_as_their_number_takes(states: int, bytes_a_number: int) -> None:
-    replay = Replay(runs=1, states=states, capacity=10)
+    replay = Replay(runs=1, states=states, actions=8, capacity=10)
     replay.add(
         np.array([0]), Transitions(np.full((2, 1), states - 1), np.array([7]), np.array([1.0]), np.array([0.95]))
     )
-    kept = replay.added_since(np.array([0]))
+    kept = replay.added_since(None)
     assert kept["states"].itemsize == bytes_a_number
     assert kept["states"].tolist() == [[states - 1] * 2]
+
+
+@pytest.mark.parametrize(("actions", "bytes_an_action"), [(8, 1), (256, 1), (257, 2), (70_000, 4)])
+def test_every_action_is_kept_as_it_is_in_as_few_bytes_as_their_number_takes(
+    actions: int, bytes_an_action: int
+) -> None:
+    replay, copy = (Replay(runs=1, states=10, actions=actions, capacity=10) for _ in range(2))
+    last = np.array([actions - 1])
+    replay.add(np.array([0]), Transitions(np.zeros((2, 1), dtype=np.int64), last, np.ones(1), np.ones(1)))
+    kept = replay.added_since(None)
+    assert kept["actions"].itemsize == bytes_an_action
+    copy.extend(kept)
+    for each in (replay, copy):
+        assert each.gather(np.array([0]), np.array([[0]])).actions.tolist() == [[actions - 1]]

@@ -5,7 +5,7 @@ import torch
 
 from mc_nested.learn.dqn.networks import initial_parameters
 from mc_nested.learn.dqn.state_space import StateSpace
-from mc_nested.learn.dqn.target_values import AT_ONCE, TargetValues
+from mc_nested.learn.dqn.target_values import AT_ONCE, TargetValues, table_pays
 from tests.learn.dqn.test_networks import reference
 
 SIZES = (3, 4, 8)
@@ -27,3 +27,18 @@ def test_every_state_has_its_networks_value_and_only_named_rows_are_renewed() ->
     found.renew(np.array([1]), target[[2]])
     np.testing.assert_allclose(found.values[0], expected(0, 0), rtol=1e-4, atol=1e-5)
     np.testing.assert_allclose(found.values[1], expected(1, 2), rtol=1e-4, atol=1e-5)
+
+
+def test_a_table_pays_where_a_period_values_as_many_states_in_its_batches() -> None:
+    assert table_pays(15 * 15 * 17 * 2, batch=32, target_period=500), "the paper's and the shipped presets'"
+    assert table_pays(16_000, batch=32, target_period=500)
+    assert not table_pays(16_001, batch=32, target_period=500)
+    assert not table_pays(15 * 15 * 101 * 8, batch=32, target_period=500), "a hundred blocks, eight materials"
+
+
+def test_without_a_table_nothing_is_kept_or_renewed() -> None:
+    space = StateSpace(np.array([[14, 14, 100, 7]]), actions=8)
+    target = initial_parameters((4, 4, 8), np.random.default_rng(0))[None]
+    found = TargetValues(space, (4, 4, 8), target, tabulated=False)
+    found.renew(np.array([0]), target)
+    assert found.values.shape == (1, 0, 8)

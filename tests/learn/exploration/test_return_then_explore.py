@@ -63,6 +63,25 @@ def test_at_the_chosen_share_it_is_followed_to_its_end() -> None:
     assert actions == [each.action for each in WALK]
 
 
+def test_where_a_step_slips_the_best_episode_is_left_and_explored_from_there() -> None:
+    excursions = after(WALK)
+    excursions.begin(numbers(0.0, 0.0, 0.4))  # follow it to its end, then wander 1 + int(0.4 · 3) = 2 steps
+    assert excursions.next_action(7, 14, numbers(NEVER, NEVER, 0.0)) == 1
+    excursions.observe(step(7, 14, 1))
+    assert excursions.next_action(6, 14, numbers(ALWAYS, NEVER, 0.0)) == 0, "it is in another cell: not action 5"
+    excursions.observe(step(6, 14, 0))
+    assert excursions.next_action(7, 12, numbers(ALWAYS, NEVER, 0.0)) == 6, "it may rejoin after a step of its own"
+
+
+def test_a_block_that_was_not_placed_is_a_slip_too() -> None:
+    excursions = after(WALK)
+    excursions.begin(numbers(0.0, 0.0, 0.0))
+    for each in (WALK[0], WALK[1]._replace(used_block=False, reward=0.0)):
+        assert excursions.next_action(each.x, each.y, numbers(NEVER, NEVER, 0.0)) == each.action
+        excursions.observe(each)
+    assert excursions.next_action(7, 12, numbers(NEVER, NEVER, 0.0)) == 0, "x and y agree, b doesn't: not action 6"
+
+
 def test_an_action_that_wasted_a_block_in_a_cell_is_not_repeated_there() -> None:
     excursions = after([step(7, 14, 4, used=True, reward=0.0), step(7, 14, 6, used=True, reward=0.0)])
     excursions.begin(numbers(NEVER, 0.0, 0.0))

@@ -1,0 +1,94 @@
+"""The compiler of everything that is compiled here: Numba's, with a cache that notices a change in any file it needs.
+
+Numba keeps compiled functions on disk and looks at the file of each function, to see whether it has changed. Functions
+of other files, and their constants, are compiled into it, too: with Numba's own cache, an update of one file would go
+on computing what it computed before. So here all files count that a function's file imports, directly or not.
+"""
+
+import ast
+import hashlib
+import inspect
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeVar
+
+from numba import njit
+from numba.core.caching import CompileResultCacheImpl, FunctionCache
+
+ROOT = Path(__file__).parents[3]
+"""The folder that holds the package."""
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def compiled(*, fastmath: bool = False, nogil: bool = False) -> Callable[[Function], Function]:
+    """Compile the function when it is first called, and keep that on disk until a file that it needs changes.
+
+    Args:
+        fastmath: whether the order of sums and products may be changed.
+        nogil: whether other threads go on while it runs.
+    """
+
+    def compile_it(function: Function) -> Function:
+        dispatcher: Any = njit(fastmath=fastmath, nogil=nogil, error_model="numpy")(function)
+        if hasattr(dispatcher, "enable_caching"):  # otherwise Numba is told to leave everything to Python
+            dispatcher._cache = _Cache(function)  # type: ignore[no-untyped-call]  # Numba's
+        made: Function = dispatcher
+        return made
+
+    return compile_it
+
+
+@cache
+def fingerprint_of(source: Path, root: Path = ROOT) -> str:
+    """A hash of the file and of every file below ``root`` that it imports, directly or not."""
+    found, new = {source}, [source]
+    while new:
+        imported = _imported_by(new.pop(), root)
+        new += sorted(imported - found)
+        found |= imported
+    digest = hashlib.sha256()
+    for path in sorted(found):
+        digest.update(hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()
+
+
+def _imported_by(source: Path, root: Path) -> set[Path]:
+    """The files below ``root`` that the file imports by their full names."""
+    modules: set[str] = set()
+    for node in ast.walk(ast.parse(source.read_bytes())):
+        if isinstance(node, ast.Import):
+            modules |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            modules |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+    bases = [root.joinpath(*module.split(".")) for module in modules]
+    return {path for base in bases for path in (base.with_suffix(".py"), base / "__init__.py") if path.is_file()}
+
+
+class _Locator:
+    """Where Numba's own locator keeps a function, as long as no file has changed that it needs."""
+
+    def __init__(self, numbas_own: Any, source: Path) -> None:
+        self._numbas_own = numbas_own
+        self._source = source
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._numbas_own, name)
+
+    def get_source_stamp(self) -> tuple[Any, str]:
+        return self._numbas_own.get_source_stamp(), fingerprint_of(self._source)
+
+
+class _CacheFiles(CompileResultCacheImpl):
+    def __init__(self, function: Callable[..., Any]) -> None:
+        self._source = Path(inspect.getfile(function))
+        super().__init__(function)  # type: ignore[no-untyped-call]  # Numba's
+
+    @property
+    def locator(self) -> _Locator:
+        return _Locator(super().locator, self._source)
+
+
+class _Cache(FunctionCache):
+    _impl_class = _CacheFiles
