@@ -178,8 +178,8 @@ def benchmark_of(config: BenchmarkConfig, outcomes: Outcomes) -> Benchmark:
 
 
 def _print_measures(found: "Sequence[tuple[str, Measures]]") -> None:
-    heads = ("solved", "median", "interquartile mean", "within twice")
+    heads = ("solved", "median", "interquartile mean", "worst", "without a prior", "within twice that")
     table = Table("episodes to the optimum", *heads, box=None, padding=(0, 1))
     for name, measures in found:
-        table.add_row(Text(name), *measures.in_words()[:4])
+        table.add_row(Text(name), *measures.in_words())
     Console().print(table)

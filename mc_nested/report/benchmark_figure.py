@@ -88,7 +88,7 @@ def _draw_kinds(axes: Axes, benchmark: Benchmark, styles: Mapping[str, dict[str,
     axes.text(1.0, 1.01, "never solved", transform=axes.transAxes, ha="right", va="bottom", fontsize=9)
     axes.set_xticks(range(len(kinds)), kinds)
     axes.set_xlim(-0.5, len(kinds) - 0.5)
-    axes.set(title="Episodes to the optimum", xlabel="how a design's blocks hang together")
+    axes.set(title="Episodes to the optimum: median, middle half", xlabel="how a design's blocks hang together")
 
 
 def _quartiles(played: Float64s) -> Float64s:

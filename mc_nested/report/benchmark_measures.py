@@ -51,15 +51,16 @@ class Measures:
     without_a_prior: float
 
     def in_words(self) -> tuple[str, ...]:
-        """As cells of a table: solved, median, interquartile mean, within twice, worst, without a prior."""
-        interval = f" ({_number(self.interval.low)} to {_number(self.interval.high)})" if self.interval else ""
+        """As cells of a table: solved, median, interquartile mean, worst, without a prior, within twice that."""
+        ends = self.interval if self.interval and np.isfinite(self.interval.low) else None
+        interval = f" ({_number(ends.low)} to {_number(ends.high)})" if ends else ""
         return (
             f"{self.solved} of {self.trials}",
             _number(self.median),
             f"{_number(self.mean)}{interval}",
-            f"{100 * self.within_twice:.0f} %",
             _number(self.worst),
             _number(self.without_a_prior),
+            f"{100 * self.within_twice:.3g} %",
         )
 
 

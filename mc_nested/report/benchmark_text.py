@@ -12,9 +12,9 @@ HEADER = (
     "solved",
     "median",
     "interquartile mean (95 %)",
-    "within twice",
     "worst",
     "without a prior",
+    "within twice that",
     "given up after",
 )
 
@@ -30,8 +30,8 @@ there counts as infinite (∞). Interquartile mean: of the middle half of all tr
 bootstrap: designs drawn again within their kind, trials within their design. Means, profile and bootstrap are rliable's
 (Agarwal et al., Deep Reinforcement Learning at the Edge of the Statistical Precipice, NeurIPS 2021). Without a prior:
 what a design should take if no cell were likelier than another. If n of N cells are to be built, (N + 1) / (n + 1)
-episodes that test n cells each find them all, and one more builds them; the median over the designs. Within twice: the
-share of trials that took at most twice what their own design should take so. Given up after: that many training
+episodes that test n cells each find them all, and one more builds them; the median over the designs. Within twice that:
+the share of trials that took at most twice what their own design should take so. Given up after: that many training
 episodes."""
 
 
@@ -41,7 +41,8 @@ def benchmark_text(benchmark: Benchmark, overall: Sequence[tuple[str, Measures]]
     origin = f"of `{benchmark.corpus}`" if benchmark.corpus else f"drawn from seed {benchmark.seed}"
     trials = f"{benchmark.trials} trials" if benchmark.trials > 1 else "One trial"
     blocks = [row.blocks for row in designs.values()]
-    of_what = f"{len(designs)} designs of {min(blocks)} to {max(blocks)} blocks {origin}"
+    sizes = f"{min(blocks)} to {max(blocks)}" if min(blocks) < max(blocks) else f"{blocks[0]}"
+    of_what = f"{_designs(len(designs))} of {sizes} blocks {origin}"
     parts = [
         "# Episodes to the optimum on designs that nobody tuned on",
         f"{of_what}. {trials} on each, seed {benchmark.seed}.",
@@ -52,7 +53,7 @@ def benchmark_text(benchmark: Benchmark, overall: Sequence[tuple[str, Measures]]
         of_kind = [row for row in designs.values() if row.kind == kind]
         if of_kind and len(of_kind) < len(designs):
             own = [(name, measures_of(trials_of(benchmark, name, kind))) for name in benchmark.most_episodes]
-            parts += [f"## {kind}: {WHAT_KINDS_ARE[kind]} ({len(of_kind)} designs)", _table(benchmark, own)]
+            parts += [f"## {kind}: {WHAT_KINDS_ARE[kind]} ({_designs(len(of_kind))})", _table(benchmark, own)]
     seconds = [f"{name} {median(own):.1f} (at most {max(own):.1f})" for name, own in benchmark.seconds.items()]
     parts += [
         LEGEND.replace("\n", " "),
@@ -60,6 +61,10 @@ def benchmark_text(benchmark: Benchmark, overall: Sequence[tuple[str, Measures]]
         "Seconds of one core a trial, median: " + "; ".join(seconds) + ".",
     ]
     return "\n\n".join(parts) + "\n"
+
+
+def _designs(number: int) -> str:
+    return f"{number} designs" if number > 1 else "one design"
 
 
 def _table(benchmark: Benchmark, found: Sequence[tuple[str, Measures]]) -> str:
