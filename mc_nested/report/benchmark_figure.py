@@ -28,6 +28,9 @@ BAND = 0.15
 POINTS = 200
 """Numbers of episodes at which profiles are drawn, at most."""
 
+ROOM = 1.2
+"""How far a profile goes on after the longest trial, as a factor."""
+
 NEVER = 1.6
 """How far above the longest trial the line stands that says never, as a factor."""
 
@@ -45,13 +48,13 @@ def draw_benchmark(path: Path, benchmark: Benchmark) -> None:
     for axes in (left, right):
         axes.grid(alpha=0.2)
         axes.spines[["top", "right"]].set_visible(False)
-    figure.legend(handles=_legend(styles), loc="outside lower center", ncols=4, frameon=False)
+    figure.legend(handles=_legend(styles), loc="outside lower center", ncols=5, frameon=False)
     with atomic_write(path) as unfinished:
         figure.savefig(unfinished, format="png", dpi=140, metadata={"Software": None})
 
 
 def _draw_profiles(axes: Axes, benchmark: Benchmark, styles: Mapping[str, dict[str, Any]]) -> None:
-    most = _longest(benchmark)
+    most = ROOM * _longest(benchmark)
     episodes: Int64s = np.unique(np.geomspace(1, most, POINTS).astype(np.int64))
     for name, style in styles.items():
         trials = trials_of(benchmark, name)
@@ -64,7 +67,8 @@ def _draw_profiles(axes: Axes, benchmark: Benchmark, styles: Mapping[str, dict[s
     axes.yaxis.set_major_formatter(PercentFormatter(1.0))
     axes.set_xlim(1, most)
     axes.set_ylim(0, 1.02)
-    axes.set(title="Trials solved within a number of episodes", xlabel="episodes played, greedy ones included")
+    axes.set_title("Trials solved within a number of episodes", loc="left")
+    axes.set_xlabel("episodes played, greedy ones included")
 
 
 def _draw_kinds(axes: Axes, benchmark: Benchmark, styles: Mapping[str, dict[str, Any]]) -> None:
@@ -88,7 +92,8 @@ def _draw_kinds(axes: Axes, benchmark: Benchmark, styles: Mapping[str, dict[str,
     axes.text(1.0, 1.01, "never solved", transform=axes.transAxes, ha="right", va="bottom", fontsize=9)
     axes.set_xticks(range(len(kinds)), kinds)
     axes.set_xlim(-0.5, len(kinds) - 0.5)
-    axes.set(title="Episodes to the optimum: median, middle half", xlabel="how a design's blocks hang together")
+    axes.set_title("Episodes to the optimum: median, middle half", loc="left")
+    axes.set_xlabel("how a design's blocks hang together")
 
 
 def _quartiles(played: Float64s) -> Float64s:
