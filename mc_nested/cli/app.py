@@ -12,7 +12,19 @@ from mc_nested.cli.interrupt import INTERRUPTED, Stopped
 from mc_nested.errors import McNestedError
 from mc_nested.live.input.signals import EndedBySignal
 
-VERBS = ("train", "reproduce", "sweep", "evaluate", "play", "scenarios", "read", "calibrate", "doctor", "rehearse")
+VERBS = (
+    "train",
+    "reproduce",
+    "sweep",
+    "benchmark",
+    "evaluate",
+    "play",
+    "scenarios",
+    "read",
+    "calibrate",
+    "doctor",
+    "rehearse",
+)
 """Each is a module of this package; in the order of the help."""
 
 

@@ -21,6 +21,9 @@ LINE_EVERY_S = 30.0
 MOST_ROWS = 10
 """Groups shown at once."""
 
+MOST_COLUMNS = 8
+"""Scenarios shown side by side; of more, only how many runs have ended, and at the optimum."""
+
 
 class ExperimentProgress:
     """Shows a status on standard error.
@@ -89,9 +92,20 @@ class ExperimentProgress:
 
     def _table(self) -> Table:
         status = self._status
+        if len(status.optimum) > MOST_COLUMNS:
+            return self._counts()
         heads = [Text(f"{name} of {optimum:g}") for name, optimum in status.optimum.items()]
         table = Table("recent score", *(Column(head, justify="right") for head in heads), box=None, padding=(0, 2))
         for group in status.groups[-MOST_ROWS:]:
             scores = [status.score(group, scenario) for scenario in status.optimum]
             table.add_row(Text(group), *("" if score is None else f"{score:.1f}" for score in scores))
+        return table
+
+    def _counts(self) -> Table:
+        status = self._status
+        heads = (Column(head, justify="right") for head in ("ended", "at the optimum"))
+        table = Table("trials", *heads, box=None, padding=(0, 2))
+        for group in status.groups[-MOST_ROWS:]:
+            ended, runs = status.ended(group)
+            table.add_row(Text(group), f"{ended} of {runs}", str(status.at_optimum(group)))
         return table

@@ -20,6 +20,7 @@ class ExperimentStatus:
         self._updates: dict[str, int] = {}
         self._updates_at_first: dict[str, int] = {}
         self._scores: dict[tuple[str, str], dict[int, float]] = {}
+        self._ended: set[str] = set()
         self.optimum: dict[str, float] = {}
         """Each scenario's highest score, in the order of the scenarios."""
         self.groups: list[str] = []
@@ -29,6 +30,7 @@ class ExperimentStatus:
             self.optimum.update({scenario.name: scenario.optimum for scenario in job.scenarios})
             if outcome:
                 self._episodes[job.name] = job.episodes
+                self._ended.add(job.name)
                 self._take(job, [run.evaluations[-1].score for run in outcome.runs])
         self.episodes_before = self.episodes
         """Episodes that were done before the first report."""
@@ -54,6 +56,7 @@ class ExperimentStatus:
         if isinstance(heard, JobEnded):
             if heard.finished:
                 self._episodes[job.name] = job.episodes
+                self._ended.add(job.name)
             return
         if job.name not in self._updates:
             self._updates_at_first[job.name] = heard.updates
@@ -66,6 +69,20 @@ class ExperimentStatus:
         """The mean of the last greedy scores of the runs that were evaluated."""
         scores = self._scores.get((group, scenario), {})
         return sum(scores.values()) / len(scores) if scores else None
+
+    def ended(self, group: str) -> tuple[int, int]:
+        """Of a group's runs, how many have ended, and how many there are."""
+        of_group = [(name, job.groups.count(group)) for name, job in self._jobs.items()]
+        return sum(runs for name, runs in of_group if name in self._ended), sum(runs for _, runs in of_group)
+
+    def at_optimum(self, group: str) -> int:
+        """How many of a group's runs were at their scenario's optimum in their last greedy episode."""
+        return sum(
+            score >= self.optimum[scenario]
+            for (own, scenario), scores in self._scores.items()
+            if own == group
+            for score in scores.values()
+        )
 
     def _take(self, job: Job, scores: Iterable[float | None]) -> None:
         self.groups = [group for group in self.groups if group not in job.groups] + list(dict.fromkeys(job.groups))

@@ -14,7 +14,7 @@ from pathlib import Path
 from types import FrameType
 
 from mc_nested.errors import UserError
-from mc_nested.learn.experiments.job_training import JobTraining
+from mc_nested.learn.experiments.job_training import JobTraining, Training, writing
 from mc_nested.learn.experiments.jobs import Job
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from sim.grid import GridVectorEnv
@@ -67,9 +67,9 @@ class _StopSignal:
 
 def _train(pipe: Connection, job: Job, folder: Path, stop: _StopSignal) -> JobEnded:
     try:
-        training = JobTraining(job, folder, GridVectorEnv(job.scenarios))
+        training = _training_of(job, folder)
         _tick_until_done(pipe, training, folder, stop)
-        if training.trainer.finished:
+        if training.finished:
             training.finish()
         else:
             training.save()
@@ -77,41 +77,51 @@ def _train(pipe: Connection, job: Job, folder: Path, stop: _StopSignal) -> JobEn
         return JobEnded(job.name, finished=False, failed=str(error))
     except MemoryError:
         return JobEnded(job.name, finished=False, failed="not enough memory: fewer --trials, or a smaller preset")
-    return JobEnded(job.name, finished=training.trainer.finished)
+    return JobEnded(job.name, finished=training.finished)
 
 
-def _events(training: JobTraining, folder: Path) -> TensorBoard | None:
-    if not is_installed():
+def _training_of(job: Job, folder: Path) -> Training:
+    arenas = GridVectorEnv(job.scenarios)
+    if job.library is None:
+        return JobTraining(job, folder, arenas)
+    from mc_nested.learn.experiments.sb3_training import Sb3Training  # only where the library is asked for
+
+    return Sb3Training(job, folder, arenas, GridVectorEnv(job.scenarios))
+
+
+def _events(training: Training, folder: Path) -> TensorBoard | None:
+    if not (isinstance(training, JobTraining) and is_installed()):
         return None
     job = training.job
     names = (
         re.sub(r"[^\w.-]+", "-", f"{group}-{scenario.name}-{trial}")
         for group, scenario, trial in zip(job.groups, job.scenarios, job.trials, strict=True)
     )
-    with training.writing():
+    with writing(folder):
         return TensorBoard([folder.parent.parent / FOLDER / name for name in names], training.trainer)
 
 
-def _tick_until_done(pipe: Connection, training: JobTraining, folder: Path, stop: _StopSignal) -> None:
+def _tick_until_done(pipe: Connection, training: Training, folder: Path, stop: _StopSignal) -> None:
     report_at = time.monotonic()
     events = _events(training, folder)
     scores: list[float | None] = [None] * len(training.job.trials)
     seen = 0
-    while not (training.trainer.finished or stop.came):
+    while True:
+        # Reported before the first tick and after the last, too: a job may be over before a report is due.
+        is_over = training.finished or stop.came
+        if is_over or time.monotonic() >= report_at:
+            report_at = time.monotonic() + REPORT_EVERY_S
+            rows = training.evaluation_rows
+            for row in rows[seen:]:
+                scores[row.trial] = row.score
+            seen = len(rows)
+            report = JobReport(training.job.name, training.episodes_done.tolist(), tuple(scores), training.updates)
+            if not _report(pipe, report) or is_over:
+                return
         training.tick()
         if events:
-            with training.writing():
+            with writing(folder):
                 events.write()
-        if time.monotonic() < report_at:
-            continue
-        report_at = time.monotonic() + REPORT_EVERY_S
-        rows = training.trainer.evaluation_rows
-        for row in rows[seen:]:
-            scores[row.trial] = row.score
-        seen = len(rows)
-        episodes = training.trainer.episodes_done.tolist()
-        if not _report(pipe, JobReport(training.job.name, episodes, tuple(scores), training.trainer.agent.updates)):
-            return
 
 
 def _report(pipe: Connection, report: JobReport) -> bool:

@@ -1,6 +1,7 @@
 """The one view of all that trains, on a terminal and where there is none."""
 
 import io
+from dataclasses import replace
 
 import pytest
 from rich.console import Console
@@ -41,3 +42,16 @@ def test_without_a_terminal_a_short_experiment_says_nothing() -> None:
     with ExperimentProgress("sweep", ExperimentStatus([(JOB, None)]), Console(file=log)) as progress:
         progress.watch(HALF)
     assert log.getvalue() == ""
+
+
+def test_of_many_designs_only_the_trials_are_counted() -> None:
+    scenarios = [replace(DOT, name=f"design {number}") for number in range(9)]
+    job = one_job("nested", scenarios, 1)
+    screen = io.StringIO()
+    console = Console(file=screen, force_terminal=True, width=80)
+    with ExperimentProgress("benchmark", ExperimentStatus([(job, None)]), console) as progress:
+        progress.watch(JobReport(job.name, [10] * 9, (11.0,) * 4 + (2.0,) * 5, updates=100))
+    shown = screen.getvalue()
+    assert "design 3" not in shown
+    for words in ("at the optimum", "0 of 9", " 4 "):
+        assert words in shown

@@ -49,3 +49,15 @@ def test_what_was_done_before_counts_as_done_and_not_as_speed() -> None:
     assert (status.episodes, status.episodes_before, status.updates) == (120, 120, 0)
     status.hear(JobReport(single.name, [11, 11, 11, 11], (None, None, None, None), updates=5300))
     assert (status.episodes, status.episodes_before, status.updates) == (124, 120, 300)
+
+
+def test_runs_that_have_ended_and_are_at_the_optimum_are_counted() -> None:
+    nested, single = two_jobs()
+    status = ExperimentStatus([(nested, outcome(11.0)), (single, None)])
+    # The dot's optimum is 11, the bar's 13: two trials on each.
+    assert (status.ended("nested"), status.at_optimum("nested")) == ((4, 4), 2)
+    assert (status.ended("single"), status.at_optimum("single")) == ((0, 4), 0)
+    status.hear(JobReport(single.name, [9, 9, 9, 9], (10.0, 11.0, 13.0, None), updates=1))
+    assert (status.ended("single"), status.at_optimum("single")) == ((0, 4), 2)
+    status.hear(JobEnded(single.name, finished=True))
+    assert status.ended("single") == (4, 4)

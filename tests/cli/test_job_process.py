@@ -99,3 +99,31 @@ def test_a_checkpoint_of_something_else_is_reported(pipe: tuple[Connection, Conn
     assert isinstance(ended, JobEnded)
     assert "belongs to another scenario, agent or preset" in ended.failed
     assert {path.name: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()} == saved
+
+
+def test_a_job_that_is_soon_over_is_reported_at_its_beginning_and_at_its_end(
+    pipe: tuple[Connection, Connection], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mc_nested.cli.job_process.REPORT_EVERY_S", 1e9)
+    ours, theirs = pipe
+    said: list[JobReport | JobEnded] = []
+
+    def parent() -> None:
+        ours.send((JOB, tmp_path))
+        while not (said and isinstance(said[-1], JobEnded)):
+            said.append(ours.recv())
+        ours.send(None)
+
+    thread = Thread(target=parent)
+    thread.start()
+    train_jobs(theirs)
+    thread.join()
+    first, last, ended = said
+    assert isinstance(first, JobReport)
+    assert isinstance(last, JobReport)
+    assert (list(first.episodes), tuple(first.scores), first.updates) == ([0, 0], (None, None), 0)
+    outcome = outcome_of(JOB, tmp_path)
+    assert outcome
+    assert list(last.scores) == [run.evaluations[-1].score for run in outcome.runs]
+    assert last.updates == sum(run.updates for run in outcome.runs)
+    assert ended == JobEnded(JOB.name, finished=True)

@@ -24,9 +24,9 @@ CONFIG, JOBS_FOLDER, STAMP = "config.toml", "units", "config.sha256"
 
 
 class ExperimentConfig(BaseModel, ABC):
-    """Everything needed to repeat an experiment; scenarios and preset are complete, no other file is needed.
+    """Everything needed to repeat an experiment; scenarios and presets are complete, no other file is needed.
 
-    ``jobs`` is the number of processes, which decides what trains as one batch, but not the results.
+    ``jobs`` is the number of processes, which may decide what trains as one batch, but not the results.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
@@ -35,6 +35,15 @@ class ExperimentConfig(BaseModel, ABC):
     trials: Annotated[int, Field(ge=1)]
     seed: Annotated[int, Field(ge=0)]
     jobs: Annotated[int, Field(ge=1)]
+
+    @abstractmethod
+    def cut(self) -> list[Job]:
+        """The jobs, in the order in which processes take them; ScenarioError or RunError if it can't be trained."""
+
+
+class OnePresetConfig(ExperimentConfig):
+    """An experiment around one preset, whose runs are cut into as few batches as keep every process at work."""
+
     preset_name: str
     preset: Preset
     scenarios: Annotated[list[ScenarioTable], Field(min_length=1)]
@@ -42,6 +51,9 @@ class ExperimentConfig(BaseModel, ABC):
     @abstractmethod
     def runs(self) -> list[Run]:
         """Every run; those that can train as one batch are adjacent."""
+
+    def cut(self) -> list[Job]:
+        return cut_into_jobs(self.runs(), self.jobs, self.seed)
 
     def loaded_scenarios(self) -> list[Scenario]:
         """The scenarios; RunError if two have the same name, ScenarioError if one can't be built."""
@@ -68,7 +80,7 @@ class ExperimentFolder(Generic[Config]):
         self.path = path
         self.config = config
         self.verb = verb
-        self.jobs = cut_into_jobs(config.runs(), config.jobs, config.seed)
+        self.jobs = config.cut()
 
     @classmethod
     def new(cls, path: Path, config: Config, verb: str) -> "ExperimentFolder[Config]":

@@ -2,20 +2,22 @@
 
 import shutil
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Int64s
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import Agent, view_of
+from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.evaluation import GreedyEpisode
 from mc_nested.learn.experiments.jobs import Job
 from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
@@ -33,6 +35,12 @@ class Evaluated(BaseModel):
     score: float
     material: str
     steps: int
+
+
+def evaluated(row: EvaluationRow, scenario: Scenario) -> Evaluated:
+    """What an outcome says about a greedy episode on that scenario."""
+    material = GreedyEpisode(row.material).material_name(scenario)
+    return Evaluated(episode=row.episode, score=row.score, material=material, steps=row.steps)
 
 
 class RunOutcome(BaseModel):
@@ -58,6 +66,44 @@ class JobOutcome(BaseModel):
     runs: list[RunOutcome]
 
 
+class Training(Protocol):
+    """A job that is trained in its folder, by whatever algorithm; each method raises RunError if the disk refuses."""
+
+    job: Job
+
+    @property
+    def finished(self) -> bool:
+        """Whether every run has ended: then ``finish`` is next."""
+        ...
+
+    @property
+    def episodes_done(self) -> Int64s:
+        """Training episodes completed, (runs,)."""
+        ...
+
+    @property
+    def evaluation_rows(self) -> Sequence[EvaluationRow]:
+        """The greedy episodes so far, of all runs."""
+        ...
+
+    @property
+    def updates(self) -> int:
+        """Updates of all networks so far."""
+        ...
+
+    def tick(self) -> None:
+        """A little of the training."""
+        ...
+
+    def save(self) -> None:
+        """Save what the rest of the training needs: after it, a new one of the same job and folder goes on."""
+        ...
+
+    def finish(self) -> None:
+        """Write the outcome, and leave nothing else."""
+        ...
+
+
 class JobTraining:
     """Trains a job in its folder, from where it was last saved.
 
@@ -71,7 +117,7 @@ class JobTraining:
         self.job = job
         agent = Agent(job.spec, job.scenarios, job.preset, job.seed, job.trials)
         view = view_of(job.spec, env, job.scenarios)
-        self.trainer = Trainer(view, job.scenarios, agent, job.preset, job.seed)
+        self.trainer = Trainer(view, job.scenarios, agent, job.preset, job.seed, job.stop_at_optimum)
         self._folder = folder
         self._checkpoint = Checkpoint(folder / "checkpoint", job.identity())
         self._seconds_before = 0.0
@@ -79,6 +125,22 @@ class JobTraining:
         if self._checkpoint.exists:
             self._checkpoint.load_into(self)
         self._saved_at = self.trainer.episodes_done.copy()
+
+    @property
+    def finished(self) -> bool:
+        return self.trainer.finished
+
+    @property
+    def episodes_done(self) -> Int64s:
+        return self.trainer.episodes_done
+
+    @property
+    def evaluation_rows(self) -> Sequence[EvaluationRow]:
+        return self.trainer.evaluation_rows
+
+    @property
+    def updates(self) -> int:
+        return self.trainer.agent.updates
 
     def tick(self) -> None:
         """One step of every run; saved if a run has trained for an evaluation interval since the last save.
@@ -91,7 +153,7 @@ class JobTraining:
 
     def save(self) -> None:
         """Save it as it is now; RunError as for ``tick``."""
-        with self.writing():
+        with writing(self._folder):
             self._checkpoint.save(self)
         self._saved_at = self.trainer.episodes_done.copy()
 
@@ -100,10 +162,8 @@ class JobTraining:
 
         RunError if the disk refuses.
         """
-        with self.writing():
-            self._folder.mkdir(parents=True, exist_ok=True)
-            with atomic_write(self._folder / OUTCOME) as unfinished:
-                unfinished.write_text(self._outcome().model_dump_json(), encoding="utf-8")
+        with writing(self._folder):
+            write_outcome(self._folder, self._outcome())
         shutil.rmtree(self._folder / "checkpoint", ignore_errors=True)
 
     def state(self) -> Arrays:
@@ -123,14 +183,6 @@ class JobTraining:
         self.trainer.load(state, journals)
         self._seconds_before = float(state["unit.seconds"][0])
 
-    @contextmanager
-    def writing(self) -> Iterator[None]:
-        """While something is written in the experiment's folder: RunError, one line if the disk refuses."""
-        try:
-            yield
-        except (OSError, RuntimeError) as error:  # torch raises a RuntimeError if it can't write
-            raise RunError(f"{self._folder}: can't be written ({error}): make room") from error
-
     def _seconds(self) -> float:
         return self._seconds_before + time.process_time() - self._began
 
@@ -138,10 +190,7 @@ class JobTraining:
         agent, runs = self.trainer.agent, len(self.job.trials)
         evaluations: list[list[Evaluated]] = [[] for _ in range(runs)]
         for row in self.trainer.evaluation_rows:
-            material = GreedyEpisode(row.material).material_name(self.job.scenarios[row.trial])
-            evaluations[row.trial].append(
-                Evaluated(episode=row.episode, score=row.score, material=material, steps=row.steps)
-            )
+            evaluations[row.trial].append(evaluated(row, self.job.scenarios[row.trial]))
         steps = np.zeros(runs, dtype=np.int64)
         for trained in self.trainer.episode_rows:
             steps[trained.trial] += trained.steps
@@ -168,6 +217,22 @@ def updates_by_run(agent: Agent) -> Int64s:
     runs = len(agent.runs)
     updates: Int64s = agent.low_level.ddqn.updates.reshape(runs, -1).sum(axis=1)
     return updates + (agent.main.ddqn.updates if agent.main else 0)
+
+
+@contextmanager
+def writing(folder: Path) -> Iterator[None]:
+    """While something is written in a job's folder: RunError, one line if the disk refuses."""
+    try:
+        yield
+    except (OSError, RuntimeError) as error:  # torch raises a RuntimeError if it can't write
+        raise RunError(f"{folder}: can't be written ({error}): make room") from error
+
+
+def write_outcome(folder: Path, outcome: JobOutcome) -> None:
+    """Write a finished job's outcome to its folder, atomically; OSError if the disk refuses."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with atomic_write(folder / OUTCOME) as unfinished:
+        unfinished.write_text(outcome.model_dump_json(), encoding="utf-8")
 
 
 def outcome_of(job: Job, folder: Path) -> JobOutcome | None:

@@ -35,7 +35,11 @@ class Run:
 
 @dataclass(frozen=True)
 class Job:
-    """Runs of one agent with one preset that train as one batch; where they differ there is a tuple (runs,)."""
+    """Runs of one agent with one preset that train as one batch; where they differ there is a tuple (runs,).
+
+    ``stop_at_optimum``: a run ends at its first greedy episode at its scenario's optimum. ``library``: whose algorithm
+    trains it, None for this project's.
+    """
 
     name: str
     spec: AgentSpec
@@ -44,6 +48,8 @@ class Job:
     scenarios: tuple[Scenario, ...]
     trials: tuple[int, ...]
     seed: int
+    stop_at_optimum: bool = False
+    library: str | None = None
 
     @property
     def episodes(self) -> int:
@@ -64,6 +70,9 @@ class Job:
             "scenarios": [table_of(scenario).model_dump() for scenario in self.scenarios],
             "trials": list(self.trials),
             "seed": self.seed,
+            # Left out where they are as they always were, so that earlier folders still fit.
+            **({"stop_at_optimum": True} if self.stop_at_optimum else {}),
+            **({"library": self.library} if self.library else {}),
         }
 
 

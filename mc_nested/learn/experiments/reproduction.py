@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import AfterValidator, Field
 
 from mc_nested.learn.agents import AGENT_SPECS
-from mc_nested.learn.experiments.experiment_folder import ExperimentConfig
+from mc_nested.learn.experiments.experiment_folder import OnePresetConfig
 from mc_nested.learn.experiments.jobs import Run
 from mc_nested.learn.preset import MOST, Preset
 
@@ -22,7 +22,7 @@ def _check_agents(names: list[str]) -> list[str]:
     return names
 
 
-class ReproduceConfig(ExperimentConfig):
+class ReproduceConfig(OnePresetConfig):
     """A repetition of the paper's experiment; claim (f) takes ``longer`` times the episodes, 0 for no such runs."""
 
     agents: Annotated[list[str], Field(min_length=1), AfterValidator(_check_agents)]

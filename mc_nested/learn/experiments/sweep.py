@@ -12,7 +12,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import LONGEST, scenario_of, table_of
 from mc_nested.errors import PresetError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS, AgentName, AgentSpec, check_exploration
-from mc_nested.learn.experiments.experiment_folder import ExperimentConfig
+from mc_nested.learn.experiments.experiment_folder import OnePresetConfig
 from mc_nested.learn.experiments.jobs import Run
 from mc_nested.learn.preset import Preset, parse_preset
 from mc_nested.toml_file import parse_toml
@@ -72,7 +72,7 @@ class _Variants(BaseModel):
     variants: list[Variant]
 
 
-class SweepConfig(ExperimentConfig):
+class SweepConfig(OnePresetConfig):
     """A sensitivity run: the variants, the base of each of their agents first."""
 
     variants: Annotated[list[Variant], Field(min_length=1)]

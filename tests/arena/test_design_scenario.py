@@ -1,0 +1,32 @@
+"""A scenario from a design alone: what it takes over, and its step limit."""
+
+from dataclasses import replace
+
+from mc_nested.arena.builder import build
+from mc_nested.arena.design_scenario import is_buildable, scenario_of_design
+from mc_nested.arena.scenario_file import load_scenario
+
+LINE = load_scenario("line")
+
+
+def test_a_design_that_is_quickly_built_has_the_shipped_designs_limit() -> None:
+    for name in ("line", "zigzag"):
+        shipped = load_scenario(name)
+        assert scenario_of_design(name, shipped.design, LINE) == shipped
+
+
+def test_a_long_way_has_half_as_many_steps_again_as_the_builder_takes() -> None:
+    far_apart = frozenset({(0, 1), (14, 1), (0, 14), (14, 14), (0, 7), (14, 7)})
+    scenario = scenario_of_design("far", far_apart, LINE)
+    assert scenario
+    steps = len(build(scenario))
+    assert steps > 40
+    assert 1.5 * steps <= scenario.step_limit < 1.5 * steps + 1
+    assert (scenario.start, scenario.materials) == (LINE.start, LINE.materials)
+
+
+def test_what_the_builder_can_not_build_is_none() -> None:
+    # No block can land on the near edge: the builder walks against the arena's edge, and places it elsewhere.
+    assert scenario_of_design("near", frozenset({(3, 0), (3, 1)}), LINE) is None
+    assert not is_buildable(replace(LINE, step_limit=10))
+    assert is_buildable(LINE)

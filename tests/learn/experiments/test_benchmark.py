@@ -1,0 +1,117 @@
+"""A benchmark's contestants and jobs, and what a design should take without a prior."""
+
+import itertools
+from pathlib import Path
+
+import pytest
+
+from mc_nested.arena.scenario_file import table_of
+from mc_nested.errors import RunError, UserError
+from mc_nested.learn.agents import AGENT_SPECS
+from mc_nested.learn.experiments.benchmark import (
+    AGENTS,
+    SB3,
+    BenchmarkConfig,
+    Contestant,
+    baseline,
+    contestants_of,
+    episodes_without_a_prior,
+    run_number,
+    trial_of,
+)
+from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
+from mc_nested.learn.experiments.job_training import JobTraining
+from mc_nested.learn.preset import load_preset
+from sim.grid import GridVectorEnv
+from tests.learn.made_experiments import BAR, DOT, small_preset
+
+PAPER, TUNED = ("paper", load_preset("paper")), ("tuned", load_preset("tuned"))
+
+
+def config(trials: int = 2, names: tuple[str, ...] = ("dot", "bar")) -> BenchmarkConfig:
+    tables = [
+        table_of(scenario).model_copy(update={"name": name}) for scenario, name in zip((DOT, BAR), names, strict=True)
+    ]
+    small = Contestant(agent="nested", preset_name="of/small.toml", preset=small_preset())
+    return BenchmarkConfig(trials=trials, seed=3, jobs=2, designs=tables, contestants=[small, baseline()])
+
+
+def test_jobs_come_design_by_design_and_sb3_trains_each_trial_alone() -> None:
+    jobs = config().cut()
+    found = [(job.groups[0], job.scenarios[0].name, [trial_of(run) for run in job.trials], job.library) for job in jobs]
+    assert found == [
+        ("nested, small", "dot", [0, 1], None),
+        ("sb3, dqn", "dot", [0], "stable-baselines3"),
+        ("sb3, dqn", "dot", [1], "stable-baselines3"),
+        ("nested, small", "bar", [0, 1], None),
+        ("sb3, dqn", "bar", [0], "stable-baselines3"),
+        ("sb3, dqn", "bar", [1], "stable-baselines3"),
+    ]
+    assert all(job.stop_at_optimum and len(set(job.scenarios)) == 1 for job in jobs)
+    assert len({job.name for job in jobs}) == len(jobs)
+    assert {job.spec for job in jobs if job.library} == {AGENT_SPECS["single"]}
+
+
+def test_every_design_has_random_numbers_of_its_own_whatever_the_number_of_trials() -> None:
+    runs = [(run_number(design, trial), trial) for design in range(1000) for trial in range(3)]
+    assert len({run for run, _ in runs}) == len(runs)
+    assert all(trial_of(run) == trial for run, trial in runs)
+    assert config(trials=1).cut()[2].trials == config(trials=2).cut()[3].trials[:1]
+
+
+def test_a_trial_ends_at_its_first_greedy_episode_at_the_optimum(tmp_path: Path) -> None:
+    job = config().cut()[0]
+    training = JobTraining(job, tmp_path, GridVectorEnv(job.scenarios))
+    training.trainer._optimum[:] = -1e9
+    while not training.finished:
+        training.tick()
+    assert training.episodes_done.tolist() == [5, 5]
+
+
+def test_a_folder_is_opened_with_the_same_jobs(tmp_path: Path) -> None:
+    folder = ExperimentFolder.new(tmp_path / "new", config(), "benchmark")
+    folder.begin()
+    again = ExperimentFolder.open(tmp_path / "new", BenchmarkConfig, "benchmark")
+    assert again.config == folder.config
+    assert again.jobs == folder.jobs
+
+
+def test_two_of_a_name_are_refused() -> None:
+    with pytest.raises(RunError, match="two designs are named 'dot'"):
+        config(names=("dot", "dot")).cut()
+    twice = config()
+    with pytest.raises(RunError, match="two contestants are named 'sb3, dqn'"):
+        twice.model_copy(update={"contestants": [*twice.contestants, baseline()]}).cut()
+
+
+def test_what_an_agent_can_not_take_is_left_out_with_a_line() -> None:
+    found, lines = contestants_of(["nested", "single", SB3], [TUNED, PAPER])
+    assert [each.name for each in found] == ["nested, tuned", "nested, paper", "single, paper", "sb3, dqn"]
+    assert len(lines) == 1
+    assert lines[0].startswith("single with tuned is left out: [excursions] are not for the single agent")
+
+
+def test_an_agent_that_can_take_nothing_is_refused() -> None:
+    with pytest.raises(UserError, match=r"^single can't take tuned: \[excursions\] are not for the single agent"):
+        contestants_of(["nested", "single"], [TUNED])
+
+
+def test_sb3_is_capped_and_explores_by_epsilon() -> None:
+    preset = baseline().preset
+    assert preset.episodes == 500
+    assert preset.explore_nested
+    assert preset.update == TUNED[1].update
+    assert preset.hidden == TUNED[1].hidden
+    assert set(AGENTS) == {"nested", "hierarchical", "single", SB3}
+
+
+@pytest.mark.parametrize(("blocks", "episodes"), [(11, 18.6), (16, 13.4), (210, 2.0)])
+def test_what_a_design_takes_without_a_prior(blocks: int, episodes: float) -> None:
+    assert episodes_without_a_prior(blocks) == pytest.approx(episodes, abs=0.05)
+
+
+def test_without_a_prior_is_the_expected_last_place_of_a_block_among_the_cells() -> None:
+    # Two blocks among the six cells of an arena of three by three: every pair equally likely.
+    pairs = list(itertools.combinations(range(1, 7), 2))
+    last_test = sum(max(pair) for pair in pairs) / len(pairs)
+    assert episodes_without_a_prior(2, size=3) == pytest.approx(last_test / 2 + 1)
