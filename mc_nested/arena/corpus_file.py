@@ -21,8 +21,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.design_scenario import scenario_of_design
-from mc_nested.arena.rules import SIZE
-from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.arena.scenario_file import BLOCK, FREE, Name
 from mc_nested.errors import ScenarioError
 from mc_nested.toml_file import parse_toml, read_toml_text
@@ -42,7 +41,7 @@ class _Corpus(BaseModel):
     designs: Annotated[list[_Drawing], Field(min_length=1, max_length=MOST_DESIGNS)]
 
 
-def load_corpus(path: Path, like: Scenario, size: int = SIZE) -> list[Scenario]:
+def load_corpus(path: Path, like: Scenario, size: int = DEFAULT_SIZE) -> list[Scenario]:
     """The file's designs as scenarios, in their order; start cell and materials are those of ``like``.
 
     ScenarioError, one line that names the file and the design, if one can't be used.
@@ -50,7 +49,7 @@ def load_corpus(path: Path, like: Scenario, size: int = SIZE) -> list[Scenario]:
     return parse_corpus(read_toml_text(path, ScenarioError), str(path), like, size)
 
 
-def parse_corpus(text: str, source: str, like: Scenario, size: int = SIZE) -> list[Scenario]:
+def parse_corpus(text: str, source: str, like: Scenario, size: int = DEFAULT_SIZE) -> list[Scenario]:
     """The designs of a TOML text; ``source`` names it in errors."""
     drawings = parse_toml(_Corpus, text, source, ScenarioError).designs
     names = [drawing.name for drawing in drawings]

@@ -33,8 +33,8 @@ def is_buildable(scenario: Scenario) -> bool:
     placed: set[Cell] = set()
     actions = build(scenario)
     for action in actions:
-        cell = moved(cell, action, placed)
-        block = landing(cell, action, placed)
+        cell = moved(cell, action, placed, scenario.size)
+        block = landing(cell, action, placed, scenario.size)
         if block is not None:
             placed.add(block)
     return placed == scenario.design and len(actions) <= scenario.step_limit

@@ -10,8 +10,7 @@ import numpy as np
 from mc_nested.arena.action import Cell
 from mc_nested.arena.design_kind import BESIDE, CORNER, DIAGONAL, EDGE, KINDS, kind_of_design, neighbours
 from mc_nested.arena.design_scenario import scenario_of_design
-from mc_nested.arena.rules import SIZE
-from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 
 FEWEST_BLOCKS, MOST_BLOCKS = 5, 20
 
@@ -19,7 +18,7 @@ GROWS_BY = {EDGE: BESIDE, CORNER: DIAGONAL}
 """Where the next block of a design that grows may stand, beside any of its blocks; scattered blocks stand anywhere."""
 
 
-def random_scenario(seed: int, number: int, like: Scenario, size: int = SIZE) -> Scenario:
+def random_scenario(seed: int, number: int, like: Scenario, size: int = DEFAULT_SIZE) -> Scenario:
     """Design ``number`` of that seed; start cell and materials are those of ``like``.
 
     Drawn again until it is of its kind, and the scripted builder builds it within its step limit.
@@ -33,7 +32,7 @@ def random_scenario(seed: int, number: int, like: Scenario, size: int = SIZE) ->
             return scenario
 
 
-def draw_design(kind: str, random: np.random.Generator, size: int = SIZE) -> frozenset[Cell]:
+def draw_design(kind: str, random: np.random.Generator, size: int = DEFAULT_SIZE) -> frozenset[Cell]:
     """Blocks of that kind, but scattered ones may touch by chance; none on the near edge, where none can land."""
     blocks = int(random.integers(FEWEST_BLOCKS, MOST_BLOCKS + 1))
     cells = [(x, y) for x in range(size) for y in range(1, size)]

@@ -157,7 +157,7 @@ def benchmark_of(config: BenchmarkConfig, outcomes: Outcomes) -> Benchmark:
                 optimum=scenario.optimum,
                 best_score=max(score for _, score in scores),
                 played_to_optimum=played_to_optimum(scores, scenario.optimum),
-                without_a_prior=round(episodes_without_a_prior(scenario.blocks), 2),
+                without_a_prior=round(episodes_without_a_prior(scenario.blocks, scenario.size), 2),
                 updates=run.updates,
             )
             seconds[group].append(outcome.seconds / len(outcome.runs))

@@ -8,8 +8,7 @@ from typing import Annotated
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from mc_nested.arena.corpus_file import MOST_DESIGNS
-from mc_nested.arena.rules import SIZE
-from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
 from mc_nested.errors import PresetError, RunError, UserError
 from mc_nested.learn.agents import AGENT_SPECS, check_exploration
@@ -141,7 +140,7 @@ def _reason_against(agent: str, preset: Preset) -> str:
     return ""
 
 
-def episodes_without_a_prior(blocks: int, size: int = SIZE) -> float:
+def episodes_without_a_prior(blocks: int, size: int = DEFAULT_SIZE) -> float:
     """How many episodes a design of so many blocks should take if no cell is likelier than another.
 
     The blocks stand on n of the N = size x (size - 1) cells where one can land. Tested in any order, the last of them
