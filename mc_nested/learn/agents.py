@@ -24,6 +24,7 @@ from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.networks import Sizes, parameter_count
 from mc_nested.learn.dqn.replay import ReplayMark
 from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.imagination.imagination import Imagination, Surroundings
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.state_dict import named_for, part_of
@@ -55,8 +56,11 @@ AGENT_SPECS: Mapping[str, AgentSpec] = {
 
 def check_exploration(spec: AgentSpec, preset: Preset) -> None:
     """PresetError if the preset explores in a way that the spec can't."""
-    if preset.excursions and not spec.has_main:  # its choice of a material is a step like any other
-        raise PresetError("[excursions] are not for the single agent: take nested or hierarchical, or the preset paper")
+    if spec.has_main:
+        return
+    for name, table in (("[excursions]", preset.excursions), ("[imagination]", preset.imagination)):
+        if table:  # its choice of a material is a step like any other
+            raise PresetError(f"{name} is not for the single agent: take nested or hierarchical, or the preset paper")
 
 
 def _known(name: str) -> str:
@@ -132,6 +136,19 @@ class Agent:
         """The low-level agents' ε-greedy actions in every run, (runs,)."""
         rows = None if self._low_levels == 1 else self.low_level_rows(np.arange(len(states)), materials)
         return self.low_level.act(states, epsilon, uniforms, rows)
+
+    def imagination(self, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> Imagination | None:
+        """The learnt games of its runs, one scenario a run; None if the preset has no [imagination].
+
+        Of a scenario it gets what every reset shows, and how large the arena and how long an episode is.
+        """
+        if preset.imagination is None or self.main is None:
+            return None
+        known = [
+            Surroundings(scenario.start_state, scenario.size, scenario.step_limit, len(scenario.materials))
+            for scenario in scenarios
+        ]
+        return Imagination(self.main, self.low_level, known, preset, preset.imagination, seed, self.runs)
 
     @property
     def sizes(self) -> dict[str, Sizes]:

@@ -2,11 +2,23 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any, Protocol
+
+from numpy.typing import NDArray
 
 from mc_nested.arrays import Arrays
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.replay import ReplayMark
-from mc_nested.learn.exploration.batched_return_then_explore import BatchedReturnThenExplore
+
+
+class Recorder(Protocol):
+    """What remembers past episodes beside the replays: an explorer, an imagination."""
+
+    def state(self) -> Arrays:
+        """Everything that later steps depend on, by name."""
+
+    def load(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Continue from what ``state`` returned."""
 
 
 @dataclass(frozen=True)
@@ -14,20 +26,20 @@ class EpisodeRollback:
     """Copies of the networks and of what else updates depend on, and the replays' marks."""
 
     agent: Arrays
-    explorer: Arrays
+    recorders: Mapping[str, Arrays]
     marks: Mapping[str, ReplayMark]
 
     @classmethod
-    def of(cls, agent: Agent, explorer: BatchedReturnThenExplore | None) -> "EpisodeRollback":
+    def of(cls, agent: Agent, recorders: Mapping[str, Recorder]) -> "EpisodeRollback":
         """A copy of their state now."""
-        return cls(_copied(agent.state()), _copied(explorer.state() if explorer else {}), agent.mark())
+        return cls(_copied(agent.state()), {k: _copied(part.state()) for k, part in recorders.items()}, agent.mark())
 
-    def restore(self, agent: Agent, explorer: BatchedReturnThenExplore | None) -> None:
+    def restore(self, agent: Agent, recorders: Mapping[str, Recorder]) -> None:
         """Put them back into that state."""
         agent.load(self.agent)
         agent.take_back(self.marks)
-        if explorer:
-            explorer.load(self.explorer)
+        for name, recorder in recorders.items():
+            recorder.load(self.recorders[name])
 
 
 def _copied(arrays: Arrays) -> Arrays:

@@ -82,9 +82,30 @@ class MainUpdates(_Table):
     updates_an_episode: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)]
 
 
+class ImaginationRule(_Table):
+    """Practice in the learnt game between real episodes (imagination/), instead of exploring the real one by chance.
+
+    An imagined episode has an ε of its own, between the two. A practice ends when the greedy policy scores ``enough``
+    of the best that is imaginable while cells are still to be found, or all of it afterwards; or after so many updates.
+    """
+
+    highest_epsilon: Share
+    lowest_epsilon: Share
+    enough: Share
+    updates_exploring: Count
+    updates_building: Count
+
+    @model_validator(mode="after")
+    def _check_order(self) -> "ImaginationRule":
+        if self.lowest_epsilon > self.highest_epsilon:
+            raise ValueError("[imagination] lowest_epsilon is above highest_epsilon: swap them")
+        return self
+
+
 class Preset(_Table):
     """A training's hyper-parameters; ``paper`` is README's table.
 
+    With ``imagination`` it is played without ε, and ``replay_capacity`` isn't used.
     Without ``main``, the main agent learns as the paper's: by one update an episode, from [update] ``learning_starts``
     transitions on, of which it has one an episode.
     """
@@ -94,22 +115,24 @@ class Preset(_Table):
     hidden: Annotated[list[Annotated[int, Field(ge=1, le=WIDEST)]], Field(min_length=1, max_length=DEEPEST)]
     replay_capacity: Count
     update: Update
-    encoding: Literal["scaled", "one-hot"] = "scaled"
+    encoding: Literal["scaled", "one-hot", "cell"] = "scaled"
     updates_a_step: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)] = 1
     keep: Literal["last", "best"] = "last"
-    explore_main: Exploration
+    explore_main: Exploration | None = None
     explore_nested: Exploration | None = None
     excursions: ExcursionRule | None = None
     imitation: Imitation | None = None
     prioritized: Prioritized | None = None
     main: MainUpdates | None = None
+    imagination: ImaginationRule | None = None
 
     @model_serializer(mode="wrap")
     def _dumped(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """What was saved before there was ``main`` keeps its identity: without it, it isn't named."""
+        """What was saved before there were these tables keeps its identity: without one, it isn't named."""
         dumped: dict[str, Any] = dump(self)
-        if self.main is None:
-            dumped.pop("main", None)
+        for later in ("main", "imagination"):
+            if getattr(self, later) is None:
+                dumped.pop(later, None)
         return dumped
 
     def for_main(self) -> "Preset":
@@ -121,8 +144,15 @@ class Preset(_Table):
 
     @model_validator(mode="after")
     def _check_exploration(self) -> "Preset":
-        if (self.explore_nested is None) == (self.excursions is None):
-            raise ValueError("name one way to explore: [explore_nested] or [excursions]")
+        ways = [way is not None for way in (self.explore_nested, self.excursions, self.imagination)]
+        if sum(ways) != 1:
+            raise ValueError("name one way to explore: [explore_nested], [excursions] or [imagination]")
+        if (self.explore_main is None) != (self.imagination is not None):
+            raise ValueError("[explore_main] goes with [explore_nested] or [excursions], and not with [imagination]")
+        if (self.imagination is not None) != (self.encoding == "cell") or (self.imagination and len(self.hidden) < 2):
+            raise ValueError('[imagination] takes encoding "cell", which only it can, and two hidden layers or more')
+        if self.imagination and (self.prioritized or self.main):
+            raise ValueError("[imagination] has its own replay and lessons: leave out [prioritized] and [main]")
         if self.imitation and not self.excursions:
             raise ValueError("[imitation] needs a best episode: add [excursions], or leave it out")
         if self.imitation and self.imitation.batch > self.update.batch:

@@ -12,8 +12,8 @@ from mc_nested.arrays import Float64s
 TICKS_A_CHUNK = 256
 """Ticks whose numbers are drawn at once; another value changes the numbers of every seed."""
 
-INITIAL, TICKS, MAIN_UPDATES = 0, 1, 2
-"""What a stream is for: a run's initial parameters, its ticks, or its main agent's updates after an episode."""
+INITIAL, TICKS, MAIN_UPDATES, PRACTICE = 0, 1, 2, 3
+"""What a stream is for: initial parameters, ticks, the main agent's updates after an episode, practice before one."""
 
 
 def initial_stream(seed: int, run: int) -> np.random.Generator:
@@ -24,6 +24,11 @@ def initial_stream(seed: int, run: int) -> np.random.Generator:
 def main_updates_stream(seed: int, run: int, tick: int) -> np.random.Generator:
     """The generator of the main agent's batches after the episode of that run that ended at that tick."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, MAIN_UPDATES, tick))))
+
+
+def practice_stream(seed: int, run: int, episode: int) -> np.random.Generator:
+    """The generator of that run's practice before its episode of that number."""
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, PRACTICE, episode))))
 
 
 class Streams:

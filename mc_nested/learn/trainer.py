@@ -23,13 +23,16 @@ from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.agents import Agent, chosen_materials
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
-from mc_nested.learn.episode_rollback import EpisodeRollback
+from mc_nested.learn.episode_rollback import EpisodeRollback, Recorder
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
 from mc_nested.learn.exploration.schedules import LinearDecay
 from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.preset import Exploration, Preset
 from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import Streams, main_updates_stream
+
+NEVER = LinearDecay(0.0, 0.0, 1.0)
+"""ε where every real episode is the greedy policy's: exploration follows from the imagination."""
 
 EXCURSIONS_ONLY = LinearDecay(1.0, 1.0, 1.0)
 """The nested agent's ε if every training episode is an excursion: no step is the greedy policy's."""
@@ -84,9 +87,11 @@ class Trainer:
         self._stop_at_optimum = stop_at_optimum
         self._optimum = np.array([scenario.optimum for scenario in scenarios])
         self._start = np.array([scenario.start_state for scenario in scenarios])
-        self._explore_main = _decay(preset.explore_main)
-        self._explore_nested = _decay(preset.explore_nested) if preset.explore_nested else EXCURSIONS_ONLY
+        self._explore_main = _decay(preset.explore_main) if preset.explore_main else NEVER
+        without = EXCURSIONS_ONLY if preset.excursions else NEVER
+        self._explore_nested = _decay(preset.explore_nested) if preset.explore_nested else without
         self._explorer = BatchedReturnThenExplore(preset.excursions, agent) if preset.excursions else None
+        self._imagination = agent.imagination(scenarios, preset, seed)
         self._kept = {role: online.copy() for role, online in agent.online().items()}
         self._kept_scores = np.full(runs, -np.inf)
         batch, exploring = preset.update.batch, NUMBERS if preset.excursions else 0
@@ -105,6 +110,12 @@ class Trainer:
             evaluating=np.zeros(runs, dtype=np.bool_),
             finished=np.zeros(runs, dtype=np.bool_),
         )
+
+    @property
+    def _recorders(self) -> dict[str, Recorder]:
+        """What remembers past episodes beside the replays, by its name in a checkpoint."""
+        parts = {"scouts": self._explorer, "imagination": self._imagination}
+        return {name: part for name, part in parts.items() if part is not None}
 
     @property
     def finished(self) -> bool:
@@ -160,9 +171,46 @@ class Trainer:
         rows = np.flatnonzero(training)
         if self._explorer:
             actions[rows] = self._explorer.act(rows, runs.observations, exploring)
+        if self._imagination:
+            actions[rows] = self._imagination.act(rows, actions)
         observations, rewards, terminated, truncated, info = self._env.step(actions)
-        next_states = self.agent.low_level_states(observations, runs.materials)
+        if self._imagination:
+            active = np.flatnonzero(~runs.finished)
+            self._imagination.observe(active, runs.observations, runs.materials, actions, rewards, observations)
+        else:
+            self._learn(rows, states, actions, rewards, observations, terminated, nested_draws)
 
+        runs.observations = observations
+        if self.agent.main is None:
+            runs.materials = chosen_materials(observations)
+        runs.steps_in_episode += ~runs.finished
+        self.env_steps += int(training.sum())
+        self.evaluation_steps += int((runs.evaluating & ~runs.finished).sum())
+        ended = (terminated | truncated) & ~runs.finished
+        if ended.any():
+            if self._explorer:
+                over = np.flatnonzero(ended)
+                self._explorer.end(over, self.agent.low_level_rows(over, runs.materials))
+            if self._imagination:
+                self._imagination.end(np.flatnonzero(ended), runs.materials, info["score"])
+            self._end_training_episodes(np.flatnonzero(ended & training), info["score"], main_draws)
+            self._end_evaluations(np.flatnonzero(ended & runs.evaluating), info["score"])
+            runs.between_episodes |= ended
+        self.ticks += 1
+
+    def _learn(
+        self,
+        rows: Int64s,
+        states: Int64s,
+        actions: Int64s,
+        rewards: Float64s,
+        observations: Int64s,
+        terminated: Bools,
+        draws: Float64s,
+    ) -> None:
+        """Store the step of the named runs, observe it, and update from the replay; every array is of all runs."""
+        runs, preset = self._runs, self.preset
+        next_states = self.agent.low_level_states(observations, runs.materials)
         learners = self.agent.low_level_rows(rows, runs.materials)
         seen = states[rows], actions[rows], rewards[rows], next_states[rows], terminated[rows]
         self.agent.low_level.store(learners, *seen)
@@ -170,25 +218,9 @@ class Trainer:
             active = np.flatnonzero(~runs.finished)
             before, seen_after = runs.observations[active], (rewards[active], next_states[active], terminated[active])
             self._explorer.observe(active, before, states[active], actions[active], *seen_after)
-        draws = nested_draws[rows].reshape(len(rows), self.preset.updates_a_step, self.preset.update.batch)
-        for update in range(self.preset.updates_a_step):
-            self.agent.low_level.learn(learners, draws[:, update])
-
-        runs.observations = observations
-        if self.agent.main is None:
-            runs.materials = chosen_materials(observations)
-        runs.steps_in_episode += ~runs.finished
-        self.env_steps += len(rows)
-        self.evaluation_steps += int((runs.evaluating & ~runs.finished).sum())
-        ended = (terminated | truncated) & ~runs.finished
-        if ended.any():
-            if self._explorer:
-                over = np.flatnonzero(ended)
-                self._explorer.end(over, self.agent.low_level_rows(over, runs.materials))
-            self._end_training_episodes(np.flatnonzero(ended & training), info["score"], main_draws)
-            self._end_evaluations(np.flatnonzero(ended & runs.evaluating), info["score"])
-            runs.between_episodes |= ended
-        self.ticks += 1
+        of_rows = draws[rows].reshape(len(rows), preset.updates_a_step, preset.update.batch)
+        for update in range(preset.updates_a_step):
+            self.agent.low_level.learn(learners, of_rows[:, update])
 
     def abandon_episodes(self) -> None:
         """Start every unfinished episode over: its env is gone or in an unknown state.
@@ -196,7 +228,7 @@ class Trainer:
         With a single arena, what was learned in its episode is undone: nothing is learned from a mishap.
         """
         if self._rollback and not self._runs.between_episodes.all():
-            self._rollback.restore(self.agent, self._explorer)
+            self._rollback.restore(self.agent, self._recorders)
         self._runs.between_episodes[:] = True
 
     def state(self) -> Arrays:
@@ -207,7 +239,7 @@ class Trainer:
             **named_for("env", self._resumable.snapshot() if self._resumable else {}),
             **named_for("agent", self.agent.state()),
             **named_for("kept", self.kept),
-            **named_for("scouts", self._explorer.state() if self._explorer else {}),
+            **{k: v for name, part in self._recorders.items() for k, v in named_for(name, part.state()).items()},
         }
 
     def marks(self) -> Arrays:
@@ -232,8 +264,8 @@ class Trainer:
         self.agent.load(part_of(state, "agent"))
         for name, kept in self.kept.items():
             kept[:] = state[f"kept.{name}"]
-        if self._explorer:
-            self._explorer.load(part_of(state, "scouts"))
+        for name, recorder in self._recorders.items():
+            recorder.load(part_of(state, name))
         for journal in journals:
             self.episode_rows += rows_of_table(journal["rows.episodes"], EpisodeRow)
             self.evaluation_rows += rows_of_table(journal["rows.evaluations"], EvaluationRow)
@@ -252,14 +284,24 @@ class Trainer:
         due = (runs.episodes % self.preset.evaluate_every == 0) | (runs.episodes >= self.preset.episodes)
         runs.evaluating = np.where(begins, due & (runs.episodes > runs.evaluated_at), runs.evaluating)
         epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
+        rows = np.flatnonzero(begins)
+        if self._imagination:
+            for run in map(int, rows):
+                self._imagination.learn_choice(run)
         if self.agent.main:
-            rows = np.flatnonzero(begins)
             runs.materials[rows] = self.agent.main.act(self._start[rows], epsilon[rows], choice[rows], rows)
+        if self._imagination:
+            for run in map(int, rows):
+                builds_it_all = self._imagination.practise(run, int(runs.materials[run]))
+                past_the_last = runs.episodes[run] >= self.preset.episodes
+                runs.evaluating[run] = (builds_it_all and runs.episodes[run] > runs.evaluated_at[run]) or past_the_last
         runs.observations, _ = self._env.reset(options={"reset_mask": begins, "material": runs.materials})
         if len(begins) == 1 and self._resumable is None:
-            self._rollback = EpisodeRollback.of(self.agent, self._explorer)
+            self._rollback = EpisodeRollback.of(self.agent, self._recorders)
         if self._explorer:
-            self._explorer.begin(np.flatnonzero(begins), exploring)
+            self._explorer.begin(rows, exploring)
+        if self._imagination:
+            self._imagination.begin(rows)
         runs.steps_in_episode[begins] = 0
         runs.between_episodes &= ~begins
 
@@ -281,7 +323,7 @@ class Trainer:
                     float(epsilon_nested[run]),
                 )
             )
-        if not self.agent.main:
+        if not self.agent.main or self._imagination:
             return
         # The main agent has one transition per episode: after its choice there is nothing left to decide.
         ended, start, after = np.ones(len(rows), dtype=np.bool_), self._start[rows], runs.observations[rows]

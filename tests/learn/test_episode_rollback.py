@@ -27,12 +27,12 @@ def test_what_an_episode_taught_is_undone() -> None:
     agent = Agent(AGENT_SPECS["nested"], [DOT], small_preset(), 0)
     explorer = BatchedReturnThenExplore(RULE, agent)
     play(agent, explorer, 5)
-    before = EpisodeRollback.of(agent, explorer)
+    before = EpisodeRollback.of(agent, {"scouts": explorer})
     kept = {name: array.copy() for name, array in {**agent.state(), **explorer.state()}.items()}
     play(agent, explorer, 3)
     assert agent.low_level.replay.added.tolist() == [8]
     assert not np.array_equal(agent.low_level.ddqn.online, kept["low.online"])
-    before.restore(agent, explorer)
+    before.restore(agent, {"scouts": explorer})
     assert agent.low_level.replay.added.tolist() == [5]
     for name, array in {**agent.state(), **explorer.state()}.items():
         np.testing.assert_array_equal(array, kept[name], err_msg=name)
@@ -40,8 +40,8 @@ def test_what_an_episode_taught_is_undone() -> None:
 
 def test_without_exploration_the_agent_alone_is_restored() -> None:
     agent = Agent(AGENT_SPECS["nested"], [DOT], small_preset(), 0)
-    before, online = EpisodeRollback.of(agent, None), agent.low_level.ddqn.online.copy()
+    before, online = EpisodeRollback.of(agent, {}), agent.low_level.ddqn.online.copy()
     play(agent, BatchedReturnThenExplore(RULE, agent), 4)
-    before.restore(agent, None)
+    before.restore(agent, {})
     np.testing.assert_array_equal(agent.low_level.ddqn.online, online)
     assert agent.low_level.replay.added.tolist() == [0]

@@ -160,16 +160,26 @@ class DDQN:
             estimates,
         )
         if not finite:
-            raise DivergedError(
-                f"learning_rate {self.rule.learning_rate:g} is too high: after {self.updates[rows].max()} updates the "
-                f"networks hold what is no number: lower it in the preset's [update], and train again"
-            )
+            raise self._diverged(rows)
         self._last_values[rows], self._last_errors[rows] = estimates
         due = rows[self.updates[rows] % self.rule.target_period == 0]
         if len(due):
             self.target[due] = self.online[due]
             self._target_values.renew(due, self.target[due])
         return estimates.errors
+
+    def row(self, row: int) -> tuple[Float32s, Float32s, Float32s, Float32s, Int64s]:
+        """One row's online and target network, Adam's moments, (parameters,) each, and its updates (1,): no copies.
+
+        For what updates them itself.
+        """
+        moments = self._first_moment[row], self._second_moment[row]
+        return self.online[row], self.target[row], *moments, self.updates[row : row + 1]
+
+    def check_finite(self, row: int) -> None:
+        """DivergedError if a parameter of that row's online network is no number."""
+        if not np.isfinite(self.online[row]).all():
+            raise self._diverged(np.array([row]))
 
     def last_loss(self) -> Float32s:
         """The mean Huber loss of each row's last update, (rows,); nan before the first."""
@@ -182,6 +192,12 @@ class DDQN:
         """The mean value, Q(s, a), of the transitions of each row's last update, (rows,); nan before the first."""
         mean: Float32s = self._last_values.mean(axis=1)
         return mean
+
+    def _diverged(self, rows: Int64s) -> DivergedError:
+        return DivergedError(
+            f"learning_rate {self.rule.learning_rate:g} is too high: after {self.updates[rows].max()} updates the "
+            f"networks hold what is no number: lower it in the preset's [update], and train again"
+        )
 
     def state(self) -> dict[str, NDArray[Any]]:
         """What the next update depends on, by name."""

@@ -16,11 +16,14 @@ class StateSpace:
     """What the rows of a learner see and do.
 
     ``table`` (…, inputs + 1) has a row of features for each state of each kind of learner, each ending in a 1.
+    ``cells`` is how many pairs (x, y) of the first two integers there are; ``strides`` (width,) is what each integer
+    counts for in a state's index.
 
     Args:
         highest: the highest value of each integer of a state, (rows, width); the lowest is 0.
         actions: how many actions there are.
-        encoding: how a network sees a state: each integer ``scaled`` to [-1, 1], or ``one-hot``.
+        encoding: how a network sees a state: each integer ``scaled`` to [-1, 1]; each ``one-hot``; or an input for each
+            ``cell`` (x, y), the other integers scaled.
     """
 
     def __init__(self, highest: Int64s, actions: int, encoding: str = "scaled") -> None:
@@ -28,18 +31,19 @@ class StateSpace:
         self.rows = len(highest)
         radix = highest.max(axis=0) + 1
         self.count = int(radix.prod())
-        self._strides = np.append(radix[:0:-1].cumprod()[::-1], 1)
+        self.strides = np.append(radix[:0:-1].cumprod()[::-1], 1)
         every = np.stack(np.unravel_index(np.arange(self.count), radix), axis=1)
         kinds, kind_of = np.unique(highest, axis=0, return_inverse=True)
-        self.table = np.concatenate(
-            [scaled(every, kind) if encoding == "scaled" else one_hot(every, radix) for kind in kinds]
-        )
+        self.cells = int(radix[:2].prod())
+        encode = {"scaled": lambda kind: scaled(every, kind), "one-hot": lambda _: one_hot(every, radix)}
+        encode["cell"] = lambda kind: one_hot_cell(every, radix, kind)
+        self.table = np.concatenate([encode[encoding](kind) for kind in kinds])
         self.inputs = self.table.shape[1] - 1
         self._first = kind_of.reshape(-1) * self.count
 
     def index(self, states: Integers) -> Int64s:
         """The index (…) of each state (…, width)."""
-        indices: Int64s = np.einsum("...w,w->...", states, self._strides)
+        indices: Int64s = np.einsum("...w,w->...", states, self.strides)
         return indices
 
     def network(self, hidden: Sequence[int]) -> Sizes:
@@ -69,3 +73,9 @@ def one_hot(states: Integers, radix: Int64s) -> Float32s:
     """Each integer of the states (…, width) as a 1 among as many numbers as it has values, followed by a 1."""
     parts = [np.eye(values, dtype=np.float32)[states[..., part]] for part, values in enumerate(radix)]
     return np.concatenate((*parts, np.ones((*states.shape[:-1], 1), np.float32)), axis=-1)
+
+
+def one_hot_cell(states: Integers, radix: Int64s, highest: Int64s) -> Float32s:
+    """The first two integers of the states (…, width) as a 1 among all their pairs, the others scaled, then a 1."""
+    cells = np.eye(int(radix[:2].prod()), dtype=np.float32)[states[..., 0] * radix[1] + states[..., 1]]
+    return np.concatenate((cells, scaled(states[..., 2:], highest[2:])), axis=-1)

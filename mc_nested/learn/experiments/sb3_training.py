@@ -10,6 +10,7 @@ import numpy as np
 from gymnasium.vector import VectorEnv
 
 from mc_nested.arrays import Int64s
+from mc_nested.errors import PresetError
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.experiments.job_training import JobOutcome, RunOutcome, evaluated, write_outcome, writing
 from mc_nested.learn.experiments.jobs import Job
@@ -62,6 +63,8 @@ class Sb3Training:
     ) -> None:
         (scenario,), (run,), preset = job.scenarios, job.trials, job.preset
         explore = preset.explore_nested or preset.explore_main
+        if explore is None:
+            raise PresetError("a library's DQN explores by ε: name a preset with [explore_nested]")
         self.job = job
         self.evaluation_rows: list[EvaluationRow] = []
         self._began = time.process_time()

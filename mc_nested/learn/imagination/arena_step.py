@@ -1,0 +1,75 @@
+"""One action in the learnt game, compiled: where it leads, and where its block lands.
+
+The arena is flat, with a border of solid cells as wide as any learnt move is long, so that nothing has to test for the
+edge, and one index names a cell.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mc_nested.arena.action import Cell
+from mc_nested.arrays import Bools, Float32s, Int64s
+from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.learn.imagination.beliefs import Beliefs
+from mc_nested.learn.imagination.learnt_rules import LearntRules
+
+NOWHERE = 0
+"""Where a block landed that didn't: a corner of the border."""
+
+
+class ImaginedArena(NamedTuple):
+    """The learnt game as flat arrays of cells, the border included.
+
+    ``moves`` (actions,) and ``lands`` are differences of indices, ``places`` (actions,) says which actions place a
+    block. ``empty`` is the arena before the first block, True where nobody can go; ``pay`` what is imagined to be paid.
+    """
+
+    moves: Int64s
+    places: Bools
+    lands: int
+    empty: Bools
+    pay: Float32s
+    side: int
+    border: int
+
+
+def imagined_arena(rules: LearntRules, beliefs: Beliefs) -> ImaginedArena:
+    """The learnt game of these rules and beliefs."""
+    size = len(beliefs.pay)
+    border = int(max(np.abs(rules.moves).max(initial=1), *np.abs(rules.lands)))
+    side = size + 2 * border
+    strides = np.array([side, 1])
+    return ImaginedArena(
+        moves=rules.moves @ strides,
+        places=rules.places,
+        lands=int(np.array(rules.lands) @ strides),
+        empty=np.pad(np.zeros((size, size), dtype=np.bool_), border, constant_values=True).ravel(),
+        pay=np.pad(beliefs.pay, border).ravel(),
+        side=side,
+        border=border,
+    )
+
+
+def index_of(cell: Cell, arena: ImaginedArena) -> int:
+    """The index of a cell."""
+    return (cell[0] + arena.border) * arena.side + cell[1] + arena.border
+
+
+def cell_at(index: int, arena: ImaginedArena) -> Cell:
+    """The cell of an index."""
+    x, y = divmod(index, arena.side)
+    return x - arena.border, y - arena.border
+
+
+@compiled(nogil=True)
+def step(arena: ImaginedArena, position: int, action: int, solid: Bools) -> tuple[int, int]:
+    """Do the action: where the agent is then, and where a block landed, or NOWHERE; ``solid`` gets that block."""
+    ahead = position + arena.moves[action]
+    if not solid[ahead]:
+        position = ahead
+    block = position + arena.lands
+    if not arena.places[action] or solid[block]:
+        return position, NOWHERE
+    solid[block] = True
+    return position, block

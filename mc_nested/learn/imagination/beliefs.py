@@ -1,0 +1,87 @@
+"""Where a block pays, as far as is known, and what is taken optimistically where it isn't.
+
+Each cell's tries are counted, the later ones for more: one odd outcome is outvoted, two in a row are believed, so that
+a design changed in mid-training is unlearnt. As long as fewer paying cells are known than there are blocks, what is
+unknown is taken to pay (R-max; Brafman and Tennenholtz, 2002), and more than what is known, since trying it teaches:
+first what lies beside a paying cell, where designs go on; everything, if nothing unknown lies there.
+"""
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+
+from mc_nested.arena.action import Cell
+from mc_nested.arrays import Bools, Float32s, Int8s, Int64s
+
+FADES = 0.7
+"""What a try counts for once there is a later one of the same cell: at above a half, one odd try is outvoted by two."""
+
+FAR_FROM_PAYING, KNOWN_TO_PAY = 0.2, 0.2
+"""While exploring, what is imagined for an unknown cell that isn't beside a paying one, and for one known to pay; for
+an unknown cell beside a paying one it is 1."""
+
+
+class Belief(IntEnum):
+    """What is thought of a cell."""
+
+    UNKNOWN = 0
+    BELIEVED = 1
+    PAYS = 2
+    PAYS_NOT = 3
+
+
+@dataclass(frozen=True)
+class Beliefs:
+    """What is thought of every cell.
+
+    ``cells`` (size, size) holds a Belief for each, ``pay`` (size, size) what is imagined to be paid there.
+    ``explores``: fewer paying cells are known than an episode has blocks. ``most``: what the best episode could earn.
+    """
+
+    cells: Int8s
+    pay: Float32s
+    explores: bool
+    most: float
+
+
+def believe(steps: Int64s, lands: Cell, size: int, blocks: int) -> Beliefs:
+    """What the transitions (steps, 9) (experience.py) say of every cell, if blocks land at ``lands`` from the agent."""
+    evidence = np.zeros((2, size, size))
+    used = steps[:, 2] > steps[:, 6]
+    for x, y, paid in steps[used][:, [4, 5, 7]].tolist():
+        cell = (x + lands[0], y + lands[1])
+        if 0 <= cell[0] < size and 0 <= cell[1] < size:
+            evidence[:, cell[0], cell[1]] *= FADES
+            evidence[paid, cell[0], cell[1]] += 1.0
+    tried = evidence.any(axis=0)
+    unknown = ~tried & _reached(lands, size)
+    pays = tried & (evidence[1] > evidence[0])
+    explores = int(pays.sum()) < blocks
+    believed = _beside(pays) & unknown & explores
+    cells = np.where(pays, Belief.PAYS, np.where(tried, Belief.PAYS_NOT, Belief.UNKNOWN)).astype(np.int8)
+    cells[believed] = Belief.BELIEVED
+    pay = pays.astype(np.float32)
+    if explores:
+        pay[pays] = KNOWN_TO_PAY
+        pay[unknown] = FAR_FROM_PAYING if believed.any() else 1.0
+        pay[believed] = 1.0
+    most = float(np.sort(pay, axis=None)[::-1][:blocks].sum())
+    return Beliefs(cells, pay, explores, most)
+
+
+def _reached(lands: Cell, size: int) -> Bools:
+    """The cells that a block can land in from inside the arena."""
+    reached = np.zeros((size, size), dtype=np.bool_)
+    right, forward = lands
+    reached[max(right, 0) : size + min(right, 0), max(forward, 0) : size + min(forward, 0)] = True
+    return reached
+
+
+def _beside(cells: Bools) -> Bools:
+    """The cells with one of these among the eight around them."""
+    size = len(cells)
+    padded = np.pad(cells, 1)
+    around = [padded[x : x + size, y : y + size] for x in range(3) for y in range(3)]
+    beside: Bools = np.logical_or.reduce(around)
+    return beside

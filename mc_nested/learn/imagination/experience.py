@@ -1,0 +1,89 @@
+"""What one run has seen of its real game, episode by episode: the learnt game is made of nothing else."""
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mc_nested.arrays import Arrays, Float64s, Int64s
+
+RECENT = 100
+"""Episodes that are remembered: what a game did longer ago counts no more, so that a change is unlearnt."""
+
+
+class RealStep(NamedTuple):
+    """One transition of the real game: (x, y, b), the action, (x, y, b) after it, whether r_N was above 0, and a_M."""
+
+    x: int
+    y: int
+    blocks: int
+    action: int
+    next_x: int
+    next_y: int
+    next_blocks: int
+    paid: int
+    material: int
+
+
+class Experience:
+    """The last episodes of one run, the one that runs included.
+
+    What an action led to is in ``steps``; what an episode of a material earned beside its blocks is in ``extras``.
+    """
+
+    def __init__(self) -> None:
+        self.episodes = 0
+        self._steps: list[RealStep] = []
+        self._first_of_episode: list[int] = []
+        self._extras: list[tuple[int, float]] = []
+
+    @property
+    def steps(self) -> Int64s:
+        """The transitions (steps, 9), oldest first, the fields of RealStep."""
+        return np.array(self._steps, dtype=np.int64).reshape(len(self._steps), len(RealStep._fields))
+
+    @property
+    def first_of_episode(self) -> Int64s:
+        """Where in ``steps`` each remembered episode begins, (episodes,)."""
+        return np.array(self._first_of_episode, dtype=np.int64)
+
+    @property
+    def extras(self) -> Float64s:
+        """For each finished episode its material and what it scored beyond the sum of r_N, (episodes, 2)."""
+        return np.array(self._extras, dtype=np.float64).reshape(len(self._extras), 2)
+
+    def begin(self) -> None:
+        """Begin an episode; the oldest is forgotten where there are too many."""
+        self.episodes += 1
+        self._first_of_episode.append(len(self._steps))
+        if len(self._first_of_episode) > RECENT:
+            dropped = self._first_of_episode[1]
+            self._steps = self._steps[dropped:]
+            self._first_of_episode = [first - dropped for first in self._first_of_episode[1:]]
+            self._extras = self._extras[-RECENT:]
+
+    def add(self, step: RealStep) -> None:
+        """Add what the last action did."""
+        self._steps.append(step)
+
+    def end(self, material: int, score: float) -> None:
+        """End the episode, with its material and its score r_M."""
+        earned = sum(step.paid for step in self._steps[self._first_of_episode[-1] :])
+        self._extras.append((material, score - earned))
+
+    def state(self) -> Arrays:
+        """Everything, by name."""
+        return {
+            "steps": self.steps,
+            "first_of_episode": self.first_of_episode,
+            "extras": self.extras,
+            "episodes": np.array(self.episodes),
+        }
+
+    def load(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
+        self.episodes = int(state["episodes"])
+        self._steps = [RealStep(*row) for row in state["steps"].tolist()]
+        self._first_of_episode = state["first_of_episode"].tolist()
+        self._extras = [(int(material), extra) for material, extra in state["extras"].tolist()]

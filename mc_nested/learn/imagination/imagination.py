@@ -1,0 +1,180 @@
+"""The imagination of an agent's runs: what each has seen of its game, and practice in what it has learnt of it.
+
+Between two real episodes: learn the rules and beliefs anew from all transitions, let the main agent learn from the
+scores that each material would bring, and practise the nested agent in the learnt game. Then a real episode is played
+greedily. All exploration of the real game follows from optimism in the learnt one (beliefs.py), but for the first
+steps of all, which try the actions.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
+from mc_nested.learn.imagination.arena_step import imagined_arena
+from mc_nested.learn.imagination.beliefs import Beliefs, believe
+from mc_nested.learn.imagination.experience import Experience, RealStep
+from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules
+from mc_nested.learn.imagination.material_choice import learn_choice, scores_of_materials
+from mc_nested.learn.imagination.practice import Goal, Practice, RealTransitions, landed_cells
+from mc_nested.learn.learner import Learner
+from mc_nested.learn.preset import ImaginationRule, Preset
+from mc_nested.learn.state_dict import named_for, part_of
+from mc_nested.learn.streams import practice_stream
+
+FIRST_TRIES = 0.125
+"""This share of the steps tries an action of which it isn't known where it leads, while cells are still to be found."""
+
+
+class Surroundings(NamedTuple):
+    """What a run knows of its game from the beginning: (x, y, b) after a reset, cells a side, steps, materials."""
+
+    start: tuple[int, int, int]
+    size: int
+    step_limit: int
+    materials: int
+
+
+class Imagination:
+    """The learnt games of all runs of an agent that has a main agent, and its practice in them.
+
+    Args:
+        main: the main agent's learner, a row a run.
+        low_level: the nested agent's learner, a row a run; or the low-level agents', a row a run and material.
+        surroundings: of each run.
+        preset: the hyper-parameters.
+        rule: its table [imagination].
+        seed: of all random choices.
+        runs: each run's number (streams.py).
+    """
+
+    def __init__(
+        self,
+        main: Learner,
+        low_level: Learner,
+        surroundings: Sequence[Surroundings],
+        preset: Preset,
+        rule: ImaginationRule,
+        seed: int,
+        runs: Sequence[int],
+    ) -> None:
+        self._main, self._low_level = main, low_level
+        self._surroundings = surroundings
+        self._rule, self._seed, self._numbers = rule, seed, runs
+        self._practice = Practice(low_level, preset, rule)
+        self._experience = [Experience() for _ in runs]
+        self._rows_a_run = low_level.space.rows // len(runs)
+        self._explores = np.ones(len(runs), dtype=np.bool_)
+        self._untried = np.ones((len(runs), low_level.space.actions), dtype=np.bool_)
+        self._tries = np.zeros((len(runs), low_level.space.actions), dtype=np.int64)
+
+    def rules(self, run: int) -> LearntRules:
+        """What that run has learnt of moving and placing."""
+        seen = self._experience[run]
+        actions, size = self._low_level.space.actions, self._surroundings[run].size
+        return learn_rules(seen.steps, seen.first_of_episode, actions, size)
+
+    def beliefs(self, run: int) -> Beliefs:
+        """What that run thinks of every cell."""
+        here = self._surroundings[run]
+        return believe(self._experience[run].steps, self.rules(run).lands, here.size, here.start[2])
+
+    def learn_choice(self, run: int) -> None:
+        """Let the main agent of that run learn what each material would bring in its learnt game."""
+        here = self._surroundings[run]
+        scores = scores_of_materials(
+            self._experience[run].extras, here.materials, here.start[2], self.beliefs(run).most
+        )
+        learn_choice(self._main, run, np.array(here.start), scores)
+
+    def practise(self, run: int, material: int, goes_on: Callable[[], bool] = lambda: True) -> bool:
+        """Practise that run's agent with that material; whether its policy now builds all of a known design."""
+        seen, here = self._experience[run], self._surroundings[run]
+        if not len(seen.steps):
+            return False
+        rules, beliefs = self.rules(run), self.beliefs(run)
+        self._explores[run] = beliefs.explores
+        arena = imagined_arena(rules, beliefs)
+        x, y, blocks = here.start
+        if beliefs.explores:
+            aim, most_updates = self._rule.enough * beliefs.most, self._rule.updates_exploring
+        else:
+            aim, most_updates = beliefs.most, self._rule.updates_building
+        practised = self._practice.practise(
+            self._row(run, material),
+            arena,
+            Goal((x, y), blocks, here.step_limit, aim, most_updates),
+            self._appended(material),
+            self._real_transitions(run, material, landed_cells(seen.steps, rules.lands, arena)),
+            practice_stream(self._seed, self._numbers[run], seen.episodes),
+            goes_on,
+        )
+        return practised.reached and not beliefs.explores
+
+    def begin(self, runs: Int64s) -> None:
+        """Begin an episode in each of the named runs."""
+        for run in runs:
+            self._experience[run].begin()
+
+    def act(self, runs: Int64s, actions: Int64s) -> Int64s:
+        """The actions of the named runs (k,), of ``actions`` for all: the policy's, once it is known what they do."""
+        chosen = actions[runs].copy()
+        for at, run in enumerate(runs):
+            tries = np.where(self._untried[run], self._tries[run], np.iinfo(np.int64).max)
+            if self._explores[run] and tries.min() <= FIRST_TRIES * self._tries[run].sum():
+                chosen[at] = int(tries.argmin())
+        return chosen
+
+    def observe(
+        self, runs: Int64s, before: Int64s, materials: Int64s, actions: Int64s, rewards: Float64s, after: Int64s
+    ) -> None:
+        """Record what the actions of the named runs did; every array is of all runs, observations are (runs, 3)."""
+        self._tries[runs, actions[runs]] += 1
+        moved = (before[runs, :2] != after[runs, :2]).any(axis=1)
+        self._untried[runs[moved], actions[runs][moved]] = False
+        for run in runs.tolist():
+            paid = int(rewards[run] > 0)
+            step = [*before[run].tolist(), int(actions[run]), *after[run].tolist(), paid, int(materials[run])]
+            self._experience[run].add(RealStep(*step))
+
+    def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:
+        """End the episodes of the named runs; materials and scores are of all runs."""
+        for run in runs.tolist():
+            self._experience[run].end(int(materials[run]), float(scores[run]))
+
+    def state(self) -> Arrays:
+        """Everything that later steps depend on, by name."""
+        every = (named_for(str(run), seen.state()) for run, seen in enumerate(self._experience))
+        first_tries = {"explores": self._explores, "untried": self._untried, "tries": self._tries}
+        return {**first_tries, **{name: kept for part in every for name, kept in part.items()}}
+
+    def load(self, state: Mapping[str, NDArray[Any]]) -> None:
+        """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
+        self._explores[:], self._untried[:], self._tries[:] = (state[name] for name in ("explores", "untried", "tries"))
+        for run, seen in enumerate(self._experience):
+            seen.load(part_of(state, str(run)))
+
+    def _row(self, run: int, material: int) -> int:
+        return run if self._rows_a_run == 1 else run * self._rows_a_run + material
+
+    def _appended(self, material: int) -> Int64s:
+        """What follows x, y and b in a state of the low-level agent: the nested agent's a_M."""
+        return np.array([material] * (len(self._low_level.space.strides) - 3), dtype=np.int64)
+
+    def _real_transitions(self, run: int, material: int, landed: Int64s) -> RealTransitions:
+        """The run's transitions as its low-level agent of that material saw them."""
+        steps = self._experience[run].steps
+        own: Bools = np.ones(len(steps), dtype=np.bool_) if self._rows_a_run == 1 else steps[:, 8] == material
+        steps, landed = steps[own], landed[own]
+        appended = len(self._low_level.space.strides) - 3
+        last = np.repeat(steps[:, 8:], appended, axis=1)
+        index = self._low_level.space.index
+        return RealTransitions(
+            index(np.hstack((steps[:, 0:3], last))),
+            index(np.hstack((steps[:, 4:7], last))),
+            steps[:, 3],
+            landed,
+            steps[:, 6] == 0,
+        )

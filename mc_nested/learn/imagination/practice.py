@@ -1,0 +1,154 @@
+"""Practice of one learner in its learnt game, until its greedy policy plays it well enough, or a budget ends."""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from mc_nested.arena.action import Cell
+from mc_nested.arrays import Bools, Int64s
+from mc_nested.learn.dqn.cell_networks import passes_for
+from mc_nested.learn.dqn.networks import parameter_count
+from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
+from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, index_of
+from mc_nested.learn.imagination.practice_kernel import (
+    ImaginedTask,
+    PracticeReplay,
+    PracticeRule,
+    Progress,
+    Row,
+    Workspace,
+    practise,
+)
+from mc_nested.learn.learner import Learner
+from mc_nested.learn.preset import ImaginationRule, Preset
+
+CAPACITY = 250_000
+"""Imagined transitions that are kept, the last ones; a practice begins with the real ones alone."""
+
+NUMBERS_AT_ONCE = 65_536
+"""Random numbers that are drawn at once: for a tenth of a second of practice."""
+
+
+class RealTransitions(NamedTuple):
+    """The real game's transitions as indices of states, (k,) each; ``landed`` are cells of the imagined arena."""
+
+    states: Int64s
+    next_states: Int64s
+    actions: Int64s
+    landed: Int64s
+    terminated: Bools
+
+
+class Goal(NamedTuple):
+    """What is practised: from which cell, with how many blocks and steps, up to which score, for how many updates."""
+
+    start: Cell
+    blocks: int
+    step_limit: int
+    aim: float
+    most_updates: int
+
+
+class Practised(NamedTuple):
+    """What a practice came to: its updates and imagined episodes, the last greedy score, whether that was enough."""
+
+    updates: int
+    episodes: int
+    score: float
+    reached: bool
+
+
+class Practice:
+    """Practises the rows of one learner, one at a time.
+
+    Args:
+        learner: its networks are updated; its own replay isn't touched.
+        preset: the hyper-parameters.
+        rule: its table [imagination].
+    """
+
+    def __init__(self, learner: Learner, preset: Preset, rule: ImaginationRule) -> None:
+        self._learner = learner
+        update = preset.update
+        self._rule = PracticeRule(
+            update.gamma,
+            update.learning_rate,
+            update.target_period,
+            update.huber_delta,
+            update.learning_starts,
+            rule.highest_epsilon,
+            rule.lowest_epsilon,
+        )
+        self._batch = update.batch
+        self._replay = PracticeReplay(
+            states=np.zeros(CAPACITY, np.int32),
+            next_states=np.zeros(CAPACITY, np.int32),
+            actions=np.zeros(CAPACITY, np.uint8),
+            landed=np.zeros(CAPACITY, np.int16),
+            terminated=np.zeros(CAPACITY, np.bool_),
+            added=np.zeros(1, np.int64),
+        )
+        self._workspaces = [self._workspace(row) for row in range(learner.space.rows)]
+
+    @on_one_blas_thread
+    def practise(
+        self,
+        row: int,
+        arena: ImaginedArena,
+        goal: Goal,
+        others: Int64s,
+        real: RealTransitions,
+        random: np.random.Generator,
+        goes_on: Callable[[], bool] = lambda: True,
+    ) -> Practised:
+        """Practise that row; ``others`` are the integers of its state after x, y and b.
+
+        ``real`` are in its replay from the beginning; ``goes_on`` is asked about ten times a second. DivergedError if
+        a parameter is no number any more.
+        """
+        space, ddqn = self._learner.space, self._learner.ddqn
+        offset = int(others @ space.strides[3:])
+        task = ImaginedTask(
+            index_of(goal.start, arena), goal.blocks, goal.step_limit, goal.aim, space.strides[:3], offset
+        )
+        self._begin_with(real)
+        progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_))
+        parts = Row(*ddqn.row(row))
+        first = int(parts.updates[0])
+        longest = 1 + goal.step_limit * (2 + self._batch)
+        while not progress.reached[0] and parts.updates[0] - first < goal.most_updates and goes_on():
+            numbers = random.random(max(NUMBERS_AT_ONCE, 2 * longest))
+            practise(numbers, arena, task, self._rule, parts, self._replay, self._workspaces[row], progress)
+            ddqn.check_finite(row)
+        score = float(progress.greedy_score[0])
+        return Practised(int(parts.updates[0]) - first, int(progress.episodes[0]), score, bool(progress.reached[0]))
+
+    def _begin_with(self, real: RealTransitions) -> None:
+        kept = slice(-CAPACITY, None)
+        count = len(real.states[kept])
+        for own, given in zip(self._replay, real, strict=False):
+            own[:count] = given[kept]
+        self._replay.added[0] = count
+
+    def _workspace(self, row: int) -> Workspace:
+        sizes, space = self._learner.ddqn.sizes, self._learner.space
+        rest = int(space.strides[1])
+        return Workspace(
+            sizes=np.array(sizes),
+            numbers=np.ascontiguousarray(space.features_of(row)[:rest, space.cells :]),
+            acting=passes_for(sizes, 1),
+            batch=passes_for(sizes, self._batch),
+            next_batch=passes_for(sizes, self._batch),
+            scratch=passes_for(sizes, self._batch),
+            slope=np.zeros((sizes[-1], self._batch), np.float32),
+            gradient=np.zeros(parameter_count(sizes), np.float32),
+        )
+
+
+def landed_cells(steps: Int64s, lands: Cell, arena: ImaginedArena) -> Int64s:
+    """Where the block of each real transition (steps, 9) landed, as cells of the arena; NOWHERE where none did."""
+    used = steps[:, 2] > steps[:, 6]
+    cells = np.array([index_of((x + lands[0], y + lands[1]), arena) for x, y in steps[:, 4:6].tolist()], dtype=np.int64)
+    landed: Int64s = np.where(used, cells, NOWHERE)
+    return landed

@@ -1,0 +1,207 @@
+"""Double deep Q-learning in the learnt game, compiled: play an imagined step, store it, update from a batch.
+
+What a transition is paid isn't stored, but the cell where its block landed: the real transitions of earlier episodes,
+which are in the same replay, are paid by today's beliefs.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mc_nested.arrays import Bools, Float32s, Float64s, Int64s, Integers
+from mc_nested.learn.dqn.adam import adam_step
+from mc_nested.learn.dqn.cell_networks import CellPasses, backward_cells, forward_cells
+from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.learn.dqn.ddqn import td_target
+from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, step
+
+GREEDY_EVERY = 10
+"""Every so many imagined episodes one is greedy, without an update: whether the policy has reached its aim."""
+
+
+class ImaginedTask(NamedTuple):
+    """What is practised: from where, with how many blocks, for how many steps at most, and which score is enough.
+
+    ``strides`` (3,) are what x, y and b count for in a state's index, ``offset`` what the rest of it does.
+    """
+
+    start: int
+    blocks: int
+    step_limit: int
+    aim: float
+    strides: Int64s
+    offset: int
+
+
+class PracticeRule(NamedTuple):
+    """Hyper-parameters: those of an update (ddqn.py), and the highest and the lowest ε of an imagined episode."""
+
+    gamma: float
+    learning_rate: float
+    target_period: int
+    huber_delta: float
+    learning_starts: int
+    highest_epsilon: float
+    lowest_epsilon: float
+
+
+class Row(NamedTuple):
+    """One learner's networks and moments, (parameters,) each, and its number of updates, (1,)."""
+
+    online: Float32s
+    target: Float32s
+    first_moment: Float32s
+    second_moment: Float32s
+    updates: Int64s
+
+
+class PracticeReplay(NamedTuple):
+    """Transitions (capacity,): indices of s and s', action, cell of the landed block, whether it terminated.
+
+    ``added`` (1,) counts what was ever added; the oldest is overwritten.
+    """
+
+    states: Integers
+    next_states: Integers
+    actions: Integers
+    landed: Integers
+    terminated: Bools
+    added: Int64s
+
+
+class Workspace(NamedTuple):
+    """Arrays that are reused: ``sizes`` of the networks, ``numbers`` (cell_networks.py), passes of 1 and of a batch."""
+
+    sizes: Int64s
+    numbers: Float32s
+    acting: CellPasses
+    batch: CellPasses
+    next_batch: CellPasses
+    scratch: CellPasses
+    slope: Float32s
+    gradient: Float32s
+
+
+class Progress(NamedTuple):
+    """What practice has come to, (1,) each: imagined episodes, the last greedy score, whether it reached the aim."""
+
+    episodes: Int64s
+    greedy_score: Float64s
+    reached: Bools
+
+
+@compiled(nogil=True)
+def practise(
+    uniforms: Float64s,
+    arena: ImaginedArena,
+    task: ImaginedTask,
+    rule: PracticeRule,
+    row: Row,
+    replay: PracticeReplay,
+    work: Workspace,
+    progress: Progress,
+) -> None:
+    """Practise until the greedy policy reaches the aim, or the numbers in [0, 1) don't suffice for another episode.
+
+    A greedy episode comes first, and then every GREEDY_EVERY episodes. The others are ε-greedy, with an ε of their own
+    between the highest and the lowest, equally likely on a logarithmic scale: some wander widely, some stay near the
+    policy.
+    """
+    batch = work.batch.values.shape[1]
+    longest = 1 + task.step_limit * (2 + batch)
+    used = 0
+    solid = arena.empty.copy()
+    while used + longest <= len(uniforms):
+        greedy = progress.episodes[0] % GREEDY_EVERY == 0
+        epsilon = 0.0 if greedy else _epsilon(uniforms[used], rule)
+        used += not greedy
+        solid[:] = arena.empty
+        position, blocks, steps, score = task.start, task.blocks, 0, 0.0
+        state = _state(position, blocks, arena, task)
+        while blocks > 0 and steps < task.step_limit:
+            action = _greedy_action(row.online, state, work)
+            if not greedy:
+                if uniforms[used] < epsilon:
+                    action = int(uniforms[used + 1] * len(arena.moves))
+                used += 2
+            position, landed = step(arena, position, action, solid)
+            if landed != NOWHERE:
+                blocks -= 1
+                score += arena.pay[landed]
+            next_state = _state(position, blocks, arena, task)
+            steps += 1
+            if not greedy:
+                _store(replay, state, next_state, action, landed, blocks == 0)
+                if replay.added[0] >= rule.learning_starts:
+                    _update(uniforms[used : used + batch], arena.pay, rule, row, replay, work)
+                    used += batch
+            state = next_state
+        progress.episodes[0] += 1
+        if greedy:
+            progress.greedy_score[0] = score
+            if score >= task.aim:
+                progress.reached[0] = True
+                return
+
+
+@compiled(nogil=True)
+def _epsilon(uniform: float, rule: PracticeRule) -> float:
+    epsilon: float = rule.lowest_epsilon * (rule.highest_epsilon / rule.lowest_epsilon) ** uniform
+    return epsilon
+
+
+@compiled(nogil=True)
+def _state(position: int, blocks: int, arena: ImaginedArena, task: ImaginedTask) -> int:
+    x, y = position // arena.side - arena.border, position % arena.side - arena.border
+    state: int = x * task.strides[0] + y * task.strides[1] + blocks * task.strides[2] + task.offset
+    return state
+
+
+@compiled(nogil=True)
+def _greedy_action(online: Float32s, state: int, work: Workspace) -> int:
+    states = np.empty(1, np.int64)
+    states[0] = state
+    forward_cells(online, work.sizes, states, work.numbers, work.acting)
+    return int(np.argmax(work.acting.values[:, 0]))
+
+
+@compiled(nogil=True)
+def _store(replay: PracticeReplay, state: int, next_state: int, action: int, landed: int, terminated: bool) -> None:
+    at = replay.added[0] % len(replay.states)
+    replay.states[at], replay.next_states[at] = state, next_state
+    replay.actions[at], replay.landed[at], replay.terminated[at] = action, landed, terminated
+    replay.added[0] += 1
+
+
+@compiled(nogil=True)
+def _update(
+    uniforms: Float64s, pay: Float32s, rule: PracticeRule, row: Row, replay: PracticeReplay, work: Workspace
+) -> None:
+    """One double-Q update (paper, equation 4) from a batch that the numbers (batch,) draw."""
+    batch = len(uniforms)
+    held = min(replay.added[0], len(replay.states))
+    drawn = np.empty(batch, np.int64)
+    states, next_states = np.empty(batch, np.int64), np.empty(batch, np.int64)
+    for column in range(batch):
+        drawn[column] = min(int(uniforms[column] * held), held - 1)
+        states[column], next_states[column] = replay.states[drawn[column]], replay.next_states[drawn[column]]
+    # The target network's values go through the workspace of s, which is overwritten by those of s afterwards.
+    forward_cells(row.online, work.sizes, next_states, work.numbers, work.next_batch)
+    forward_cells(row.target, work.sizes, next_states, work.numbers, work.batch)
+    targets = np.empty(batch, np.float32)
+    for column in range(batch):
+        at = drawn[column]
+        discount = 0.0 if replay.terminated[at] else rule.gamma
+        reward = pay[replay.landed[at]]
+        targets[column] = td_target(reward, discount, work.next_batch.values[:, column], work.batch.values[:, column])
+    forward_cells(row.online, work.sizes, states, work.numbers, work.batch)
+    work.slope[:] = np.float32(0)
+    for column in range(batch):
+        action = replay.actions[drawn[column]]
+        error = work.batch.values[action, column] - targets[column]
+        work.slope[action, column] = min(max(error, -rule.huber_delta), rule.huber_delta) / batch
+    backward_cells(row.online, work.sizes, states, work.numbers, work.batch, work.slope, work.gradient, work.scratch)
+    row.updates[0] += 1
+    adam_step(row.online, row.first_moment, row.second_moment, work.gradient, row.updates[0], rule.learning_rate)
+    if row.updates[0] % rule.target_period == 0:
+        row.target[:] = row.online
