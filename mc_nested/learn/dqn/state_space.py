@@ -35,9 +35,7 @@ class StateSpace:
         every = np.stack(np.unravel_index(np.arange(self.count), radix), axis=1)
         kinds, kind_of = np.unique(highest, axis=0, return_inverse=True)
         self.cells = int(radix[:2].prod())
-        encode = {"scaled": lambda kind: scaled(every, kind), "one-hot": lambda _: one_hot(every, radix)}
-        encode["cell"] = lambda kind: one_hot_cell(every, radix, kind)
-        self.table = np.concatenate([encode[encoding](kind) for kind in kinds])
+        self.table = np.concatenate([_encoded(encoding, every, radix, kind) for kind in kinds])
         self.inputs = self.table.shape[1] - 1
         self._first = kind_of.reshape(-1) * self.count
 
@@ -58,6 +56,12 @@ class StateSpace:
         """The features of every state for that row's network, by index: (states, inputs + 1), the last a 1."""
         first = self._first[row]
         return self.table[first : first + self.count]
+
+
+def _encoded(encoding: str, states: Integers, radix: Int64s, highest: Int64s) -> Float32s:
+    if encoding == "one-hot":
+        return one_hot(states, radix)
+    return one_hot_cell(states, radix, highest) if encoding == "cell" else scaled(states, highest)
 
 
 def scaled(states: Integers, highest: Int64s) -> Float32s:

@@ -10,7 +10,7 @@ import numpy as np
 
 from mc_nested.arrays import Bools, Float32s, Float64s, Int64s, Integers
 from mc_nested.learn.dqn.adam import adam_step
-from mc_nested.learn.dqn.cell_networks import CellPasses, backward_cells, forward_cells
+from mc_nested.learn.dqn.cell_networks import CellPasses, backward_cells, by_input, by_node, forward_cells
 from mc_nested.learn.dqn.compiled import compiled
 from mc_nested.learn.dqn.ddqn import td_target
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, step
@@ -107,6 +107,24 @@ def practise(
     between the highest and the lowest, equally likely on a logarithmic scale: some wander widely, some stay near the
     policy.
     """
+    for parameters in (row.online, row.target, row.first_moment, row.second_moment):
+        by_input(parameters, work.sizes)
+    _practise(uniforms, arena, task, rule, row, replay, work, progress)
+    for parameters in (row.online, row.target, row.first_moment, row.second_moment):
+        by_node(parameters, work.sizes)
+
+
+@compiled(nogil=True)
+def _practise(
+    uniforms: Float64s,
+    arena: ImaginedArena,
+    task: ImaginedTask,
+    rule: PracticeRule,
+    row: Row,
+    replay: PracticeReplay,
+    work: Workspace,
+    progress: Progress,
+) -> None:
     batch = work.batch.values.shape[1]
     longest = 1 + task.step_limit * (2 + batch)
     used = 0
