@@ -113,6 +113,7 @@ class Practice:
             index_of(goal.start, arena), goal.blocks, goal.step_limit, goal.aim, space.strides[:3], offset
         )
         self._begin_with(real)
+        self._workspaces[row].seen_in[:] = -1
         progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_))
         parts = Row(*ddqn.row(row))
         first = int(parts.updates[0])
@@ -143,6 +144,7 @@ class Practice:
             scratch=passes_for(sizes, self._batch),
             slope=np.zeros((sizes[-1], self._batch), np.float32),
             gradient=np.zeros(parameter_count(sizes), np.float32),
+            seen_in=np.zeros(space.count, np.int64),
         )
 
 

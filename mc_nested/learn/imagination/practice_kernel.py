@@ -80,6 +80,7 @@ class Workspace(NamedTuple):
     scratch: CellPasses
     slope: Float32s
     gradient: Float32s
+    seen_in: Int64s
 
 
 class Progress(NamedTuple):
@@ -135,13 +136,17 @@ def _practise(
         used += not greedy
         solid[:] = arena.empty
         position, blocks, steps, score = task.start, task.blocks, 0, 0.0
+        episode = progress.episodes[0]
         state = _state(position, blocks, arena, task)
         while blocks > 0 and steps < task.step_limit:
             action = _greedy_action(row.online, state, work)
             if not greedy:
-                if uniforms[used] < epsilon:
+                if uniforms[used] < epsilon or work.seen_in[state] == episode:
                     action = int(uniforms[used + 1] * len(arena.moves))
                 used += 2
+            elif work.seen_in[state] == episode:
+                break
+            work.seen_in[state] = episode
             position, landed = step(arena, position, action, solid)
             if landed != NOWHERE:
                 blocks -= 1
