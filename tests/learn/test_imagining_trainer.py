@@ -104,7 +104,7 @@ def test_every_real_episode_is_one_row_of_the_log(whole: Trainer) -> None:
         rows = [row for row in trainer.episode_rows if row.trial == run]
         greedy = [row for row in trainer.evaluation_rows if row.trial == run]
         assert [row.episode for row in rows] == list(range(1, SMALL.episodes + 1))
-        assert sorted(env.episodes[run]) == sorted(row.steps for row in [*rows, *greedy])
+        assert sorted(env.episodes[run]) == sorted([row.steps for row in rows] + [row.steps for row in greedy])
         assert greedy[-1].episode == SMALL.episodes, "it ends with an evaluation"
         assert len({row.episode for row in greedy}) == len(greedy), "no policy is evaluated twice"
     assert trainer.env_steps == sum(row.steps for row in trainer.episode_rows)

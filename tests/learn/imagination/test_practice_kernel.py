@@ -154,7 +154,9 @@ def test_the_highest_number_makes_every_step_one_by_chance_with_the_action_that_
 
 def test_beyond_its_capacity_the_oldest_transition_is_overwritten() -> None:
     at = Practising(learner_of(), 4, learning_starts=10**6)
-    room = PracticeReplay(*(part[:3].copy() for part in at.replay[:5]), np.zeros(1, np.int64))
+    room = at.replay._replace(
+        **{name: part[:3].copy() for name, part in at.replay._asdict().items() if name != "added"}
+    )
     at.replay = room
     at.go(np.full(at.longest, 0.99))
     assert room.added.tolist() == [4]
