@@ -4,7 +4,7 @@ A state is a few small integers. All possible states are enumerated once, with t
 stores one index per state, and a batch is encoded by one table lookup.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -35,8 +35,11 @@ class StateSpace:
         every = np.stack(np.unravel_index(np.arange(self.count), radix), axis=1)
         kinds, kind_of = np.unique(highest, axis=0, return_inverse=True)
         self.cells = int(radix[:2].prod())
-        encode = {"scaled": lambda kind: scaled(every, kind), "one-hot": lambda _: one_hot(every, radix)}
-        encode["cell"] = lambda kind: one_hot_cell(every, radix, kind)
+        encode: dict[str, Callable[[Int64s], Float32s]] = {
+            "scaled": lambda kind: scaled(every, kind),
+            "one-hot": lambda _: one_hot(every, radix),
+            "cell": lambda kind: one_hot_cell(every, radix, kind),
+        }
         self.table = np.concatenate([encode[encoding](kind) for kind in kinds])
         self.inputs = self.table.shape[1] - 1
         self._first = kind_of.reshape(-1) * self.count

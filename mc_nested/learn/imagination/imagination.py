@@ -120,7 +120,7 @@ class Imagination:
 
     def act(self, runs: Int64s, actions: Int64s) -> Int64s:
         """The actions of the named runs (k,), of ``actions`` for all: the policy's, once it is known what they do."""
-        chosen = actions[runs].copy()
+        chosen: Int64s = actions[runs].copy()
         for at, run in enumerate(runs):
             tries = np.where(self._untried[run], self._tries[run], np.iinfo(np.int64).max)
             if self._explores[run] and tries.min() <= FIRST_TRIES * self._tries[run].sum():
