@@ -285,16 +285,17 @@ class Trainer:
         runs.evaluating = np.where(begins, due & (runs.episodes > runs.evaluated_at), runs.evaluating)
         epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
         rows = np.flatnonzero(begins)
+        begun_from = runs.evaluated_at < 0  # a policy from elsewhere is evaluated as it is
         if self._imagination:
-            for run in map(int, rows):
+            for run in map(int, rows[~begun_from[rows]]):
                 self._imagination.learn_choice(run)
         if self.agent.main:
             runs.materials[rows] = self.agent.main.act(self._start[rows], epsilon[rows], choice[rows], rows)
         if self._imagination:
             for run in map(int, rows):
                 builds_it_all = self._imagination.practise(run, int(runs.materials[run]))
-                past_the_last = runs.episodes[run] >= self.preset.episodes
-                runs.evaluating[run] = (builds_it_all and runs.episodes[run] > runs.evaluated_at[run]) or past_the_last
+                anyway = runs.episodes[run] >= self.preset.episodes or begun_from[run]
+                runs.evaluating[run] = (builds_it_all and runs.episodes[run] > runs.evaluated_at[run]) or anyway
         runs.observations, _ = self._env.reset(options={"reset_mask": begins, "material": runs.materials})
         if len(begins) == 1 and self._resumable is None:
             self._rollback = EpisodeRollback.of(self.agent, self._recorders)

@@ -56,7 +56,7 @@ def test_a_preset_that_an_agent_can_not_use_is_refused_before_anything_is_traine
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run("reproduce", "--preset", "tuned", "--out", tmp_path / "run") == 2
-    assert "are not for the single agent" in capsys.readouterr().err
+    assert "is not for the single agent" in capsys.readouterr().err
     assert not (tmp_path / "run").exists()
 
 

@@ -60,6 +60,16 @@ def test_a_single_agent_can_not_explore_by_excursions() -> None:
         check_exploration(SINGLE, tuned)
 
 
+def test_a_single_agent_can_not_practise_in_a_learnt_game() -> None:
+    live = load_preset("live")
+    for spec in (NESTED, HIERARCHICAL):
+        check_exploration(spec, live)
+        assert Agent(spec, [DOT], live, 0).imagination([DOT], live, 0) is not None
+        assert Agent(spec, [DOT], PRESET, 0).imagination([DOT], PRESET, 0) is None
+    with pytest.raises(PresetError, match=r"\[imagination\] is not for the single agent"):
+        check_exploration(SINGLE, live)
+
+
 def test_one_runs_networks_play_alone_as_they_do_beside_others() -> None:
     agent, alone = Agent(HIERARCHICAL, [DOT, DOT], PRESET, 0), Agent(HIERARCHICAL, [DOT], PRESET, 9)
     alone.load_networks(agent.networks_of(1))

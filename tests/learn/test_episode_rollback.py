@@ -6,6 +6,9 @@ from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.episode_rollback import EpisodeRollback
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
 from mc_nested.learn.preset import ExcursionRule
+from mc_nested.learn.trainer import Trainer
+from sim.grid import GridVectorEnv
+from tests.learn.imagination.made_games import BENT, SMALL
 from tests.learn.made_experiments import DOT, small_preset
 
 RULE = ExcursionRule(at_end=0.1, wander=3, rejoin=0.4, repeat=0.8)
@@ -35,6 +38,23 @@ def test_what_an_episode_taught_is_undone() -> None:
     before.restore(agent, {"scouts": explorer})
     assert agent.low_level.replay.added.tolist() == [5]
     for name, array in {**agent.state(), **explorer.state()}.items():
+        np.testing.assert_array_equal(array, kept[name], err_msg=name)
+
+
+def test_what_an_episode_showed_a_learnt_game_is_forgotten() -> None:
+    trainer = Trainer(GridVectorEnv([BENT]), [BENT], Agent(AGENT_SPECS["nested"], [BENT], SMALL, 0), SMALL, 0)
+    while len(trainer.episode_rows) < 2:
+        trainer.tick()
+    agent, recorders = trainer.agent, trainer._recorders
+    assert list(recorders) == ["imagination"]
+    before = EpisodeRollback.of(agent, recorders)
+    kept = {name: array.copy() for name, array in {**agent.state(), **recorders["imagination"].state()}.items()}
+    while len(trainer.episode_rows) < 4:
+        trainer.tick()
+    assert len(recorders["imagination"].state()["0.steps"]) > len(kept["0.steps"])
+    assert (agent.state()["low.online"] != kept["low.online"]).any()
+    before.restore(agent, recorders)
+    for name, array in {**agent.state(), **recorders["imagination"].state()}.items():
         np.testing.assert_array_equal(array, kept[name], err_msg=name)
 
 

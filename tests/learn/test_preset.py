@@ -1,5 +1,6 @@
 """Presets: ``paper`` is README's table, and a mistake is one line."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -80,6 +81,63 @@ def test_excursions_that_do_not_fit_the_rest_are_one_line(change: tuple[str, str
         parse_preset(TUNED.replace(*change, 1), "mine.toml")
     assert says in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (("lowest_epsilon = 0.02", "lowest_epsilon = 0.0"), "imagination.lowest_epsilon"),
+        (("highest_epsilon = 1.0", "highest_epsilon = 1.5"), "imagination.highest_epsilon"),
+        (("highest_epsilon = 1.0", "highest_epsilon = 0.01"), "lowest_epsilon is above highest_epsilon: swap them"),
+        (("enough = 0.9", "enough = 1.1"), "imagination.enough"),
+        (("enough = 0.9", "enough = 0.0"), "imagination.enough"),
+        (("updates_exploring = 20_000", "updates_exploring = 0"), "imagination.updates_exploring"),
+        (("updates_building = 300_000", ""), "imagination.updates_building"),
+        (('encoding = "cell"', 'encoding = "one-hot"'), '[imagination] takes encoding "cell"'),
+        (("hidden = [64, 32]", "hidden = [64]"), "two hidden layers or more"),
+        (("[imagination]", "[prioritized]\nalpha = 0.6\nbeta = 0.5\n[imagination]"), "leave out [prioritized]"),
+        (("[imagination]", "[main]\nlearning_starts = 2\nupdates_an_episode = 5\n[imagination]"), "and [main]"),
+        (
+            ("[imagination]", "[explore_main]\nstart = 1.0\nfloor = 0.1\nshare = 0.5\n[imagination]"),
+            "[explore_main] goes with [explore_nested] or [excursions]",
+        ),
+        (
+            ("[imagination]", "[explore_nested]\nstart = 1.0\nfloor = 0.1\nshare = 0.5\n[imagination]"),
+            "name one way to explore",
+        ),
+        (("[imagination]", "[imitation]\nbatch = 4\nmargin = 0.5\n[imagination]"), "needs a best episode"),
+    ],
+)
+def test_what_does_not_fit_practice_in_a_learnt_game_is_one_line(change: tuple[str, str], says: str) -> None:
+    assert change[0] in LIVE
+    with pytest.raises(PresetError) as caught:
+        parse_preset(LIVE.replace(*change, 1), "mine.toml")
+    assert says in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("text", [PAPER, TUNED], ids=["paper", "tuned"])
+def test_only_practice_in_a_learnt_game_takes_an_input_for_each_cell(text: str) -> None:
+    other = re.sub(r'encoding = "[^"]*".*\n', "", text)
+    with pytest.raises(PresetError, match="which only it can"):
+        parse_preset(other.replace("[update]", 'encoding = "cell"\n[update]', 1), "mine.toml")
+
+
+def test_without_practice_the_main_agent_needs_its_epsilon() -> None:
+    without = re.sub(r"\[explore_main\][^\[]*", "", PAPER)
+    with pytest.raises(PresetError, match=r"\[explore_main\] goes with"):
+        parse_preset(without, "mine.toml")
+
+
+def test_a_preset_without_imagination_is_saved_as_before_there_was_one() -> None:
+    for name in ("paper", "tuned"):
+        assert "imagination" not in load_preset(name).model_dump()
+    live = load_preset("live")
+    assert live.model_dump()["imagination"]["enough"] == 0.9
+    assert Preset.model_validate(live.model_dump()) == live
 
 
 def test_an_unknown_name_lists_the_known_ones() -> None:

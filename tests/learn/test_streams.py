@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mc_nested.learn.streams import TICKS_A_CHUNK, Streams, initial_stream, main_updates_stream
+from mc_nested.learn.streams import TICKS_A_CHUNK, Streams, initial_stream, main_updates_stream, practice_stream
 
 TICKS = [0, 1, TICKS_A_CHUNK - 1, TICKS_A_CHUNK, 10 * TICKS_A_CHUNK + 3]
 
@@ -37,3 +37,11 @@ def test_the_main_agents_batches_differ_by_seed_run_and_tick() -> None:
     drawn = [main_updates_stream(*way).random() for way in ways]
     assert len({*drawn, initial_stream(0, 0).random(), Streams(0, [0], 1).at(0)[0, 0]}) == len(ways) + 2
     assert drawn == [main_updates_stream(*way).random() for way in ways]
+
+
+def test_practice_differs_by_seed_run_and_episode_and_from_all_else() -> None:
+    ways = [(seed, run, at) for seed in (0, 1) for run in (0, 1) for at in (0, 1, 5000)]
+    drawn = [practice_stream(*way).random() for way in ways]
+    others = [main_updates_stream(*way).random() for way in ways] + [initial_stream(0, 0).random()]
+    assert len({*drawn, *others, Streams(0, [0], 1).at(0)[0, 0]}) == len(drawn) + len(others) + 1
+    assert drawn == [practice_stream(*way).random() for way in ways]

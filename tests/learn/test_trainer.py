@@ -445,12 +445,12 @@ class Spoils(StartsOver):
         return super().act(action)
 
 
-LIVE = load_preset("live").model_copy(update={"episodes": 20})
+FEW_EXCURSIONS = SCOUTING.model_copy(update={"episodes": 20})
 
 
 @pytest.mark.parametrize(
     ("spec", "preset"),
-    [(NESTED, SHORT), (HIERARCHICAL, SHORT), (SINGLE, SHORT), (NESTED, LIVE), (HIERARCHICAL, LIVE)],
+    [(NESTED, SHORT), (HIERARCHICAL, SHORT), (SINGLE, SHORT), (NESTED, FEW_EXCURSIONS), (HIERARCHICAL, FEW_EXCURSIONS)],
 )
 def test_an_abandoned_episode_is_never_learnt_from(spec: AgentSpec, preset: Preset) -> None:
     agent = Agent(spec, [LINE], preset, 0)
@@ -477,7 +477,7 @@ def test_an_abandoned_episode_is_never_learnt_from(spec: AgentSpec, preset: Pres
 def test_a_training_resumed_after_a_mishap_holds_the_transitions_of_the_one_that_went_on(
     capacity: int, ticks_after: int
 ) -> None:
-    preset = LIVE.model_copy(update={"replay_capacity": capacity})
+    preset = FEW_EXCURSIONS.model_copy(update={"replay_capacity": capacity})
 
     def training() -> tuple[Spoils, Trainer]:
         game = Spoils(LINE)

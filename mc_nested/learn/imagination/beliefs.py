@@ -66,7 +66,7 @@ def believe(steps: Int64s, lands: Cell, size: int, blocks: int) -> Beliefs:
         pay[pays] = KNOWN_TO_PAY
         pay[unknown] = FAR_FROM_PAYING if believed.any() else 1.0
         pay[believed] = 1.0
-    most = float(np.sort(pay, axis=None)[::-1][:blocks].sum())
+    most = float(np.sort(pay, axis=None)[::-1][:blocks].sum(dtype=np.float64))
     return Beliefs(cells, pay, explores, most)
 
 

@@ -218,3 +218,27 @@ def _update_while_finite(ddqn: DDQN) -> None:
     for update in range(10):
         assert np.isfinite(ddqn.online).all(), "no update may pass that leaves what is no number"
         ddqn.update(np.arange(2), batch_of(2, update))
+
+
+def test_a_row_is_handed_out_without_a_copy() -> None:
+    ddqn, same = learners(3), learners(3)
+    for each in (ddqn, same):
+        each.update(np.arange(3), batch_of(3, 1))
+    online, target, first, second, updates = ddqn.row(1)
+    for part_, name in ((online, "online"), (target, "target"), (first, "first_moment"), (second, "second_moment")):
+        np.testing.assert_array_equal(part_, same.state()[name][1])
+        part_[:] = 7.0
+    updates[0] = 42
+    for name, kept in ddqn.state().items():
+        assert (kept[1] == (42 if name == "updates" else 7.0)).all(), name
+        np.testing.assert_array_equal(kept[[0, 2]], same.state()[name][[0, 2]], err_msg=name)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_a_row_that_something_else_updated_is_checked_by_itself(value: float) -> None:
+    ddqn = learners(3)
+    ddqn.row(1)[0][5] = value
+    ddqn.check_finite(0)
+    ddqn.check_finite(2)
+    with pytest.raises(DivergedError, match="lower it in the preset"):
+        ddqn.check_finite(1)

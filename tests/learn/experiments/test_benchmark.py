@@ -88,11 +88,11 @@ def test_what_an_agent_can_not_take_is_left_out_with_a_line() -> None:
     found, lines = contestants_of(["nested", "single", SB3], [TUNED, PAPER])
     assert [each.name for each in found] == ["nested, tuned", "nested, paper", "single, paper", "sb3, dqn"]
     assert len(lines) == 1
-    assert lines[0].startswith("single with tuned is left out: [excursions] are not for the single agent")
+    assert lines[0].startswith("single with tuned is left out: [excursions] is not for the single agent")
 
 
 def test_an_agent_that_can_take_nothing_is_refused() -> None:
-    with pytest.raises(UserError, match=r"^single can't take tuned: \[excursions\] are not for the single agent"):
+    with pytest.raises(UserError, match=r"^single can't take tuned: \[excursions\] is not for the single agent"):
         contestants_of(["nested", "single"], [TUNED])
 
 

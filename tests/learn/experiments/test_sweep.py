@@ -56,6 +56,13 @@ def test_every_shipped_preset_can_be_swept(preset: str) -> None:
     assert len({(run.group, run.scenario.name, run.trial) for run in runs}) == len(runs)
 
 
+def test_practice_in_a_learnt_game_is_swept_without_what_it_can_not_take() -> None:
+    live = load_preset("live")
+    choices = {variant.choice for variant in shipped_variants(live, SCENARIOS)}
+    assert choices.isdisjoint({"replay", "main ε, share", "main ε, floor", "nested ε, share", "single, its choice"})
+    assert choices >= {"learning rate", "γ", "start", "step limit"}
+
+
 def test_a_variant_that_changes_nothing_is_left_out() -> None:
     as_in_variant = PAPER.model_copy(update={"update": PAPER.update.model_copy(update={"gamma": 0.99})})
     names = {variant.name for variant in shipped_variants(as_in_variant, SCENARIOS)}

@@ -1,0 +1,99 @@
+"""The learnt game's step: edges, blocks, and where a block lands, as in the real rules if those were learnt."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.rules import landing, moved
+from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, cell_at, imagined_arena, index_of, step
+from mc_nested.learn.imagination.beliefs import Belief, Beliefs
+from mc_nested.learn.imagination.learnt_rules import LearntRules
+from tests.learn.imagination.made_games import TRUE_MOVES, TRUE_PLACES
+
+SIZE = 5
+
+
+def arena_of(
+    moves: list[Cell] = TRUE_MOVES, places: list[bool] = TRUE_PLACES, lands: Cell = (0, 1), paying: Cell = (2, 3)
+) -> ImaginedArena:
+    pay = np.zeros((SIZE, SIZE), np.float32)
+    pay[paying] = 1.0
+    rules = LearntRules(np.array(moves), np.ones(len(moves), np.bool_), np.array(places), lands)
+    return imagined_arena(rules, Beliefs(np.full((SIZE, SIZE), Belief.UNKNOWN, np.int8), pay, True, 1.0))
+
+
+@given(st.integers(0, 4), st.integers(0, 4), st.integers(1, 4))
+def test_an_index_names_a_cell_inside_the_border(x: int, y: int, longest: int) -> None:
+    arena = arena_of([(longest, 0), (0, -longest)], [False, True])
+    assert arena.border == longest
+    assert arena.side == SIZE + 2 * longest
+    assert cell_at(index_of((x, y), arena), arena) == (x, y)
+    assert not arena.empty[index_of((x, y), arena)]
+    assert np.count_nonzero(~arena.empty) == SIZE * SIZE
+    assert arena.empty[NOWHERE]
+    assert arena.pay[NOWHERE] == 0.0
+
+
+def test_the_paying_cell_is_where_the_beliefs_have_it() -> None:
+    arena = arena_of(paying=(4, 1))
+    assert arena.pay[index_of((4, 1), arena)] == 1.0
+    assert arena.pay.sum() == 1.0
+
+
+def test_nothing_learnt_yet_is_an_arena_where_nobody_moves() -> None:
+    arena = arena_of([(0, 0)] * 8, [True] * 8, (-1, -1))
+    solid = arena.empty.copy()
+    at = index_of((2, 2), arena)
+    position, block = step(arena, at, int(Action.F), solid)
+    assert (position, cell_at(block, arena)) == (at, (1, 1))
+
+
+@pytest.mark.parametrize("action", Action)
+def test_an_edge_stops_a_step_and_voids_a_block(action: Action) -> None:
+    arena = arena_of()
+    for corner in [(0, 0), (0, 4), (4, 0), (4, 4)]:
+        solid = arena.empty.copy()
+        position, block = step(arena, index_of(corner, arena), int(action), solid)
+        cell = moved(corner, action, (), SIZE)
+        assert cell_at(position, arena) == cell
+        placed = landing(cell, action, (), SIZE)
+        assert (None if block == NOWHERE else cell_at(block, arena)) == placed
+        assert np.count_nonzero(solid != arena.empty) == (placed is not None)
+
+
+def test_a_long_move_that_would_end_outside_is_stopped() -> None:
+    arena = arena_of([(0, 3), (3, 0), (-2, 0)], [False] * 3)
+    solid = arena.empty.copy()
+    for start, action, end in [((2, 1), 0, (2, 4)), ((2, 2), 0, (2, 2)), ((4, 4), 1, (4, 4)), ((1, 0), 2, (1, 0))]:
+        assert cell_at(step(arena, index_of(start, arena), action, solid)[0], arena) == end
+
+
+def test_a_block_is_in_the_way_of_steps_and_of_blocks() -> None:
+    arena = arena_of()
+    solid = arena.empty.copy()
+    start = index_of((2, 1), arena)
+    position, block = step(arena, start, int(Action.FD), solid)
+    assert (cell_at(position, arena), cell_at(block, arena)) == ((2, 2), (2, 3))
+    assert step(arena, position, int(Action.FD), solid) == (position, NOWHERE)
+    assert step(arena, position, int(Action.F), solid) == (position, NOWHERE)
+
+
+def test_a_block_can_land_to_the_side() -> None:
+    arena = arena_of(lands=(1, 0))
+    position, block = step(arena, index_of((2, 1), arena), int(Action.LD), arena.empty.copy())
+    assert (cell_at(position, arena), cell_at(block, arena)) == ((1, 1), (2, 1))
+
+
+@given(st.lists(st.sampled_from(Action), max_size=60))
+def test_with_the_true_rules_any_actions_do_what_the_rules_say(actions: list[Action]) -> None:
+    arena = arena_of()
+    solid, cell, placed = arena.empty.copy(), (2, 1), set[Cell]()
+    position = index_of(cell, arena)
+    for action in actions:
+        position, block = step(arena, position, int(action), solid)
+        cell = moved(cell, action, placed, SIZE)
+        lands = landing(cell, action, placed, SIZE)
+        placed |= {lands} if lands else set()
+        assert (cell_at(position, arena), None if block == NOWHERE else cell_at(block, arena)) == (cell, lands)

@@ -1,0 +1,134 @@
+"""What is thought of each cell, by hand on a small arena, and how optimism makes an agent try what is unknown."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arrays import Int64s
+from mc_nested.learn.imagination.beliefs import FAR_FROM_PAYING, KNOWN_TO_PAY, Belief, Beliefs, believe
+from mc_nested.learn.imagination.experience import RealStep
+
+SIZE = 5
+AHEAD = (0, 1)
+UNKNOWN, BELIEVED, PAYS, PAYS_NOT = Belief
+
+
+def tries(*tried: tuple[Cell, bool]) -> Int64s:
+    """A transition for each block that landed in a cell, ahead of the agent, and whether it paid."""
+    steps = [RealStep(x, y - 1, 9, int(Action.FD), x, y - 1, 8, int(paid), 0) for (x, y), paid in tried]
+    return np.array(steps, dtype=np.int64).reshape(len(steps), 9)
+
+
+def of(*tried: tuple[Cell, bool], blocks: int = 3) -> Beliefs:
+    return believe(tries(*tried), AHEAD, SIZE, blocks)
+
+
+def test_nothing_is_known_at_first_and_every_cell_that_a_block_can_reach_may_pay() -> None:
+    found = of(blocks=2)
+    assert (found.cells == UNKNOWN).all()
+    # Nobody stands in front of the row y = 0: no block lands there.
+    assert found.pay[:, 0].tolist() == [0.0] * SIZE
+    assert (found.pay[:, 1:] == 1.0).all()
+    assert found.explores
+    assert found.most == 2.0
+
+
+def test_the_eight_cells_around_a_paying_one_are_believed_to_pay() -> None:
+    found = of(((2, 3), True))
+    assert found.cells.tolist() == [
+        [UNKNOWN] * 5,
+        [UNKNOWN, UNKNOWN, BELIEVED, BELIEVED, BELIEVED],
+        [UNKNOWN, UNKNOWN, BELIEVED, PAYS, BELIEVED],
+        [UNKNOWN, UNKNOWN, BELIEVED, BELIEVED, BELIEVED],
+        [UNKNOWN] * 5,
+    ]
+    known, far = np.float32(KNOWN_TO_PAY), np.float32(FAR_FROM_PAYING)
+    assert found.pay[1].tolist() == [0.0, far, 1.0, 1.0, 1.0]
+    assert found.pay[2].tolist() == [0.0, far, 1.0, known, 1.0]
+    assert found.most == 3.0, "three believed cells: more than with the known one"
+
+
+def test_what_no_block_can_reach_is_not_believed() -> None:
+    found = of(((2, 1), True))
+    assert found.cells[:, 0].tolist() == [UNKNOWN] * SIZE
+    assert found.pay[:, 0].tolist() == [0.0] * SIZE
+    assert found.cells[1:4, 2].tolist() == [BELIEVED] * 3
+
+
+@pytest.mark.parametrize(
+    ("lands", "unreached"),
+    [
+        ((0, 1), {(x, 0) for x in range(SIZE)}),
+        ((1, 0), {(0, y) for y in range(SIZE)}),
+        ((-1, -1), {(x, y) for x in range(SIZE) for y in range(SIZE) if 4 in (x, y)}),
+    ],
+)
+def test_which_cells_are_in_reach_follows_from_where_blocks_land(lands: Cell, unreached: set[Cell]) -> None:
+    pay = believe(tries(), lands, SIZE, 3).pay
+    assert {(int(x), int(y)) for x, y in np.argwhere(pay == 0.0)} == unreached
+
+
+def test_a_cell_that_paid_nothing_is_worth_nothing() -> None:
+    found = of(((2, 3), True), ((2, 4), False))
+    assert found.cells[2, 4] == PAYS_NOT
+    assert found.pay[2, 4] == 0.0
+
+
+def test_without_an_untried_cell_beside_a_paying_one_every_unknown_cell_may_pay() -> None:
+    # The only cells beside (0, 1) in reach are (0, 2), (1, 1) and (1, 2): none of them paid.
+    found = of(((0, 1), True), ((0, 2), False), ((1, 1), False), ((1, 2), False))
+    assert not (found.cells == BELIEVED).any()
+    assert found.pay[2:, 1:].tolist() == [[1.0] * 4] * 3
+    assert found.pay[0, 1] == np.float32(KNOWN_TO_PAY)
+
+
+def test_once_as_many_paying_cells_are_known_as_there_are_blocks_those_alone_are_built() -> None:
+    found = of(((1, 3), True), ((4, 4), False), ((2, 3), True), blocks=2)
+    assert not found.explores
+    assert np.argwhere(found.pay > 0).tolist() == [[1, 3], [2, 3]]
+    assert found.pay.sum() == found.most == 2.0
+    assert set(found.cells.ravel().tolist()) == {UNKNOWN, PAYS, PAYS_NOT}
+
+
+@pytest.mark.parametrize("before", range(2, 12))
+@pytest.mark.parametrize("usual", [True, False])
+def test_one_odd_outcome_is_outvoted_and_two_in_a_row_are_believed(usual: bool, before: int) -> None:
+    belief = {True: PAYS, False: PAYS_NOT}
+    cell = (2, 2)
+    said = [(cell, usual)] * before
+    assert of(*said).cells[cell] == belief[usual]
+    assert of(*said, (cell, not usual)).cells[cell] == belief[usual]
+    assert of(*said, (cell, not usual), (cell, usual)).cells[cell] == belief[usual]
+    assert of(*said, (cell, not usual), (cell, not usual)).cells[cell] == belief[not usual]
+
+
+def test_of_two_outcomes_the_later_counts() -> None:
+    assert of(((2, 2), True), ((2, 2), False)).cells[2, 2] == PAYS_NOT
+    assert of(((2, 2), False), ((2, 2), True)).cells[2, 2] == PAYS
+
+
+def test_a_step_that_used_no_block_says_nothing() -> None:
+    steps = tries(((2, 2), False))
+    steps[:, 6] = steps[:, 2]
+    assert (believe(steps, AHEAD, SIZE, 3).cells == UNKNOWN).all()
+
+
+def test_a_block_that_would_lie_outside_says_nothing() -> None:
+    assert (believe(tries(((2, 3), True)), (0, 3), SIZE, 3).cells == UNKNOWN).all()
+
+
+@given(
+    st.lists(st.tuples(st.tuples(st.integers(0, 4), st.integers(1, 4)), st.booleans()), max_size=40), st.integers(1, 8)
+)
+def test_every_belief_has_its_pay(tried: list[tuple[Cell, bool]], blocks: int) -> None:
+    found = of(*tried, blocks=blocks)
+    pays, unknown = found.cells == PAYS, np.isin(found.cells, [UNKNOWN, BELIEVED])
+    assert set(map(tuple, np.argwhere(~unknown).tolist())) == {cell for cell, _ in tried}
+    assert found.explores == (pays.sum() < blocks)
+    assert not found.pay[found.cells == PAYS_NOT].any()
+    assert (found.pay[:, 1:][unknown[:, 1:]] > 0).all() == found.explores or not unknown[:, 1:].any()
+    assert (found.pay[found.cells == BELIEVED] == 1.0).all()
+    best = sorted(found.pay.astype(np.float64).ravel(), reverse=True)[:blocks]
+    assert found.most == sum(best), "what an imagined episode can earn, to the last bit"

@@ -1,0 +1,221 @@
+"""What runs have seen, learn of it and practise: each run, and each material of a hierarchy, its own."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+from mc_nested.arena.action import Action
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arrays import Arrays
+from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
+from mc_nested.learn.imagination.beliefs import Belief
+from mc_nested.learn.imagination.imagination import FIRST_TRIES, Imagination
+from mc_nested.learn.preset import Preset
+from sim.grid import GridGame
+from tests.learn.imagination.made_games import BENT, SMALL, TRUE_MOVES, TRUE_PLACES, TWO, assert_rules
+
+NESTED, HIERARCHICAL = AGENT_SPECS["nested"], AGENT_SPECS["hierarchical"]
+BUILT = [Action.FD, Action.R, Action.FD]
+"""The last one is stopped at the edge, or not: its block lands ahead."""
+
+
+def imagination_of(
+    runs: int = 1, spec: AgentSpec = NESTED, preset: Preset = SMALL, seed: int = 0, numbers: Sequence[int] | None = None
+) -> tuple[Agent, Imagination]:
+    agent = Agent(spec, [BENT] * runs, preset, seed, numbers)
+    made = agent.imagination([BENT] * runs, preset, seed)
+    assert made is not None
+    return agent, made
+
+
+def play(imagination: Imagination, actions: Sequence[int], run: int = 0, runs: int = 1, material: int = 1) -> None:
+    """An episode of these actions in one of the runs, in the real rules; the others stand still."""
+    env, rows = ArenaEnv(GridGame(BENT), BENT), np.array([run])
+    materials = np.full(runs, material)
+    before = np.tile(env.reset(options={"material": BENT.materials[material].name})[0], (runs, 1))
+    imagination.begin(rows)
+    score = 0.0
+    for action in actions:
+        after, reward, terminated, _, info = env.step(action)
+        every = np.tile(after, (runs, 1))
+        done = np.full(runs, action)
+        imagination.observe(rows, before, materials, done, np.full(runs, reward), every)
+        before, score = every, info.get("score", score)
+        if terminated:
+            break
+    imagination.end(rows, materials, np.full(runs, score))
+
+
+def at_random(imagination: Imagination, episodes: int, run: int = 0, runs: int = 1, seed: int = 0) -> None:
+    random = np.random.default_rng(seed)
+    for episode in range(episodes):
+        play(imagination, random.integers(0, 8, BENT.step_limit).tolist(), run, runs, episode % 2)
+
+
+def copied(arrays: Arrays) -> Arrays:
+    return {name: kept.copy() for name, kept in arrays.items()}
+
+
+def test_a_run_learns_the_rules_and_the_design_from_what_it_saw_alone() -> None:
+    _, imagination = imagination_of(2)
+    at_random(imagination, 30, run=1, runs=2)
+    assert_rules(imagination.rules(1), TRUE_MOVES, TRUE_PLACES, (0, 1))
+    assert not imagination.rules(0).known.any()
+    assert (imagination.beliefs(0).cells == Belief.UNKNOWN).all()
+    paying = {(int(x), int(y)) for x, y in np.argwhere(imagination.beliefs(1).cells == Belief.PAYS)}
+    assert paying
+    assert paying <= BENT.design
+
+
+def test_before_the_first_step_nothing_is_practised() -> None:
+    agent, imagination = imagination_of()
+    before = agent.low_level.ddqn.online.copy()
+    assert not imagination.practise(0, 1)
+    np.testing.assert_array_equal(agent.low_level.ddqn.online, before)
+
+
+def test_practice_of_a_known_design_ends_with_a_policy_that_builds_it() -> None:
+    agent, imagination = imagination_of()
+    at_random(imagination, 10)
+    play(imagination, [Action.FD, Action.RD, Action.F, Action.L, Action.B, Action.FD, Action.FD])
+    while imagination.beliefs(0).explores:
+        at_random(imagination, 10, seed=1)
+    assert imagination.practise(0, 1)
+    env = ArenaEnv(GridGame(BENT), BENT)
+    observation, _ = env.reset(options={"material": "stone"})
+    ended, score = False, 0.0
+    while not ended:
+        states = agent.low_level_states(observation[None], np.array([1]))
+        action = agent.low_level.act(states, np.zeros(1), np.zeros((1, 2)))[0]
+        observation, _, terminated, truncated, info = env.step(action)
+        ended, score = terminated or truncated, info.get("score", 0.0)
+    assert score == BENT.optimum
+
+
+def test_while_the_design_is_unknown_no_policy_is_said_to_build_it() -> None:
+    _, imagination = imagination_of()
+    play(imagination, BUILT)
+    assert imagination.beliefs(0).explores
+    assert not imagination.practise(0, 1)
+
+
+def test_practice_can_be_ended_from_outside() -> None:
+    agent, imagination = imagination_of()
+    play(imagination, BUILT)
+    before = agent.low_level.ddqn.online.copy()
+    assert not imagination.practise(0, 1, lambda: False)
+    np.testing.assert_array_equal(agent.low_level.ddqn.online, before)
+
+
+@pytest.mark.parametrize(("spec", "changed"), [(NESTED, [1]), (HIERARCHICAL, [2])], ids=["nested", "hierarchical"])
+def test_only_the_runs_agent_of_that_material_practises(spec: AgentSpec, changed: list[int]) -> None:
+    agent, imagination = imagination_of(2, spec)
+    at_random(imagination, 3, run=1, runs=2)
+    before = agent.low_level.ddqn.online.copy()
+    imagination.practise(1, 0)
+    differs = (agent.low_level.ddqn.online != before).any(axis=1)
+    assert np.flatnonzero(differs).tolist() == changed
+
+
+def test_an_agent_of_a_hierarchy_practises_with_the_transitions_of_its_own_material() -> None:
+    for spec, held in ((HIERARCHICAL, [2, 3]), (NESTED, [5, 5])):
+        _, imagination = imagination_of(spec=spec)
+        play(imagination, [Action.F, Action.B], material=0)
+        play(imagination, [Action.F, Action.L, Action.R], material=1)
+        for material in (0, 1):
+            imagination.practise(0, material, lambda: False)
+            assert imagination._practice._replay.added.tolist() == [held[material]]
+
+
+def test_the_same_run_practises_the_same_beside_others_and_alone() -> None:
+    beside, imagination = imagination_of(3)
+    alone, imagination_alone = imagination_of(1, numbers=[2])
+    at_random(imagination, 3, run=2, runs=3)
+    at_random(imagination_alone, 3)
+    imagination.practise(2, 1)
+    imagination_alone.practise(0, 1)
+    np.testing.assert_array_equal(beside.low_level.ddqn.online[2], alone.low_level.ddqn.online[0])
+
+
+def test_the_main_agent_chooses_what_was_never_tried_and_then_the_best() -> None:
+    agent, imagination = imagination_of()
+    assert agent.main is not None
+
+    def chosen() -> int:
+        imagination.learn_choice(0)
+        assert agent.main is not None
+        return int(agent.main.act(np.array([BENT.start_state]), np.zeros(1), np.zeros((1, 2)))[0])
+
+    built = [Action.FD, Action.RD, Action.BD]
+    play(imagination, built, material=1)
+    assert chosen() == 0, "as many blocks better than the best, since it was never tried"
+    play(imagination, built, material=0)
+    assert chosen() == 1
+
+
+def test_the_first_steps_try_actions_of_which_it_is_not_known_where_they_lead() -> None:
+    _, imagination = imagination_of()
+    rows, wanted = np.array([0]), np.array([int(Action.F)])
+    assert imagination.act(rows, wanted).tolist() == [0], "the first that was never tried"
+    play(imagination, [Action.B])  # it moved: where B leads is known
+    assert imagination.act(rows, wanted).tolist() == [0]
+    play(imagination, [Action.F])
+    assert imagination.act(rows, wanted).tolist() == [int(Action.L)]
+
+
+def test_an_action_that_never_moved_is_tried_again_but_seldom() -> None:
+    _, imagination = imagination_of()
+    rows, wanted = np.array([0]), np.array([int(Action.F)])
+    play(imagination, [*range(7), *[Action.F, Action.B] * 3])
+    play(imagination, [Action.B, Action.BD])  # against the edge: BD was tried and didn't move
+    tried = []
+    for _ in range(200):
+        action = int(imagination.act(rows, wanted)[0])
+        tried.append(action)
+        play(imagination, [Action.B, Action.BD] if action == Action.BD else [action])
+    tries = imagination.state()["tries"][0]
+    assert 10 < tries[Action.BD] <= FIRST_TRIES * tries.sum() + 1
+    assert set(tried) == {int(Action.F), int(Action.BD)}
+
+
+def test_once_the_design_is_known_nothing_is_tried_any_more() -> None:
+    _, imagination = imagination_of()
+    imagination._explores[:] = False
+    assert imagination.act(np.array([0]), np.array([5])).tolist() == [5]
+
+
+def test_only_the_named_runs_act() -> None:
+    _, imagination = imagination_of(3)
+    imagination._explores[:] = [False, True, False]
+    assert imagination.act(np.array([0, 2]), np.array([5, 6, 7])).tolist() == [5, 7]
+    assert imagination.act(np.array([], dtype=np.int64), np.array([5, 6, 7])).tolist() == []
+
+
+@pytest.mark.parametrize("spec", [NESTED, HIERARCHICAL], ids=["nested", "hierarchical"])
+def test_what_was_saved_in_mid_episode_goes_on_to_the_bit(spec: AgentSpec) -> None:
+    agent, imagination = imagination_of(2, spec)
+    at_random(imagination, 3, run=1, runs=2)
+    imagination.begin(np.array([0]))
+    here, after = np.tile(BENT.start_state, (2, 1)), np.tile((2, 2, 3), (2, 1))
+    imagination.observe(np.array([0]), here, np.ones(2, np.int64), np.array([0, 0]), np.zeros(2), after)
+    resumed_agent, resumed = imagination_of(2, spec)
+    resumed.load(copied(imagination.state()))
+    resumed_agent.load(copied(agent.state()))
+    for each in (imagination, resumed):
+        each.observe(np.array([0]), after, np.ones(2, np.int64), np.array([1, 0]), np.zeros(2), here)
+        each.end(np.array([0]), np.ones(2, np.int64), np.full(2, 10.0))
+        for run in (0, 1):
+            each.learn_choice(run)
+            each.practise(run, 1)
+    for name, kept in {**imagination.state(), **agent.state()}.items():
+        np.testing.assert_array_equal({**resumed.state(), **resumed_agent.state()}[name], kept, err_msg=name)
+
+
+def test_arenas_of_other_sizes_are_learnt_side_by_side() -> None:
+    large = BENT.__class__("large", TWO.design, TWO.start, TWO.step_limit, TWO.materials, size=7)
+    agent = Agent(NESTED, [BENT, large], SMALL, 0)
+    made = agent.imagination([BENT, large], SMALL, 0)
+    assert made is not None
+    assert [len(made.beliefs(run).pay) for run in (0, 1)] == [5, 7]
+    assert [made.beliefs(run).most for run in (0, 1)] == [3.0, 2.0]

@@ -1,0 +1,102 @@
+"""The learnt rules are the true ones, whatever those are, also where actions slip."""
+
+import numpy as np
+import pytest
+
+from mc_nested.arena.action import Action
+from mc_nested.learn.imagination.experience import Experience
+from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules
+from sim.grid import GridGame
+from tests.learn.imagination.made_games import (
+    BENT,
+    TRUE_MOVES,
+    TRUE_PLACES,
+    MadeUpGame,
+    Slipping,
+    assert_rules,
+    play,
+    seen_at_random,
+)
+
+SWAPPED = [TRUE_MOVES[at] for at in (1, 0, 2, 3, 4, 5, 6, 7)]
+
+
+def learnt(seen: Experience) -> LearntRules:
+    return learn_rules(seen.steps, seen.first_of_episode, len(Action), BENT.size)
+
+
+def explained_by(*actions: Action) -> LearntRules:
+    """What an episode of these actions, and no more, says."""
+    seen = Experience()
+    play(GridGame(BENT), BENT, actions, seen)
+    return learnt(seen)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_random_actions_show_the_true_rules(seed: int) -> None:
+    assert_rules(learnt(seen_at_random(GridGame(BENT), BENT, 20, seed)), TRUE_MOVES, TRUE_PLACES, (0, 1))
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("lands", [(1, 0), (-1, -1), (0, -1)])
+def test_other_rules_are_learnt_as_they_are(lands: tuple[int, int], seed: int) -> None:
+    places = TRUE_PLACES[::-1]
+    game = MadeUpGame(SWAPPED, places, lands, BENT)
+    assert_rules(learnt(seen_at_random(game, BENT, 30, seed)), SWAPPED, places, lands)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_one_action_in_twenty_that_slips_is_outvoted(seed: int) -> None:
+    slips = np.random.default_rng(100 + seed)
+    real = Slipping(GridGame(BENT), 0.05, slips)
+    assert_rules(learnt(seen_at_random(real, BENT, 40, seed)), TRUE_MOVES, TRUE_PLACES, (0, 1))
+    other = Slipping(MadeUpGame(SWAPPED, TRUE_PLACES, (1, 0), BENT), 0.05, slips)
+    assert_rules(learnt(seen_at_random(other, BENT, 40, seed)), SWAPPED, TRUE_PLACES, (1, 0))
+
+
+def test_a_block_that_stops_the_next_step_shows_where_it_landed() -> None:
+    # From (2, 1) to (2, 2); its block could have landed in any of the eight cells around. The second FD is stopped, not
+    # at the edge: the block is ahead. One transition can't tell, and no fewer than two do.
+    assert explained_by(Action.FD).lands != (0, 1)
+    assert explained_by(Action.FD, Action.FD).lands == (0, 1)
+
+
+def test_a_step_to_the_side_that_is_stopped_shows_a_block_there() -> None:
+    # R is known to lead to the right; beside the block it is stopped, far from the edge.
+    seen = Experience()
+    game = MadeUpGame(TRUE_MOVES, TRUE_PLACES, (1, 0), BENT)
+    play(game, BENT, [Action.L, Action.R, Action.L, Action.FD, Action.R], seen)
+    assert learnt(seen).lands == (1, 0)
+
+
+def test_an_edge_stops_a_step_and_says_nothing_of_blocks() -> None:
+    at_edge = explained_by(Action.FD, Action.FD, *[Action.B] * 4)
+    assert at_edge.moves[Action.B].tolist() == [0, -1]
+    assert at_edge.known.tolist() == [action in (Action.FD, Action.B) for action in Action]
+    assert at_edge.lands == (0, 1)
+    assert not at_edge.places[Action.B], "it was tried where a block could land"
+
+
+def test_an_action_that_was_never_tried_is_taken_to_place_a_block() -> None:
+    assert learnt(Experience()).places.all()
+    assert not learnt(Experience()).known.any()
+    tried = explained_by(Action.F, Action.FD)
+    assert tried.places.tolist() == [action is not Action.F for action in Action]
+
+
+def test_a_try_where_no_block_could_land_does_not_count_against_an_action() -> None:
+    # Once at (2, 3), whose block is in (2, 4), FD stays there and can't place again: four tries void, one not.
+    rules = explained_by(Action.F, *[Action.FD] * 5)
+    assert rules.places[Action.FD]
+    assert rules.lands == (0, 1)
+
+
+def test_blocks_are_gone_in_the_next_episode() -> None:
+    seen = Experience()
+    game = GridGame(BENT)
+    play(game, BENT, [Action.FD, Action.FD], seen)
+    for _ in range(3):
+        play(game, BENT, [Action.F, Action.F], seen)
+    assert learnt(seen).lands == (0, 1)
+    as_one_episode = learn_rules(seen.steps, np.array([0]), len(Action), BENT.size)
+    assert as_one_episode.lands != (0, 1), "each walk through the old block would speak against it"

@@ -1,0 +1,72 @@
+"""The main agent's imagined scores: what a material brought, optimism for one never tried, and learning them."""
+
+import numpy as np
+import pytest
+
+from mc_nested.arrays import Float64s
+from mc_nested.learn.agents import AGENT_SPECS, Agent
+from mc_nested.learn.imagination.material_choice import CLOSE, LAST, learn_choice, scores_of_materials
+from mc_nested.learn.learner import Learner
+from tests.learn.imagination.made_games import BENT, SMALL
+
+START = np.array(BENT.start_state)
+
+
+def brought(*extras: tuple[int, float]) -> Float64s:
+    return np.array(extras, dtype=np.float64).reshape(len(extras), 2)
+
+
+def main_of(runs: int, seed: int = 0) -> Learner:
+    main = Agent(AGENT_SPECS["nested"], [BENT] * runs, SMALL, seed).main
+    assert main is not None
+    return main
+
+
+def test_before_the_first_episode_all_materials_are_worth_the_same() -> None:
+    # The most that 3 blocks bring, 2.4, and 3 blocks more.
+    assert scores_of_materials(brought(), 2, 3, 2.4).tolist() == [5.4, 5.4]
+
+
+def test_a_material_that_was_never_tried_is_worth_as_many_blocks_more_than_the_best() -> None:
+    assert scores_of_materials(brought((0, -5.0)), 2, 3, 3.0).tolist() == [-2.0, 1.0]
+    assert scores_of_materials(brought((1, 10.0)), 3, 4, 4.0).tolist() == [18.0, 14.0, 18.0]
+
+
+def test_when_all_were_tried_the_best_is_what_brought_most() -> None:
+    assert scores_of_materials(brought((0, -5.0), (1, 10.0)), 2, 3, 3.0).tolist() == [-2.0, 13.0]
+
+
+def test_the_last_episodes_of_a_material_are_what_it_brings() -> None:
+    assert LAST == 3
+    extras = brought((1, 90.0), (1, 1.0), (0, -5.0), (1, 2.0), (1, 6.0))
+    assert scores_of_materials(extras, 2, 3, 0.0).tolist() == [-5.0, 3.0]
+
+
+@pytest.mark.parametrize("scores", [(-2.0, 13.0), (13.0, -2.0), (5.4, 5.4), (0.0, 0.5)])
+def test_the_learnt_values_are_close_to_the_scores(scores: tuple[float, ...]) -> None:
+    main = main_of(1)
+    learn_choice(main, 0, START, np.array(scores))
+    values = main.ddqn.q_values(main.space.index(START[None]))[0]
+    # The last update begins within CLOSE; it moves each value a little more.
+    np.testing.assert_allclose(values, scores, atol=1.2 * CLOSE)
+    if abs(scores[0] - scores[1]) > 2.4 * CLOSE:
+        assert main.act(START[None], np.zeros(1), np.zeros((1, 2)))[0] == int(np.argmax(scores))
+
+
+def test_what_was_learnt_takes_one_update_to_confirm() -> None:
+    main = main_of(1)
+    scores = np.array([-2.0, 13.0])
+    learn_choice(main, 0, START, scores)
+    before = int(main.ddqn.updates[0])
+    learn_choice(main, 0, START, scores)
+    assert int(main.ddqn.updates[0]) - before <= 3
+
+
+def test_another_runs_main_agent_stays_as_it_is_and_it_learns_the_same_alone() -> None:
+    beside, alone = main_of(2), main_of(1)
+    untouched = beside.ddqn.online[1].copy()
+    for main in (beside, alone):
+        learn_choice(main, 0, START, np.array([-2.0, 13.0]))
+    np.testing.assert_array_equal(beside.ddqn.online[1], untouched)
+    np.testing.assert_array_equal(beside.ddqn.online[0], alone.ddqn.online[0])
+    assert beside.ddqn.updates.tolist() == [alone.ddqn.updates[0], 0]

@@ -1,0 +1,157 @@
+"""Practice reaches its aim in the learnt game, in the named row alone, repeatably, and ends where it has to."""
+
+import numpy as np
+import pytest
+
+from mc_nested.arena.action import Action
+from mc_nested.errors import DivergedError
+from mc_nested.learn.imagination.arena_step import NOWHERE, index_of, step
+from mc_nested.learn.imagination.practice import CAPACITY, Goal, Practice, Practised, RealTransitions, landed_cells
+from mc_nested.learn.learner import Learner
+from mc_nested.learn.preset import Preset
+from tests.learn.imagination.made_games import BENT, RULE, SMALL, with_update
+from tests.learn.imagination.made_practice import GOAL, MATERIAL, arena_of, learner_of, real_of
+
+UNREACHABLE = GOAL._replace(aim=float(BENT.blocks + 1), most_updates=50)
+
+
+def practised(
+    learner: Learner,
+    row: int = 0,
+    goal: Goal = GOAL,
+    real: RealTransitions | None = None,
+    preset: Preset = SMALL,
+    seed: int = 5,
+) -> tuple[Practised, Practice]:
+    practice = Practice(learner, preset, RULE)
+    real = real_of(learner) if real is None else real
+    return practice.practise(row, arena_of(), goal, MATERIAL, real, np.random.default_rng(seed)), practice
+
+
+def greedy_score(learner: Learner, row: int) -> float:
+    """What the row's policy earns in the learnt game, played step by step by the learner's own choice."""
+    arena = arena_of()
+    solid, position, left, score = arena.empty.copy(), index_of(BENT.start, arena), BENT.blocks, 0.0
+    for _ in range(BENT.step_limit):
+        x, y = position // arena.side - arena.border, position % arena.side - arena.border
+        state = np.array([[x, y, left, *MATERIAL]])
+        action = int(learner.act(state, np.zeros(1), np.zeros((1, 2)), np.array([row]))[0])
+        position, block = step(arena, position, action, solid)
+        left, score = left - (block != NOWHERE), score + arena.pay[block]
+        if left == 0:
+            break
+    return score
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_it_reaches_the_aim_and_the_policy_plays_as_well_outside(seed: int) -> None:
+    learner = learner_of(seed=seed)
+    result, _ = practised(learner)
+    assert result.reached
+    assert result.score == GOAL.aim == greedy_score(learner, 0)
+    assert 0 < result.updates == learner.ddqn.updates[0] < 15_000
+
+
+def test_what_was_reached_is_confirmed_by_one_greedy_episode_without_an_update() -> None:
+    learner = learner_of()
+    practised(learner)
+    online = learner.ddqn.online.copy()
+    assert practised(learner, seed=6)[0] == Practised(0, 1, GOAL.aim, True)
+    np.testing.assert_array_equal(learner.ddqn.online, online)
+
+
+def test_only_the_named_row_changes_as_it_would_alone() -> None:
+    learner, alone = learner_of(3), learner_of(3)
+    before = {name: kept.copy() for name, kept in learner.ddqn.state().items()}
+    practised(learner, row=1)
+    for name, kept in learner.ddqn.state().items():
+        np.testing.assert_array_equal(kept[[0, 2]], before[name][[0, 2]], err_msg=name)
+        assert (kept[1] != before[name][1]).any(), name
+    practised(alone, row=0)
+    practised(alone, row=1)
+    np.testing.assert_array_equal(alone.ddqn.online[1], learner.ddqn.online[1])
+    assert learner.replay.added.tolist() == [0, 0, 0], "a practice has a replay of its own"
+
+
+def test_the_same_numbers_make_the_same_networks_and_others_do_not() -> None:
+    one, same, other = learner_of(), learner_of(), learner_of()
+    results = [practised(one)[0], practised(same)[0]]
+    assert results[0] == results[1]
+    for name, kept in one.ddqn.state().items():
+        np.testing.assert_array_equal(kept, same.ddqn.state()[name], err_msg=name)
+    practised(other, seed=77)
+    assert (one.ddqn.online != other.ddqn.online).any()
+
+
+def test_a_budget_ends_what_can_not_be_reached() -> None:
+    result, _ = practised(learner_of(), goal=UNREACHABLE)
+    assert not result.reached
+    assert result.updates >= UNREACHABLE.most_updates
+    # The budget is looked at each time that the numbers are used up, 65536 of them: 18 an update here.
+    assert result.updates < UNREACHABLE.most_updates + 65_536 / 17
+    assert result.episodes > 10
+
+
+def test_it_ends_when_it_is_told_to() -> None:
+    answers = iter([True, True, False])
+    learner = learner_of()
+    goal = GOAL._replace(aim=UNREACHABLE.aim, most_updates=10**9)
+    practice, random = Practice(learner, SMALL, RULE), np.random.default_rng(0)
+    result = practice.practise(0, arena_of(), goal, MATERIAL, real_of(learner), random, lambda: next(answers))
+    assert not result.reached
+    assert result.updates > 0
+    assert list(answers) == []
+
+
+def test_a_practice_that_is_told_to_end_at_once_changes_nothing() -> None:
+    learner = learner_of()
+    practice, random = Practice(learner, SMALL, RULE), np.random.default_rng(0)
+    result = practice.practise(0, arena_of(), GOAL, MATERIAL, real_of(learner), random, lambda: False)
+    assert result == Practised(0, 0, 0.0, False)
+
+
+def test_networks_that_diverge_are_one_line() -> None:
+    diverging = with_update(SMALL, learning_rate=1e38)
+    learner = learner_of()
+    with pytest.raises(DivergedError, match="lower it in the preset") as caught:
+        practised(learner, goal=UNREACHABLE, preset=diverging)
+    assert "\n" not in str(caught.value)
+
+
+def test_the_real_transitions_are_in_its_replay_and_the_imagined_ones_follow() -> None:
+    learner, arena = learner_of(), arena_of()
+    real = real_of(
+        learner,
+        ([2, 1, 3, 1], int(Action.FD), [2, 2, 2, 1], index_of((2, 3), arena)),
+        ([2, 2, 1, 1], int(Action.LD), [1, 2, 0, 1], index_of((1, 3), arena)),
+    )
+    _, practice = practised(learner, goal=UNREACHABLE, real=real)
+    replay = practice._replay
+    assert replay.states[:2].tolist() == learner.space.index(np.array([[2, 1, 3, 1], [2, 2, 1, 1]])).tolist()
+    assert replay.next_states[:2].tolist() == learner.space.index(np.array([[2, 2, 2, 1], [1, 2, 0, 1]])).tolist()
+    assert replay.actions[:2].tolist() == [Action.FD, Action.LD]
+    assert replay.landed[:2].tolist() == [index_of((2, 3), arena), index_of((1, 3), arena)]
+    assert replay.terminated[:2].tolist() == [False, True]
+    added = int(replay.added[0])
+    begins = learner.space.index(np.array([*BENT.start_state, 1]))
+    assert replay.states[2] == begins, "the first imagined episode"
+    imagined = replay.states[2:added]
+    assert (imagined % 2 == 1).all(), "its material comes last in a state"
+    assert replay.terminated[2:added].tolist() == (replay.next_states[2:added] // 2 % 4 == 0).tolist()
+    assert added < CAPACITY
+
+
+def test_the_next_practice_begins_with_its_own_real_transitions_alone() -> None:
+    learner = learner_of()
+    practice, random = Practice(learner, SMALL, RULE), np.random.default_rng(0)
+    real = real_of(learner, ([2, 1, 3, 1], int(Action.B), [2, 0, 3, 1], NOWHERE))
+    practice.practise(0, arena_of(), UNREACHABLE, MATERIAL, real, random)
+    practice.practise(0, arena_of(), UNREACHABLE, MATERIAL, real, random, lambda: False)
+    assert practice._replay.added.tolist() == [1]
+
+
+def test_where_a_real_block_landed_follows_from_the_agents_place_after_the_action() -> None:
+    arena = arena_of()
+    steps = np.array([[2, 1, 3, 4, 2, 2, 2, 0, 1], [2, 2, 2, 0, 2, 2, 2, 0, 1], [2, 2, 2, 5, 1, 2, 1, 1, 1]])
+    assert landed_cells(steps, (0, 1), arena).tolist() == [index_of((2, 3), arena), NOWHERE, index_of((1, 3), arena)]
+    assert landed_cells(steps[:0], (0, 1), arena).tolist() == []

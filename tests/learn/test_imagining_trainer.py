@@ -1,0 +1,256 @@
+"""Training with practice in the learnt game: it solves small designs, repeatably, and unlearns what has changed."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mc_nested.arena.action import Action
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.game import Outcome, Resumable
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.arrays import Arrays, Int64s
+from mc_nested.errors import PresetError
+from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
+from mc_nested.learn.episode_log import EvaluationRow
+from mc_nested.learn.evaluation import play_greedily
+from mc_nested.learn.preset import Preset
+from mc_nested.learn.trainer import Trainer
+from sim.grid import GridGame, GridVectorEnv
+from tests.learn.imagination.made_games import BENT, SMALL, TWO
+
+NESTED, HIERARCHICAL, SINGLE = AGENT_SPECS["nested"], AGENT_SPECS["hierarchical"], AGENT_SPECS["single"]
+
+
+def trainer_of(
+    scenarios: Sequence[Scenario],
+    preset: Preset = SMALL,
+    seed: int = 0,
+    spec: AgentSpec = NESTED,
+    stops: bool = False,
+    env: Any = None,
+) -> Trainer:
+    arenas = GridVectorEnv(scenarios) if env is None else env
+    return Trainer(arenas, scenarios, Agent(spec, scenarios, preset, seed), preset, seed, stops)
+
+
+def finish(trainer: Trainer) -> Trainer:
+    while not trainer.finished:
+        trainer.tick()
+    return trainer
+
+
+def saved(trainer: Trainer) -> tuple[Arrays, list[Arrays]]:
+    return {name: kept.copy() for name, kept in trainer.state().items()}, [trainer.journal(None)]
+
+
+def assert_same(one: Trainer, other: Trainer) -> None:
+    """AssertionError unless both trainings came to the same, to the bit."""
+    assert one.episode_rows == other.episode_rows
+    assert one.evaluation_rows == other.evaluation_rows
+    expected = other.state()
+    for name, kept in one.state().items():
+        np.testing.assert_array_equal(kept, expected[name], err_msg=name)
+
+
+@pytest.fixture(scope="module")
+def whole() -> Trainer:
+    return finish(trainer_of([BENT] * 2))
+
+
+@pytest.mark.parametrize("spec", [NESTED, HIERARCHICAL], ids=["nested", "hierarchical"])
+@pytest.mark.parametrize("seed", range(2))
+def test_a_small_design_is_built_within_a_few_episodes(spec: AgentSpec, seed: int) -> None:
+    preset = SMALL.model_copy(update={"episodes": 60})
+    trainer = finish(trainer_of([BENT], preset, seed, spec, stops=True))
+    assert trainer.evaluation_rows[-1].score == BENT.optimum
+    assert len(trainer.episode_rows) + len(trainer.evaluation_rows) < 40
+    played = play_greedily(GridVectorEnv([BENT]), [BENT], trainer.agent)
+    assert [episode.score for episode in played] == [BENT.optimum]
+
+
+def test_the_single_agent_is_refused_in_one_line() -> None:
+    with pytest.raises(PresetError, match=r"\[imagination\] is not for the single agent: take") as caught:
+        Agent(SINGLE, [BENT], SMALL, 0)
+    assert "\n" not in str(caught.value)
+
+
+class Counting(GridVectorEnv):
+    """Counts the steps of every real episode."""
+
+    def __init__(self, scenarios: Sequence[Scenario]) -> None:
+        super().__init__(scenarios)
+        self.episodes: list[list[int]] = [[] for _ in scenarios]
+
+    def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> Any:
+        for run in np.flatnonzero((options or {})["reset_mask"]):
+            self.episodes[run].append(0)
+        return super().reset(seed=seed, options=options)
+
+    def step(self, actions: Int64s) -> Any:
+        for run in np.flatnonzero(~(self._terminated | self._truncated)):
+            self.episodes[run][-1] += 1
+        return super().step(actions)
+
+
+def test_every_real_episode_is_one_row_of_the_log(whole: Trainer) -> None:
+    env = Counting([BENT] * 2)
+    trainer = finish(trainer_of([BENT] * 2, env=env))
+    assert_same(trainer, whole)
+    for run in (0, 1):
+        rows = [row for row in trainer.episode_rows if row.trial == run]
+        greedy = [row for row in trainer.evaluation_rows if row.trial == run]
+        assert [row.episode for row in rows] == list(range(1, SMALL.episodes + 1))
+        assert sorted(env.episodes[run]) == sorted([row.steps for row in rows] + [row.steps for row in greedy])
+        assert greedy[-1].episode == SMALL.episodes, "it ends with an evaluation"
+        assert len({row.episode for row in greedy}) == len(greedy), "no policy is evaluated twice"
+    assert trainer.env_steps == sum(row.steps for row in trainer.episode_rows)
+    assert trainer.evaluation_steps == sum(row.steps for row in trainer.evaluation_rows)
+
+
+def test_each_material_is_tried_once_and_then_the_best_is_taken(whole: Trainer) -> None:
+    for run in (0, 1):
+        chosen = [row.material for row in whole.episode_rows if row.trial == run]
+        assert set(chosen[:2]) == {0, 1}
+        assert set(chosen[2:]) == {1}
+        assert all((row.epsilon_main, row.epsilon_nested) == (0.0, 0.0) for row in whole.episode_rows)
+
+
+def test_a_run_of_a_batch_is_the_same_run_trained_alone(whole: Trainer) -> None:
+    alone = finish(trainer_of([BENT]))
+    assert alone.episode_rows == [row for row in whole.episode_rows if row.trial == 0]
+    assert alone.evaluation_rows == [row for row in whole.evaluation_rows if row.trial == 0]
+    for role, online in alone.agent.online().items():
+        np.testing.assert_array_equal(online[0], whole.agent.online()[role][0])
+    agent = Agent(NESTED, [BENT], SMALL, 0, runs=[1])
+    second = finish(Trainer(GridVectorEnv([BENT]), [BENT], agent, SMALL, 0))
+    assert [row[1:] for row in second.episode_rows] == [row[1:] for row in whole.episode_rows if row.trial == 1]
+
+
+def test_the_same_seed_trains_the_same_and_another_does_not(whole: Trainer) -> None:
+    assert_same(finish(trainer_of([BENT] * 2)), whole)
+    assert finish(trainer_of([BENT] * 2, seed=1)).episode_rows != whole.episode_rows
+
+
+@pytest.mark.parametrize("ticks", [1, 20, 57, 90])
+def test_a_saved_training_goes_on_to_the_bit(whole: Trainer, ticks: int) -> None:
+    first = trainer_of([BENT] * 2)
+    for _ in range(ticks):
+        first.tick()
+    assert not first.finished
+    resumed = trainer_of([BENT] * 2)
+    resumed.load(*saved(first))
+    assert_same(finish(resumed), whole)
+
+
+class StartsOver(GridGame):
+    """A game that can't be saved half-way, like a live one, and that breaks down once."""
+
+    acts_left = 10**9
+
+    @property
+    def resumable(self) -> Resumable | None:
+        return None
+
+    def act(self, action: Action) -> Outcome:
+        self.acts_left -= 1
+        if self.acts_left == 0:
+            raise ConnectionError("the game is gone")
+        return super().act(action)
+
+
+def live_like(preset: Preset = SMALL) -> tuple[StartsOver, Trainer]:
+    game = StartsOver(BENT)
+    return game, trainer_of([BENT], preset, env=ArenaVectorEnv([ArenaEnv(game, BENT)]))
+
+
+@pytest.mark.parametrize("breaks_in", [1, 3])
+@pytest.mark.parametrize("episodes", [0, 4])
+def test_an_episode_that_a_mishap_ends_leaves_no_trace(episodes: int, breaks_in: int) -> None:
+    game, trainer = live_like()
+    _, undisturbed = live_like()
+    while len(trainer.episode_rows) + len(trainer.evaluation_rows) < episodes:
+        trainer.tick()
+    game.acts_left = breaks_in
+    before = {name: kept.copy() for name, kept in trainer.state().items() if name.startswith("imagination.")}
+    with pytest.raises(ConnectionError):
+        finish(trainer)
+    trainer.abandon_episodes()
+    after = trainer.state()
+    assert before
+    for name, kept in before.items():
+        if name != "imagination.explores":  # a practice has looked at its beliefs since
+            np.testing.assert_array_equal(after[name], kept, err_msg=name)
+    for each in (trainer, undisturbed):
+        finish(each)
+    assert trainer.episode_rows == undisturbed.episode_rows, "the episode is played again as it would have been"
+    assert trainer.evaluation_rows == undisturbed.evaluation_rows
+
+
+def test_a_game_that_can_not_be_saved_half_way_goes_on_with_a_new_episode() -> None:
+    _, first = live_like()
+    for _ in range(40):
+        first.tick()
+    _, resumed = live_like()
+    resumed.load(*saved(first))
+    assert [row.episode for row in finish(resumed).episode_rows] == list(range(1, SMALL.episodes + 1))
+
+
+class Changes(GridVectorEnv):
+    """Another design pays, after some episodes."""
+
+    def __init__(self, scenarios: Sequence[Scenario], later: Sequence[Scenario], after: int) -> None:
+        super().__init__(scenarios)
+        self._later = GridVectorEnv(later)._design
+        self._resets, self._after = 0, after
+
+    def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> Any:
+        if self._resets == self._after:
+            self._design = self._later
+        self._resets += 1
+        return super().reset(seed=seed, options=options)
+
+
+def test_a_design_that_changes_in_mid_training_is_found_again() -> None:
+    moved = replace(TWO, design=frozenset({(3, 2), (3, 3)}))
+    preset = SMALL.model_copy(update={"episodes": 60})
+    trainer = trainer_of([TWO], preset, env=Changes([TWO], [moved], after=40))
+    finish(trainer)
+    before = [row.score for row in trainer.evaluation_rows if row.episode <= 15]
+    assert max(before) == TWO.optimum
+    assert [row.score for row in trainer.evaluation_rows][-3:] == [TWO.optimum] * 3
+    scores = [row.score for row in trainer.episode_rows]
+    assert min(scores[20:]) < TWO.optimum, "the change was seen"
+
+
+class Slips(GridVectorEnv):
+    """One action in twenty is another."""
+
+    def __init__(self, scenarios: Sequence[Scenario], seed: int) -> None:
+        super().__init__(scenarios)
+        self._random = np.random.default_rng(seed)
+
+    def step(self, actions: Int64s) -> Any:
+        slips = self._random.random(len(actions)) < 0.05
+        return super().step(np.where(slips, self._random.integers(0, 8, len(actions)), actions))
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_where_actions_slip_the_policy_builds_the_design_where_they_do_not(seed: int) -> None:
+    trainer = finish(trainer_of([BENT], SMALL.model_copy(update={"episodes": 30}), seed, env=Slips([BENT], seed)))
+    played = play_greedily(GridVectorEnv([BENT]), [BENT], trainer.agent)
+    assert [episode.score for episode in played] == [BENT.optimum]
+
+
+def test_a_policy_that_was_begun_from_is_evaluated_before_the_first_episode(whole: Trainer) -> None:
+    online = {role: kept[[0]] for role, kept in whole.agent.online().items()}
+    trainer = trainer_of([BENT])
+    trainer.begin_from(online)
+    while not trainer.evaluation_rows:
+        trainer.tick()
+    played = whole.evaluation_rows[-1]
+    assert trainer.evaluation_rows == [EvaluationRow(0, 0, played.score, played.material, played.steps)]
+    assert not trainer.episode_rows
