@@ -62,9 +62,10 @@ class Variant(BaseModel):
         try:
             check_exploration(self.spec(), preset)
             changed = [self.scenario_from(scenario) for scenario in scenarios]
+            changed_preset = self.preset_from(preset)
         except (PresetError, ScenarioError):
             return False
-        return self.preset_from(preset) != preset or changed != scenarios or self.spec() != AGENT_SPECS[self.agent]
+        return changed_preset != preset or changed != scenarios or self.spec() != AGENT_SPECS[self.agent]
 
 
 class _Variants(BaseModel):
