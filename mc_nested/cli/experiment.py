@@ -38,7 +38,7 @@ def cores() -> int:
 def check_nothing_beside_resume(options: dict[str, Any]) -> None:
     """UserError if anything but --resume was given: a resumed experiment keeps its own config."""
     for name, value in options.items():
-        if name != "resume" and value not in (None, [], ()):
+        if name != "resume" and value is not False and value not in (None, [], ()):
             raise UserError(f"--resume goes on with its own config.toml: leave out --{name.replace('_', '-')}")
 
 

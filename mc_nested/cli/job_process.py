@@ -15,7 +15,8 @@ from types import FrameType
 
 from mc_nested.errors import UserError
 from mc_nested.learn.experiments.job_training import JobTraining, Training, writing
-from mc_nested.learn.experiments.jobs import Job
+from mc_nested.learn.experiments.jobs import PLANNER, Job
+from mc_nested.learn.experiments.planner_training import PlannerTraining
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from sim.grid import GridVectorEnv
 
@@ -84,6 +85,8 @@ def _training_of(job: Job, folder: Path) -> Training:
     arenas = GridVectorEnv(job.scenarios)
     if job.library is None:
         return JobTraining(job, folder, arenas)
+    if job.library == PLANNER:
+        return PlannerTraining(job, folder, arenas)
     from mc_nested.learn.experiments.sb3_training import Sb3Training  # only where the library is asked for
 
     return Sb3Training(job, folder, arenas, GridVectorEnv(job.scenarios))

@@ -1,11 +1,14 @@
-"""``mc-nested sweep``: the effect of each choice that the paper leaves open, on each design."""
+"""``mc-nested sweep``: what each choice does that the paper leaves open, or each part of live, on each design."""
 
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario, paper_scenarios, table_of
+from mc_nested.cli.ablation import TRIALS as ABLATION_TRIALS
+from mc_nested.cli.ablation import is_ablation, run_ablation
 from mc_nested.cli.experiment import (
     MOST_TRIALS,
     JobsOption,
@@ -18,6 +21,8 @@ from mc_nested.cli.experiment import (
     cores,
     train_all,
 )
+from mc_nested.errors import UserError
+from mc_nested.learn.experiments.ablation import AblationConfig, shipped_parts
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.learn.experiments.sweep import SweepConfig, shipped_variants
 from mc_nested.learn.preset import MOST, load_preset
@@ -29,10 +34,19 @@ TRIALS, EPISODES, PRESET = 5, 1000, "paper"
 
 def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
+    ablation: Annotated[
+        bool, typer.Option("--ablation", help="turn off each part of the preset live instead; tuned and a planner, too")
+    ] = False,
     trials: Annotated[
-        int | None, typer.Option(min=1, max=MOST_TRIALS, help=f"of each variant on each design [{TRIALS}]")
+        int | None,
+        typer.Option(
+            min=1, max=MOST_TRIALS, help=f"of each variant on each design [{TRIALS}; of an ablation {ABLATION_TRIALS}]"
+        ),
     ] = None,
-    episodes: Annotated[int | None, typer.Option(min=1, max=MOST, help=f"episodes a trial [{EPISODES:,}]")] = None,
+    episodes: Annotated[
+        int | None,
+        typer.Option(min=1, max=MOST, help=f"episodes a trial [{EPISODES:,}; of an ablation as each preset says]"),
+    ] = None,
     seed: SeedOption = None,
     scenario: Annotated[
         list[str] | None, typer.Option(metavar="NAME|FILE", help="a design, as often as you like [the paper's three]")
@@ -44,15 +58,25 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 ) -> None:
     """Vary each choice that the paper leaves open, one at a time; Ctrl+C saves, and --resume goes on from there.
 
-    Writes sweep.png, sweep.md and sweep.csv. The defaults take about ten minutes on two cores.
+    Writes sweep.png, sweep.md and sweep.csv, or ablation.*. The defaults take about ten minutes on two cores, those of
+    an ablation hours.
     """
     if resume is not None:
         check_nothing_beside_resume(context.params)
+        if is_ablation(resume):
+            run_ablation(ExperimentFolder.open(resume, AblationConfig, VERB))
+            return
         _run(ExperimentFolder.open(resume, SweepConfig, VERB))
         return
     path = check_new_folder(out)
-    base = load_preset(preset or PRESET).model_copy(update={"episodes": episodes or EPISODES})
     scenarios = [load_scenario(name) for name in scenario or paper_scenarios()]
+    if ablation:
+        if preset is not None:
+            raise UserError("--ablation takes parts off the presets live and tuned: leave out --preset")
+        ablation_config = _ablation(scenarios, trials, episodes, seed, jobs)
+        run_ablation(ExperimentFolder.new(path, ablation_config, VERB))
+        return
+    base = load_preset(preset or PRESET).model_copy(update={"episodes": episodes or EPISODES})
     config = SweepConfig(
         trials=trials or TRIALS,
         seed=seed or 0,
@@ -63,6 +87,18 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         variants=shipped_variants(base, scenarios),
     )
     _run(ExperimentFolder.new(path, config, VERB))
+
+
+def _ablation(
+    scenarios: list[Scenario], trials: int | None, episodes: int | None, seed: int | None, jobs: int | None
+) -> AblationConfig:
+    return AblationConfig(
+        trials=trials or ABLATION_TRIALS,
+        seed=seed or 0,
+        jobs=jobs or cores(),
+        scenarios=[table_of(each) for each in scenarios],
+        parts=shipped_parts(episodes),
+    )
 
 
 def _run(folder: ExperimentFolder[SweepConfig]) -> None:

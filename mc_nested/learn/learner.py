@@ -57,6 +57,7 @@ class Learner:
         self.priorities = Priorities(space.rows, FIRST_ROOM, wanted.alpha, wanted.beta) if wanted else None
         self._gamma = update.gamma
         self._learning_starts = update.learning_starts
+        self._td_weight = np.float32(imitation[0].td_weight if imitation else 1.0)
         self.best = BestEpisodes(space.rows, imitation[1], imitation[0].batch) if imitation else None
 
     def act(self, states: Int64s, epsilon: Float64s, uniforms: Float64s, rows: Int64s | None = None) -> Int64s:
@@ -114,4 +115,5 @@ class Learner:
             indices = np.where(imitated, indices[:, -1:], indices)
             weights = self.priorities.weights(rows, indices, self.replay.sizes()[rows])
             weights[imitated] = 1.0
+        weights *= self._td_weight
         return indices, Batch(drawn.states, drawn.actions, drawn.rewards, drawn.discounts, imitated, weights)

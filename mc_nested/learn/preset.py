@@ -28,6 +28,18 @@ class _Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
+class _GrownTable(_Table):
+    """A table that has got keys since it was first saved: with their defaults, it keeps its identity."""
+
+    @model_serializer(mode="wrap")
+    def _dumped(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        dumped: dict[str, Any] = dump(self)
+        fields = type(self).model_fields
+        return {
+            key: value for key, value in dumped.items() if fields[key].is_required() or value != fields[key].default
+        }
+
+
 class Exploration(_Table):
     """ε from ``start`` to ``floor`` over the first ``share`` of the episodes."""
 
@@ -50,11 +62,15 @@ class ExcursionRule(_Table):
     repeat: Probability
 
 
-class Imitation(_Table):
-    """Self-imitation (self_imitation.py): how much of each batch is from the best episode, and its actions' margin."""
+class Imitation(_GrownTable):
+    """Self-imitation (self_imitation.py): how much of each batch is from the best episode, and its actions' margin.
+
+    ``td_weight`` is what the batch's TD errors count for beside it: at 0 nothing is left but imitation.
+    """
 
     batch: Count
     margin: Positive
+    td_weight: Probability = 1.0
 
 
 class Prioritized(_Table):
@@ -82,11 +98,15 @@ class MainUpdates(_Table):
     updates_an_episode: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)]
 
 
-class ImaginationRule(_Table):
+class ImaginationRule(_GrownTable):
     """Practice in the learnt game between real episodes (imagination/), instead of exploring the real one by chance.
 
     An imagined episode has an ε of its own, between the two. A practice ends when the greedy policy scores ``enough``
     of the best that is imaginable while cells are still to be found, or all of it afterwards; or after so many updates.
+
+    Parts that an ablation turns off: ``optimism`` takes unknown cells to pay, ``neighbours`` those beside a paying one
+    first; ``real_transitions`` puts what happened into the replay of what was imagined; ``double`` lets the online
+    network choose the action that the target network values.
     """
 
     highest_epsilon: Share
@@ -94,11 +114,17 @@ class ImaginationRule(_Table):
     enough: Share
     updates_exploring: Count
     updates_building: Count
+    optimism: bool = True
+    neighbours: bool = True
+    real_transitions: bool = True
+    double: bool = True
 
     @model_validator(mode="after")
-    def _check_order(self) -> "ImaginationRule":
+    def _check(self) -> "ImaginationRule":
         if self.lowest_epsilon > self.highest_epsilon:
             raise ValueError("[imagination] lowest_epsilon is above highest_epsilon: swap them")
+        if self.neighbours and not self.optimism:
+            raise ValueError("[imagination] neighbours are a part of optimism: turn them off, too")
         return self
 
 

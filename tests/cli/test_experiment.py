@@ -9,7 +9,9 @@ from mc_nested.errors import UserError
 
 
 def test_resume_allows_no_other_option() -> None:
-    check_nothing_beside_resume({"resume": Path("x"), "trials": None, "scenario": [], "agent": ()})
+    check_nothing_beside_resume({"resume": Path("x"), "trials": None, "scenario": [], "agent": (), "ablation": False})
+    with pytest.raises(UserError, match="leave out --ablation"):
+        check_nothing_beside_resume({"resume": Path("x"), "ablation": True})
     with pytest.raises(UserError, match="leave out --as-json"):
         check_nothing_beside_resume({"resume": Path("x"), "as_json": 0})
 

@@ -110,3 +110,16 @@ def test_what_is_imitated_changes_no_priority() -> None:
     before = all_imitated.priorities.state()["leaves"][0].copy()
     all_imitated.learn(np.array([0]), random.random((1, 32)))
     np.testing.assert_array_equal(all_imitated.priorities.state()["leaves"][0], before)
+
+
+@pytest.mark.parametrize(("weight", "learns"), [(0.0, False), (1.0, True)])
+def test_without_a_weight_td_errors_change_nothing(weight: float, learns: bool) -> None:
+    imitation = Imitation(batch=8, margin=0.5, td_weight=weight), 60
+    one = Learner(StateSpace(np.array([[14]]), 2), PAPER, [np.random.default_rng(0)], imitation)
+    before = one.ddqn.online.copy()
+    state, over = np.array([[3]]), np.array([True])
+    for _ in range(40):
+        one.store(np.array([0]), state, np.array([1]), np.array([4.0]), state, over)
+    one.learn(np.array([0]), np.random.default_rng(0).random((1, 32)))
+    assert one.ddqn.updates.tolist() == [1]
+    assert bool((one.ddqn.online != before).any()) is learns

@@ -162,3 +162,39 @@ def test_the_main_agent_may_begin_to_learn_before_the_others() -> None:
     tuned = load_preset("tuned")
     assert (tuned.for_main().update.learning_starts, tuned.update.learning_starts) == (2, 32)
     assert load_preset("paper").for_main() == load_preset("paper")
+
+
+def test_the_parts_that_an_ablation_turns_off_are_saved_only_where_they_are_off() -> None:
+    live = load_preset("live")
+    rule = live.imagination
+    assert rule is not None
+    assert set(live.model_dump()["imagination"]) == {
+        "highest_epsilon",
+        "lowest_epsilon",
+        "enough",
+        "updates_exploring",
+        "updates_building",
+    }
+    without = live.model_copy(update={"imagination": rule.model_copy(update={"double": False})})
+    assert without.model_dump()["imagination"]["double"] is False
+    assert Preset.model_validate(without.model_dump()) == without
+    tuned = load_preset("tuned")
+    assert tuned.model_dump()["imitation"] == {"batch": 8, "margin": 0.5}
+
+
+LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_text()
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (("enough = 0.9", "enough = 0.9\noptimism = false"), "neighbours are a part of optimism: turn them off, too"),
+        (("enough = 0.9", "enough = 0.9\ndouble = 1"), "imagination.double"),
+        (("lowest_epsilon = 0.02", "lowest_epsilon = 0.02\nhighest = 1"), "imagination.highest"),
+    ],
+)
+def test_an_imagination_that_does_not_fit_is_one_line(change: tuple[str, str], says: str) -> None:
+    with pytest.raises(PresetError) as caught:
+        parse_preset(LIVE.replace(*change, 1), "mine.toml")
+    assert says in str(caught.value)
+    assert "\n" not in str(caught.value)

@@ -1,7 +1,7 @@
 """The folder of an experiment of many runs: config.toml, and units/ with each job's checkpoint or outcome."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Generic, TypeVar
@@ -57,11 +57,16 @@ class OnePresetConfig(ExperimentConfig):
 
     def loaded_scenarios(self) -> list[Scenario]:
         """The scenarios; RunError if two have the same name, ScenarioError if one can't be built."""
-        names = [table.name for table in self.scenarios]
-        twice = next((name for name in names if names.count(name) > 1), None)
-        if twice is not None:
-            raise RunError(f"two scenarios are named {twice!r}: name it once, or rename one in its file")
-        return [scenario_of(table, table.name) for table in self.scenarios]
+        return scenarios_of(self.scenarios)
+
+
+def scenarios_of(tables: Sequence[ScenarioTable]) -> list[Scenario]:
+    """The scenarios of a config; RunError if two have the same name, ScenarioError if one can't be built."""
+    names = [table.name for table in tables]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise RunError(f"two scenarios are named {twice!r}: name it once, or rename one in its file")
+    return [scenario_of(table, table.name) for table in tables]
 
 
 Config = TypeVar("Config", bound=ExperimentConfig)

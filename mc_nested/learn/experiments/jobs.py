@@ -13,6 +13,9 @@ from mc_nested.arena.scenario_file import table_of
 from mc_nested.learn.agents import AgentSpec
 from mc_nested.learn.preset import Preset
 
+PLANNER = "planner"
+"""The ``library`` of a job that a script plays, without any network (planner.py)."""
+
 
 @dataclass(frozen=True)
 class Run:
@@ -38,7 +41,7 @@ class Job:
     """Runs of one agent with one preset that train as one batch; where they differ there is a tuple (runs,).
 
     ``stop_at_optimum``: a run ends at its first greedy episode at its scenario's optimum. ``library``: whose algorithm
-    trains it, None for this project's.
+    trains it, or that a script plays it (PLANNER); None for this project's agents.
     """
 
     name: str

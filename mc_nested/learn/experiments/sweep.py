@@ -46,7 +46,7 @@ class Variant(BaseModel):
 
     def preset_from(self, base: Preset) -> Preset:
         """The preset with its changes; PresetError if they don't fit."""
-        changed = _changed(base.model_dump(exclude_none=True), self.preset)
+        changed = changed_tables(base.model_dump(exclude_none=True), self.preset)
         return parse_preset(tomlkit.dumps(changed), f"variant {self.name}")
 
     def scenario_from(self, base: Scenario) -> Scenario:
@@ -62,9 +62,10 @@ class Variant(BaseModel):
         try:
             check_exploration(self.spec(), preset)
             changed = [self.scenario_from(scenario) for scenario in scenarios]
+            changed_preset = self.preset_from(preset)
         except (PresetError, ScenarioError):
             return False
-        return self.preset_from(preset) != preset or changed != scenarios or self.spec() != AGENT_SPECS[self.agent]
+        return changed_preset != preset or changed != scenarios or self.spec() != AGENT_SPECS[self.agent]
 
 
 class _Variants(BaseModel):
@@ -106,9 +107,9 @@ def shipped_variants(preset: Preset, scenarios: list[Scenario]) -> list[Variant]
     return [*(Variant(agent=agent) for agent in agents), *variants]
 
 
-def _changed(base: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+def changed_tables(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """The nested tables with some values changed."""
     both = dict(base)
     for key, value in changes.items():
-        both[key] = _changed(base.get(key) or {}, value) if isinstance(value, Mapping) else value
+        both[key] = changed_tables(base.get(key) or {}, value) if isinstance(value, Mapping) else value
     return both

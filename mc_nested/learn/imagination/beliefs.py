@@ -45,8 +45,13 @@ class Beliefs:
     most: float
 
 
-def believe(steps: Int64s, lands: Cell, size: int, blocks: int) -> Beliefs:
-    """What the transitions (steps, 9) (experience.py) say of every cell, if blocks land at ``lands`` from the agent."""
+def believe(
+    steps: Int64s, lands: Cell, size: int, blocks: int, optimism: bool = True, neighbours: bool = True
+) -> Beliefs:
+    """What the transitions (steps, 9) (experience.py) say of every cell, if blocks land at ``lands`` from the agent.
+
+    Without ``optimism`` what is unknown isn't taken to pay; without ``neighbours`` all that is unknown is alike.
+    """
     evidence = np.zeros((2, size, size))
     used = steps[:, 2] > steps[:, 6]
     for x, y, paid in steps[used][:, [4, 5, 7]].tolist():
@@ -58,11 +63,11 @@ def believe(steps: Int64s, lands: Cell, size: int, blocks: int) -> Beliefs:
     unknown = ~tried & _reached(lands, size)
     pays = tried & (evidence[1] > evidence[0])
     explores = int(pays.sum()) < blocks
-    believed = _beside(pays) & unknown & explores
+    believed = _beside(pays) & unknown & explores & neighbours
     cells = np.where(pays, Belief.PAYS, np.where(tried, Belief.PAYS_NOT, Belief.UNKNOWN)).astype(np.int8)
     cells[believed] = Belief.BELIEVED
     pay = pays.astype(np.float32)
-    if explores:
+    if explores and optimism:
         pay[pays] = KNOWN_TO_PAY
         pay[unknown] = FAR_FROM_PAYING if believed.any() else 1.0
         pay[believed] = 1.0

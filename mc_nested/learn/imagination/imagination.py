@@ -78,8 +78,9 @@ class Imagination:
 
     def beliefs(self, run: int) -> Beliefs:
         """What that run thinks of every cell."""
-        here = self._surroundings[run]
-        return believe(self._experience[run].steps, self.rules(run).lands, here.size, here.start[2])
+        here, rule = self._surroundings[run], self._rule
+        steps, lands = self._experience[run].steps, self.rules(run).lands
+        return believe(steps, lands, here.size, here.start[2], rule.optimism, rule.neighbours)
 
     def learn_choice(self, run: int) -> None:
         """Let the main agent of that run learn what each material would bring in its learnt game."""
@@ -164,8 +165,10 @@ class Imagination:
         return np.array([material] * (len(self._low_level.space.strides) - 3), dtype=np.int64)
 
     def _real_transitions(self, run: int, material: int, landed: Int64s) -> RealTransitions:
-        """The run's transitions as its low-level agent of that material saw them."""
+        """The run's transitions as its low-level agent of that material saw them; none where the replay has none."""
         steps = self._experience[run].steps
+        if not self._rule.real_transitions:
+            steps, landed = steps[:0], landed[:0]
         own: Bools = np.ones(len(steps), dtype=np.bool_) if self._rows_a_run == 1 else steps[:, 8] == material
         steps, landed = steps[own], landed[own]
         appended = len(self._low_level.space.strides) - 3

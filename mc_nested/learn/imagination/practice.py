@@ -79,6 +79,7 @@ class Practice:
             update.learning_starts,
             rule.highest_epsilon,
             rule.lowest_epsilon,
+            rule.double,
         )
         self._batch = update.batch
         self._replay = PracticeReplay(

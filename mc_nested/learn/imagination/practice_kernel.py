@@ -34,7 +34,10 @@ class ImaginedTask(NamedTuple):
 
 
 class PracticeRule(NamedTuple):
-    """Hyper-parameters: those of an update (ddqn.py), and the highest and the lowest ε of an imagined episode."""
+    """Hyper-parameters: those of an update (ddqn.py), and the highest and the lowest ε of an imagined episode.
+
+    ``double``: the online network chooses the action of s' that the target network values, not the target network.
+    """
 
     gamma: float
     learning_rate: float
@@ -43,6 +46,7 @@ class PracticeRule(NamedTuple):
     learning_starts: int
     highest_epsilon: float
     lowest_epsilon: float
+    double: bool
 
 
 class Row(NamedTuple):
@@ -212,11 +216,12 @@ def _update(
     forward_cells(row.online, work.sizes, next_states, work.numbers, work.next_batch)
     forward_cells(row.target, work.sizes, next_states, work.numbers, work.batch)
     targets = np.empty(batch, np.float32)
+    chooser = work.next_batch.values if rule.double else work.batch.values
     for column in range(batch):
         at = drawn[column]
         discount = 0.0 if replay.terminated[at] else rule.gamma
         reward = pay[replay.landed[at]]
-        targets[column] = td_target(reward, discount, work.next_batch.values[:, column], work.batch.values[:, column])
+        targets[column] = td_target(reward, discount, chooser[:, column], work.batch.values[:, column])
     forward_cells(row.online, work.sizes, states, work.numbers, work.batch)
     work.slope[:] = np.float32(0)
     for column in range(batch):

@@ -6,7 +6,13 @@ from mc_nested.atomic_file import is_leftover
 from mc_nested.errors import RunError
 from mc_nested.toml_file import parse_document
 
-VERB_OF_KEY = {"agent": "train", "agents": "reproduce", "variants": "sweep", "contestants": "benchmark"}
+VERB_OF_KEY = {
+    "agent": "train",
+    "agents": "reproduce",
+    "variants": "sweep",
+    "parts": "sweep",
+    "contestants": "benchmark",
+}
 
 
 FORMAT = 1

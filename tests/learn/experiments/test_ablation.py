@@ -1,0 +1,99 @@
+"""An ablation: what its parts are, and what trains together."""
+
+import pytest
+import tomlkit
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import table_of
+from mc_nested.errors import RunError
+from mc_nested.learn.experiments.ablation import AblationConfig, Part, shipped_parts
+from mc_nested.learn.experiments.jobs import PLANNER
+from mc_nested.learn.preset import load_preset
+from tests.learn.made_experiments import BAR, DOT
+
+PARTS = {part.name: part for part in shipped_parts()}
+
+
+def config(*scenarios: Scenario) -> AblationConfig:
+    tables = [table_of(scenario) for scenario in scenarios]
+    return AblationConfig(trials=2, seed=0, jobs=2, scenarios=tables, parts=list(PARTS.values()))
+
+
+def test_the_first_part_is_the_preset_live_as_it_is() -> None:
+    first = shipped_parts()[0]
+    assert (first.name, first.preset) == ("live as it is", load_preset("live"))
+
+
+def test_every_part_changes_its_base_and_no_two_are_alike() -> None:
+    trained = [part for part in PARTS.values() if not part.planner]
+    for part in trained:
+        assert (part.preset == load_preset(part.base)) == part.name.endswith("as it is"), part.name
+    assert len({part.preset.model_dump_json() for part in trained}) == len(trained) == len(PARTS) - 1
+
+
+@pytest.mark.parametrize(
+    ("name", "off"),
+    [
+        ("without neighbours", {"neighbours": False}),
+        ("without optimism", {"neighbours": False, "optimism": False}),
+        ("without real transitions", {"real_transitions": False}),
+        ("single Q-learning", {"double": False}),
+        ("narrow exploration", {"highest_epsilon": 0.1, "lowest_epsilon": 0.1}),
+    ],
+)
+def test_one_part_of_the_imagination_is_off(name: str, off: dict[str, object]) -> None:
+    live = load_preset("live")
+    assert live.imagination is not None
+    rule = live.imagination.model_copy(update=off)
+    assert PARTS[name].preset == live.model_copy(update={"imagination": rule})
+
+
+def test_the_model_free_preset_loses_its_imitation_or_its_td_errors() -> None:
+    assert PARTS["tuned without imitation"].preset == load_preset("tuned").model_copy(update={"imitation": None})
+    alone = PARTS["tuned, imitation only"].preset.imitation
+    assert alone is not None
+    assert alone.td_weight == 0.0
+
+
+def test_there_is_no_imitation_in_any_part_of_live() -> None:
+    assert all(part.preset.imitation is None for part in PARTS.values() if part.base == "live")
+
+
+def test_every_trial_of_every_part_on_every_design_is_trained_once() -> None:
+    jobs = config(DOT, BAR).cut()
+    trained = [
+        (group, scenario.name, trial)
+        for job in jobs
+        for group, scenario, trial in zip(job.groups, job.scenarios, job.trials, strict=True)
+    ]
+    assert sorted(trained) == sorted(
+        (name, design, trial) for name in PARTS for design in ("bar", "dot") for trial in (0, 1)
+    )
+    assert all(job.stop_at_optimum for job in jobs)
+    assert {job.groups[0] for job in jobs if job.library == PLANNER} == {"planner on the learnt map, no network"}
+
+
+def test_what_practises_trains_one_by_one_and_the_rest_side_by_side() -> None:
+    for job in config(DOT).cut():
+        part = PARTS[job.groups[0]]
+        assert len(job.trials) == (1 if part.base == "live" and not part.planner else 2), part.name
+
+
+def test_an_ablation_is_the_same_when_it_is_read_again() -> None:
+    written = tomlkit.dumps(config(DOT).model_dump(exclude_none=True))
+    assert AblationConfig.model_validate(tomlkit.parse(written).unwrap()) == config(DOT)
+
+
+def test_the_episodes_that_are_asked_for_are_those_of_every_part() -> None:
+    assert {part.preset.episodes for part in shipped_parts(7)} == {7}
+
+
+def test_two_designs_of_one_name_are_refused() -> None:
+    with pytest.raises(RunError, match="two scenarios are named 'dot'"):
+        config(DOT, DOT).cut()
+
+
+def test_a_part_is_written_with_all_of_its_preset() -> None:
+    part = PARTS["γ 0.97"]
+    assert Part.model_validate(part.model_dump()) == part
+    assert part.preset.update.gamma == 0.97

@@ -1,0 +1,69 @@
+"""What each part of [imagination] does that an ablation turns off."""
+
+import numpy as np
+import pytest
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arrays import Int64s
+from mc_nested.learn.agents import AGENT_SPECS, Agent
+from mc_nested.learn.imagination.beliefs import Belief, believe
+from mc_nested.learn.preset import Preset, load_preset
+from mc_nested.learn.trainer import Trainer
+from sim.grid import GridVectorEnv
+from tests.learn.made_experiments import BAR
+
+LANDS = (0, 1)
+SIZE, BLOCKS = 5, 3
+
+
+def steps_that_placed(cells: dict[tuple[int, int], int]) -> Int64s:
+    """A transition for each cell, whose block landed there and was paid so much."""
+    rows = [
+        [x, y - 1, BLOCKS - at, 4, x, y - 1, BLOCKS - at - 1, paid, 0]
+        for at, ((x, y), paid) in enumerate(cells.items())
+    ]
+    return np.array(rows, dtype=np.int64)
+
+
+def test_without_neighbours_every_unknown_cell_is_alike() -> None:
+    steps = steps_that_placed({(2, 2): 1, (0, 4): 0})
+    with_them = believe(steps, LANDS, SIZE, BLOCKS)
+    assert with_them.pay[2, 3] > with_them.pay[4, 4]
+    without = believe(steps, LANDS, SIZE, BLOCKS, neighbours=False)
+    unknown = without.cells == Belief.UNKNOWN
+    assert not (without.cells == Belief.BELIEVED).any()
+    assert set(without.pay[unknown][without.pay[unknown] > 0]) == {1.0}
+    assert without.pay[4, 4] == without.pay[2, 3] == 1.0
+
+
+def test_without_optimism_only_what_is_known_to_pay_pays() -> None:
+    beliefs = believe(steps_that_placed({(2, 2): 1, (0, 4): 0}), LANDS, SIZE, BLOCKS, optimism=False, neighbours=False)
+    assert beliefs.explores
+    assert np.argwhere(beliefs.pay).tolist() == [[2, 2]]
+    assert beliefs.most == 1.0
+
+
+def live_with(updates: int = 400, **changes: object) -> Preset:
+    """The preset live with a short practice, and keys of its [imagination] changed."""
+    live = load_preset("live")
+    assert live.imagination is not None
+    rule = live.imagination.model_copy(update={"updates_exploring": updates, "updates_building": updates, **changes})
+    update = live.update.model_copy(update={"learning_starts": 50, "target_period": 20})
+    return live.model_copy(update={"imagination": rule, "update": update, "hidden": [8, 8], "episodes": 3})
+
+
+def trained(preset: Preset, scenario: Scenario = BAR) -> Agent:
+    agent = Agent(AGENT_SPECS["nested"], [scenario], preset, seed=1)
+    trainer = Trainer(GridVectorEnv([scenario]), [scenario], agent, preset, seed=1)
+    while not trainer.finished:
+        trainer.tick()
+    return agent
+
+
+@pytest.mark.parametrize("part", ["double", "real_transitions"])
+def test_a_practice_without_that_part_learns_something_else(part: str) -> None:
+    usual, again, without = (
+        trained(live_with(**changes)).low_level.ddqn.online for changes in ({}, {part: True}, {part: False})
+    )
+    assert (usual == again).all()
+    assert not np.allclose(usual, without)
