@@ -25,7 +25,7 @@ class EarlierRun:
 
     def begin(self, trainer: Trainer) -> None:
         """Let every run of the trainer begin from it; RunError if its learnt game doesn't fit."""
-        trainer.begin_from(self.online)
+        trainer.begin_from(self.online, evaluated_first=self.game is None or self.same_design)
         if self.game is not None and trainer.imagination is not None:
             try:
                 trainer.imagination.begin_from(self.game, pays=self.same_design, materials=self.same_materials)

@@ -154,14 +154,15 @@ class Trainer:
         """What the runs have learnt of their games; None if the preset has no [imagination]."""
         return self._imagination
 
-    def begin_from(self, online: Mapping[str, NDArray[Any]]) -> None:
-        """Begin with one run's networks, by role, in every run, and evaluate them before the first episode.
+    def begin_from(self, online: Mapping[str, NDArray[Any]], *, evaluated_first: bool = True) -> None:
+        """Begin with one run's networks, by role, in every run.
 
-        With an imagination a policy is evaluated once it builds all of a known design (``Imagination.begin_from``).
+        They are evaluated before the first episode if so wished; with an imagination, if they build all of a design
+        that is known (``Imagination.begin_from``).
         """
         self.agent.load_online(online)
         self._kept = {role: taken.copy() for role, taken in self.agent.online().items()}
-        self._runs.evaluated_at[:] = -1
+        self._runs.evaluated_at[:] = -1 if evaluated_first else 0
 
     @on_one_blas_thread
     def tick(self) -> None:

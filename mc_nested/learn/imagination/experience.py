@@ -97,12 +97,12 @@ class Experience:
             "steps": self.steps,
             "first_of_episode": self.first_of_episode,
             "extras": self.extras,
-            "episodes": np.array([self.episodes]),
+            "episodes": np.array(self.episodes),
         }
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
-        self.episodes = int(state["episodes"][0])
+        self.episodes = int(state["episodes"].item())  # a checkpoint gives it a dimension
         self._steps = [RealStep(*row) for row in state["steps"].tolist()]
         self._first_of_episode = state["first_of_episode"].tolist()
         self._extras = [(int(material), extra) for material, extra in state["extras"].tolist()]
