@@ -11,6 +11,7 @@ from mc_nested.cli.earlier_run import earlier_run
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import view_of
 from mc_nested.learn.imagination.beliefs import Belief
+from mc_nested.learn.imagination.learnt_rules import learn_rules
 from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.learn.runs.policies import FILE as POLICIES
 from mc_nested.learn.runs.run_folder import RunFolder
@@ -69,7 +70,9 @@ def test_of_another_design_moves_and_materials_are_known_and_no_cell(files: Path
     assert untried.sum() <= 1, "no first tries of what was tried"
     rules, seen = trainer.imagination.rules(0), trainer.imagination.seen(0)
     assert rules.known.tolist() == (~untried).tolist()
-    assert rules.lands == (0, -1)
+    steps, first_of_episode = earlier.game["seen.steps"], earlier.game["seen.first_of_episode"]
+    learnt = learn_rules(steps, first_of_episode, len(untried), BESIDE.size)
+    assert (rules.lands, rules.moves.tolist()) == (learnt.lands, learnt.moves.tolist())
     assert np.isin(seen.cells, (Belief.UNKNOWN, Belief.BELIEVED)).all()
     assert len(trainer.imagination.state()["0.extras"]) > 0
     while not (trainer.episode_rows or trainer.evaluation_rows):
