@@ -133,10 +133,16 @@ def _first_steps(folder: Path) -> list[int]:
     return [int(row["steps"]) for row in sorted(rows, key=lambda row: row["trial"])]
 
 
-@pytest.mark.parametrize("other", [("--preset", "paper"), ("--agent", "hierarchical"), ("--scenario", "square")])
+@pytest.mark.parametrize("other", [("--preset", "paper"), ("--agent", "hierarchical"), ("--scenario", "small.toml")])
 def test_networks_that_do_not_fit_are_one_line(
-    optimal: Path, tmp_path: Path, other: tuple[str, str], capsys: pytest.CaptureFixture[str]
+    optimal: Path,
+    tmp_path: Path,
+    other: tuple[str, str],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_scenario(Path("small.toml"), SMALL)  # five cells a side, so that there are fewer inputs
     base = [] if other[0] == "--preset" else ["--preset", "live"]
     assert run("train", *base, *other, "--from", optimal, "--out", tmp_path / "new") == 2
     assert "has other networks than this" in capsys.readouterr().err
