@@ -1,7 +1,6 @@
 """``mc-nested evaluate``: replay a training's greedy policies."""
 
 import json
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -9,9 +8,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from mc_nested.arrays import Arrays
 from mc_nested.cli.options import RunArgument
-from mc_nested.errors import RunError
 from mc_nested.learn.agents import Agent, view_of
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
@@ -48,20 +45,6 @@ def load_agent(folder: RunFolder) -> Agent:
     for role, online in agent.online().items():
         online[:] = kept[role]
     return agent
-
-
-def best_policy(run: Path, wanted: RunFolder) -> Arrays:
-    """The networks of that training's best trial, by role, to begin another with; RunError if they don't fit."""
-    folder = RunFolder.open(run)
-    theirs, ours = folder.new_agent(1), wanted.new_agent(1)
-    if (theirs.spec, theirs.sizes) != (ours.spec, ours.sizes):
-        raise RunError(
-            f"{run}: its {folder.config.agent} agent has other networks than this {wanted.config.agent} agent: take "
-            f"the same agent, a preset with the same networks, and a design of as many blocks in an arena as large"
-        )
-    kept = folder.kept()
-    rows = load_agent(folder).rows_of(int(kept["scores"].argmax()))
-    return {role: kept[role][rows[role]] for role in theirs.online()}
 
 
 def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:

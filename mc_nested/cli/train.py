@@ -9,7 +9,7 @@ import typer
 
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.atomic_file import atomic_write
-from mc_nested.cli.evaluate import best_policy
+from mc_nested.cli.earlier_run import earlier_run
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
 from mc_nested.cli.options import DEFAULT_PROFILE, Backend, ProfileOption, ServerOption, open_arenas, played_live
 from mc_nested.cli.progress import TrainingProgress
@@ -19,7 +19,11 @@ from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.live.failure_budget import FailureBudget
+from mc_nested.report.arena_map import draw_map
 from mc_nested.report.curve import align_trials, draw_curve
+from mc_nested.report.game_time import expected
+from mc_nested.report.played import played_by
+from mc_nested.report.played_curve import draw_played_curve
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 
 SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.LIVE: 15.0}
@@ -27,6 +31,9 @@ SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.LIVE: 15.0}
 
 MOST_TRIALS = 1000
 """More at once would only run out of memory."""
+
+MAP = "map.png"
+"""What was learnt of the arena, in a run's folder."""
 
 DEFAULTS: dict[str, Any] = {
     "scenario": "line",
@@ -55,7 +62,10 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     profile: ProfileOption = None,
     server_allowed: ServerOption = False,
     begin_from: Annotated[
-        Path | None, typer.Option("--from", metavar="RUN", help="begin with the best policy of an earlier training")
+        Path | None,
+        typer.Option(
+            "--from", metavar="RUN", help="begin with the best policy of an earlier training, and its learnt game"
+        ),
     ] = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="a new or empty folder for the run")] = None,
     resume: Annotated[Path | None, typer.Option(metavar="DIR", help="go on from a run's last checkpoint")] = None,
@@ -101,7 +111,7 @@ def run_training(
 ) -> None:
     """Train until the run is finished or somebody stops it; saved on the way and at the end."""
     config = folder.config
-    earlier = best_policy(begin_from, folder) if begin_from else None
+    earlier = earlier_run(begin_from, folder) if begin_from else None
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
     with catch_interrupts() as interrupt:
         with open_arenas(
@@ -118,9 +128,12 @@ def run_training(
                 folder.checkpoint.load_into(trainer)
             else:
                 if earlier:
-                    trainer.begin_from(earlier)
+                    earlier.begin(trainer)
                     folder.save_before_all(trainer)
                 folder.begin()
+                if Backend(config.backend) is Backend.LIVE:
+                    expectation = expected(config.preset, folder.scenario, stop_at_optimum=config.stop_at_optimum)
+                    typer.echo(expectation.line(folder.scenario))
             failure_budget = FailureBudget()
 
             def save() -> dict[str, Any]:
@@ -143,6 +156,8 @@ def run_training(
     typer.echo(f"final scores (optimum {summary['optimum']:g}): {scores}")
     typer.echo(f"run:        {folder.path}")
     typer.echo(f"curve:      {folder.path / 'curve.png'}")
+    if trainer.imagination:
+        typer.echo(f"map:        {folder.path / MAP}")
     typer.echo(f"checkpoint: {folder.path / 'checkpoint'}")
 
 
@@ -181,8 +196,18 @@ def _events(folder: RunFolder, trainer: Trainer) -> TensorBoard | None:
 
 
 def _draw(folder: RunFolder, trainer: Trainer) -> None:
-    rows = [(row.trial, row.episode, row.score) for row in trainer.evaluation_rows]
-    episodes, scores = align_trials(rows, folder.config.trials)
-    title = f"{folder.scenario.name}, {folder.config.agent} agent, preset {Path(folder.config.preset_name).stem}"
+    """Draw the curve, and what was learnt of the arena, if anything was."""
+    config, scenario = folder.config, folder.scenario
+    title = f"{scenario.name}, {config.agent} agent, preset {Path(config.preset_name).stem}"
     with folder.writing(), atomic_write(folder.path / "curve.png") as path:
-        draw_curve(path, title, episodes, scores, folder.scenario.optimum)
+        if trainer.imagination:
+            played = played_by(trainer.episode_rows, trainer.evaluation_rows, config.trials)
+            draw_played_curve(path, title, played, scenario.optimum)
+        else:
+            rows = [(row.trial, row.episode, row.score) for row in trainer.evaluation_rows]
+            episodes, scores = align_trials(rows, config.trials)
+            draw_curve(path, title, episodes, scores, scenario.optimum)
+    if trainer.imagination:
+        which = f", the first of {config.trials} trials" if config.trials > 1 else ""
+        with folder.writing(), atomic_write(folder.path / MAP) as path:
+            draw_map(path, title + which, trainer.imagination.seen(0))

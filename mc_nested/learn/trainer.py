@@ -26,6 +26,7 @@ from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table
 from mc_nested.learn.episode_rollback import EpisodeRollback, Recorder
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
 from mc_nested.learn.exploration.schedules import LinearDecay
+from mc_nested.learn.imagination.imagination import Imagination
 from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.preset import Exploration, Preset
 from mc_nested.learn.state_dict import named_for, part_of
@@ -148,11 +149,20 @@ class Trainer:
         done, episodes = self._runs.episodes, self.preset.episodes
         return self._explore_main.epsilon(done, episodes), self._explore_nested.epsilon(done, episodes)
 
-    def begin_from(self, online: Mapping[str, NDArray[Any]]) -> None:
-        """Begin with one run's networks, by role, in every run, and evaluate them before the first episode."""
+    @property
+    def imagination(self) -> Imagination | None:
+        """What the runs have learnt of their games; None if the preset has no [imagination]."""
+        return self._imagination
+
+    def begin_from(self, online: Mapping[str, NDArray[Any]], *, evaluated_first: bool = True) -> None:
+        """Begin with one run's networks, by role, in every run.
+
+        They are evaluated before the first episode if so wished; with an imagination, if they build all of a design
+        that is known (``Imagination.begin_from``).
+        """
         self.agent.load_online(online)
         self._kept = {role: taken.copy() for role, taken in self.agent.online().items()}
-        self._runs.evaluated_at[:] = -1
+        self._runs.evaluated_at[:] = -1 if evaluated_first else 0
 
     @on_one_blas_thread
     def tick(self) -> None:

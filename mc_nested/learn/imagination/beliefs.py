@@ -13,6 +13,7 @@ import numpy as np
 
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Bools, Float32s, Int8s, Int64s
+from mc_nested.learn.imagination.experience import UNTOLD
 
 FADES = 0.7
 """What a try counts for once there is a later one of the same cell: at above a half, one odd try is outvoted by two."""
@@ -53,8 +54,8 @@ def believe(
     Without ``optimism`` what is unknown isn't taken to pay; without ``neighbours`` all that is unknown is alike.
     """
     evidence = np.zeros((2, size, size))
-    used = steps[:, 2] > steps[:, 6]
-    for x, y, paid in steps[used][:, [4, 5, 7]].tolist():
+    told = (steps[:, 2] > steps[:, 6]) & (steps[:, 7] != UNTOLD)
+    for x, y, paid in steps[told][:, [4, 5, 7]].tolist():
         cell = (x + lands[0], y + lands[1])
         if 0 <= cell[0] < size and 0 <= cell[1] < size:
             evidence[:, cell[0], cell[1]] *= FADES

@@ -11,9 +11,15 @@ from mc_nested.arrays import Arrays, Float64s, Int64s
 RECENT = 100
 """Episodes that are remembered: what a game did longer ago counts no more, so that a change is unlearnt."""
 
+UNTOLD = -1
+"""In place of whether a step was paid: it was, or wasn't, by another design."""
+
 
 class RealStep(NamedTuple):
-    """One transition of the real game: (x, y, b), the action, (x, y, b) after it, whether r_N was above 0, and a_M."""
+    """One transition of the real game: (x, y, b), the action, (x, y, b) after it, whether r_N was above 0, and a_M.
+
+    ``paid`` is UNTOLD in what was seen while another design was built.
+    """
 
     x: int
     y: int
@@ -72,6 +78,19 @@ class Experience:
         earned = sum(step.paid for step in self._steps[self._first_of_episode[-1] :])
         self._extras.append((material, score - earned))
 
+    def begin_from(self, earlier: Mapping[str, NDArray[Any]], *, pays: bool, materials: bool) -> None:
+        """Know what another run's state holds; KeyError or ValueError if its shape differs.
+
+        Its episodes aren't counted as this run's own. Without ``pays`` it isn't known what was paid, without
+        ``materials`` not what each material brought.
+        """
+        self.load(earlier)
+        self.episodes = 0
+        if not pays:
+            self._steps = [step._replace(paid=UNTOLD) for step in self._steps]
+        if not materials:
+            self._extras = []
+
     def state(self) -> Arrays:
         """Everything, by name."""
         return {
@@ -83,7 +102,7 @@ class Experience:
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
-        self.episodes = int(state["episodes"])
+        self.episodes = int(state["episodes"].item())  # a checkpoint gives it a dimension
         self._steps = [RealStep(*row) for row in state["steps"].tolist()]
         self._first_of_episode = state["first_of_episode"].tolist()
         self._extras = [(int(material), extra) for material, extra in state["extras"].tolist()]

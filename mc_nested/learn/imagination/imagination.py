@@ -19,6 +19,7 @@ from mc_nested.learn.imagination.experience import Experience, RealStep
 from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules
 from mc_nested.learn.imagination.material_choice import learn_choice, scores_of_materials
 from mc_nested.learn.imagination.practice import Goal, Practice, RealTransitions, landed_cells
+from mc_nested.learn.imagination.seen import Seen, seen_by
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import ImaginationRule, Preset
 from mc_nested.learn.state_dict import named_for, part_of
@@ -26,6 +27,12 @@ from mc_nested.learn.streams import practice_stream
 
 FIRST_TRIES = 0.125
 """This share of the steps tries an action of which it isn't known where it leads, while cells are still to be found."""
+
+
+def learnt_game(state: Mapping[str, NDArray[Any]], run: int) -> Arrays:
+    """One run's part of a saved imagination (``Imagination.state``), to begin others from; KeyError if it has none."""
+    own = {name: state[name][run] for name in ("untried", "tries")}
+    return {**own, **named_for("seen", part_of(state, str(run)))}
 
 
 class Surroundings(NamedTuple):
@@ -145,6 +152,26 @@ class Imagination:
         for run in runs.tolist():
             self._experience[run].end(int(materials[run]), float(scores[run]))
 
+    def seen(self, run: int) -> Seen:
+        """What that run knows of its arena now, and what it has spent its real episodes on."""
+        steps, here = self._experience[run].steps, self._surroundings[run]
+        lands = self.rules(run).lands
+        beliefs = believe(steps, lands, here.size, here.start[2])
+        return seen_by(self._experience[run], lands, beliefs)
+
+    def episodes(self, run: int) -> int:
+        """How many real episodes that run has begun."""
+        return self._experience[run].episodes
+
+    def begin_from(self, earlier: Mapping[str, NDArray[Any]], *, pays: bool, materials: bool) -> None:
+        """Let every run know what another run's ``learnt_game`` holds; KeyError or ValueError if its shape differs.
+
+        Without ``pays`` the cells' pay isn't taken over, without ``materials`` not what each material brought.
+        """
+        for run, seen in enumerate(self._experience):
+            seen.begin_from(part_of(earlier, "seen"), pays=pays, materials=materials)
+            self._untried[run], self._tries[run] = earlier["untried"], earlier["tries"]
+
     def state(self) -> Arrays:
         """Everything that later steps depend on, by name."""
         every = (named_for(str(run), seen.state()) for run, seen in enumerate(self._experience))
@@ -169,7 +196,9 @@ class Imagination:
         steps = self._experience[run].steps
         if not self._rule.real_transitions:
             steps, landed = steps[:0], landed[:0]
-        own: Bools = np.ones(len(steps), dtype=np.bool_) if self._rows_a_run == 1 else steps[:, 8] == material
+        own: Bools = steps[:, 2] <= self._surroundings[run].start[2]  # an earlier design may have had more blocks
+        if self._rows_a_run > 1:
+            own &= steps[:, 8] == material
         steps, landed = steps[own], landed[own]
         appended = len(self._low_level.space.strides) - 3
         last = np.repeat(steps[:, 8:], appended, axis=1)

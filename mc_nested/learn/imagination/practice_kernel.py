@@ -143,13 +143,13 @@ def _practise(
         episode = progress.episodes[0]
         state = _state(position, blocks, arena, task)
         while blocks > 0 and steps < task.step_limit:
+            been_here = work.seen_in[state] == episode
+            if greedy and been_here:
+                break
             action = _greedy_action(row.online, state, work)
             if not greedy:
-                if uniforms[used] < epsilon or work.seen_in[state] == episode:
-                    action = int(uniforms[used + 1] * len(arena.moves))
+                action = int(uniforms[used + 1] * len(arena.moves)) if uniforms[used] < max(epsilon, been_here) else action
                 used += 2
-            elif work.seen_in[state] == episode:
-                break
             work.seen_in[state] = episode
             position, landed = step(arena, position, action, solid)
             if landed != NOWHERE:

@@ -18,6 +18,7 @@ from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentName
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.learn.imagination.imagination import learnt_game
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.checkpoint import Checkpoint
 from mc_nested.learn.runs.folder_kind import FORMAT, check_config, check_free
@@ -148,6 +149,21 @@ class RunFolder:
         if misfit := misfit_of(kept, shapes):
             raise RunError(f"{self.checkpoint.file}: {misfit}: bring back a whole copy, or train the run again")
         return kept
+
+    def learnt_game(self, trial: int) -> Arrays | None:
+        """What that trial has learnt of its game, for ``Imagination.begin_from``; None if its preset imagines nothing.
+
+        RunError as for ``Checkpoint.state``.
+        """
+        if self.config.preset.imagination is None:
+            return None
+        try:
+            return learnt_game(part_of(self.checkpoint.state(), "imagination"), trial)
+        except (KeyError, IndexError) as error:
+            raise RunError(
+                f"{self.checkpoint.file}: holds no learnt game of trial {trial}: bring back a whole copy, or train the "
+                f"run again"
+            ) from error
 
     def _shapes_kept(self) -> dict[str, tuple[int, ...]]:
         trials = self.config.trials

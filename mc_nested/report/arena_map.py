@@ -1,0 +1,90 @@
+"""A picture of what a run knows of its arena, and of what it spent its real episodes on."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
+
+from mc_nested.learn.imagination.beliefs import Belief
+from mc_nested.learn.imagination.seen import Seen
+
+COLORS = {Belief.UNKNOWN: "#ececec", Belief.BELIEVED: "#f2d16b", Belief.PAYS: "#3a7d44", Belief.PAYS_NOT: "#9aa5b1"}
+
+NAMES = {
+    Belief.UNKNOWN: "unknown",
+    Belief.BELIEVED: "believed to pay",
+    Belief.PAYS: "known to pay",
+    Belief.PAYS_NOT: "known not to pay",
+}
+
+BUILT = "#14213d"
+
+SPENDING = {
+    "built": ("#3a7d44", "built where it was known to pay"),
+    "new_paid": ("#f2a541", "a new cell tried: it pays"),
+    "new_not": ("#9aa5b1", "a new cell tried: it doesn't"),
+    "other": ("#5c4d7d", "other"),
+}
+
+
+def draw_map(path: Path, title: str, seen: Seen) -> None:
+    """Write a PNG: the arena from above, the far edge on top, and beside it a bar for each remembered episode."""
+    figure = Figure(figsize=(12, 6.2), dpi=120, layout="constrained")
+    arena, spent = figure.subplots(1, 2)
+    figure.suptitle(title, parse_math=False)  # users name scenarios, so dollar signs may appear
+    _draw_arena(arena, seen)
+    _draw_spent(spent, seen)
+    figure.savefig(path, format="png", metadata={"Software": None})
+
+
+def _draw_arena(axes: Axes, seen: Seen) -> None:
+    size = len(seen.cells)
+    axes.imshow(
+        seen.cells.T,
+        cmap=ListedColormap([COLORS[belief] for belief in Belief]),
+        vmin=-0.5,
+        vmax=len(Belief) - 0.5,
+        origin="lower",
+    )
+    axes.set_xticks(np.arange(-0.5, size), minor=True)
+    axes.set_yticks(np.arange(-0.5, size), minor=True)
+    axes.grid(which="minor", color="white", linewidth=1.0)
+    axes.tick_params(which="minor", length=0)
+    if seen.built_last:
+        across, forward = zip(*sorted(seen.built_last), strict=True)
+        axes.scatter(across, forward, marker="s", s=3600 / size, facecolors="none", edgecolors=BUILT, linewidths=2)
+    axes.set(xlabel="x", ylabel="y", title=f"{seen.known_to_pay} cells known to pay")
+    legend: list[Patch | Line2D] = [Patch(color=COLORS[belief], label=NAMES[belief]) for belief in Belief]
+    legend.append(
+        Line2D([], [], color=BUILT, marker="s", fillstyle="none", linestyle="", label="built in the last episode")
+    )
+    axes.legend(handles=legend, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3, frameon=False)
+
+
+def _draw_spent(axes: Axes, seen: Seen) -> None:
+    numbers = [spent.episode for spent in seen.spent]
+    heights = {
+        "built": [spent.built for spent in seen.spent],
+        "new_paid": [spent.new_paid for spent in seen.spent],
+        "new_not": [spent.new - spent.new_paid for spent in seen.spent],
+        "other": [spent.other for spent in seen.spent],
+    }
+    below = np.zeros(len(numbers))
+    for name, (color, label) in SPENDING.items():
+        axes.bar(numbers, heights[name], bottom=below, color=color, label=label)
+        below += heights[name]
+    probing = sum(spent.probes for spent in seen.spent)
+    building = sum(spent.built > 0 and not spent.probes for spent in seen.spent)
+    axes.set(
+        xlabel="real episode",
+        ylabel="blocks",
+        title=f"of {len(numbers)} episodes {probing} tried new cells, {building} only built",
+    )
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=2, frameon=False)

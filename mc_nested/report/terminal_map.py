@@ -1,0 +1,40 @@
+"""What a run knows of its arena, in a terminal: two columns a cell, coloured, with a legend of one line."""
+
+from rich.console import Group
+from rich.text import Text
+
+from mc_nested.learn.imagination.beliefs import Belief
+from mc_nested.learn.imagination.seen import Seen
+
+SIGNS = {Belief.UNKNOWN: ".", Belief.BELIEVED: "?", Belief.PAYS: "o", Belief.PAYS_NOT: "-"}
+BUILT_SIGNS = {True: "#", False: "x"}
+"""Built in the last episode: where it is known to pay, and elsewhere."""
+
+STYLES = {
+    ".": "bright_black",
+    "?": "black on yellow",
+    "o": "black on green",
+    "-": "black on bright_black",
+    "#": "bold white on green",
+    "x": "bold white on red",
+}
+
+NAMES = {"o": "pays", "-": "doesn't", "?": "believed", ".": "unknown", "#": "built, pays", "x": "built elsewhere"}
+
+
+def map_view(seen: Seen) -> Group:
+    """The arena from above, the far edge on top, and what each sign means."""
+    size = len(seen.cells)
+    rows = []
+    for y in reversed(range(size)):
+        row = Text("  ", no_wrap=True)
+        for x in range(size):
+            belief = Belief(int(seen.cells[x, y]))
+            sign = BUILT_SIGNS[belief is Belief.PAYS] if (x, y) in seen.built_last else SIGNS[belief]
+            row.append(f"{sign} ", style=STYLES[sign])
+        rows.append(row)
+    legend = Text("  ", no_wrap=True)
+    for sign, name in NAMES.items():
+        legend.append(f"{sign} ", style=STYLES[sign])
+        legend.append(f"{name}  ", style="default")
+    return Group(*rows, legend)

@@ -1,0 +1,43 @@
+"""Minutes of game time: of what was played, and of what a training should take."""
+
+import pytest
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.learn.preset import load_preset
+from mc_nested.report.game_time import expected, minutes_of
+
+LINE = load_scenario("line")
+
+
+def test_actions_and_resets_take_their_time() -> None:
+    assert minutes_of(4, 120) == pytest.approx((120 * 0.35 + 4 * 1.5) / 60)
+
+
+def test_an_imagination_needs_as_many_episodes_as_finding_the_design_without_a_prior() -> None:
+    found = expected(load_preset("live"), LINE, stop_at_optimum=True)
+    # 11 blocks in 210 cells: 211 / 12 + 1 episodes of up to 60 actions.
+    assert found.episodes == 19
+    assert found.minutes == pytest.approx(19 * (60 * 0.35 + 1.5) / 60)
+    assert found.line(LINE) == (
+        "expected: about 7 minutes of game time, 19 episodes of up to 60 actions of 0.35 s and a reset of 1.5 s"
+    )
+
+
+def test_a_preset_of_fewer_episodes_takes_no_more() -> None:
+    few = load_preset("live").model_copy(update={"episodes": 5})
+    assert expected(few, LINE, stop_at_optimum=True).episodes == 6
+
+
+def test_all_episodes_are_played_where_nothing_stops_it() -> None:
+    live = load_preset("live")
+    assert expected(live, LINE, stop_at_optimum=False).episodes >= live.episodes
+
+
+def test_without_an_imagination_every_episode_and_evaluation_counts_and_may_be_spared() -> None:
+    paper = load_preset("paper")
+    found = expected(paper, LINE, stop_at_optimum=False)
+    assert found.episodes == paper.episodes + paper.episodes // paper.evaluate_every
+    assert not found.is_a_limit
+    spared = expected(paper, LINE, stop_at_optimum=True)
+    assert spared.episodes == found.episodes
+    assert spared.line(LINE).startswith("expected: at most about ")

@@ -1,0 +1,16 @@
+"""The map in a terminal: every belief has its sign, and what was built last shows whether it pays."""
+
+from rich.console import Console
+
+from mc_nested.report.terminal_map import map_view
+from tests.report.made_seen import made_seen
+
+
+def test_every_belief_and_what_was_built_last_have_their_signs() -> None:
+    console = Console(width=80, force_terminal=False)
+    with console.capture() as capture:
+        console.print(map_view(made_seen()))
+    lines = [line.rstrip() for line in capture.get().splitlines()]
+    assert lines[:4] == ["  . . . x", "  . . . .", "  . . . .", "  # o ? ."]
+    assert lines[4] == "  o pays  - doesn't  ? believed  . unknown  # built, pays  x built elsewhere"
+    assert len(lines) == 5
