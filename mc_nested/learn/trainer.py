@@ -26,6 +26,7 @@ from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table
 from mc_nested.learn.episode_rollback import EpisodeRollback, Recorder
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
 from mc_nested.learn.exploration.schedules import LinearDecay
+from mc_nested.learn.imagination.background_practice import Background, BackgroundPractice, BackgroundThread
 from mc_nested.learn.imagination.imagination import Imagination
 from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.preset import Exploration, Preset
@@ -63,6 +64,7 @@ class Trainer:
         preset: the hyper-parameters; ``episodes`` as in the preset or as asked for.
         seed: of all random choices; the same seed gives the same training.
         stop_at_optimum: finish a run at its first greedy evaluation at its scenario's optimum.
+        background: where practice runs beside a live game; in a thread unless given.
     """
 
     def __init__(
@@ -73,6 +75,7 @@ class Trainer:
         preset: Preset,
         seed: int,
         stop_at_optimum: bool = False,
+        background: Background | None = None,
     ) -> None:
         runs = len(scenarios)
         self.agent = agent
@@ -93,6 +96,8 @@ class Trainer:
         self._explore_nested = _decay(preset.explore_nested) if preset.explore_nested else without
         self._explorer = BatchedReturnThenExplore(preset.excursions, agent) if preset.excursions else None
         self._imagination = agent.imagination(scenarios, preset, seed)
+        plays_on = self._imagination is not None and self._resumable is None
+        self._beside_the_game = BackgroundPractice(background or BackgroundThread()) if plays_on else None
         self._kept = {role: online.copy() for role, online in agent.online().items()}
         self._kept_scores = np.full(runs, -np.inf)
         batch, exploring = preset.update.batch, NUMBERS if preset.excursions else 0
@@ -296,25 +301,51 @@ class Trainer:
         epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
         rows = np.flatnonzero(begins)
         begun_from = runs.evaluated_at < 0  # a policy from elsewhere is evaluated as it is
-        if self._imagination:
-            for run in map(int, rows[~begun_from[rows]]):
-                self._imagination.learn_choice(run)
+        self._learn_choices(rows[~begun_from[rows]])
         if self.agent.main:
             runs.materials[rows] = self.agent.main.act(self._start[rows], epsilon[rows], choice[rows], rows)
         if self._imagination:
-            for run in map(int, rows):
-                builds_it_all = self._imagination.practise(run, int(runs.materials[run]))
-                anyway = runs.episodes[run] >= self.preset.episodes or begun_from[run]
-                runs.evaluating[run] = (builds_it_all and runs.episodes[run] > runs.evaluated_at[run]) or anyway
-        runs.observations, _ = self._env.reset(options={"reset_mask": begins, "material": runs.materials})
+            builds_it_all = self._practise_and_reset(self._imagination, rows, begins)
+            anyway = (runs.episodes[rows] >= self.preset.episodes) | begun_from[rows]
+            runs.evaluating[rows] = builds_it_all & (runs.episodes > runs.evaluated_at)[rows] | anyway
+        else:
+            self._reset(begins)
         if len(begins) == 1 and self._resumable is None:
             self._rollback = EpisodeRollback.of(self.agent, self._recorders)
         if self._explorer:
             self._explorer.begin(rows, exploring)
+        if self._beside_the_game:
+            self._beside_the_game.during_episode()
         if self._imagination:
             self._imagination.begin(rows)
         runs.steps_in_episode[begins] = 0
         runs.between_episodes &= ~begins
+
+    def _learn_choices(self, rows: Int64s) -> None:
+        if self._beside_the_game:
+            self._beside_the_game.end_of_episode()
+        if self._imagination:
+            for run in map(int, rows):
+                self._imagination.learn_choice(run)
+
+    def _practise_and_reset(self, imagination: Imagination, rows: Int64s, begins: Bools) -> Bools:
+        """Practise the named runs (k,) and reset their arenas; which ones' policies build all of a known design, (k,).
+
+        A simulated game is reset after the practice, a live one meanwhile.
+        """
+        materials = {int(run): int(self._runs.materials[run]) for run in rows}
+        if self._beside_the_game is None:
+            practised = [imagination.practise(run, material) for run, material in materials.items()]
+            self._reset(begins)
+        else:
+            sessions = {run: imagination.session(run, material) for run, material in materials.items()}
+            self._beside_the_game.during_reset(sessions, lambda: self._reset(begins))
+            practised = [imagination.builds_it_all(run, session) for run, session in sessions.items()]
+        return np.array(practised, dtype=np.bool_)
+
+    def _reset(self, begins: Bools) -> None:
+        options = {"reset_mask": begins, "material": self._runs.materials}
+        self._runs.observations, _ = self._env.reset(options=options)
 
     def _end_training_episodes(self, rows: Int64s, scores: Float64s, draws: Float64s) -> None:
         if not len(rows):

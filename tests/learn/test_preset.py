@@ -95,7 +95,7 @@ LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_te
         (("enough = 0.9", "enough = 1.1"), "imagination.enough"),
         (("enough = 0.9", "enough = 0.0"), "imagination.enough"),
         (("updates_exploring = 20_000", "updates_exploring = 0"), "imagination.updates_exploring"),
-        (("updates_building = 300_000", ""), "imagination.updates_building"),
+        (("updates_building = 600_000", ""), "imagination.updates_building"),
         (('encoding = "cell"', 'encoding = "one-hot"'), '[imagination] takes encoding "cell"'),
         (("hidden = [64, 32]", "hidden = [64]"), "two hidden layers or more"),
         (("[imagination]", "[prioritized]\nalpha = 0.6\nbeta = 0.5\n[imagination]"), "leave out [prioritized]"),

@@ -176,9 +176,9 @@ class DDQN:
         moments = self._first_moment[row], self._second_moment[row]
         return self.online[row], self.target[row], *moments, self.updates[row : row + 1]
 
-    def check_finite(self, row: int) -> None:
-        """DivergedError if a parameter of that row's online network is no number."""
-        if not np.isfinite(self.online[row]).all():
+    def check_finite(self, row: int, online: Float32s | None = None) -> None:
+        """DivergedError if a parameter of that row's online network, or of what it is to become, is no number."""
+        if not np.isfinite(self.online[row] if online is None else online).all():
             raise self._diverged(np.array([row]))
 
     def last_loss(self) -> Float32s:

@@ -6,7 +6,7 @@ greedily. All exploration of the real game follows from optimism in the learnt o
 steps of all, which try the actions.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,7 +18,7 @@ from mc_nested.learn.imagination.beliefs import Beliefs, believe
 from mc_nested.learn.imagination.experience import Experience, RealStep
 from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules
 from mc_nested.learn.imagination.material_choice import learn_choice, scores_of_materials
-from mc_nested.learn.imagination.practice import Goal, Practice, RealTransitions, landed_cells
+from mc_nested.learn.imagination.practice import Goal, Practice, PracticeSession, RealTransitions, landed_cells
 from mc_nested.learn.imagination.seen import Seen, seen_by
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import ImaginationRule, Preset
@@ -97,11 +97,19 @@ class Imagination:
         )
         learn_choice(self._main, run, np.array(here.start), scores)
 
-    def practise(self, run: int, material: int, goes_on: Callable[[], bool] = lambda: True) -> bool:
+    def practise(self, run: int, material: int) -> bool:
         """Practise that run's agent with that material; whether its policy now builds all of a known design."""
+        session = self.session(run, material)
+        session.run()
+        return self.builds_it_all(run, session)
+
+    def builds_it_all(self, run: int, session: PracticeSession) -> bool:
+        """Whether that practice of that run, its last one, came to a policy that builds all of a known design."""
+        return session.practised.reached and not bool(self._explores[run])
+
+    def session(self, run: int, material: int) -> PracticeSession:
+        """A practice of that run's agent with that material, to be run; over at once before the game's first step."""
         seen, here = self._experience[run], self._surroundings[run]
-        if not len(seen.steps):
-            return False
         rules, beliefs = self.rules(run), self.beliefs(run)
         self._explores[run] = beliefs.explores
         arena = imagined_arena(rules, beliefs)
@@ -110,16 +118,16 @@ class Imagination:
             aim, most_updates = self._rule.enough * beliefs.most, self._rule.updates_exploring
         else:
             aim, most_updates = beliefs.most, self._rule.updates_building
-        practised = self._practice.practise(
+        if not len(seen.steps):
+            most_updates = 0
+        return self._practice.session(
             self._row(run, material),
             arena,
             Goal((x, y), blocks, here.step_limit, aim, most_updates),
             self._appended(material),
             self._real_transitions(run, material, landed_cells(seen.steps, rules.lands, arena)),
             practice_stream(self._seed, self._numbers[run], seen.episodes),
-            goes_on,
         )
-        return practised.reached and not beliefs.explores
 
     def begin(self, runs: Int64s) -> None:
         """Begin an episode in each of the named runs."""

@@ -4,9 +4,10 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+from numpy.random import Generator
 
 from mc_nested.arena.action import Cell
-from mc_nested.arrays import Bools, Int64s
+from mc_nested.arrays import Bools, Float64s, Int64s
 from mc_nested.learn.dqn.cell_networks import passes_for
 from mc_nested.learn.dqn.networks import parameter_count
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
@@ -59,6 +60,77 @@ class Practised(NamedTuple):
     reached: bool
 
 
+class PracticeSession:
+    """One practice of one row, which can be stopped and gone on with.
+
+    Args:
+        own: the row's networks, which are updated.
+        begin: called before the first update.
+        practise: uses up the numbers it gets for practising those networks; DivergedError if they are no numbers then.
+        most_updates: after so many it ends.
+        random: all its random numbers come from here.
+        numbers_at_once: how many ``practise`` gets.
+    """
+
+    def __init__(
+        self,
+        own: Row,
+        begin: Callable[[], None],
+        practise: Callable[[Float64s, Row, Progress], None],
+        most_updates: int,
+        random: Generator,
+        numbers_at_once: int,
+    ) -> None:
+        self._own = self._parts = own
+        self._begin, self._practise = begin, practise
+        self._random, self._numbers_at_once = random, numbers_at_once
+        self._has_begun = False
+        self._first, self._most_updates = int(own.updates[0]), most_updates
+        self._progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_))
+
+    @property
+    def practised(self) -> Practised:
+        """What it came to so far."""
+        done, score = self._progress, float(self._progress.greedy_score[0])
+        return Practised(self._updates, int(done.episodes[0]), score, bool(done.reached[0]))
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the aim is reached, or the budget used up."""
+        return bool(self._progress.reached[0]) or self._updates >= self._most_updates
+
+    def prepare(self) -> None:
+        """Compile what it runs, if that isn't done: a compiler doesn't leave Python's lock to other threads."""
+        self._practise(np.empty(0), self._parts, self._progress)
+
+    @on_one_blas_thread
+    def run(self, goes_on: Callable[[], bool] = lambda: True) -> None:
+        """Practise until it is over, or ``goes_on``, which is asked about ten times a second, says no.
+
+        DivergedError if a parameter is no number any more.
+        """
+        while not self.is_over and goes_on():
+            if not self._has_begun:
+                self._begin()
+                self._has_begun = True
+            self._practise(self._random.random(self._numbers_at_once), self._parts, self._progress)
+
+    def go_on_with_a_copy(self) -> None:
+        """From now on a copy of the networks is updated, until ``take_over``: the row can be used meanwhile."""
+        self._parts = Row(*(part.copy() for part in self._own))
+
+    def take_over(self) -> None:
+        """Put the copy's networks and moments into the row."""
+        own, practised = self._own, self._parts
+        own.online[:], own.target[:] = practised.online, practised.target
+        own.first_moment[:], own.second_moment[:] = practised.first_moment, practised.second_moment
+        own.updates[:] = practised.updates
+
+    @property
+    def _updates(self) -> int:
+        return int(self._parts.updates[0]) - self._first
+
+
 class Practice:
     """Practises the rows of one learner, one at a time.
 
@@ -92,39 +164,37 @@ class Practice:
         )
         self._workspaces = [self._workspace(row) for row in range(learner.space.rows)]
 
-    @on_one_blas_thread
-    def practise(
-        self,
-        row: int,
-        arena: ImaginedArena,
-        goal: Goal,
-        others: Int64s,
-        real: RealTransitions,
-        random: np.random.Generator,
-        goes_on: Callable[[], bool] = lambda: True,
-    ) -> Practised:
-        """Practise that row; ``others`` are the integers of its state after x, y and b.
+    def session(
+        self, row: int, arena: ImaginedArena, goal: Goal, others: Int64s, real: RealTransitions, random: Generator
+    ) -> "PracticeSession":
+        """A practice of that row, to be run; ``others`` are the integers of its state after x, y and b.
 
-        ``real`` are in its replay from the beginning; ``goes_on`` is asked about ten times a second. DivergedError if
-        a parameter is no number any more.
+        ``real`` are in its replay from the beginning. A row's sessions share arrays: of all of a learner's sessions
+        only the last may be run.
         """
         space, ddqn = self._learner.space, self._learner.ddqn
         offset = int(others @ space.strides[3:])
         task = ImaginedTask(
             index_of(goal.start, arena), goal.blocks, goal.step_limit, goal.aim, space.strides[:3], offset
         )
-        self._begin_with(real)
-        self._workspaces[row].seen_in[:] = -1
-        progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_))
-        parts = Row(*ddqn.row(row))
-        first = int(parts.updates[0])
-        longest = 1 + goal.step_limit * (2 + self._batch)
-        while not progress.reached[0] and parts.updates[0] - first < goal.most_updates and goes_on():
-            numbers = random.random(max(NUMBERS_AT_ONCE, 2 * longest))
+
+        def begin() -> None:
+            self._begin_with(real)
+            self._workspaces[row].seen_in[:] = -1
+
+        def practise_on(numbers: Float64s, parts: Row, progress: Progress) -> None:
             practise(numbers, arena, task, self._rule, parts, self._replay, self._workspaces[row], progress)
-            ddqn.check_finite(row)
-        score = float(progress.greedy_score[0])
-        return Practised(int(parts.updates[0]) - first, int(progress.episodes[0]), score, bool(progress.reached[0]))
+            ddqn.check_finite(row, parts.online)
+
+        longest = 1 + goal.step_limit * (2 + self._batch)
+        return PracticeSession(
+            Row(*ddqn.row(row)),
+            begin,
+            practise_on,
+            goal.most_updates,
+            random,
+            max(NUMBERS_AT_ONCE, 2 * longest),
+        )
 
     def _begin_with(self, real: RealTransitions) -> None:
         kept = slice(-CAPACITY, None)
@@ -145,7 +215,7 @@ class Practice:
             scratch=passes_for(sizes, self._batch),
             slope=np.zeros((sizes[-1], self._batch), np.float32),
             gradient=np.zeros(parameter_count(sizes), np.float32),
-            seen_in=np.zeros(space.count, np.int64),
+            seen_in=np.full(space.count, -1, np.int64),
         )
 
 

@@ -110,7 +110,8 @@ def practise(
 
     A greedy episode comes first, and then every GREEDY_EVERY episodes. The others are ε-greedy, with an ε of their own
     between the highest and the lowest, equally likely on a logarithmic scale: some wander widely, some stay near the
-    policy.
+    policy. Where an episode comes to a state again, a policy would go round for ever: a greedy episode ends there,
+    another goes on by chance.
     """
     for parameters in (row.online, row.target, row.first_moment, row.second_moment):
         by_input(parameters, work.sizes)
@@ -148,7 +149,9 @@ def _practise(
                 break
             action = _greedy_action(row.online, state, work)
             if not greedy:
-                action = int(uniforms[used + 1] * len(arena.moves)) if uniforms[used] < max(epsilon, been_here) else action
+                action = (
+                    int(uniforms[used + 1] * len(arena.moves)) if uniforms[used] < max(epsilon, been_here) else action
+                )
                 used += 2
             work.seen_in[state] = episode
             position, landed = step(arena, position, action, solid)

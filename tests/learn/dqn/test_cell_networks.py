@@ -5,7 +5,7 @@ import pytest
 import torch
 
 from mc_nested.arrays import Float32s, Int64s
-from mc_nested.learn.dqn.cell_networks import CellPasses, backward_cells, forward_cells, passes_for
+from mc_nested.learn.dqn.cell_networks import CellPasses, backward_cells, by_input, by_node, forward_cells, passes_for
 from mc_nested.learn.dqn.networks import Sizes, backward, forward, hidden_for, parameter_count
 from mc_nested.learn.dqn.state_space import StateSpace
 from tests.learn.dqn.test_networks import reference
@@ -43,9 +43,22 @@ def passed(space: StateSpace, sizes: Sizes) -> tuple[CellPasses, Float32s]:
     parameters, states, slope = drawn(space, sizes)
     passes, scratch = passes_for(sizes, BATCH), passes_for(sizes, BATCH)
     gradient = np.full(parameter_count(sizes), np.nan, np.float32)
+    by_input(parameters, np.array(sizes))
     forward_cells(parameters, np.array(sizes), states, numbers_of(space), passes)
     backward_cells(parameters, np.array(sizes), states, numbers_of(space), passes, slope, gradient, scratch)
+    by_node(gradient, np.array(sizes))
     return passes, gradient
+
+
+def test_weights_ordered_by_input_and_by_node_again_are_the_same() -> None:
+    sizes = (3, 2, 2, 1)  # the first layer: 2 nodes of 3 inputs and a bias
+    parameters = np.arange(parameter_count(sizes), dtype=np.float32)
+    turned = parameters.copy()
+    by_input(turned, np.array(sizes))
+    assert turned[:8].tolist() == [0, 4, 1, 5, 2, 6, 3, 7]
+    assert turned[8:].tolist() == parameters[8:].tolist()
+    by_node(turned, np.array(sizes))
+    assert turned.tolist() == parameters.tolist()
 
 
 @pytest.mark.parametrize("hidden", HIDDEN, ids=["two layers", "three layers"])
@@ -95,5 +108,6 @@ def test_the_values_of_one_state_are_those_it_has_in_a_batch() -> None:
     sizes = space.network((6, 5))
     parameters, states, _ = drawn(space, sizes)
     one = passes_for(sizes, 1)
+    by_input(parameters, np.array(sizes))
     forward_cells(parameters, np.array(sizes), states[3:4], numbers_of(space), one)
     np.testing.assert_allclose(one.values[:, 0], passed(space, sizes)[0].values[:, 3], rtol=1e-5, atol=1e-6)

@@ -104,7 +104,9 @@ def test_practice_can_be_ended_from_outside() -> None:
     agent, imagination = imagination_of()
     play(imagination, BUILT)
     before = agent.low_level.ddqn.online.copy()
-    assert not imagination.practise(0, 1, lambda: False)
+    session = imagination.session(0, 1)
+    session.run(lambda: False)
+    assert not imagination.builds_it_all(0, session)
     np.testing.assert_array_equal(agent.low_level.ddqn.online, before)
 
 
@@ -124,8 +126,8 @@ def test_an_agent_of_a_hierarchy_practises_with_the_transitions_of_its_own_mater
         play(imagination, [Action.F, Action.B], material=0)
         play(imagination, [Action.F, Action.L, Action.R], material=1)
         for material in (0, 1):
-            imagination.practise(0, material, lambda: False)
-            assert imagination._practice._replay.added.tolist() == [held[material]]
+            real = imagination._real_transitions(0, material, np.zeros(5, dtype=np.int64))
+            assert len(real.states) == len(real.actions) == len(real.landed) == held[material]
 
 
 def test_the_same_run_practises_the_same_beside_others_and_alone() -> None:

@@ -25,7 +25,9 @@ def practised(
 ) -> tuple[Practised, Practice]:
     practice = Practice(learner, preset, RULE)
     real = real_of(learner) if real is None else real
-    return practice.practise(row, arena_of(), goal, MATERIAL, real, np.random.default_rng(seed)), practice
+    session = practice.session(row, arena_of(), goal, MATERIAL, real, np.random.default_rng(seed))
+    session.run()
+    return session.practised, practice
 
 
 def greedy_score(learner: Learner, row: int) -> float:
@@ -97,17 +99,19 @@ def test_it_ends_when_it_is_told_to() -> None:
     learner = learner_of()
     goal = GOAL._replace(aim=UNREACHABLE.aim, most_updates=10**9)
     practice, random = Practice(learner, SMALL, RULE), np.random.default_rng(0)
-    result = practice.practise(0, arena_of(), goal, MATERIAL, real_of(learner), random, lambda: next(answers))
-    assert not result.reached
-    assert result.updates > 0
+    session = practice.session(0, arena_of(), goal, MATERIAL, real_of(learner), random)
+    session.run(lambda: next(answers))
+    assert not session.practised.reached
+    assert session.practised.updates > 0
     assert list(answers) == []
 
 
 def test_a_practice_that_is_told_to_end_at_once_changes_nothing() -> None:
     learner = learner_of()
     practice, random = Practice(learner, SMALL, RULE), np.random.default_rng(0)
-    result = practice.practise(0, arena_of(), GOAL, MATERIAL, real_of(learner), random, lambda: False)
-    assert result == Practised(0, 0, 0.0, False)
+    session = practice.session(0, arena_of(), GOAL, MATERIAL, real_of(learner), random)
+    session.run(lambda: False)
+    assert session.practised == Practised(0, 0, 0.0, False)
 
 
 def test_networks_that_diverge_are_one_line() -> None:
@@ -145,8 +149,10 @@ def test_the_next_practice_begins_with_its_own_real_transitions_alone() -> None:
     learner = learner_of()
     practice, random = Practice(learner, SMALL, RULE), np.random.default_rng(0)
     real = real_of(learner, ([2, 1, 3, 1], int(Action.B), [2, 0, 3, 1], NOWHERE))
-    practice.practise(0, arena_of(), UNREACHABLE, MATERIAL, real, random)
-    practice.practise(0, arena_of(), UNREACHABLE, MATERIAL, real, random, lambda: False)
+    practice.session(0, arena_of(), UNREACHABLE, MATERIAL, real, random).run()
+    assert practice._replay.added[0] > 1
+    in_one_go, empty = iter([True, False]), GOAL._replace(step_limit=0)
+    practice.session(0, arena_of(), empty, MATERIAL, real, random).run(lambda: next(in_one_go))
     assert practice._replay.added.tolist() == [1]
 
 

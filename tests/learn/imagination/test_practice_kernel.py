@@ -119,7 +119,7 @@ def test_there_is_no_update_before_there_are_enough_transitions() -> None:
     at = Practising(learner_of(), 4, learning_starts=6)
     at.go(np.full(at.longest, 0.99))
     assert (int(at.replay.added[0]), int(at.row.updates[0])) == (4, 0)
-    at.progress.episodes[0] = 1
+    at.progress.episodes[0] = GREEDY_EVERY + 1
     at.go(np.full(at.longest, 0.99))
     assert (int(at.replay.added[0]), int(at.row.updates[0])) == (8, 3), "at the sixth, the seventh and the eighth"
 

@@ -1,0 +1,151 @@
+"""The benchmark of trainings from scratch: what it waits for, what it holds against the world, what it calls wrong."""
+
+import dataclasses
+from collections.abc import Callable
+
+import pytest
+
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.game import Outcome
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import LiveError
+from mc_nested.learn.imagination.background_practice import GoesOn
+from mc_nested.learn.imagination.experience import RECENT
+from mc_nested.learn.preset import load_preset
+from mc_nested.live.live_game import LiveGame
+from scripts.bench_live_training import (
+    CheckedGame,
+    PracticeOnAClock,
+    Transition,
+    Trial,
+    main,
+    medians,
+    train,
+    wrongly_learnt,
+)
+from sim.client.client import VirtualClient
+from tests.sim.client.playing import arena_of, play
+
+LINE = load_scenario("line")
+RIGHT = Trial("line", 1, True, 8, 0, 100.0, 15.0, 5.0, 20.0, 0, 300, 0, 0, 0, 0, 0)
+
+
+class TwoClocks:
+    """The game's and the processor's, in seconds; work takes the processor a quarter of a second at a time."""
+
+    def __init__(self) -> None:
+        self.game = self.processor = 0.0
+        self.practice = PracticeOnAClock(lambda: self.game, lambda: self.processor)
+
+    def work_of(self, seconds: float) -> Callable[[GoesOn], None]:
+        def work(goes_on: GoesOn) -> None:
+            until = self.processor + seconds
+            while self.processor < until and goes_on():
+                self.processor += 0.25
+
+        return work
+
+
+@pytest.mark.parametrize(
+    ("takes_s", "reset_s", "done_s", "waited_s", "cut_short"),
+    [(1.0, 2.0, 1.0, 0.0, 0), (2.5, 2.0, 2.5, 0.5, 0), (9.0, 2.0, 3.0, 1.0, 1), (9.0, 0.0, 1.0, 1.0, 1)],
+)
+def test_practice_gets_the_resets_seconds_and_one_more_and_the_game_waits_for_what_exceeds_the_reset(
+    takes_s: float, reset_s: float, done_s: float, waited_s: float, cut_short: int
+) -> None:
+    clocks = TwoClocks()
+    clocks.practice.begin(clocks.work_of(takes_s))
+    clocks.game += reset_s
+    clocks.practice.end(1.0)
+    clocks.practice.end(1.0)
+    assert (clocks.practice.processor_s, clocks.practice.waited_s) == (done_s, waited_s)
+    assert clocks.practice.cut_short == cut_short
+
+
+@pytest.mark.slow
+def test_a_training_without_mishaps_gets_to_the_optimum_and_nothing_is_wrong() -> None:
+    trial = train(LINE, 1, load_preset("live"), 0.0)
+    assert trial.solved
+    assert trial.is_right
+    assert (trial.spoiled, trial.mishaps) == (0, 0)
+    assert 0 < trial.game_s <= 60 * trial.minutes
+
+
+@pytest.mark.slow
+def test_what_spoiled_episodes_taught_is_not_in_the_experience() -> None:
+    trial = train(LINE, 2, load_preset("live"), 0.03)
+    assert trial.spoiled > 0
+    assert trial.mishaps > 0
+    assert trial.is_right
+
+
+class Deceived:
+    """Says that the agent stayed where it was, whatever it did; it fails at the third action."""
+
+    resumable, log = None, None
+
+    def __init__(self, game: LiveGame) -> None:
+        self._game, self._acts_left = game, 3
+
+    def reset(self, material: int) -> Cell:
+        return self._game.reset(material)
+
+    def act(self, action: Action) -> Outcome:
+        self._acts_left -= 1
+        if not self._acts_left:
+            raise LiveError("gone")
+        self._game.act(action)
+        return Outcome(LINE.start, None)
+
+
+def test_what_neither_the_world_nor_the_rules_say_is_counted_and_a_failed_episode_is_dropped() -> None:
+    client = VirtualClient(seed=1)
+    with play(client, LINE) as live:
+        game = CheckedGame(Deceived(live), client, arena_of(client), LINE, 0.0)
+        assert game.reset(0) == LINE.start
+        assert (game.wrong_cells, game.wrong_blocks, game.unnoticed) == (0, 0, 0)
+        game.act(Action.BD)
+        assert (game.wrong_cells, game.wrong_blocks, game.unnoticed) == (1, 1, 1)
+        assert [len(episode) for episode in game.episodes] == [1]
+        game.act(Action.BD)
+        with pytest.raises(LiveError):
+            game.act(Action.BD)
+    assert game.episodes == []
+
+
+def test_what_was_learnt_must_be_the_last_episodes_transitions_and_all_of_them() -> None:
+    one, two = (0, 0, 7, 1, 0, 1, 7), (0, 1, 7, 1, 0, 2, 7)
+    later: list[list[Transition]] = [[two]] * RECENT
+    assert wrongly_learnt([list(one), list(two)], [[one], [two]]) == 0
+    assert wrongly_learnt([list(two)], [[one], [two]]) == 2
+    assert wrongly_learnt([list(one), list(one)], [[one], [two]]) == 1
+    assert wrongly_learnt([list(one), list(two), list(two)], [[one], [two]]) == 1
+    assert wrongly_learnt([list(two)] * RECENT, [[one], *later]) == 0
+
+
+def test_minutes_are_the_games_and_what_was_waited_for_and_an_unsolved_trial_never_ends() -> None:
+    assert RIGHT.minutes == 2.0
+    unsolved = dataclasses.replace(RIGHT, solved=False)
+    assert unsolved.minutes == float("inf")
+    slow = dataclasses.replace(RIGHT, game_s=220.0)
+    assert medians([RIGHT, unsolved, slow]) == {"line": 4.0}
+
+
+@pytest.mark.parametrize("wrong", ["wrong_cells", "wrong_blocks", "unnoticed", "wrongly_learnt"])
+def test_each_wrong_count_alone_is_wrong(wrong: str) -> None:
+    assert RIGHT.is_right
+    trial = dataclasses.replace(RIGHT)
+    setattr(trial, wrong, 1)
+    assert not trial.is_right
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"), [(["--seeds", "0"], "--seeds must be at least 1"), (["--preset", "paper"], "paper has none")]
+)
+def test_bad_options_are_refused_in_a_line(
+    arguments: list[str], told: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("sys.argv", ["bench_live_training.py", *arguments])
+    with pytest.raises(SystemExit, match="2"):
+        main()
+    assert told in capsys.readouterr().err
