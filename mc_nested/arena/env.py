@@ -56,7 +56,7 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
     """One arena. The reward is the nested agent's r_N; the last step's ``info["score"]`` is the main agent's r_M.
 
     ``reset(options={"material": name})`` takes the main agent's choice; without it, the material with the best p.
-    Terminated when no block is left, truncated at the scenario's step limit (README: the task).
+    Terminated when no block is left, truncated at the scenario's step limit (TASK.md).
     A live game's LiveError passes through; the episode is over then and has to be reset.
     """
 

@@ -129,7 +129,7 @@ class ImaginationRule(_GrownTable):
 
 
 class Preset(_Table):
-    """A training's hyper-parameters; ``paper`` is README's table.
+    """A training's hyper-parameters; ``paper`` is TASK.md's table.
 
     With ``imagination`` it is played without ε, and ``replay_capacity`` isn't used.
     Without ``main``, the main agent learns as the paper's: by one update an episode, from [update] ``learning_starts``

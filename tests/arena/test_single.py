@@ -1,4 +1,4 @@
-"""The single agent's ten actions, step by step (paper, appendix; README: the task)."""
+"""The single agent's ten actions, step by step (paper, appendix; TASK.md)."""
 
 import numpy as np
 import pytest

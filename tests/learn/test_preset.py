@@ -1,4 +1,4 @@
-"""Presets: ``paper`` is README's table, and a mistake is one line."""
+"""Presets: ``paper`` is TASK.md's table, and a mistake is one line."""
 
 import re
 from pathlib import Path

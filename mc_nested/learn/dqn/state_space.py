@@ -65,7 +65,7 @@ def _encoded(encoding: str, states: Integers, radix: Int64s, highest: Int64s) ->
 
 
 def scaled(states: Integers, highest: Int64s) -> Float32s:
-    """Each integer of the states (…, width) scaled to [-1, 1] (README: the task), followed by a 1.
+    """Each integer of the states (…, width) scaled to [-1, 1] (TASK.md), followed by a 1.
 
     A part of the state that has one value only (a single material) becomes 0.
     """
