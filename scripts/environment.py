@@ -5,12 +5,13 @@ Needs nothing but Python 3.10 or newer. Versions come from constraints.txt.
 
 import hashlib
 import json
+import os
 import re
 import shutil
 import subprocess
 import sys
 import sysconfig
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -39,9 +40,11 @@ def main_python(extras: Sequence[str] = ()) -> Path:
     return python
 
 
-def run(command: Sequence[str | Path]) -> int:
-    """Run a command in the project's root and return its exit code."""
-    return subprocess.run([str(part) for part in command], cwd=ROOT, check=False).returncode  # noqa: S603 - our own
+def run(command: Sequence[str | Path], variables: Mapping[str, str] | None = None) -> int:
+    """Run a command in the project's root, with these environment variables too, and return its exit code."""
+    environment = {**os.environ, **(variables or {})}
+    words = [str(part) for part in command]
+    return subprocess.run(words, cwd=ROOT, env=environment, check=False).returncode  # noqa: S603 - our own
 
 
 def _make_environment() -> None:

@@ -13,15 +13,28 @@ from scripts import environment
 OTHERS = "slow or standin or realtime or window or wine"
 """The markers of the tests that the unit suite leaves out."""
 
+KERNELS = [
+    "tests/learn/dqn/test_adam.py",
+    "tests/learn/dqn/test_cell_networks.py",
+    "tests/learn/imagination/test_arena_step.py",
+    "tests/learn/imagination/test_practice_kernel.py",
+]
+"""Tests of compiled code that is quick enough in plain Python, where an index out of bounds is an error."""
+
 CHECKS = {
     "lint": ["ruff", "check", "."],
     "format": ["ruff", "format", "--check", "."],
     "types": ["mypy"],
     "import contracts": ["lint-imports"],
     "unit tests": ["pytest", "-n", "2", "-m", f"not ({OTHERS})", "--cov", "--cov-report="],
+    "compiled code in plain Python": ["pytest", *KERNELS, "--cov", "--cov-append", "--cov-report="],
     "branch coverage": ["coverage", "report", "--skip-covered"],
     "other tests": ["pytest", "-m", OTHERS],
 }
+
+
+VARIABLES = {"compiled code in plain Python": {"NUMBA_DISABLE_JIT": "1"}}
+"""Environment variables of a check."""
 
 
 def main() -> int:
@@ -31,7 +44,7 @@ def main() -> int:
     for name, command in CHECKS.items():
         print(f"\n== {name}: {' '.join(command)}", flush=True)
         began = time.monotonic()
-        code = environment.run([python.parent / command[0], *command[1:]])
+        code = environment.run([python.parent / command[0], *command[1:]], VARIABLES.get(name))
         outcome[name] = code, time.monotonic() - began
     print()
     for name, (code, seconds) in outcome.items():
