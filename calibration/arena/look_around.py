@@ -13,7 +13,7 @@ EYE_HEIGHT = 1.62
 """Blocks from the feet to the eyes (FACTS: Standing, looking, placing)."""
 
 SIGHT = 19.5
-"""Blocks from the eyes to the farthest floor that is looked at (FACTS: the target block is named up to 20 away)."""
+"""Blocks from the eyes to the farthest floor that is looked at (FACTS: The F3 debug screen)."""
 
 ACROSS, ALONG = (1, 4, 7, 10, 13), (3, 8, 13)
 """Where the cells lie whose floor is looked at, in fifteenths of the arena's size, spread over it."""
