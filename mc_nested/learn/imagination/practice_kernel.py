@@ -113,29 +113,12 @@ def practise(
     policy. Where an episode comes to a state again, a policy would go round for ever: a greedy episode ends there,
     another goes on by chance.
     """
-    for parameters in (row.online, row.target, row.first_moment, row.second_moment):
-        by_input(parameters, work.sizes)
-    _practise(uniforms, arena, task, rule, row, replay, work, progress)
-    for parameters in (row.online, row.target, row.first_moment, row.second_moment):
-        by_node(parameters, work.sizes)
-
-
-@compiled(nogil=True)
-def _practise(
-    uniforms: Float64s,
-    arena: ImaginedArena,
-    task: ImaginedTask,
-    rule: PracticeRule,
-    row: Row,
-    replay: PracticeReplay,
-    work: Workspace,
-    progress: Progress,
-) -> None:
+    _order_by_input(row, work.sizes)
     batch = work.batch.values.shape[1]
     longest = 1 + task.step_limit * (2 + batch)
     used = 0
     solid = arena.empty.copy()
-    while used + longest <= len(uniforms):
+    while used + longest <= len(uniforms) and not progress.reached[0]:
         greedy = progress.episodes[0] % GREEDY_EVERY == 0
         epsilon = 0.0 if greedy else _epsilon(uniforms[used], rule)
         used += not greedy
@@ -168,10 +151,20 @@ def _practise(
             state = next_state
         progress.episodes[0] += 1
         if greedy:
-            progress.greedy_score[0] = score
-            if score >= task.aim:
-                progress.reached[0] = True
-                return
+            progress.greedy_score[0], progress.reached[0] = score, score >= task.aim
+    _order_by_node(row, work.sizes)
+
+
+@compiled(nogil=True)
+def _order_by_input(row: Row, sizes: Int64s) -> None:
+    for parameters in (row.online, row.target, row.first_moment, row.second_moment):
+        by_input(parameters, sizes)
+
+
+@compiled(nogil=True)
+def _order_by_node(row: Row, sizes: Int64s) -> None:
+    for parameters in (row.online, row.target, row.first_moment, row.second_moment):
+        by_node(parameters, sizes)
 
 
 @compiled(nogil=True)
