@@ -340,7 +340,7 @@ def test_a_scenario_larger_than_the_profiles_arena_is_refused_with_the_step_to_r
 
 
 def test_the_step_to_repeat_names_the_profile_and_types_no_commands_where_it_has_none() -> None:
-    world = WorldTable(name="mine", folder="/saves/mine", template="/saves/template")
+    world = WorldTable(name="mine", folder="~/saves/mine", template="~/saves/template")
     profile = Profile(arena=Arena.around((0, 64, 0), "south", size=16), world=world)
     check_fits(_large(16), profile, "mine")
     step = "run mc-nested calibrate arena --size 17 --mark-only --profile mine"
