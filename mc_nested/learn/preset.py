@@ -18,6 +18,9 @@ WIDEST, DEEPEST, LARGEST_BATCH = 4096, 16, 4096
 MOST_UPDATES_A_STEP = 1000
 """More would take longer than a step of the slowest game."""
 
+MOST_TABLE_STEPS, MOST_STEPS_OF_A_RETURN = 100_000_000, 1000
+"""More imagined steps would take minutes; a return of more steps is longer than an episode."""
+
 Count = Annotated[int, Field(ge=1, le=MOST)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0, le=1)]
@@ -103,6 +106,8 @@ class ImaginationRule(_GrownTable):
 
     An imagined episode has an ε of its own, between the two. A practice ends when the greedy policy scores ``enough``
     of the best that is imaginable while cells are still to be found, or all of it afterwards; or after so many updates.
+    Before it, a table learns for at most ``table_steps`` imagined steps where to go; at 0 there is none. ``n_steps`` is
+    how many rewards in a row a network's target adds up.
 
     Parts that an ablation turns off: ``optimism`` takes unknown cells to pay, ``neighbours`` those beside a paying one
     first; ``real_transitions`` puts what happened into the replay of what was imagined; ``double`` lets the online
@@ -114,6 +119,8 @@ class ImaginationRule(_GrownTable):
     enough: Share
     updates_exploring: Count
     updates_building: Count
+    table_steps: Annotated[int, Field(ge=0, le=MOST_TABLE_STEPS)]
+    n_steps: Annotated[int, Field(ge=1, le=MOST_STEPS_OF_A_RETURN)]
     optimism: bool = True
     neighbours: bool = True
     real_transitions: bool = True

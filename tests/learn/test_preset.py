@@ -89,13 +89,13 @@ LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_te
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        (("lowest_epsilon = 0.02", "lowest_epsilon = 0.0"), "imagination.lowest_epsilon"),
+        (("lowest_epsilon = 0.001", "lowest_epsilon = 0.0"), "imagination.lowest_epsilon"),
         (("highest_epsilon = 1.0", "highest_epsilon = 1.5"), "imagination.highest_epsilon"),
-        (("highest_epsilon = 1.0", "highest_epsilon = 0.01"), "lowest_epsilon is above highest_epsilon: swap them"),
+        (("highest_epsilon = 1.0", "highest_epsilon = 0.0001"), "lowest_epsilon is above highest_epsilon: swap them"),
         (("enough = 0.9", "enough = 1.1"), "imagination.enough"),
         (("enough = 0.9", "enough = 0.0"), "imagination.enough"),
         (("updates_exploring = 20_000", "updates_exploring = 0"), "imagination.updates_exploring"),
-        (("updates_building = 600_000", ""), "imagination.updates_building"),
+        (("updates_building = 200_000", ""), "imagination.updates_building"),
         (('encoding = "cell"', 'encoding = "one-hot"'), '[imagination] takes encoding "cell"'),
         (("hidden = [64, 32]", "hidden = [64]"), "two hidden layers or more"),
         (("[imagination]", "[prioritized]\nalpha = 0.6\nbeta = 0.5\n[imagination]"), "leave out [prioritized]"),
@@ -174,6 +174,8 @@ def test_the_parts_that_an_ablation_turns_off_are_saved_only_where_they_are_off(
         "enough",
         "updates_exploring",
         "updates_building",
+        "table_steps",
+        "n_steps",
     }
     without = live.model_copy(update={"imagination": rule.model_copy(update={"double": False})})
     assert without.model_dump()["imagination"]["double"] is False
@@ -190,7 +192,9 @@ LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_te
     [
         (("enough = 0.9", "enough = 0.9\noptimism = false"), "neighbours are a part of optimism: turn them off, too"),
         (("enough = 0.9", "enough = 0.9\ndouble = 1"), "imagination.double"),
-        (("lowest_epsilon = 0.02", "lowest_epsilon = 0.02\nhighest = 1"), "imagination.highest"),
+        (("table_steps = 3_000_000", "table_steps = -1"), "imagination.table_steps"),
+        (("n_steps = 10", "n_steps = 0"), "imagination.n_steps"),
+        (("lowest_epsilon = 0.001", "lowest_epsilon = 0.001\nhighest = 1"), "imagination.highest"),
     ],
 )
 def test_an_imagination_that_does_not_fit_is_one_line(change: tuple[str, str], says: str) -> None:

@@ -101,7 +101,7 @@ def test_an_episode_that_begins_before_practice_is_over_is_a_training_episode() 
 
 
 def test_what_was_practised_within_an_episode_is_taken_over_before_the_next_reset() -> None:
-    trainer = training(Rounds(0, beside_episode=1))
+    trainer = training(Rounds(0, beside_episode=ENOUGH))
     while len(trainer.episode_rows) < 2:
         trainer.tick()
         assert trainer.agent.low_level.ddqn.updates.tolist() == [0]

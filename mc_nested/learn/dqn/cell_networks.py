@@ -66,6 +66,8 @@ def forward_cells(parameters: Float32s, sizes: Int64s, states: Int64s, numbers: 
         own[:] = weights[cell]
         for other in range(others):
             number = numbers[row, other]
+            if number == 0:
+                continue
             of_input = weights[cells + other]
             for node in range(nodes):
                 own[node] += of_input[node] * number
@@ -111,6 +113,8 @@ def backward_cells(
             of_cell[node] += own_row[node]
         for other in range(others):
             number = numbers[row, other]
+            if number == 0:
+                continue
             of_input = first[cells + other]
             for node in range(nodes):
                 of_input[node] += own_row[node] * number

@@ -23,7 +23,7 @@ class StateSpace:
         highest: the highest value of each integer of a state, (rows, width); the lowest is 0.
         actions: how many actions there are.
         encoding: how a network sees a state: each integer ``scaled`` to [-1, 1]; each ``one-hot``; or an input for each
-            ``cell`` (x, y), the other integers scaled.
+            ``cell`` (x, y) and for each value of the other integers.
     """
 
     def __init__(self, highest: Int64s, actions: int, encoding: str = "scaled") -> None:
@@ -61,7 +61,7 @@ class StateSpace:
 def _encoded(encoding: str, states: Integers, radix: Int64s, highest: Int64s) -> Float32s:
     if encoding == "one-hot":
         return one_hot(states, radix)
-    return one_hot_cell(states, radix, highest) if encoding == "cell" else scaled(states, highest)
+    return one_hot_cell(states, radix) if encoding == "cell" else scaled(states, highest)
 
 
 def scaled(states: Integers, highest: Int64s) -> Float32s:
@@ -79,7 +79,7 @@ def one_hot(states: Integers, radix: Int64s) -> Float32s:
     return np.concatenate((*parts, np.ones((*states.shape[:-1], 1), np.float32)), axis=-1)
 
 
-def one_hot_cell(states: Integers, radix: Int64s, highest: Int64s) -> Float32s:
-    """The first two integers of the states (…, width) as a 1 among all their pairs, the others scaled, then a 1."""
+def one_hot_cell(states: Integers, radix: Int64s) -> Float32s:
+    """The first two integers of the states (…, width) as a 1 among all their pairs, the others one-hot, then a 1."""
     cells = np.eye(int(radix[:2].prod()), dtype=np.float32)[states[..., 0] * radix[1] + states[..., 1]]
-    return np.concatenate((cells, scaled(states[..., 2:], highest[2:])), axis=-1)
+    return np.concatenate((cells, one_hot(states[..., 2:], radix[2:])), axis=-1)

@@ -18,7 +18,7 @@ from mc_nested.learn.imagination.experience import UNTOLD
 FADES = 0.7
 """What a try counts for once there is a later one of the same cell: at above a half, one odd try is outvoted by two."""
 
-FAR_FROM_PAYING, KNOWN_TO_PAY = 0.2, 0.2
+FAR_FROM_PAYING, KNOWN_TO_PAY = 0.2, 0.05
 """While exploring, what is imagined for an unknown cell that isn't beside a paying one, and for one known to pay; for
 an unknown cell beside a paying one it is 1."""
 

@@ -12,8 +12,8 @@ from mc_nested.learn.dqn.cell_networks import passes_for
 from mc_nested.learn.dqn.networks import parameter_count
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, index_of
+from mc_nested.learn.imagination.imagined_task import ImaginedTask
 from mc_nested.learn.imagination.practice_kernel import (
-    ImaginedTask,
     PracticeReplay,
     PracticeRule,
     Progress,
@@ -21,6 +21,7 @@ from mc_nested.learn.imagination.practice_kernel import (
     Workspace,
     practise,
 )
+from mc_nested.learn.imagination.table_learner import QTable, TableProgress, learn_table, longest_episode
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import ImaginationRule, Preset
 
@@ -29,6 +30,12 @@ CAPACITY = 250_000
 
 NUMBERS_AT_ONCE = 65_536
 """Random numbers that are drawn at once: for a tenth of a second of practice."""
+
+BY_TABLE = 0.5
+"""This share of the imagined episodes that a network learns from is played by the table, the rest by the network."""
+
+NEARLY_0 = 1e-6
+"""The table's values begin below this, each at another, so that among equal ones chance decides."""
 
 
 class RealTransitions(NamedTuple):
@@ -152,7 +159,10 @@ class Practice:
             rule.highest_epsilon,
             rule.lowest_epsilon,
             rule.double,
+            rule.n_steps,
+            BY_TABLE if rule.table_steps else 0.0,
         )
+        self._table_steps = rule.table_steps
         self._batch = update.batch
         self._replay = PracticeReplay(
             states=np.zeros(CAPACITY, np.int32),
@@ -162,6 +172,8 @@ class Practice:
             terminated=np.zeros(CAPACITY, np.bool_),
             added=np.zeros(1, np.int64),
         )
+        count, actions = learner.space.count, learner.space.actions
+        self._table, self._table_seen_in = np.zeros((count, actions), np.float32), np.zeros(count, np.int64)
         self._workspaces = [self._workspace(row) for row in range(learner.space.rows)]
 
     def session(
@@ -178,15 +190,25 @@ class Practice:
             index_of(goal.start, arena), goal.blocks, goal.step_limit, goal.aim, space.strides[:3], offset
         )
 
+        trail = np.zeros((3, goal.step_limit + 1), np.int64)
+        table = QTable(self._table, self._table_seen_in, trail)
+        tabled = TableProgress(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1, np.bool_))
+        rule = self._rule
+
         def begin() -> None:
             self._begin_with(real)
-            self._workspaces[row].seen_in[:] = -1
+            self._workspaces[row].seen_in[:] = self._table_seen_in[:] = -1
+            self._table[:] = NEARLY_0 * random.random(self._table.shape)
 
         def practise_on(numbers: Float64s, parts: Row, progress: Progress) -> None:
-            practise(numbers, arena, task, self._rule, parts, self._replay, self._workspaces[row], progress)
+            if self._table_steps > tabled.steps[0] and not tabled.reached[0]:
+                learn_table(numbers, arena, task, rule.gamma, rule.highest_epsilon, rule.lowest_epsilon, table, tabled)
+                if len(numbers):
+                    return
+            practise(numbers, arena, task, rule, parts, self._replay, self._workspaces[row], progress)
             ddqn.check_finite(row, parts.online)
 
-        longest = 1 + goal.step_limit * (2 + self._batch)
+        longest = max(2 + goal.step_limit * (2 + self._batch), longest_episode(task))
         return PracticeSession(
             Row(*ddqn.row(row)),
             begin,
@@ -216,6 +238,7 @@ class Practice:
             slope=np.zeros((sizes[-1], self._batch), np.float32),
             gradient=np.zeros(parameter_count(sizes), np.float32),
             seen_in=np.full(space.count, -1, np.int64),
+            table=self._table,
         )
 
 

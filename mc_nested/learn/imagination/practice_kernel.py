@@ -1,5 +1,9 @@
 """Double deep Q-learning in the learnt game, compiled: play an imagined step, store it, update from a batch.
 
+An imagined episode is played by the network or by the table (table_learner.py); the network learns from both. Its
+targets add up a few rewards in a row, whoever chose the actions between (n-step returns, uncorrected; Hessel et al.,
+2018): the episodes near a policy that builds are most, and their returns are true whichever cells the state hides.
+
 What a transition is paid isn't stored, but the cell where its block landed: the real transitions of earlier episodes,
 which are in the same replay, are paid by today's beliefs.
 """
@@ -14,29 +18,15 @@ from mc_nested.learn.dqn.cell_networks import CellPasses, backward_cells, by_inp
 from mc_nested.learn.dqn.compiled import compiled
 from mc_nested.learn.dqn.ddqn import td_target
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, step
-
-GREEDY_EVERY = 10
-"""Every so many imagined episodes one is greedy, without an update: whether the policy has reached its aim."""
-
-
-class ImaginedTask(NamedTuple):
-    """What is practised: from where, with how many blocks, for how many steps at most, and which score is enough.
-
-    ``strides`` (3,) are what x, y and b count for in a state's index, ``offset`` what the rest of it does.
-    """
-
-    start: int
-    blocks: int
-    step_limit: int
-    aim: float
-    strides: Int64s
-    offset: int
+from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask, epsilon_from, is_wasted, state_at
 
 
 class PracticeRule(NamedTuple):
     """Hyper-parameters: those of an update (ddqn.py), and the highest and the lowest ε of an imagined episode.
 
     ``double``: the online network chooses the action of s' that the target network values, not the target network.
+    ``n_steps``: how many rewards in a row a target adds up before the value of the state that follows.
+    ``by_table``: the share of imagined episodes whose actions the table chooses (table_learner.py).
     """
 
     gamma: float
@@ -47,6 +37,8 @@ class PracticeRule(NamedTuple):
     highest_epsilon: float
     lowest_epsilon: float
     double: bool
+    n_steps: int
+    by_table: float
 
 
 class Row(NamedTuple):
@@ -74,7 +66,11 @@ class PracticeReplay(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Arrays that are reused: ``sizes`` of the networks, ``numbers`` (cell_networks.py), passes of 1 and of a batch."""
+    """Arrays that are reused: ``sizes`` of the networks, ``numbers`` (cell_networks.py), passes of 1 and of a batch.
+
+    ``seen_in`` (states,) is the episode in which each state was last seen, ``table`` (states, actions) are the table's
+    values.
+    """
 
     sizes: Int64s
     numbers: Float32s
@@ -85,6 +81,7 @@ class Workspace(NamedTuple):
     slope: Float32s
     gradient: Float32s
     seen_in: Int64s
+    table: Float32s
 
 
 class Progress(NamedTuple):
@@ -108,29 +105,32 @@ def practise(
 ) -> None:
     """Practise until the greedy policy reaches the aim, or the numbers in [0, 1) don't suffice for another episode.
 
-    A greedy episode comes first, and then every GREEDY_EVERY episodes. The others are ε-greedy, with an ε of their own
-    between the highest and the lowest, equally likely on a logarithmic scale: some wander widely, some stay near the
-    policy. Where an episode comes to a state again, a policy would go round for ever: a greedy episode ends there,
-    another goes on by chance.
+    A greedy episode comes first, and then every GREEDY_EVERY episodes. The others are ε-greedy by the network or by the
+    table, with an ε of their own between the highest and the lowest, equally likely on a logarithmic scale: some wander
+    widely, most stay near the policy. They end where a block is wasted. Where an episode comes to a state again, a
+    policy would go round for ever: a greedy episode ends there, another goes on by chance.
     """
     _order_by_input(row, work.sizes)
     batch = work.batch.values.shape[1]
-    longest = 1 + task.step_limit * (2 + batch)
+    longest = 2 + task.step_limit * (2 + batch)
     used = 0
     solid = arena.empty.copy()
     while used + longest <= len(uniforms) and not progress.reached[0]:
         greedy = progress.episodes[0] % GREEDY_EVERY == 0
-        epsilon = 0.0 if greedy else _epsilon(uniforms[used], rule)
-        used += not greedy
+        epsilon, by_table = 0.0, False
+        if not greedy:
+            epsilon = epsilon_from(uniforms[used], rule.highest_epsilon, rule.lowest_epsilon)
+            by_table = uniforms[used + 1] < rule.by_table
+            used += 2
         solid[:] = arena.empty
-        position, blocks, steps, score = task.start, task.blocks, 0, 0.0
+        position, blocks, steps, score, wasted = task.start, task.blocks, 0, 0.0, False
         episode = progress.episodes[0]
-        state = _state(position, blocks, arena, task)
-        while blocks > 0 and steps < task.step_limit:
+        state = state_at(position, blocks, arena, task)
+        while blocks > 0 and steps < task.step_limit and not wasted:
             been_here = work.seen_in[state] == episode
             if greedy and been_here:
                 break
-            action = _greedy_action(row.online, state, work)
+            action = int(np.argmax(work.table[state])) if by_table else _greedy_action(row.online, state, work)
             if not greedy:
                 action = (
                     int(uniforms[used + 1] * len(arena.moves)) if uniforms[used] < max(epsilon, been_here) else action
@@ -141,12 +141,13 @@ def practise(
             if landed != NOWHERE:
                 blocks -= 1
                 score += arena.pay[landed]
-            next_state = _state(position, blocks, arena, task)
+                wasted = not greedy and is_wasted(landed, arena)
+            next_state = state_at(position, blocks, arena, task)
             steps += 1
             if not greedy:
                 _store(replay, state, next_state, action, landed, blocks == 0)
                 if replay.added[0] >= rule.learning_starts:
-                    _update(uniforms[used : used + batch], arena.pay, rule, row, replay, work)
+                    _update(uniforms[used : used + batch], arena, rule, row, replay, work)
                     used += batch
             state = next_state
         progress.episodes[0] += 1
@@ -168,19 +169,6 @@ def _order_by_node(row: Row, sizes: Int64s) -> None:
 
 
 @compiled(nogil=True)
-def _epsilon(uniform: float, rule: PracticeRule) -> float:
-    epsilon: float = rule.lowest_epsilon * (rule.highest_epsilon / rule.lowest_epsilon) ** uniform
-    return epsilon
-
-
-@compiled(nogil=True)
-def _state(position: int, blocks: int, arena: ImaginedArena, task: ImaginedTask) -> int:
-    x, y = position // arena.side - arena.border, position % arena.side - arena.border
-    state: int = x * task.strides[0] + y * task.strides[1] + blocks * task.strides[2] + task.offset
-    return state
-
-
-@compiled(nogil=True)
 def _greedy_action(online: Float32s, state: int, work: Workspace) -> int:
     states = np.empty(1, np.int64)
     states[0] = state
@@ -198,26 +186,26 @@ def _store(replay: PracticeReplay, state: int, next_state: int, action: int, lan
 
 @compiled(nogil=True)
 def _update(
-    uniforms: Float64s, pay: Float32s, rule: PracticeRule, row: Row, replay: PracticeReplay, work: Workspace
+    uniforms: Float64s, arena: ImaginedArena, rule: PracticeRule, row: Row, replay: PracticeReplay, work: Workspace
 ) -> None:
     """One double-Q update (paper, equation 4) from a batch that the numbers (batch,) draw."""
     batch = len(uniforms)
     held = min(replay.added[0], len(replay.states))
     drawn = np.empty(batch, np.int64)
     states, next_states = np.empty(batch, np.int64), np.empty(batch, np.int64)
+    rewards, discounts = np.empty(batch), np.empty(batch)
     for column in range(batch):
         drawn[column] = min(int(uniforms[column] * held), held - 1)
-        states[column], next_states[column] = replay.states[drawn[column]], replay.next_states[drawn[column]]
+        last, rewards[column], discounts[column] = followed(replay, drawn[column], arena, rule)
+        states[column], next_states[column] = replay.states[drawn[column]], replay.next_states[last]
     # The target network's values go through the workspace of s, which is overwritten by those of s afterwards.
     forward_cells(row.online, work.sizes, next_states, work.numbers, work.next_batch)
     forward_cells(row.target, work.sizes, next_states, work.numbers, work.batch)
     targets = np.empty(batch, np.float32)
     chooser = work.next_batch.values if rule.double else work.batch.values
     for column in range(batch):
-        at = drawn[column]
-        discount = 0.0 if replay.terminated[at] else rule.gamma
-        reward = pay[replay.landed[at]]
-        targets[column] = td_target(reward, discount, chooser[:, column], work.batch.values[:, column])
+        values = work.batch.values[:, column]
+        targets[column] = td_target(rewards[column], discounts[column], chooser[:, column], values)
     forward_cells(row.online, work.sizes, states, work.numbers, work.batch)
     work.slope[:] = np.float32(0)
     for column in range(batch):
@@ -229,3 +217,25 @@ def _update(
     adam_step(row.online, row.first_moment, row.second_moment, work.gradient, row.updates[0], rule.learning_rate)
     if row.updates[0] % rule.target_period == 0:
         row.target[:] = row.online
+
+
+@compiled(nogil=True)
+def followed(replay: PracticeReplay, first: int, arena: ImaginedArena, rule: PracticeRule) -> tuple[int, float, float]:
+    """The transition up to n steps after that one, the discounted rewards so far, and what the value after it counts.
+
+    It ends earlier where the episode does, where a block is wasted, or where what followed isn't held.
+    """
+    held = min(replay.added[0], len(replay.states))
+    next_added = replay.added[0] % len(replay.states)
+    at, rewards, discount = first, 0.0, 1.0
+    for further in range(rule.n_steps):
+        rewards += discount * arena.pay[replay.landed[at]]
+        discount *= rule.gamma
+        if replay.terminated[at] or is_wasted(replay.landed[at], arena):
+            return at, rewards, 0.0
+        following = (at + 1) % len(replay.states)
+        is_held = following < held and following != next_added
+        if further + 1 == rule.n_steps or not is_held or replay.states[following] != replay.next_states[at]:
+            break
+        at = following
+    return at, rewards, discount

@@ -54,16 +54,17 @@ def test_one_hot_networks_of_other_scenarios_have_inputs_enough_for_all() -> Non
         assert np.flatnonzero(space.features_of(row)[state]).tolist() == [14, 15, 30 + 11, 47]
 
 
-def test_a_cell_has_an_input_of_its_own_and_the_other_integers_are_scaled() -> None:
-    radix, highest = np.array([2, 3, 5, 2]), np.array([1, 2, 4, 1])
-    # (x, y) = (1, 0) is the fourth of six cells; b = 3 of 4 is 0.5, a_M = 0 is -1; then the 1.
-    assert one_hot_cell(np.array([1, 0, 3, 0]), radix, highest).tolist() == [0, 0, 0, 1, 0, 0, 0.5, -1, 1]
+def test_a_cell_has_an_input_of_its_own_and_so_has_each_value_of_the_other_integers() -> None:
+    radix = np.array([2, 3, 5, 2])
+    # (x, y) = (1, 0) is the fourth of six cells; then b = 3 of five values, a_M = 0 of two, and the 1.
+    encoded = one_hot_cell(np.array([1, 0, 3, 0]), radix)
+    assert encoded.tolist() == [0, 0, 0, 1, 0, 0, *[0, 0, 0, 1, 0], *[1, 0], 1]
 
 
 def test_a_states_index_is_that_of_its_cell_and_of_the_rest() -> None:
     space = StateSpace(np.array([[3, 2, 4, 1]]), actions=8, encoding="cell")
     assert space.cells == 4 * 3
-    assert space.inputs == 4 * 3 + 2
+    assert space.inputs == 4 * 3 + 5 + 2
     assert space.strides.tolist() == [3 * 5 * 2, 5 * 2, 2, 1]
     state = np.array([2, 1, 3, 1])
     assert int(space.index(state)) == int(state @ space.strides)
@@ -72,7 +73,7 @@ def test_a_states_index_is_that_of_its_cell_and_of_the_rest() -> None:
     features = space.features_of(0)
     assert np.flatnonzero(features[space.index(state), : space.cells]).tolist() == [cell]
     # What follows the cell is the same for every cell: by the rest of the index.
-    tails = features[:, space.cells :].reshape(space.cells, -1, 3)
+    tails = features[:, space.cells :].reshape(space.cells, -1, 5 + 2 + 1)
     assert (tails == tails[0]).all()
 
 
@@ -83,11 +84,9 @@ def test_every_encoding_tells_all_states_apart(encoding: str) -> None:
     assert (space.table[:, -1] == 1.0).all()
 
 
-def test_cells_of_other_scenarios_have_inputs_enough_for_all_and_blocks_are_scaled_by_their_own() -> None:
+def test_rows_of_other_scenarios_have_inputs_enough_for_the_largest() -> None:
     space = StateSpace(np.array([[4, 4, 3], [6, 6, 5]]), actions=8, encoding="cell")
-    assert space.inputs == 7 * 7 + 1
+    assert space.inputs == 7 * 7 + 6
     state = space.index(np.array([4, 4, 3]))
-    for row, scaled_blocks in ((0, 1.0), (1, pytest.approx(0.2))):
-        features = space.features_of(row)[state]
-        assert np.flatnonzero(features[:49]).tolist() == [4 * 7 + 4]
-        assert features[49] == scaled_blocks
+    for row in (0, 1):
+        assert np.flatnonzero(space.features_of(row)[state]).tolist() == [4 * 7 + 4, 49 + 3, 49 + 6]

@@ -21,7 +21,13 @@ TWO = Scenario("two", frozenset({(1, 3), (2, 3)}), (2, 1), 8, MATERIALS, size=5)
 
 LIVE = load_preset("live")
 RULE = ImaginationRule(
-    highest_epsilon=1.0, lowest_epsilon=0.05, enough=0.9, updates_exploring=4_000, updates_building=20_000
+    highest_epsilon=1.0,
+    lowest_epsilon=0.05,
+    enough=0.9,
+    updates_exploring=4_000,
+    updates_building=20_000,
+    table_steps=20_000,
+    n_steps=4,
 )
 SMALL = LIVE.model_copy(
     update={

@@ -5,16 +5,10 @@ import pytest
 
 from mc_nested.arrays import Float32s, Float64s
 from mc_nested.learn.dqn.ddqn import Batch
-from mc_nested.learn.imagination.arena_step import ImaginedArena, cell_at, index_of
+from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, cell_at, index_of
+from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask
 from mc_nested.learn.imagination.practice import Practice
-from mc_nested.learn.imagination.practice_kernel import (
-    GREEDY_EVERY,
-    ImaginedTask,
-    PracticeReplay,
-    Progress,
-    Row,
-    practise,
-)
+from mc_nested.learn.imagination.practice_kernel import PracticeReplay, Progress, Row, followed, practise
 from mc_nested.learn.learner import Learner
 from tests.learn.imagination.made_games import BENT, RULE, SMALL, with_update
 from tests.learn.imagination.made_practice import MATERIAL, arena_of, learner_of, real_of
@@ -26,9 +20,11 @@ GAMMA = SMALL.update.gamma
 class Practising:
     """One learner's practice in the kernel, by the numbers that are given."""
 
-    def __init__(self, learner: Learner, step_limit: int, learning_starts: int = 1, target_period: int = 1000) -> None:
+    def __init__(
+        self, learner: Learner, step_limit: int, learning_starts: int = 1, target_period: int = 1000, n_steps: int = 1
+    ) -> None:
         preset = with_update(SMALL, learning_starts=learning_starts, target_period=target_period)
-        practice = Practice(learner, preset, RULE)
+        practice = Practice(learner, preset, RULE.model_copy(update={"n_steps": n_steps, "table_steps": 0}))
         self.arena, strides = arena_of(), learner.space.strides
         offset = int(MATERIAL @ strides[3:])
         # An aim that is out of reach, and blocks that outlast every episode.
@@ -41,18 +37,24 @@ class Practising:
     @property
     def longest(self) -> int:
         """How many numbers an episode can use."""
-        return 1 + self.task.step_limit * (2 + BATCH)
+        return 2 + self.task.step_limit * (2 + BATCH)
 
     def go(self, numbers: Float64s, arena: ImaginedArena | None = None) -> None:
         known = self.arena if arena is None else arena
         practise(numbers, known, self.task, self.rule, self.row, self.replay, self.work, self.progress)
 
 
+def paid_everywhere(arena: ImaginedArena) -> ImaginedArena:
+    """That arena with pay for every cell, so that no block is wasted."""
+    return arena._replace(pay=np.ones_like(arena.pay))
+
+
 def batch_of(replay: PracticeReplay, held: int, uniforms: Float64s, pay: Float32s) -> Batch:
     """The batch that these numbers draw from the first transitions."""
     drawn = (uniforms * held).astype(np.int64)
     states = np.stack((replay.states[drawn], replay.next_states[drawn])).astype(np.int64)
-    discounts = np.where(replay.terminated[drawn], 0.0, GAMMA).astype(np.float32)
+    wasted = (replay.landed[drawn] != NOWHERE) & (pay[replay.landed[drawn]] == 0)
+    discounts = np.where(replay.terminated[drawn] | wasted, 0.0, GAMMA).astype(np.float32)
     return Batch(
         states=states[:, None],
         actions=replay.actions[drawn].astype(np.int64)[None],
@@ -79,13 +81,13 @@ def test_updates_are_those_of_ddqn_from_the_same_batches(steps: int, target_peri
 
     numbers = np.random.default_rng(9).random(at.longest)
     numbers[0] = 0.0  # the lowest ε
-    numbers[1 + np.arange(steps) * (2 + BATCH)] = 0.99  # no step is by chance
+    numbers[2 + np.arange(steps) * (2 + BATCH)] = 0.99  # no step is by chance
     at.go(numbers)
     assert at.progress.episodes.tolist() == [2], "a greedy one, and one with updates"
     done = int(at.replay.added[0]) - 200
     assert int(at.row.updates[0]) == done >= (1 if steps == 1 else 5)
     for update in range(done):
-        first = 1 + update * (2 + BATCH) + 2
+        first = 2 + update * (2 + BATCH) + 2
         batch = batch_of(at.replay, 201 + update, numbers[first : first + BATCH], at.arena.pay)
         theirs.ddqn.update(np.array([0]), batch)
     np.testing.assert_allclose(ours.ddqn.online, theirs.ddqn.online, rtol=1e-3, atol=2e-5)
@@ -132,7 +134,7 @@ def test_numbers_that_do_not_suffice_for_an_episode_are_not_used() -> None:
 
 def test_every_so_many_episodes_one_is_greedy_and_stores_nothing() -> None:
     at = Practising(learner_of(), 2)
-    at.go(np.random.default_rng(0).random(40 * at.longest))
+    at.go(np.random.default_rng(0).random(40 * at.longest), paid_everywhere(at.arena))
     episodes = int(at.progress.episodes[0])
     assert episodes >= 40
     greedy = -(-episodes // GREEDY_EVERY)
@@ -142,8 +144,8 @@ def test_every_so_many_episodes_one_is_greedy_and_stores_nothing() -> None:
 def test_the_highest_number_makes_every_step_one_by_chance_with_the_action_that_the_next_number_says() -> None:
     at = Practising(learner_of(), 4, learning_starts=10**6)
     numbers = np.concatenate(([1 - 1e-12], np.tile([0.5], at.longest - 1)))
-    numbers[[2, 4, 6, 8]] = [4 / 8, 0.0, 6 / 8, 1 - 1e-12]  # FD, F, RD, BD
-    at.go(numbers)
+    numbers[[3, 5, 7, 9]] = [4 / 8, 0.0, 6 / 8, 1 - 1e-12]  # FD, F, RD, BD
+    at.go(numbers, paid_everywhere(at.arena))
     assert at.replay.actions[:4].tolist() == [4, 0, 6, 7]
     # FD from (2, 1) places in (2, 3); F is stopped; RD places in (3, 3); BD goes back to (3, 1) and places in (3, 2).
     landed = [int(cell) for cell in at.replay.landed[:4]]
@@ -161,3 +163,66 @@ def test_beyond_its_capacity_the_oldest_transition_is_overwritten() -> None:
     at.go(np.full(at.longest, 0.99))
     assert room.added.tolist() == [4]
     assert room.states[0] == room.next_states[2], "the fourth lies where the first was"
+
+
+def held(landed: list[tuple[int, int] | None], capacity: int, n_steps: int = 3) -> tuple[Practising, PracticeReplay]:
+    """A kernel, and its replay with one episode, whose blocks landed in these cells; state 10 comes first, then 11…"""
+    at = Practising(learner_of(), 1, n_steps=n_steps)
+    cells = [index_of(cell, at.arena) if cell else NOWHERE for cell in landed]
+    replay = at.replay._replace(
+        **{name: part[:capacity].copy() for name, part in at.replay._asdict().items() if name != "added"}
+    )
+    for step, cell in enumerate(cells):
+        replay.states[step % capacity], replay.next_states[step % capacity] = 10 + step, 11 + step
+        replay.landed[step % capacity] = cell
+        replay.terminated[step % capacity] = False
+    replay.added[0] = len(cells)
+    return at, replay
+
+
+PAID, UNPAID = (2, 3), (0, 1)
+
+
+def test_a_target_adds_up_the_rewards_of_n_steps_and_the_value_after_them() -> None:
+    at, replay = held([None, PAID, PAID, PAID], 100)
+    last, rewards, discount = followed(replay, 0, at.arena, at.rule)
+    assert (last, rewards, discount) == pytest.approx((2, GAMMA + GAMMA**2, GAMMA**3))
+    one_step = at.rule._replace(n_steps=1)
+    assert followed(replay, 1, at.arena, one_step) == pytest.approx((1, 1.0, GAMMA))
+
+
+def test_a_target_ends_where_the_episode_does_or_a_block_is_wasted() -> None:
+    at, replay = held([PAID, PAID, PAID], 100)
+    replay.terminated[1] = True
+    assert followed(replay, 0, at.arena, at.rule) == pytest.approx((1, 1 + GAMMA, 0.0))
+    at, replay = held([PAID, UNPAID, PAID], 100)
+    assert followed(replay, 0, at.arena, at.rule) == pytest.approx((1, 1.0, 0.0))
+
+
+def test_a_target_goes_no_further_than_what_is_held_of_the_episode() -> None:
+    at, replay = held([PAID, PAID], 100)
+    assert followed(replay, 1, at.arena, at.rule) == pytest.approx((1, 1.0, GAMMA)), "the newest transition"
+    replay.states[1] = 55
+    assert followed(replay, 0, at.arena, at.rule) == pytest.approx((0, 1.0, GAMMA)), "another episode follows"
+    at, replay = held([PAID] * 5, 3)  # the fourth and fifth lie where the first and second were
+    assert followed(replay, 2, at.arena, at.rule)[0] == 1
+    assert followed(replay, 1, at.arena, at.rule) == pytest.approx((1, 1.0, GAMMA)), "the oldest follows in its place"
+
+
+def test_the_table_plays_where_a_low_number_says_so() -> None:
+    at = Practising(learner_of(), 2, learning_starts=10**6)
+    at.work.table[:, 2] = 1.0  # L everywhere, and nothing explored
+    at.rule = at.rule._replace(by_table=0.5, highest_epsilon=1e-9, lowest_epsilon=1e-9)
+    numbers = np.full(at.longest, 0.9)
+    numbers[1] = 0.49
+    at.go(numbers)
+    assert at.replay.actions[:2].tolist() == [2, 2]
+
+
+def test_an_imagined_episode_ends_where_a_block_is_wasted() -> None:
+    at = Practising(learner_of(), 4, learning_starts=10**6)
+    at.work.table[:, 6] = 1.0  # RD: from (2, 1) to (3, 1), and a block lands in (3, 2), which isn't paid
+    at.rule = at.rule._replace(by_table=1.0, highest_epsilon=1e-9, lowest_epsilon=1e-9)
+    at.go(np.full(at.longest, 0.9))
+    assert at.replay.added.tolist() == [1]
+    assert not at.replay.terminated[0], "that it was wasted is a belief: the target asks it when it is computed"
