@@ -5,8 +5,8 @@ import pytest
 
 from mc_nested.arena.action import Action
 from mc_nested.arrays import Float64s
-from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, index_of, step
-from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask, epsilon_from, is_wasted, state_at
+from mc_nested.learn.imagination.arena_step import NOWHERE, index_of, step
+from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask, state_at
 from mc_nested.learn.imagination.table_learner import QTable, TableProgress, learn_table, longest_episode
 from tests.learn.imagination.made_games import BENT
 from tests.learn.imagination.made_practice import arena_of
@@ -115,22 +115,3 @@ def test_the_same_numbers_make_the_same_table() -> None:
         tables.append(at.table.values)
     np.testing.assert_array_equal(tables[0], tables[1])
     assert (tables[0] != tables[2]).any()
-
-
-def test_a_state_is_its_cell_its_blocks_and_what_is_appended() -> None:
-    at = Learning()
-    task = at.task._replace(offset=1000)
-    assert state_at(index_of((3, 2), at.arena), 2, at.arena, task) == 3 * 20 + 2 * 4 + 2 + 1000
-
-
-def test_only_a_block_where_nothing_is_paid_is_wasted() -> None:
-    arena: ImaginedArena = arena_of()
-    assert is_wasted(index_of((0, 1), arena), arena)
-    assert not is_wasted(index_of((2, 3), arena), arena)
-    assert not is_wasted(NOWHERE, arena)
-
-
-def test_epsilons_are_equally_likely_on_a_logarithmic_scale() -> None:
-    assert epsilon_from(0.0, 1.0, 0.01) == pytest.approx(0.01)
-    assert epsilon_from(0.5, 1.0, 0.01) == pytest.approx(0.1)
-    assert epsilon_from(0.25, 0.3, 0.3) == pytest.approx(0.3)
