@@ -67,6 +67,9 @@ class LoggingWindow:
         glfw.wait_events_timeout(LOOK_S)
 
     def _taken_events(self) -> list[Event]:
+        """Those of all input until now: an X server answers a question behind the events that it sent before."""
+        glfw.get_window_pos(self._window)  # such a question
+        glfw.poll_events()
         taken = list(self._events)
         self._events.clear()
         return taken
