@@ -18,7 +18,7 @@ from mc_nested.learn.dqn.compiled import compiled
 from mc_nested.learn.dqn.networks import Sizes, backward, forward, hidden_for, parameter_count
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.dqn.self_imitation import rival
-from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.state_space import StateParts, StateSpace
 from mc_nested.learn.dqn.target_values import TargetValues, table_pays
 
 EXPONENT = np.int32(0x7F800000)
@@ -137,7 +137,7 @@ class DDQN:
         values = np.empty((len(named), self.space.actions), np.float32)
         work = self._acting
         firsts = self.space.first_of(named)
-        _value(named, states + firsts, self.online, self._widths, self.space.table, work.inputs, work.hidden, values)
+        _value(named, states + firsts, self.online, self._widths, self.space.parts, work.inputs, work.hidden, values)
         return values
 
     @on_one_blas_thread
@@ -247,18 +247,28 @@ def _look_up(states: Int64s, table: Float32s, inputs: Float32s) -> None:
 
 
 @compiled()
+def _look_up_parts(state: int, parts: StateParts, inputs: Float32s) -> None:
+    cells, rest = parts.cells, parts.rest
+    for feature in range(cells.shape[1]):
+        inputs[feature, 0] = cells[state // parts.a_cell, feature]
+    of_kind = state // parts.a_kind * parts.a_cell
+    for feature in range(rest.shape[1]):
+        inputs[cells.shape[1] + feature, 0] = rest[of_kind + state % parts.a_cell, feature]
+
+
+@compiled()
 def _value(
     rows: Int64s,
     states: Int64s,
     online: Float32s,
     sizes: Int64s,
-    table: Float32s,
+    parts: StateParts,
     inputs: Float32s,
     hidden: Sequence[Float32s],
     values: Float32s,
 ) -> None:
     for at in range(len(rows)):
-        _look_up(states[at : at + 1], table, inputs)
+        _look_up_parts(states[at], parts, inputs)
         forward(online[rows[at]], sizes, inputs, hidden, values[at].reshape(-1, 1))
 
 

@@ -1,10 +1,13 @@
 """A learner's states, enumerated: an index for each possible state, and the features that a network takes for it.
 
-A state is a few small integers. All possible states are enumerated once, with their features in a table. A replay then
-stores one index per state, and a batch is encoded by one table lookup.
+A state is a few small integers. All possible states are enumerated once. A replay then stores one index per state, and
+a batch is encoded by table lookups: what a network takes for (x, y) is in one table, what it takes for the rest in
+another, so that both stay small where there is an input for each cell.
 """
 
 from collections.abc import Sequence
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,12 +15,23 @@ from mc_nested.arrays import Float32s, Int64s, Integers
 from mc_nested.learn.dqn.networks import Sizes
 
 
+class StateParts(NamedTuple):
+    """The features of states in two parts: (kinds x cells, …) for x and y, (kinds x rest, …) for the others and a 1.
+
+    There are ``a_cell`` states for each cell, and ``a_kind`` for each kind of learner.
+    """
+
+    cells: Float32s
+    rest: Float32s
+    a_cell: int
+    a_kind: int
+
+
 class StateSpace:
     """What the rows of a learner see and do.
 
-    ``table`` (…, inputs + 1) has a row of features for each state of each kind of learner, each ending in a 1.
-    ``cells`` is how many pairs (x, y) of the first two integers there are; ``strides`` (width,) is what each integer
-    counts for in a state's index.
+    ``cells`` is how many pairs (x, y) of the first two integers there are, and ``rest`` how many combinations of the
+    others; ``strides`` (width,) is what each integer counts for in a state's index.
 
     Args:
         highest: the highest value of each integer of a state, (rows, width); the lowest is 0.
@@ -32,11 +46,16 @@ class StateSpace:
         radix = highest.max(axis=0) + 1
         self.count = int(radix.prod())
         self.strides = np.append(radix[:0:-1].cumprod()[::-1], 1)
-        every = np.stack(np.unravel_index(np.arange(self.count), radix), axis=1)
         kinds, kind_of = np.unique(highest, axis=0, return_inverse=True)
         self.cells = int(radix[:2].prod())
-        self.table = np.concatenate([_encoded(encoding, every, radix, kind) for kind in kinds])
-        self.inputs = self.table.shape[1] - 1
+        self.rest = self.count // self.cells
+        self.parts = StateParts(
+            np.concatenate([_of_cells(encoding, radix, kind) for kind in kinds]),
+            np.concatenate([_of_rest(encoding, radix, kind) for kind in kinds]),
+            self.rest,
+            self.count,
+        )
+        self.inputs = self.parts.cells.shape[1] + self.parts.rest.shape[1] - 1
         self._first = kind_of.reshape(-1) * self.count
 
     def index(self, states: Integers) -> Int64s:
@@ -48,9 +67,27 @@ class StateSpace:
         """The widths of a network for these states and actions."""
         return (self.inputs, *hidden, self.actions)
 
+    @cached_property
+    def table(self) -> Float32s:
+        """A row of features for each state of each kind of learner, each ending in a 1: (…, inputs + 1)."""
+        kinds = [
+            np.hstack((np.repeat(cells, self.rest, axis=0), np.tile(rest, (self.cells, 1))))
+            for cells, rest in zip(
+                self.parts.cells.reshape(-1, self.cells, self.parts.cells.shape[1]),
+                self.parts.rest.reshape(-1, self.rest, self.parts.rest.shape[1]),
+                strict=True,
+            )
+        ]
+        return np.concatenate(kinds)
+
     def first_of(self, rows: Int64s) -> Int64s:
         """Where in ``table`` the states of the named rows (k,) begin, (k,)."""
         return self._first[rows]
+
+    def rest_of(self, row: int) -> Float32s:
+        """The features of every combination of the integers after x and y for that row's network, then a 1."""
+        first = self._first[row] // self.cells
+        return self.parts.rest[first : first + self.rest]
 
     def features_of(self, row: int) -> Float32s:
         """The features of every state for that row's network, by index: (states, inputs + 1), the last a 1."""
@@ -58,10 +95,26 @@ class StateSpace:
         return self.table[first : first + self.count]
 
 
-def _encoded(encoding: str, states: Integers, radix: Int64s, highest: Int64s) -> Float32s:
-    if encoding == "one-hot":
-        return one_hot(states, radix)
-    return one_hot_cell(states, radix) if encoding == "cell" else scaled(states, highest)
+def _of_cells(encoding: str, radix: Int64s, highest: Int64s) -> Float32s:
+    """What a network takes for x and y, for each pair of them."""
+    pairs = _every(radix[:2])
+    if encoding == "cell":
+        return np.eye(len(pairs), dtype=np.float32)
+    return (one_hot(pairs, radix[:2]) if encoding == "one-hot" else scaled(pairs, highest[:2]))[:, :-1]
+
+
+def _of_rest(encoding: str, radix: Int64s, highest: Int64s) -> Float32s:
+    """What a network takes for the integers after x and y, for each combination of them, followed by a 1."""
+    rest = _every(radix[2:])
+    return scaled(rest, highest[2:]) if encoding == "scaled" else one_hot(rest, radix[2:])
+
+
+def _every(radix: Int64s) -> Int64s:
+    """Every combination of integers below these, in the order of their indices, (combinations, integers)."""
+    count = int(radix.prod())
+    if not len(radix):
+        return np.empty((count, 0), np.int64)
+    return np.stack(np.unravel_index(np.arange(count), radix), axis=1)
 
 
 def scaled(states: Integers, highest: Int64s) -> Float32s:
@@ -77,9 +130,3 @@ def one_hot(states: Integers, radix: Int64s) -> Float32s:
     """Each integer of the states (…, width) as a 1 among as many numbers as it has values, followed by a 1."""
     parts = [np.eye(values, dtype=np.float32)[states[..., part]] for part, values in enumerate(radix)]
     return np.concatenate((*parts, np.ones((*states.shape[:-1], 1), np.float32)), axis=-1)
-
-
-def one_hot_cell(states: Integers, radix: Int64s) -> Float32s:
-    """The first two integers of the states (…, width) as a 1 among all their pairs, the others one-hot, then a 1."""
-    cells = np.eye(int(radix[:2].prod()), dtype=np.float32)[states[..., 0] * radix[1] + states[..., 1]]
-    return np.concatenate((cells, one_hot(states[..., 2:], radix[2:])), axis=-1)

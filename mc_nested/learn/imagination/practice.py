@@ -227,10 +227,9 @@ class Practice:
 
     def _workspace(self, row: int) -> Workspace:
         sizes, space = self._learner.ddqn.sizes, self._learner.space
-        rest = int(space.strides[1])
         return Workspace(
             sizes=np.array(sizes),
-            numbers=np.ascontiguousarray(space.features_of(row)[:rest, space.cells :]),
+            numbers=space.rest_of(row),
             acting=passes_for(sizes, 1),
             batch=passes_for(sizes, self._batch),
             next_batch=passes_for(sizes, self._batch),

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.learn.dqn.state_space import StateSpace, one_hot, one_hot_cell, scaled
+from mc_nested.learn.dqn.state_space import StateSpace, one_hot, scaled
 
 
 @given(st.lists(st.integers(0, 9), min_size=1, max_size=4), st.data())
@@ -55,10 +55,26 @@ def test_one_hot_networks_of_other_scenarios_have_inputs_enough_for_all() -> Non
 
 
 def test_a_cell_has_an_input_of_its_own_and_so_has_each_value_of_the_other_integers() -> None:
-    radix = np.array([2, 3, 5, 2])
+    space = StateSpace(np.array([[1, 2, 4, 1]]), actions=8, encoding="cell")
     # (x, y) = (1, 0) is the fourth of six cells; then b = 3 of five values, a_M = 0 of two, and the 1.
-    encoded = one_hot_cell(np.array([1, 0, 3, 0]), radix)
-    assert encoded.tolist() == [0, 0, 0, 1, 0, 0, *[0, 0, 0, 1, 0], *[1, 0], 1]
+    state = space.index(np.array([1, 0, 3, 0]))
+    assert space.features_of(0)[state].tolist() == [0, 0, 0, 1, 0, 0, *[0, 0, 0, 1, 0], *[1, 0], 1]
+
+
+@pytest.mark.parametrize("encoding", ["scaled", "one-hot", "cell"])
+def test_the_parts_of_a_state_are_its_features(encoding: str) -> None:
+    space = StateSpace(np.array([[4, 4, 3, 1], [6, 6, 5, 1]]), actions=8, encoding=encoding)
+    for row in (0, 1):
+        features, rest = space.features_of(row), space.rest_of(row)
+        for state in (0, 17, space.count - 1):
+            cell = space.parts.cells[space.first_of(np.array([row]))[0] // space.rest + state // space.rest]
+            assert features[state].tolist() == [*cell, *rest[state % space.rest]]
+
+
+def test_a_large_arena_with_many_blocks_takes_little_memory() -> None:
+    space = StateSpace(np.array([[31, 31, 100, 1]]), actions=8, encoding="cell")
+    assert space.parts.cells.nbytes + space.parts.rest.nbytes < 2**23
+    assert space.inputs == 32 * 32 + 101 + 2
 
 
 def test_a_states_index_is_that_of_its_cell_and_of_the_rest() -> None:
