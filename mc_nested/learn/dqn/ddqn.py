@@ -69,7 +69,7 @@ class _StateTable(NamedTuple):
     Without a table of values, (rows, 0, actions), a batch's come from the target networks, (rows, parameters).
     """
 
-    features: Float32s
+    parts: StateParts
     first: Int64s
     target_values: Float32s
     target: Float32s
@@ -153,7 +153,7 @@ class DDQN:
             rows,
             _Networks(self.online, self._first_moment, self._second_moment, self.updates),
             batch,
-            _StateTable(self.space.table, self.space.first_of(rows), self._target_values.values, self.target),
+            _StateTable(self.space.parts, self.space.first_of(rows), self._target_values.values, self.target),
             self._widths,
             self.rule,
             self._learning,
@@ -240,20 +240,17 @@ def td_target(reward: float, discount: float, next_online: Float32s, next_target
 
 
 @compiled()
-def _look_up(states: Int64s, table: Float32s, inputs: Float32s) -> None:
-    for column in range(len(states)):
-        for feature in range(inputs.shape[0]):
-            inputs[feature, column] = table[states[column], feature]
-
-
-@compiled()
-def _look_up_parts(state: int, parts: StateParts, inputs: Float32s) -> None:
+def _look_up(states: Int64s, parts: StateParts, inputs: Float32s) -> None:
+    """Write the features of the states (batch,) into a network's inputs, (…, batch)."""
     cells, rest = parts.cells, parts.rest
-    for feature in range(cells.shape[1]):
-        inputs[feature, 0] = cells[state // parts.a_cell, feature]
-    of_kind = state // parts.a_kind * parts.a_cell
-    for feature in range(rest.shape[1]):
-        inputs[cells.shape[1] + feature, 0] = rest[of_kind + state % parts.a_cell, feature]
+    for column in range(len(states)):
+        state = states[column]
+        of_cell, of_kind = state // parts.a_cell, state // parts.a_kind * parts.a_cell
+        of_rest = of_kind + state % parts.a_cell
+        for feature in range(cells.shape[1]):
+            inputs[feature, column] = cells[of_cell, feature]
+        for feature in range(rest.shape[1]):
+            inputs[cells.shape[1] + feature, column] = rest[of_rest, feature]
 
 
 @compiled()
@@ -268,7 +265,7 @@ def _value(
     values: Float32s,
 ) -> None:
     for at in range(len(rows)):
-        _look_up_parts(states[at], parts, inputs)
+        _look_up(states[at : at + 1], parts, inputs)
         forward(online[rows[at]], sizes, inputs, hidden, values[at].reshape(-1, 1))
 
 
@@ -292,8 +289,8 @@ def _update(
     for at in range(len(rows)):
         row = rows[at]
         online = networks.online[row]
-        _look_up(batch.states[0, at] + states.first[at], states.features, work.inputs)
-        _look_up(batch.states[1, at] + states.first[at], states.features, work.next_inputs)
+        _look_up(batch.states[0, at] + states.first[at], states.parts, work.inputs)
+        _look_up(batch.states[1, at] + states.first[at], states.parts, work.next_inputs)
         if not tabulated:
             forward(states.target[row], sizes, work.next_inputs, work.next_hidden, next_targets)
         forward(online, sizes, work.next_inputs, work.next_hidden, next_values)
