@@ -98,6 +98,19 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design(
         assert rehearsal.truth.now()["keys_down"] == []
 
 
+def test_the_line_is_learnt_from_nothing_in_the_window_and_built(profile: Path, tmp_path: Path) -> None:
+    run, line = tmp_path / "run", load_scenario("line")
+    with in_its_arena(profile, tmp_path) as rehearsal:
+        words = ("--scenario", "line", "--preset", "live", "--stop-at-optimum", "--out", run)
+        mc_nested("train", *words, "--backend", "live", "--profile", profile, env=rehearsal.env, timeout_s=1200)
+        assert json.loads((run / "summary.json").read_text())["final_scores"] == [line.optimum]
+        # The training ends with the greedy episode that reached the optimum, and resets nothing after it.
+        arena = load_profile(str(profile)).marked_arena()
+        best = max(line.materials, key=lambda material: material.p)
+        assert rehearsal.truth.standing(arena) == {arena.block_of(cell): best.block for cell in line.design}
+        assert rehearsal.truth.now()["keys_down"] == []
+
+
 @pytest.mark.parametrize("condition", [each for each in CONDITIONS if each != USUAL], ids=lambda each: each.name)
 def test_nothing_is_ever_wrong_at_any_rate_on_any_layout_with_a_window_manager(
     condition: Condition, profile: Path, tmp_path: Path

@@ -69,6 +69,11 @@ class Experience:
             self._first_of_episode = [first - dropped for first in self._first_of_episode[1:]]
             self._extras = self._extras[-RECENT:]
 
+    def tried_here(self) -> list[int]:
+        """The actions that were done in this episode in the cell where it has come to; none before its first step."""
+        episode = self._steps[self._first_of_episode[-1] :] if self._first_of_episode else []
+        return [step.action for step in episode if (step.x, step.y) == (episode[-1].next_x, episode[-1].next_y)]
+
     def add(self, step: RealStep) -> None:
         """Add what the last action did."""
         self._steps.append(step)

@@ -26,7 +26,7 @@ from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import practice_stream
 
 FIRST_TRIES = 0.125
-"""This share of the steps tries an action of which it isn't known where it leads, while cells are still to be found."""
+"""This share of the steps tries an action of which it isn't known where it leads."""
 
 
 def learnt_game(state: Mapping[str, NDArray[Any]], run: int) -> Arrays:
@@ -73,7 +73,7 @@ class Imagination:
         self._practice = Practice(low_level, preset, rule)
         self._experience = [Experience() for _ in runs]
         self._rows_a_run = low_level.space.rows // len(runs)
-        self._explores = np.ones(len(runs), dtype=np.bool_)
+        self._explores, self._falls_short = np.ones(len(runs), dtype=np.bool_), np.zeros(len(runs), dtype=np.bool_)
         self._untried = np.ones((len(runs), low_level.space.actions), dtype=np.bool_)
         self._tries = np.zeros((len(runs), low_level.space.actions), dtype=np.int64)
 
@@ -105,6 +105,7 @@ class Imagination:
 
     def builds_it_all(self, run: int, session: PracticeSession) -> bool:
         """Whether that practice of that run, its last one, came to a policy that builds all of a known design."""
+        self._falls_short[run] = not session.practised.reached
         return session.practised.reached and not bool(self._explores[run])
 
     def session(self, run: int, material: int) -> PracticeSession:
@@ -135,11 +136,19 @@ class Imagination:
             self._experience[run].begin()
 
     def act(self, runs: Int64s, actions: Int64s) -> Int64s:
-        """The actions of the named runs (k,), of ``actions`` for all: the policy's, once it is known what they do."""
+        """The actions of the named runs (k,), of ``actions`` for all: the policy's, once it is known what they do.
+
+        An action that has never moved is tried in other cells of an episode than where it was already: at an edge, it
+        would be stopped for ever. Once all cells are known, it is tried where practice fell short of building them all.
+        """
         chosen: Int64s = actions[runs].copy()
         for at, run in enumerate(runs):
-            tries = np.where(self._untried[run], self._tries[run], np.iinfo(np.int64).max)
-            if self._explores[run] and tries.min() <= FIRST_TRIES * self._tries[run].sum():
+            if not self._untried[run].any() or not (self._explores[run] or self._falls_short[run]):
+                continue
+            untried = self._untried[run].copy()
+            untried[self._experience[run].tried_here()] = False
+            tries = np.where(untried, self._tries[run], np.iinfo(np.int64).max)
+            if tries.min() <= FIRST_TRIES * self._tries[run].sum():
                 chosen[at] = int(tries.argmin())
         return chosen
 
@@ -183,12 +192,18 @@ class Imagination:
     def state(self) -> Arrays:
         """Everything that later steps depend on, by name."""
         every = (named_for(str(run), seen.state()) for run, seen in enumerate(self._experience))
-        first_tries = {"explores": self._explores, "untried": self._untried, "tries": self._tries}
-        return {**first_tries, **{name: kept for part in every for name, kept in part.items()}}
+        first_tries = {"explores": self._explores, "falls_short": self._falls_short}
+        return {
+            **first_tries,
+            "untried": self._untried,
+            "tries": self._tries,
+            **{name: kept for part in every for name, kept in part.items()},
+        }
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
-        self._explores[:], self._untried[:], self._tries[:] = (state[name] for name in ("explores", "untried", "tries"))
+        self._explores[:], self._falls_short[:] = state["explores"], state["falls_short"]
+        self._untried[:], self._tries[:] = state["untried"], state["tries"]
         for run, seen in enumerate(self._experience):
             seen.load(part_of(state, str(run)))
 

@@ -221,3 +221,23 @@ def test_arenas_of_other_sizes_are_learnt_side_by_side() -> None:
     assert made is not None
     assert [len(made.beliefs(run).pay) for run in (0, 1)] == [5, 7]
     assert [made.beliefs(run).most for run in (0, 1)] == [3.0, 2.0]
+
+
+def test_an_action_that_was_stopped_in_a_cell_is_tried_in_others_of_the_episode() -> None:
+    for actions, chosen in (([Action.B, Action.B], Action.R), ([Action.B, Action.B, Action.R], Action.B)):
+        _, imagination = imagination_of()
+        play(imagination, actions)  # to (2, 0), at the edge, where B is stopped; then on to (3, 0)
+        imagination._untried[0], imagination._tries[0, Action.F] = np.arange(8) == Action.B, 100
+        assert imagination.act(np.array([0]), np.array([int(Action.R)])).tolist() == [chosen]
+
+
+@pytest.mark.parametrize("falls_short", [False, True])
+def test_with_a_known_design_an_untried_action_is_tried_where_practice_fell_short(falls_short: bool) -> None:
+    _, imagination = imagination_of()
+    play(imagination, [Action.FD, Action.R, Action.FD, Action.F])
+    session = imagination.session(0, 1)
+    session._progress.reached[0] = not falls_short
+    imagination._explores[0] = False  # every cell that pays is known
+    assert imagination.builds_it_all(0, session) != falls_short
+    chosen = imagination.act(np.array([0]), np.array([int(Action.R)]))
+    assert (chosen[0] != Action.R) == falls_short
