@@ -17,7 +17,9 @@ KERNELS = [
     "tests/learn/dqn/test_adam.py",
     "tests/learn/dqn/test_cell_networks.py",
     "tests/learn/imagination/test_arena_step.py",
+    "tests/learn/imagination/test_imagined_task.py",
     "tests/learn/imagination/test_practice_kernel.py",
+    "tests/learn/imagination/test_table_learner.py",
 ]
 """Tests of compiled code that is quick enough in plain Python, where an index out of bounds is an error."""
 
