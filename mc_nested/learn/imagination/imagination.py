@@ -156,10 +156,11 @@ class Imagination:
         self, runs: Int64s, before: Int64s, materials: Int64s, actions: Int64s, rewards: Float64s, after: Int64s
     ) -> None:
         """Record what the actions of the named runs did; every array is of all runs, observations are (runs, 3)."""
-        self._tries[runs, actions[runs]] += 1
         moved = (before[runs, :2] != after[runs, :2]).any(axis=1)
         self._untried[runs[moved], actions[runs][moved]] = False
         for run in runs.tolist():
+            # A policy that goes round would make an action that stays look tried out.
+            self._tries[run, actions[run]] += int(actions[run]) not in self._experience[run].tried_here()
             paid = int(rewards[run] > 0)
             step = [*before[run].tolist(), int(actions[run]), *after[run].tolist(), paid, int(materials[run])]
             self._experience[run].add(RealStep(*step))

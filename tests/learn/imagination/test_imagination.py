@@ -241,3 +241,10 @@ def test_with_a_known_design_an_untried_action_is_tried_where_practice_fell_shor
     assert imagination.builds_it_all(0, session) != falls_short
     chosen = imagination.act(np.array([0]), np.array([int(Action.R)]))
     assert (chosen[0] != Action.R) == falls_short
+
+
+def test_an_action_that_stays_counts_once_in_a_cell_of_an_episode() -> None:
+    _, imagination = imagination_of()
+    play(imagination, [Action.B, *[Action.B] * 9, Action.R, Action.B])  # to (2, 0), where it is stopped; to (3, 0)
+    play(imagination, [Action.B, Action.B])
+    assert imagination.state()["tries"][0].tolist() == [0, 5, 0, 1, 0, 0, 0, 0]
