@@ -17,6 +17,7 @@ KERNELS = [
     "tests/learn/dqn/test_adam.py",
     "tests/learn/dqn/test_cell_networks.py",
     "tests/learn/imagination/test_arena_step.py",
+    "tests/learn/imagination/test_built_values.py",
     "tests/learn/imagination/test_imagined_task.py",
     "tests/learn/imagination/test_practice_kernel.py",
     "tests/learn/imagination/test_table_learner.py",

@@ -106,8 +106,8 @@ class ImaginationRule(_GrownTable):
 
     An imagined episode has an ε of its own, between the two. A practice ends when the greedy policy scores ``enough``
     of the best that is imaginable while cells are still to be found, or all of it afterwards; or after so many updates.
-    Before it, a table learns for at most ``table_steps`` imagined steps where to go; at 0 there is none. ``n_steps`` is
-    how many rewards in a row a network's target adds up.
+    Before it, tables learn where to go, for at most so many imagined ``table_steps``; at 0 there are none.
+    ``n_steps`` is how many rewards in a row a network's target adds up.
 
     Parts that an ablation turns off: ``optimism`` takes unknown cells to pay, ``neighbours`` those beside a paying one
     first; ``real_transitions`` puts what happened into the replay of what was imagined; ``double`` lets the online
@@ -119,7 +119,8 @@ class ImaginationRule(_GrownTable):
     enough: Share
     updates_exploring: Count
     updates_building: Count
-    table_steps: Annotated[int, Field(ge=0, le=MOST_TABLE_STEPS)]
+    table_steps_exploring: Annotated[int, Field(ge=0, le=MOST_TABLE_STEPS)]
+    table_steps_building: Annotated[int, Field(ge=0, le=MOST_TABLE_STEPS)]
     n_steps: Annotated[int, Field(ge=1, le=MOST_STEPS_OF_A_RETURN)]
     optimism: bool = True
     neighbours: bool = True

@@ -95,7 +95,7 @@ LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_te
         (("enough = 0.9", "enough = 1.1"), "imagination.enough"),
         (("enough = 0.9", "enough = 0.0"), "imagination.enough"),
         (("updates_exploring = 20_000", "updates_exploring = 0"), "imagination.updates_exploring"),
-        (("updates_building = 200_000", ""), "imagination.updates_building"),
+        (("updates_building = 100_000", ""), "imagination.updates_building"),
         (('encoding = "cell"', 'encoding = "one-hot"'), '[imagination] takes encoding "cell"'),
         (("hidden = [64, 32]", "hidden = [64]"), "two hidden layers or more"),
         (("[imagination]", "[prioritized]\nalpha = 0.6\nbeta = 0.5\n[imagination]"), "leave out [prioritized]"),
@@ -174,7 +174,8 @@ def test_the_parts_that_an_ablation_turns_off_are_saved_only_where_they_are_off(
         "enough",
         "updates_exploring",
         "updates_building",
-        "table_steps",
+        "table_steps_exploring",
+        "table_steps_building",
         "n_steps",
     }
     without = live.model_copy(update={"imagination": rule.model_copy(update={"double": False})})
@@ -192,8 +193,8 @@ LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_te
     [
         (("enough = 0.9", "enough = 0.9\noptimism = false"), "neighbours are a part of optimism: turn them off, too"),
         (("enough = 0.9", "enough = 0.9\ndouble = 1"), "imagination.double"),
-        (("table_steps = 3_000_000", "table_steps = -1"), "imagination.table_steps"),
-        (("n_steps = 10", "n_steps = 0"), "imagination.n_steps"),
+        (("table_steps_building = 60_000_000", "table_steps_building = -1"), "imagination.table_steps_building"),
+        (("n_steps = 20", "n_steps = 0"), "imagination.n_steps"),
         (("lowest_epsilon = 0.001", "lowest_epsilon = 0.001\nhighest = 1"), "imagination.highest"),
     ],
 )

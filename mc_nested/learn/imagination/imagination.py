@@ -116,15 +116,17 @@ class Imagination:
         arena = imagined_arena(rules, beliefs)
         x, y, blocks = here.start
         if beliefs.explores:
-            aim, most_updates = self._rule.enough * beliefs.most, self._rule.updates_exploring
+            aim = self._rule.enough * beliefs.most
+            most_updates, most_table_steps = self._rule.updates_exploring, self._rule.table_steps_exploring
         else:
-            aim, most_updates = beliefs.most, self._rule.updates_building
+            aim = beliefs.most
+            most_updates, most_table_steps = self._rule.updates_building, self._rule.table_steps_building
         if not len(seen.steps):
-            most_updates = 0
+            most_updates = most_table_steps = 0
         return self._practice.session(
             self._row(run, material),
             arena,
-            Goal((x, y), blocks, here.step_limit, aim, most_updates),
+            Goal((x, y), blocks, here.step_limit, aim, most_updates, most_table_steps),
             self._appended(material),
             self._real_transitions(run, material, landed_cells(seen.steps, rules.lands, arena)),
             practice_stream(self._seed, self._numbers[run], seen.episodes),

@@ -21,7 +21,8 @@ from mc_nested.learn.imagination.practice_kernel import (
     Workspace,
     practise,
 )
-from mc_nested.learn.imagination.table_learner import QTable, TableProgress, learn_table, longest_episode
+from mc_nested.learn.imagination.table_learner import QTables, empty_tables, empty_trail, longest_episode
+from mc_nested.learn.imagination.table_practice import TablePractice
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import ImaginationRule, Preset
 
@@ -33,9 +34,6 @@ NUMBERS_AT_ONCE = 65_536
 
 BY_TABLE = 0.5
 """This share of the imagined episodes that a network learns from is played by the table, the rest by the network."""
-
-NEARLY_0 = 1e-6
-"""The table's values begin below this, each at another, so that among equal ones chance decides."""
 
 
 class RealTransitions(NamedTuple):
@@ -49,13 +47,17 @@ class RealTransitions(NamedTuple):
 
 
 class Goal(NamedTuple):
-    """What is practised: from which cell, with how many blocks and steps, up to which score, for how many updates."""
+    """What is practised: from which cell, with how many blocks and steps, up to which score.
+
+    For at most so many updates of the networks, after at most so many imagined steps of the tables.
+    """
 
     start: Cell
     blocks: int
     step_limit: int
     aim: float
     most_updates: int
+    most_table_steps: int
 
 
 class Practised(NamedTuple):
@@ -74,7 +76,7 @@ class PracticeSession:
         own: the row's networks, which are updated.
         begin: called before the first update.
         practise: uses up the numbers it gets for practising those networks; DivergedError if they are no numbers then.
-        most_updates: after so many it ends.
+        goal: what is practised.
         random: all its random numbers come from here.
         numbers_at_once: how many ``practise`` gets.
     """
@@ -84,7 +86,7 @@ class PracticeSession:
         own: Row,
         begin: Callable[[], None],
         practise: Callable[[Float64s, Row, Progress], None],
-        most_updates: int,
+        goal: Goal,
         random: Generator,
         numbers_at_once: int,
     ) -> None:
@@ -92,19 +94,20 @@ class PracticeSession:
         self._begin, self._practise = begin, practise
         self._random, self._numbers_at_once = random, numbers_at_once
         self._has_begun = False
-        self._first, self._most_updates = int(own.updates[0]), most_updates
+        self._first, self._goal = int(own.updates[0]), goal
         self._progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_))
 
     @property
     def practised(self) -> Practised:
         """What it came to so far."""
         done, score = self._progress, float(self._progress.greedy_score[0])
-        return Practised(self._updates, int(done.episodes[0]), score, bool(done.reached[0]))
+        reached = bool(done.reached[0]) and score >= self._goal.aim
+        return Practised(self._updates, int(done.episodes[0]), score, reached)
 
     @property
     def is_over(self) -> bool:
-        """Whether the aim is reached, or the budget used up."""
-        return bool(self._progress.reached[0]) or self._updates >= self._most_updates
+        """Whether the aim is reached, or all that the table reached, or the budget used up."""
+        return bool(self._progress.reached[0]) or self._updates >= self._goal.most_updates
 
     def prepare(self) -> None:
         """Compile what it runs, if that isn't done: a compiler doesn't leave Python's lock to other threads."""
@@ -160,9 +163,8 @@ class Practice:
             rule.lowest_epsilon,
             rule.double,
             rule.n_steps,
-            BY_TABLE if rule.table_steps else 0.0,
+            BY_TABLE,
         )
-        self._table_steps = rule.table_steps
         self._batch = update.batch
         self._replay = PracticeReplay(
             states=np.zeros(CAPACITY, np.int32),
@@ -172,8 +174,7 @@ class Practice:
             terminated=np.zeros(CAPACITY, np.bool_),
             added=np.zeros(1, np.int64),
         )
-        count, actions = learner.space.count, learner.space.actions
-        self._table, self._table_seen_in = np.zeros((count, actions), np.float32), np.zeros(count, np.int64)
+        self._tables: QTables | None = None
         self._workspaces = [self._workspace(row) for row in range(learner.space.rows)]
 
     def session(
@@ -189,23 +190,24 @@ class Practice:
         task = ImaginedTask(
             index_of(goal.start, arena), goal.blocks, goal.step_limit, goal.aim, space.strides[:3], offset
         )
-
-        trail = np.zeros((3, goal.step_limit + 1), np.int64)
-        table = QTable(self._table, self._table_seen_in, trail)
-        tabled = TableProgress(np.zeros(1, np.int64), np.zeros(1, np.int64), np.zeros(1, np.bool_))
-        rule = self._rule
+        tables, rule = self._tables_for(arena, goal.step_limit), self._rule
+        table = TablePractice(tables, arena, task, rule.gamma, goal.most_table_steps, random)
+        work = self._workspaces[row]._replace(table=tables.by_blocks)
+        if not goal.most_table_steps:
+            rule = rule._replace(by_table=0.0)
 
         def begin() -> None:
             self._begin_with(real)
-            self._workspaces[row].seen_in[:] = self._table_seen_in[:] = -1
-            self._table[:] = NEARLY_0 * random.random(self._table.shape)
+            work.seen_in[:] = -1
+            table.begin()
 
         def practise_on(numbers: Float64s, parts: Row, progress: Progress) -> None:
-            if self._table_steps > tabled.steps[0] and not tabled.reached[0]:
-                learn_table(numbers, arena, task, rule.gamma, rule.highest_epsilon, rule.lowest_epsilon, table, tabled)
+            if not table.is_over:
+                table.learn(numbers)
                 if len(numbers):
                     return
-            practise(numbers, arena, task, rule, parts, self._replay, self._workspaces[row], progress)
+            table.end()
+            practise(numbers, arena, task._replace(aim=table.aim), rule, parts, self._replay, work, progress)
             ddqn.check_finite(row, parts.online)
 
         longest = max(2 + goal.step_limit * (2 + self._batch), longest_episode(task))
@@ -213,10 +215,17 @@ class Practice:
             Row(*ddqn.row(row)),
             begin,
             practise_on,
-            goal.most_updates,
+            goal,
             random,
             max(NUMBERS_AT_ONCE, 2 * longest),
         )
+
+    def _tables_for(self, arena: ImaginedArena, step_limit: int) -> QTables:
+        """This learner's tables, made anew if the arena has another number of cells than before."""
+        space, cells = self._learner.space, len(arena.empty)
+        if self._tables is None or len(self._tables.built.here) != cells:
+            self._tables = empty_tables(space.count, space.actions, cells)
+        return self._tables._replace(trail=empty_trail(step_limit), best=empty_trail(step_limit))
 
     def _begin_with(self, real: RealTransitions) -> None:
         kept = slice(-CAPACITY, None)
@@ -237,7 +246,7 @@ class Practice:
             slope=np.zeros((sizes[-1], self._batch), np.float32),
             gradient=np.zeros(parameter_count(sizes), np.float32),
             seen_in=np.full(space.count, -1, np.int64),
-            table=self._table,
+            table=np.zeros((0, space.actions), np.float32),
         )
 
 

@@ -1,44 +1,114 @@
-"""Q-learning with a table in the learnt game, compiled: it finds its way, and the networks learn from where it goes.
+"""Q-learning with tables in the learnt game, compiled: they find the way, and the networks learn from where it goes.
 
-A table of values, one for each state and action, learns a hundred times as fast as a network (Watkins, 1989; in a
-learnt game, Sutton, 1991). It never plays the real game: it plays imagined episodes, from whose transitions the
-networks learn by double Q-learning, beside their own (practice_kernel.py).
+Tables learn a hundred times as fast as a network (Watkins, 1989; in a learnt game, Sutton, 1991). They never play the
+real game: they play imagined episodes, from whose transitions the networks learn by double Q-learning, beside their own
+(practice_kernel.py).
 
-The state (x, y, b) doesn't say which cells are built, so that a value is true for one way there only. So the last
-outcome counts alone (a learning rate of 1), an episode is learnt from backwards, and most episodes stay near the
-policy.
+Three tables learn from every episode, backwards, with a learning rate of 1. The values by the cell and the cells built
+(built_values.py) are exact, but say nothing of a state that was never seen. There, the others guess: the values by the
+agent's own state (x, y, b), and those by its cell and what is built around it. An episode goes as the exact values say
+up to a step that is drawn, does a few actions by chance, and goes on (first return, then explore; Ecoffet et al.,
+2021): where the surroundings are those of a step of the best way known, as that way does, and else as a guess.
 """
 
 from typing import NamedTuple
 
 import numpy as np
+from numpy.random import Generator
 
-from mc_nested.arrays import Bools, Float32s, Float64s, Int64s
+from mc_nested.arrays import Bools, Float32s, Float64s, Int8s, Int64s
 from mc_nested.learn.dqn.compiled import compiled
-from mc_nested.learn.imagination.arena_step import ImaginedArena, step
-from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask, epsilon_from, is_wasted, state_at
+from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, step
+from mc_nested.learn.imagination.built_values import (
+    BuiltValues,
+    begin_values,
+    empty_values,
+    forget,
+    is_full,
+    row_of,
+)
+from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask, is_wasted, state_at
 
-LATE = 0.5
-"""This share of its imagined episodes follows the policy until so many blocks are left as are drawn."""
+AROUND = 8
+"""The cells around a cell: whether each is built makes as many bits of its surroundings."""
+
+ROOM = 1 << 21
+"""States that the exact values have room for."""
+
+ANOTHER_BY_CHANCE, STRAYS = 0.7, 0.01
+"""How likely another action by chance follows one, where an episode explores; and how likely any later one is."""
+
+BY_BLOCKS = 0.5
+"""In this share of the episodes a new state is guessed by (x, y, b), in the rest by what is built around."""
+
+GAMMA_BUILT, GAMMA_AROUND = 0.999, 0.8
+"""What a step without pay makes the exact values count for less; and any step those by what is built around."""
+
+PREFERRED = 1.001
+"""How many times the highest value the best way's has in the end."""
+
+ENDS, GOES_ON = 0, 1
+"""Whether an episode ended where nothing more could be paid, or where it could go on."""
+
+NEARLY_0 = 1e-6
+"""Guesses begin below this, each at another, so that among equal ones chance decides."""
 
 
-class QTable(NamedTuple):
-    """The values (states, actions); the episode in which each state was last seen (states,); the last episode's steps.
+class QTables(NamedTuple):
+    """The values by cell and cells built, by (x, y, b) (states, actions), and by cell and surroundings (2^8 of a cell).
 
-    ``trail`` (3, steps + 1) has the states, actions and landed blocks' cells of that episode.
+    ``habits`` (cells x surroundings,) has what the best way known does there, -1 elsewhere. ``seen_in`` (states,) is
+    the episode in which each state was last seen. ``trail`` (5, steps + 1) has the last episode's names
+    (built_values.py), states, surroundings, actions and landed blocks' cells, and last the state that it ended in.
+    ``best`` is the same of the last greedy episode, the best way known, ``best_steps`` (1,) how many steps that has.
     """
 
-    values: Float32s
+    built: BuiltValues
+    by_blocks: Float32s
+    by_around: Float32s
+    habits: Int8s
     seen_in: Int64s
     trail: Int64s
+    best: Int64s
+    best_steps: Int64s
 
 
 class TableProgress(NamedTuple):
-    """What it came to, (1,) each: imagined episodes, steps that were learnt from, whether the aim was reached."""
+    """What it came to, (1,) each: imagined episodes, steps learnt from, the last greedy score, whether it is enough."""
 
     episodes: Int64s
     steps: Int64s
+    score: Float64s
     reached: Bools
+
+
+def empty_trail(steps: int) -> Int64s:
+    """A trail for an episode of at most so many steps."""
+    return np.zeros((5, steps + 1), np.int64)
+
+
+def empty_tables(states: int, actions: int, cells: int, steps: int = 0, room: int = ROOM) -> QTables:
+    """Tables for so many states of the agent, cells of the arena, border included, and steps; not yet begun."""
+    return QTables(
+        empty_values(room, actions, cells),
+        np.zeros((states, actions), np.float32),
+        np.zeros((cells << AROUND, actions), np.float32),
+        np.zeros(cells << AROUND, np.int8),
+        np.zeros(states, np.int64),
+        empty_trail(steps),
+        empty_trail(steps),
+        np.zeros(1, np.int64),
+    )
+
+
+def begin_tables(tables: QTables, random: Generator) -> None:
+    """Forget everything."""
+    begin_values(tables.built, random)
+    for guesses in (tables.by_blocks, tables.by_around):
+        guesses[:] = NEARLY_0 * random.random(guesses.shape, np.float32)
+    tables.habits[:] = -1
+    tables.seen_in[:] = -1
+    tables.best_steps[0] = 0
 
 
 @compiled(nogil=True)
@@ -50,67 +120,118 @@ def longest_episode(task: ImaginedTask) -> int:
 
 @compiled(nogil=True)
 def learn_table(
-    uniforms: Float64s,
-    arena: ImaginedArena,
-    task: ImaginedTask,
-    gamma: float,
-    highest_epsilon: float,
-    lowest_epsilon: float,
-    table: QTable,
-    progress: TableProgress,
+    uniforms: Float64s, arena: ImaginedArena, task: ImaginedTask, gamma: float, tables: QTables, progress: TableProgress
 ) -> None:
     """Learn until the greedy policy reaches the aim, or the numbers in [0, 1) don't suffice for another episode.
 
-    Where an episode comes to a state again, a policy would go round for ever: it goes on by chance, and explores from
-    there on.
+    Where an episode comes to a state again, a policy would go round for ever: it goes on by chance. ``gamma`` discounts
+    the values by (x, y, b).
     """
     used = 0
     solid = arena.empty.copy()
     while used + longest_episode(task) <= len(uniforms) and not progress.reached[0]:
+        if is_full(tables.built):
+            forget(tables.built)
+            _learn_backwards(tables, tables.best, tables.best_steps[0], arena, gamma)
         greedy = progress.episodes[0] % GREEDY_EVERY == 0
-        epsilon, from_blocks = 0.0, task.blocks
-        if not greedy:
-            epsilon = epsilon_from(uniforms[used], highest_epsilon, lowest_epsilon)
-            if uniforms[used + 1] < LATE:
-                from_blocks = 1 + int(uniforms[used + 2] * task.blocks)
-            used += 3
+        explores_from = int(uniforms[used] * (tables.best_steps[0] + 1))
+        explores_until = explores_from + 1 + int(np.log(1.0 - uniforms[used + 1]) / np.log(ANOTHER_BY_CHANCE))
+        by_blocks = uniforms[used + 2] < BY_BLOCKS
+        used += 3
         solid[:] = arena.empty
         position, blocks, score, steps = task.start, task.blocks, 0.0, 0
-        wasted = False
+        wasted, built = False, 0
         state = state_at(position, blocks, arena, task)
         while blocks > 0 and steps < task.step_limit and not wasted:
-            been_here = table.seen_in[state] == progress.episodes[0]
+            been_here = tables.seen_in[state] == progress.episodes[0]
             if greedy and been_here:
                 break
-            table.seen_in[state] = progress.episodes[0]
-            action = int(np.argmax(table.values[state]))
+            tables.seen_in[state] = progress.episodes[0]
+            name, around = tables.built.here[position] ^ built, _around(position, solid, arena)
+            action = _best_action(tables, name, state, around, by_blocks, greedy)
             if not greedy:
-                if been_here:
-                    from_blocks = blocks
-                explores = been_here or (blocks <= from_blocks and uniforms[used] < epsilon)
-                action = int(uniforms[used + 1] * len(arena.moves)) if explores else action
+                explores = explores_from <= steps < explores_until
+                strays = steps > explores_from and uniforms[used] < STRAYS
+                if been_here or explores or strays:
+                    action = int(uniforms[used + 1] * len(arena.moves))
                 used += 2
             position, landed = step(arena, position, action, solid)
             if landed:
                 blocks -= 1
+                built ^= tables.built.built[landed]
                 score += arena.pay[landed]
                 wasted = not greedy and is_wasted(landed, arena)
-            table.trail[:, steps] = state, action, landed
+            tables.trail[:, steps] = name, state, around, action, landed
             steps += 1
             state = state_at(position, blocks, arena, task)
+        ends = blocks == 0 or wasted
+        around = _around(position, solid, arena)
+        tables.trail[:, steps] = tables.built.here[position] ^ built, state, around, ENDS if ends else GOES_ON, NOWHERE
         progress.episodes[0] += 1
         if greedy:
-            progress.reached[0] = score >= task.aim
+            progress.score[0], progress.reached[0] = score, score >= task.aim
+            _follow(tables, steps)
         else:
             progress.steps[0] += steps
-            value = 0.0 if blocks == 0 or wasted else float(table.values[state].max())
-            _learn_backwards(table, steps, value, arena.pay, gamma)
+            _learn_backwards(tables, tables.trail, steps, arena, gamma)
 
 
 @compiled(nogil=True)
-def _learn_backwards(table: QTable, steps: int, value: float, pay: Float32s, gamma: float) -> None:
-    """Set the values of the last episode's steps, from the last to the first; ``value`` is its last state's."""
+def prefer_best(tables: QTables) -> None:
+    """Make the values by (x, y, b) choose what the best way known does, in its states."""
+    for at in range(tables.best_steps[0]):
+        values, action = tables.by_blocks[tables.best[1, at]], tables.best[3, at]
+        if np.argmax(values) != action:
+            values[action] = PREFERRED * values.max() + NEARLY_0
+
+
+@compiled(nogil=True)
+def _around(position: int, solid: Bools, arena: ImaginedArena) -> int:
+    """The index of that cell with what is built around it."""
+    around = position
+    for across in (-arena.side, 0, arena.side):
+        for along in (-1, 0, 1):
+            if across != 0 or along != 0:
+                around = 2 * around + int(solid[position + across + along])
+    return around
+
+
+@compiled(nogil=True)
+def _best_action(tables: QTables, name: int, state: int, around: int, by_blocks: bool, greedy: bool) -> int:
+    """What the exact values say, or a guess where they know nothing."""
+    exact = tables.built.values[row_of(tables.built, name)]
+    if exact.max() > 0.0:
+        return int(np.argmax(exact))
+    if not greedy and tables.habits[around] >= 0:
+        return int(tables.habits[around])
+    return int(np.argmax(tables.by_blocks[state])) if by_blocks else int(np.argmax(tables.by_around[around]))
+
+
+@compiled(nogil=True)
+def _follow(tables: QTables, steps: int) -> None:
+    """Take the last episode, of so many steps, for the best way known."""
+    for at in range(tables.best_steps[0]):
+        tables.habits[tables.best[2, at]] = -1
+    tables.best[:] = tables.trail
+    tables.best_steps[0] = steps
+    for at in range(steps):
+        tables.habits[tables.best[2, at]] = tables.best[3, at]
+
+
+@compiled(nogil=True)
+def _learn_backwards(tables: QTables, trail: Int64s, steps: int, arena: ImaginedArena, gamma: float) -> None:
+    """Set the values of an episode's steps in every table, from the last to the first."""
+    exact = by_blocks = by_around = 0.0
+    if trail[3, steps] == GOES_ON:
+        exact = float(tables.built.values[row_of(tables.built, trail[0, steps])].max())
+        by_blocks = float(tables.by_blocks[trail[1, steps]].max())
+        by_around = float(tables.by_around[trail[2, steps]].max())
     for at in range(steps - 1, -1, -1):
-        state, action, landed = table.trail[:, at]
-        table.values[state, action] = pay[landed] + gamma * value
-        value = float(table.values[state].max())
+        name, state, around, action, landed = trail[:, at]
+        pay = arena.pay[landed]
+        values = tables.built.values[row_of(tables.built, name)]
+        values[action] = pay + (1.0 if pay > 0 else GAMMA_BUILT) * exact
+        tables.by_blocks[state, action] = pay + gamma * by_blocks
+        tables.by_around[around, action] = pay + GAMMA_AROUND * by_around
+        exact, by_blocks = float(values.max()), float(tables.by_blocks[state].max())
+        by_around = float(tables.by_around[around].max())

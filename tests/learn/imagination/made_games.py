@@ -26,7 +26,8 @@ RULE = ImaginationRule(
     enough=0.9,
     updates_exploring=4_000,
     updates_building=20_000,
-    table_steps=20_000,
+    table_steps_exploring=20_000,
+    table_steps_building=20_000,
     n_steps=4,
 )
 SMALL = LIVE.model_copy(

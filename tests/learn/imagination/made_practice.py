@@ -12,7 +12,7 @@ from mc_nested.learn.imagination.practice import Goal, RealTransitions
 from mc_nested.learn.learner import Learner
 from tests.learn.imagination.made_games import BENT, SMALL, TRUE_MOVES, TRUE_PLACES
 
-GOAL = Goal(BENT.start, BENT.blocks, BENT.step_limit, float(BENT.blocks), 20_000)
+GOAL = Goal(BENT.start, BENT.blocks, BENT.step_limit, float(BENT.blocks), 20_000, 20_000)
 MATERIAL = np.array([1])
 
 

@@ -10,7 +10,7 @@ import pytest
 from mc_nested.arrays import Float64s
 from mc_nested.errors import LiveError
 from mc_nested.learn.imagination.background_practice import LONGER_S, BackgroundPractice, BackgroundThread, GoesOn
-from mc_nested.learn.imagination.practice import PracticeSession
+from mc_nested.learn.imagination.practice import Goal, PracticeSession
 from mc_nested.learn.imagination.practice_kernel import Progress, Row
 
 FOR_EVER, PATIENCE_S = 10**9, 10.0
@@ -30,7 +30,8 @@ def session_of(own: Row, most_updates: int = FOR_EVER, after: Callable[[], None]
         if len(numbers):
             after()
 
-    return PracticeSession(own, lambda: None, practise, most_updates, np.random.default_rng(0), 1)
+    goal = Goal((0, 0), 1, 1, 1.0, most_updates, 0)
+    return PracticeSession(own, lambda: None, practise, goal, np.random.default_rng(0), 1)
 
 
 class Steps:

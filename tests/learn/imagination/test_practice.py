@@ -12,7 +12,7 @@ from mc_nested.learn.preset import Preset
 from tests.learn.imagination.made_games import BENT, RULE, SMALL, with_update
 from tests.learn.imagination.made_practice import GOAL, MATERIAL, arena_of, learner_of, real_of
 
-UNREACHABLE = GOAL._replace(aim=float(BENT.blocks + 1), most_updates=50)
+UNREACHABLE = GOAL._replace(aim=float(BENT.blocks + 1), most_updates=50, most_table_steps=0)
 
 
 def practised(
@@ -94,10 +94,17 @@ def test_a_budget_ends_what_can_not_be_reached() -> None:
     assert result.episodes > 10
 
 
+def test_where_the_tables_fall_short_it_ends_when_the_networks_have_what_those_found() -> None:
+    result, _ = practised(learner_of(), goal=GOAL._replace(aim=float(BENT.blocks + 1)))
+    assert not result.reached
+    assert result.score == BENT.blocks
+    assert 0 < result.updates < GOAL.most_updates
+
+
 def test_it_ends_when_it_is_told_to() -> None:
     answers = iter([True, True, False])
     learner = learner_of()
-    goal = GOAL._replace(aim=UNREACHABLE.aim, most_updates=10**9)
+    goal = UNREACHABLE._replace(most_updates=10**9)
     practice, random = Practice(learner, SMALL, RULE), np.random.default_rng(0)
     session = practice.session(0, arena_of(), goal, MATERIAL, real_of(learner), random)
     session.run(lambda: next(answers))

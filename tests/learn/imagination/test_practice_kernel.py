@@ -24,13 +24,17 @@ class Practising:
         self, learner: Learner, step_limit: int, learning_starts: int = 1, target_period: int = 1000, n_steps: int = 1
     ) -> None:
         preset = with_update(SMALL, learning_starts=learning_starts, target_period=target_period)
-        practice = Practice(learner, preset, RULE.model_copy(update={"n_steps": n_steps, "table_steps": 0}))
+        practice = Practice(learner, preset, RULE.model_copy(update={"n_steps": n_steps}))
         self.arena, strides = arena_of(), learner.space.strides
         offset = int(MATERIAL @ strides[3:])
         # An aim that is out of reach, and blocks that outlast every episode.
         start = index_of(BENT.start, self.arena)
         self.task = ImaginedTask(start, BENT.blocks, step_limit, 99.0, strides[:3], offset)
-        self.rule, self.replay, self.work = practice._rule, practice._replay, practice._workspaces[0]
+        self.rule, self.replay, self.work = (
+            practice._rule._replace(by_table=0.0),
+            practice._replay,
+            practice._workspaces[0]._replace(table=np.zeros((learner.space.count, learner.space.actions), np.float32)),
+        )
         self.row = Row(*learner.ddqn.row(0))
         self.progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_))
 

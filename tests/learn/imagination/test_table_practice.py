@@ -1,0 +1,66 @@
+"""A practice of the tables ends at its aim or budget, begins anew, and says what the networks can learn of it."""
+
+import numpy as np
+import pytest
+
+from mc_nested.learn.imagination import table_practice
+from mc_nested.learn.imagination.arena_step import index_of
+from mc_nested.learn.imagination.imagined_task import ImaginedTask
+from mc_nested.learn.imagination.table_learner import empty_tables
+from mc_nested.learn.imagination.table_practice import NEARLY_1, TablePractice
+from tests.learn.imagination.made_games import BENT
+from tests.learn.imagination.made_practice import arena_of
+
+ALL = float(BENT.blocks)
+
+
+def practice(aim: float = ALL, most_steps: int = 10_000) -> TablePractice:
+    arena = arena_of()
+    start = index_of(BENT.start, arena)
+    task = ImaginedTask(start, BENT.blocks, BENT.step_limit, aim, np.array([5 * 4, 4, 1]), 0)
+    tables = empty_tables(5 * 5 * 4, 8, len(arena.empty), BENT.step_limit, 1 << 12)
+    made = TablePractice(tables, arena, task, 0.9, most_steps, np.random.default_rng(2))
+    made.begin()
+    return made
+
+
+def run(table: TablePractice) -> None:
+    numbers = np.random.default_rng(4)
+    while not table.is_over:
+        table.learn(numbers.random(2_000))
+
+
+def test_it_ends_when_its_aim_is_reached_and_the_networks_have_the_same() -> None:
+    table = practice()
+    run(table)
+    assert 0 < table.steps < 10_000
+    assert table.aim == pytest.approx(ALL)
+
+
+def test_it_ends_when_its_steps_are_used_up_and_the_networks_aim_is_what_was_found() -> None:
+    table = practice(aim=ALL + 2)
+    run(table)
+    assert 10_000 <= table.steps < 12_000
+    assert table.aim == pytest.approx(NEARLY_1 * ALL)
+    assert table.aim < ALL, "the same blocks in another order reach it, too"
+
+
+def test_without_steps_there_is_none_and_the_aim_stays() -> None:
+    table = practice(aim=ALL + 2, most_steps=0)
+    assert table.is_over
+    assert table.aim == ALL + 2
+
+
+def test_it_begins_anew_after_twice_as_many_steps_each_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(table_practice, "FIRST_STEPS", 2_000)
+    anew: list[int] = []
+    table = practice(aim=ALL + 2, most_steps=30_000)
+    monkeypatch.setattr(table_practice, "begin_tables", lambda *_: anew.append(table.steps))
+    run(table)
+    assert [round(at / 2_000) for at in anew] == [1, 3, 7], "after 2,000 steps, 4,000 more, and 8,000 more"
+
+
+def test_no_numbers_only_compile_it() -> None:
+    table = practice()
+    table.learn(np.empty(0))
+    assert (table.steps, table.is_over) == (0, False)
