@@ -43,10 +43,11 @@ def learn_rules(steps: Int64s, first_of_episode: Int64s, actions: int, size: int
         if (right, forward) != (0, 0)
     ]
     explained = [_replay(steps, first_of_episode, moves, size, lands) for lands in around]
-    best = max(range(len(around)), key=lambda at: explained[at].score)
-    fits, used = explained[best].fits, steps[:, 2] > steps[:, 6]
-    tries = np.bincount(steps[fits, 3], minlength=actions)
-    uses = np.bincount(steps[fits & used, 3], minlength=actions)
+    counted = [_count_uses(steps, each.fits, actions) for each in explained]
+    # Where a block can land, an action places one always or never: its odd tries speak against that place.
+    odd = [int(np.minimum(uses, tries - uses).sum()) for tries, uses in counted]
+    best = max(range(len(around)), key=lambda at: explained[at].score - odd[at])
+    tries, uses = counted[best]
     # An action that was never tried where a block could land is taken to place one: trying it will tell.
     places: Bools = uses > PLACES_ABOVE * tries - (tries == 0)
     return LearntRules(moves, known, places, around[best])
@@ -64,6 +65,12 @@ def _learn_moves(steps: Int64s, actions: int) -> tuple[Int64s, Bools]:
             found, votes = np.unique(of_action, axis=0, return_counts=True)
             moves[action], known[action] = found[votes.argmax()], True
     return moves, known
+
+
+def _count_uses(steps: Int64s, fits: Bools, actions: int) -> tuple[Int64s, Int64s]:
+    """How often each action was tried in those steps, and how often it used a block, (actions,) each."""
+    used = steps[:, 2] > steps[:, 6]
+    return np.bincount(steps[fits, 3], minlength=actions), np.bincount(steps[fits & used, 3], minlength=actions)
 
 
 class _Replayed(NamedTuple):

@@ -91,6 +91,12 @@ def test_a_try_where_no_block_could_land_does_not_count_against_an_action() -> N
     assert rules.lands == (0, 1)
 
 
+def test_an_action_that_places_elsewhere_but_not_where_a_block_could_land_shows_where_it_can_not() -> None:
+    # Along the far edge RD places nothing: were it not ahead that blocks land, it would have.
+    to_the_edge, along_it, back = [Action.F] * 3, [Action.RD] * 2, [Action.B, Action.LD, Action.B, Action.RD]
+    assert explained_by(*to_the_edge, *along_it, *back).lands[1] == 1
+
+
 def test_blocks_are_gone_in_the_next_episode() -> None:
     seen = Experience()
     game = GridGame(BENT)
