@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.imagination import table_practice
 from mc_nested.learn.imagination.arena_step import index_of
 from mc_nested.learn.imagination.imagined_task import ImaginedTask
@@ -58,6 +59,22 @@ def test_it_begins_anew_after_twice_as_many_steps_each_time(monkeypatch: pytest.
     monkeypatch.setattr(table_practice, "begin_tables", lambda *_: anew.append(table.steps))
     run(table)
     assert [round(at / 2_000) for at in anew] == [1, 3, 7], "after 2,000 steps, 4,000 more, and 8,000 more"
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_it_finds_how_to_build_a_house_of_forty_blocks(seed: int) -> None:
+    house = load_scenario("house")
+    arena = arena_of(house)
+    strides = np.array([house.size * (house.blocks + 1), house.blocks + 1, 1])
+    start = index_of(house.start, arena)
+    task = ImaginedTask(start, house.blocks, house.step_limit, float(house.blocks), strides, 0)
+    tables = empty_tables(house.size**2 * (house.blocks + 1), 8, len(arena.empty), house.step_limit)
+    table = TablePractice(tables, arena, task, 0.93, 60_000_000, np.random.default_rng(seed))
+    table.begin()
+    numbers = np.random.default_rng(seed + 100)
+    while not table.is_over:
+        table.learn(numbers.random(65_536))
+    assert table.aim == pytest.approx(house.blocks)
 
 
 def test_no_numbers_only_compile_it() -> None:
