@@ -1,5 +1,6 @@
 """Preset: all hyper-parameters of a training, as a TOML file that pydantic checks."""
 
+from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -126,6 +127,17 @@ class ImaginationRule(_GrownTable):
     neighbours: bool = True
     real_transitions: bool = True
     double: bool = True
+
+    @model_validator(mode="before")
+    @classmethod
+    def _check_version(cls, table: object) -> object:
+        needed = {"table_steps_exploring", "table_steps_building", "n_steps"}
+        if isinstance(table, Mapping) and not table.keys() >= needed:
+            raise ValueError(
+                f"without {', '.join(sorted(needed - table.keys()))}: copy what is missing from the preset live; a run "
+                "of an earlier version has to be trained anew"
+            )
+        return table
 
     @model_validator(mode="after")
     def _check(self) -> "ImaginationRule":
