@@ -109,9 +109,13 @@ class Imagination:
         return session.practised.reached and not bool(self._explores[run])
 
     def session(self, run: int, material: int) -> PracticeSession:
-        """A practice of that run's agent with that material, to be run; over at once before the game's first step."""
+        """A practice of that run's agent with that material, to be run; over at once before the game's first step.
+
+        Where the last one fell short of building all of a known design, the networks begin anew.
+        """
         seen, here = self._experience[run], self._surroundings[run]
         rules, beliefs = self.rules(run), self.beliefs(run)
+        anew = bool(self._falls_short[run]) and not self._explores[run] and not beliefs.explores
         self._explores[run] = beliefs.explores
         arena = imagined_arena(rules, beliefs)
         x, y, blocks = here.start
@@ -126,7 +130,7 @@ class Imagination:
         return self._practice.session(
             self._row(run, material),
             arena,
-            Goal((x, y), blocks, here.step_limit, aim, most_updates, most_table_steps),
+            Goal((x, y), blocks, here.step_limit, aim, most_updates, most_table_steps, anew),
             self._appended(material),
             self._real_transitions(run, material, landed_cells(seen.steps, rules.lands, arena)),
             practice_stream(self._seed, self._numbers[run], seen.episodes),

@@ -9,7 +9,7 @@ from numpy.random import Generator
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Bools, Float64s, Int64s
 from mc_nested.learn.dqn.cell_networks import passes_for
-from mc_nested.learn.dqn.networks import parameter_count
+from mc_nested.learn.dqn.networks import initial_parameters, parameter_count
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, index_of
 from mc_nested.learn.imagination.imagined_task import ImaginedTask
@@ -49,7 +49,8 @@ class RealTransitions(NamedTuple):
 class Goal(NamedTuple):
     """What is practised: from which cell, with how many blocks and steps, up to which score.
 
-    For at most so many updates of the networks, after at most so many imagined steps of the tables.
+    For at most so many updates of the networks, after at most so many imagined steps of the tables. ``anew``: the
+    networks first forget all; what they learnt in vain can keep them from learning (Nikishin et al., 2022).
     """
 
     start: Cell
@@ -58,6 +59,7 @@ class Goal(NamedTuple):
     aim: float
     most_updates: int
     most_table_steps: int
+    anew: bool = False
 
 
 class Practised(NamedTuple):
@@ -192,6 +194,7 @@ class Practice:
         )
         tables, rule = self._tables_for(arena, goal.step_limit), self._rule
         table = TablePractice(tables, arena, task, rule.gamma, goal.most_table_steps, random)
+        own = Row(*ddqn.row(row))
         work = self._workspaces[row]._replace(table=tables.by_blocks)
         if not goal.most_table_steps:
             rule = rule._replace(by_table=0.0)
@@ -199,6 +202,9 @@ class Practice:
         def begin() -> None:
             self._begin_with(real)
             work.seen_in[:] = -1
+            if goal.anew:
+                own.online[:] = own.target[:] = initial_parameters(ddqn.sizes, random)
+                own.first_moment[:] = own.second_moment[:] = 0.0
             table.begin()
 
         def practise_on(numbers: Float64s, parts: Row, progress: Progress) -> None:
@@ -212,7 +218,7 @@ class Practice:
 
         longest = max(2 + goal.step_limit * (2 + self._batch), longest_episode(task))
         return PracticeSession(
-            Row(*ddqn.row(row)),
+            own,
             begin,
             practise_on,
             goal,

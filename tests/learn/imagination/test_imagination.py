@@ -1,5 +1,6 @@
 """What runs have seen, learn of it and practise: each run, and each material of a hierarchy, its own."""
 
+import dataclasses
 from collections.abc import Sequence
 
 import numpy as np
@@ -241,6 +242,21 @@ def test_with_a_known_design_an_untried_action_is_tried_where_practice_fell_shor
     assert imagination.builds_it_all(0, session) != falls_short
     chosen = imagination.act(np.array([0]), np.array([int(Action.R)]))
     assert (chosen[0] != Action.R) == falls_short
+
+
+@pytest.mark.parametrize(
+    ("explored", "fell_short", "explores", "anew"),
+    [(False, True, False, True), (True, True, False, False), (False, False, False, False), (False, True, True, False)],
+)
+def test_the_networks_begin_anew_where_they_fell_short_of_the_same_known_design(
+    explored: bool, fell_short: bool, explores: bool, anew: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, imagination = imagination_of()
+    play(imagination, [Action.FD, Action.R, Action.FD, Action.F])
+    imagination._explores[0], imagination._falls_short[0] = explored, fell_short
+    believed = dataclasses.replace(imagination.beliefs(0), explores=explores)
+    monkeypatch.setattr(imagination, "beliefs", lambda _: believed)
+    assert imagination.session(0, 1)._goal.anew == anew
 
 
 def test_an_action_that_stays_counts_once_in_a_cell_of_an_episode() -> None:

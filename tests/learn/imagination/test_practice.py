@@ -101,6 +101,15 @@ def test_where_the_tables_fall_short_it_ends_when_the_networks_have_what_those_f
     assert 0 < result.updates < GOAL.most_updates
 
 
+def test_networks_that_can_not_learn_any_more_begin_anew_where_they_are_told_to() -> None:
+    results = []
+    for anew in (False, True):
+        learner = learner_of()
+        learner.ddqn.online[:] = learner.ddqn.target[:] = 100.0  # every node is saturated
+        results.append(practised(learner, goal=GOAL._replace(anew=anew))[0].reached)
+    assert results == [False, True]
+
+
 def test_it_ends_when_it_is_told_to() -> None:
     answers = iter([True, True, False])
     learner = learner_of()
