@@ -134,7 +134,7 @@ class ImaginationRule(_GrownTable):
         needed = {"table_steps_exploring", "table_steps_building", "n_steps"}
         if isinstance(table, Mapping) and not table.keys() >= needed:
             raise ValueError(
-                f"without {', '.join(sorted(needed - table.keys()))}: copy what is missing from the preset live; a run "
+                f"lacks {', '.join(sorted(needed - table.keys()))}: copy what is missing from the preset live; a run "
                 "of an earlier version has to be trained anew"
             )
         return table

@@ -197,7 +197,7 @@ LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_te
         (("n_steps = 20", "n_steps = 0"), "imagination.n_steps"),
         (
             ("table_steps_exploring", "table_steps"),
-            "without table_steps_exploring: copy what is missing from the preset live; a run of",
+            "lacks table_steps_exploring: copy what is missing from the preset live; a run of",
         ),
         (("lowest_epsilon = 0.001", "lowest_epsilon = 0.001\nhighest = 1"), "imagination.highest"),
     ],
