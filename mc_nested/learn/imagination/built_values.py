@@ -14,7 +14,7 @@ from mc_nested.arrays import Float32s, Int64s
 from mc_nested.learn.dqn.compiled import compiled
 
 NAME_BITS = 62
-"""Two states of some millions have the same name once in a million practices."""
+"""So many that two of a practice's states share a name less than once in a million practices."""
 
 FULL = 0.75
 """Above this share of rows in use, finding a row takes long."""

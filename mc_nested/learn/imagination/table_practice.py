@@ -73,4 +73,5 @@ class TablePractice:
 
     def end(self) -> None:
         """Make the values by (x, y, b) follow the best way known."""
-        prefer_best(self._tables)
+        if self._most_steps:
+            prefer_best(self._tables)
