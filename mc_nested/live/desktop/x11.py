@@ -164,12 +164,19 @@ def _titled_windows(display: Display) -> list[tuple[Window, str]]:
 def _shown_below(window: Window) -> Iterator[Window]:
     try:
         children = window.query_tree().children
-        shown = [each for each in children if each.get_attributes().map_state == X.IsViewable]
     except XError:  # closed since it was listed
         return
-    for child in shown:
-        yield child
-        yield from _shown_below(child)
+    for child in children:
+        if _is_shown(child):
+            yield child
+            yield from _shown_below(child)
+
+
+def _is_shown(window: Window) -> bool:
+    try:
+        return bool(window.get_attributes().map_state == X.IsViewable)
+    except XError:  # closed since it was listed
+        return False
 
 
 def _title_if_open(display: Display, window: Window) -> str:

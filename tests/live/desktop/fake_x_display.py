@@ -27,7 +27,7 @@ class FakeXDisplay:
         self.rows = [[ord("x"), ord("X"), 0, 0]] * 100 + [[0, 0, 0, 0]] * spare
         self.display = SimpleNamespace(info=SimpleNamespace(max_keycode=FIRST + len(self.rows) - 1))
         self.window = FakeXWindow()
-        self.changes = 0
+        self.changes = self.syncs = 0
         self.changed: dict[int, list[int]] = {}
 
     def get_keyboard_mapping(self, first: int, count: int) -> list[list[int]]:
@@ -47,4 +47,4 @@ class FakeXDisplay:
         return SimpleNamespace(root=FakeXWindow())
 
     def sync(self) -> None:
-        pass
+        self.syncs += 1

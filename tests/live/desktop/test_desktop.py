@@ -78,3 +78,43 @@ def test_a_window_is_found_and_watched_without_a_window_manager(x_server: dict[s
     assert "2 windows" in report["several"]
     assert "minimised" in report["minimised"]
     assert "has closed" in report["closed"]
+
+
+COMING_AND_GOING = """
+from Xlib.display import Display
+display = Display()
+while True:
+    window = display.screen().root.create_window(0, 0, 5, 5, 0, display.screen().root_depth)
+    window.map()
+    display.sync()
+    window.destroy()
+    display.sync()
+"""
+"""A program whose windows close as soon as they are shown."""
+
+LOOKS = 100
+
+if sys.platform.startswith("linux"):
+
+    @pytest.mark.window
+    def test_windows_that_close_meanwhile_hide_no_other(
+        x_screen: dict[str, str], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        from Xlib.display import Display
+
+        from mc_nested.live.desktop.x11 import open_window
+
+        monkeypatch.setenv("DISPLAY", x_screen["DISPLAY"])
+        display = Display(x_screen["DISPLAY"])
+        window = display.screen().root.create_window(10, 10, 300, 200, 0, display.screen().root_depth)
+        window.set_wm_name("Minecraft 1.20.1")
+        window.map()
+        display.sync()
+        with subprocess.Popen([sys.executable, "-c", COMING_AND_GOING], env=x_screen) as busy:
+            try:
+                for _ in range(LOOKS):
+                    with open_window(MINECRAFT) as found:
+                        assert found.title() == "Minecraft 1.20.1"
+            finally:
+                busy.kill()
+        display.close()

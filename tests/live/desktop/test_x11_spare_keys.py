@@ -36,6 +36,24 @@ def test_characters_for_which_no_key_is_left_are_not_lent() -> None:
     assert list(SpareKeys(display).lend(LETTERS)) == LETTERS[:4]  # type: ignore[arg-type]
 
 
+def test_the_keys_are_changed_in_one_go_and_again_once_windows_have_reread_the_layout(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    display = FakeXDisplay(spare=3)
+    seen: list[tuple[int, int]] = []
+    monkeypatch.setattr("time.sleep", lambda _: seen.append((display.changes, display.syncs)))
+    SpareKeys(display).lend(LETTERS)  # type: ignore[arg-type]
+    assert seen == [(2, 1)], "two keys, with one round trip to the server behind them"
+    assert (display.changes, display.syncs) == (4, 2)
+
+
+def test_with_nothing_to_lend_nobody_waits(monkeypatch: pytest.MonkeyPatch) -> None:
+    display = FakeXDisplay(spare=3)
+    monkeypatch.setattr("time.sleep", lambda _: pytest.fail("it waited"))
+    assert SpareKeys(display).lend([]) == {}  # type: ignore[arg-type]
+    assert display.changes == 0
+
+
 def test_the_keys_type_nothing_again_once_they_are_given_back() -> None:
     display = FakeXDisplay(spare=3)
     before = list(display.rows)
