@@ -1,4 +1,4 @@
-"""The preset live builds designs past the paper's: a house of 40 blocks, and two islands."""
+"""The preset live builds designs past the paper's: a house of 40 blocks, two islands, and a square of 100 blocks."""
 
 import json
 from pathlib import Path
@@ -9,7 +9,7 @@ from tests.cli.running import run
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("design", ["islands", "house"])
+@pytest.mark.parametrize("design", ["islands", "house", "square"])
 def test_live_builds_all_of_it(design: str, tmp_path: Path) -> None:
     words: list[str | Path] = ["train", "--preset", "live", "--scenario", design, "--episodes", "100"]
     assert run(*words, "--stop-at-optimum", "--out", tmp_path / "run") == 0

@@ -97,7 +97,7 @@ LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_te
         (("updates_exploring = 20_000", "updates_exploring = 0"), "imagination.updates_exploring"),
         (("updates_building = 100_000", ""), "imagination.updates_building"),
         (('encoding = "cell"', 'encoding = "one-hot"'), '[imagination] takes encoding "cell"'),
-        (("hidden = [64, 32]", "hidden = [64]"), "two hidden layers or more"),
+        (("hidden = [128, 64]", "hidden = [64]"), "two hidden layers or more"),
         (("[imagination]", "[prioritized]\nalpha = 0.6\nbeta = 0.5\n[imagination]"), "leave out [prioritized]"),
         (("[imagination]", "[main]\nlearning_starts = 2\nupdates_an_episode = 5\n[imagination]"), "and [main]"),
         (
