@@ -45,7 +45,7 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     ] = None,
     episodes: Annotated[
         int | None,
-        typer.Option(min=1, max=MOST, help=f"episodes a trial [{EPISODES:,}; of an ablation as each preset says]"),
+        typer.Option(min=1, max=MOST, help=f"episodes a trial [{EPISODES:,}; of an ablation live 30, tuned its own]"),
     ] = None,
     seed: SeedOption = None,
     scenario: Annotated[

@@ -20,6 +20,7 @@ from mc_nested.learn.preset import Preset, load_preset, parse_preset
 from mc_nested.toml_file import parse_toml
 
 FILE = "ablation.toml"
+LIVE = "live"
 
 
 class Part(BaseModel):
@@ -94,10 +95,13 @@ class _Row(BaseModel):
 
 class _Rows(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    live_episodes: int
     rows: list[_Row]
 
 
 def shipped_parts(episodes: int | None = None) -> list[Part]:
-    """The shipped parts, each with as many training episodes at most as its preset says, or as are asked for."""
+    """The shipped parts, each with as many training episodes as are asked for, or as its preset and ablation.toml say."""
     text = (resources.files("mc_nested.learn.experiments") / FILE).read_text("utf-8")
-    return [row.part(episodes) for row in parse_toml(_Rows, text, FILE, PresetError).rows]
+    read = parse_toml(_Rows, text, FILE, PresetError)
+    return [row.part(episodes or (read.live_episodes if row.base == LIVE else None)) for row in read.rows]
