@@ -101,7 +101,7 @@ class _Rows(BaseModel):
 
 
 def shipped_parts(episodes: int | None = None) -> list[Part]:
-    """The shipped parts, each with as many training episodes as are asked for, or as its preset and ablation.toml say."""
+    """The shipped parts, each with as many episodes as are asked for, or as its preset and ablation.toml say."""
     text = (resources.files("mc_nested.learn.experiments") / FILE).read_text("utf-8")
     read = parse_toml(_Rows, text, FILE, PresetError)
     return [row.part(episodes or (read.live_episodes if row.base == LIVE else None)) for row in read.rows]
