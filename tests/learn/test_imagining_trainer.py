@@ -11,13 +11,14 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Outcome, Resumable
 from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.arrays import Arrays, Int64s
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.evaluation import play_greedily
-from mc_nested.learn.preset import Preset
+from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridGame, GridVectorEnv
 from tests.learn.imagination.made_games import BENT, SMALL, TWO
@@ -243,6 +244,21 @@ def test_where_actions_slip_the_policy_builds_the_design_where_they_do_not(seed:
     trainer = finish(trainer_of([BENT], SMALL.model_copy(update={"episodes": 30}), seed, env=Slips([BENT], seed)))
     played = play_greedily(GridVectorEnv([BENT]), [BENT], trainer.agent)
     assert [episode.score for episode in played] == [BENT.optimum]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("design", ["line", "zigzag", "diamond"])
+@pytest.mark.parametrize("seed", range(3))
+def test_where_actions_slip_live_learns_to_build_the_papers_designs(design: str, seed: int) -> None:
+    # Seed 0 once took a slip for what B does, at the far edge, and never tried it again.
+    scenario = load_scenario(design)
+    trainer = trainer_of([scenario], load_preset("live"), seed, env=Slips([scenario], seed))
+    without_slips = GridVectorEnv([scenario])
+    while play_greedily(without_slips, [scenario], trainer.agent)[0].score < scenario.optimum:
+        before = len(trainer.episode_rows)
+        while len(trainer.episode_rows) == before:
+            trainer.tick()
+        assert len(trainer.episode_rows) <= 40
 
 
 def test_a_policy_that_was_begun_from_is_evaluated_before_the_first_episode(whole: Trainer) -> None:

@@ -16,7 +16,7 @@ from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.imagination.arena_step import imagined_arena
 from mc_nested.learn.imagination.beliefs import Beliefs, believe
 from mc_nested.learn.imagination.experience import Experience, RealStep
-from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules
+from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules, unclear_moves
 from mc_nested.learn.imagination.material_choice import learn_choice, scores_of_materials
 from mc_nested.learn.imagination.practice import Goal, Practice, PracticeSession, RealTransitions, landed_cells
 from mc_nested.learn.imagination.seen import Seen, seen_by
@@ -75,6 +75,7 @@ class Imagination:
         self._rows_a_run = low_level.space.rows // len(runs)
         self._explores, self._falls_short = np.ones(len(runs), dtype=np.bool_), np.zeros(len(runs), dtype=np.bool_)
         self._untried = np.ones((len(runs), low_level.space.actions), dtype=np.bool_)
+        self._unclear = np.zeros_like(self._untried)
         self._tries = np.zeros((len(runs), low_level.space.actions), dtype=np.int64)
 
     def rules(self, run: int) -> LearntRules:
@@ -117,6 +118,7 @@ class Imagination:
         rules, beliefs = self.rules(run), self.beliefs(run)
         anew = bool(self._falls_short[run]) and not self._explores[run] and not beliefs.explores
         self._explores[run] = beliefs.explores
+        self._unclear[run] = unclear_moves(seen.steps, self._low_level.space.actions)
         arena = imagined_arena(rules, beliefs)
         x, y, blocks = here.start
         if beliefs.explores:
@@ -145,13 +147,14 @@ class Imagination:
         """The actions of the named runs (k,), of ``actions`` for all: the policy's, once it is known what they do.
 
         An action that has never moved is tried in other cells of an episode than where it was already: at an edge, it
-        would be stopped for ever. Once all cells are known, it is tried where practice fell short of building them all.
+        would be stopped for ever. So is one whose move may be a slip. Once all cells are known, it is tried where
+        practice fell short of building them all.
         """
         chosen: Int64s = actions[runs].copy()
         for at, run in enumerate(runs):
-            if not self._untried[run].any() or not (self._explores[run] or self._falls_short[run]):
+            untried = self._untried[run] | self._unclear[run]
+            if not untried.any() or not (self._explores[run] or self._falls_short[run]):
                 continue
-            untried = self._untried[run].copy()
             untried[self._experience[run].tried_here()] = False
             tries = np.where(untried, self._tries[run], np.iinfo(np.int64).max)
             if tries.min() <= FIRST_TRIES * self._tries[run].sum():
@@ -203,6 +206,7 @@ class Imagination:
         return {
             **first_tries,
             "untried": self._untried,
+            "unclear": self._unclear,
             "tries": self._tries,
             **{name: kept for part in every for name, kept in part.items()},
         }
@@ -210,7 +214,8 @@ class Imagination:
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
         self._explores[:], self._falls_short[:] = state["explores"], state["falls_short"]
-        self._untried[:], self._tries[:] = state["untried"], state["tries"]
+        self._untried[:], self._unclear[:] = state["untried"], state["unclear"]
+        self._tries[:] = state["tries"]
         for run, seen in enumerate(self._experience):
             seen.load(part_of(state, str(run)))
 

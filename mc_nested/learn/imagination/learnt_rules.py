@@ -19,6 +19,10 @@ PLACES_ABOVE = 0.5
 """An action places a block if it used one in more than this share of its tries where a block could land."""
 
 
+CLEAR = 2
+"""By so many votes an action's commonest step has to lead, where actions slip."""
+
+
 @dataclass(frozen=True)
 class LearntRules:
     """The rules as learnt so far.
@@ -53,18 +57,30 @@ def learn_rules(steps: Int64s, first_of_episode: Int64s, actions: int, size: int
     return LearntRules(moves, known, places, around[best])
 
 
+def unclear_moves(steps: Int64s, actions: int) -> Bools:
+    """Which actions' moves may be slips (actions,): none where no action has ever made two different steps."""
+    votes = [np.sort(votes)[::-1] for _, votes in _steps_made(steps, actions)]
+    if all(len(each) < 2 for each in votes):
+        return np.zeros(actions, dtype=np.bool_)
+    return np.array([int(each[:1].sum() - each[1:2].sum()) < CLEAR for each in votes])
+
+
 def _learn_moves(steps: Int64s, actions: int) -> tuple[Int64s, Bools]:
     """The commonest step that each action ever made (actions, 2), and whether it made any (actions,)."""
     moves = np.zeros((actions, 2), dtype=np.int64)
     known = np.zeros(actions, dtype=np.bool_)
-    shifts = steps[:, 4:6] - steps[:, 0:2]
-    went = shifts.any(axis=1)
-    for action in range(actions):
-        of_action = shifts[went & (steps[:, 3] == action)]
-        if len(of_action):
-            found, votes = np.unique(of_action, axis=0, return_counts=True)
+    for action, (found, votes) in enumerate(_steps_made(steps, actions)):
+        if len(found):
             moves[action], known[action] = found[votes.argmax()], True
     return moves, known
+
+
+def _steps_made(steps: Int64s, actions: int) -> list[tuple[Int64s, Int64s]]:
+    """For each action the different steps that it made (k, 2), and how often it made each (k,)."""
+    shifts = steps[:, 4:6] - steps[:, 0:2]
+    went = shifts.any(axis=1)
+    of_actions = (shifts[went & (steps[:, 3] == action)] for action in range(actions))
+    return [np.unique(each, axis=0, return_counts=True) for each in of_actions]
 
 
 def _count_uses(steps: Int64s, fits: Bools, actions: int) -> tuple[Int64s, Int64s]:

@@ -5,7 +5,7 @@ import pytest
 
 from mc_nested.arena.action import Action
 from mc_nested.learn.imagination.experience import Experience
-from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules
+from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules, unclear_moves
 from sim.grid import GridGame
 from tests.learn.imagination.made_games import (
     BENT,
@@ -106,3 +106,23 @@ def test_blocks_are_gone_in_the_next_episode() -> None:
     assert learnt(seen).lands == (0, 1)
     as_one_episode = learn_rules(seen.steps, np.array([0]), len(Action), BENT.size)
     assert as_one_episode.lands != (0, 1), "each walk through the old block would speak against it"
+
+
+def moved(*steps: tuple[Action, int, int]) -> np.ndarray[tuple[int, int], np.dtype[np.int64]]:
+    """Transitions from (2, 2) by these actions, each with the step that it made."""
+    return np.array([(2, 2, 4, action, 2 + right, 2 + forward, 4, 0, 0) for action, right, forward in steps])
+
+
+def unclear(*steps: tuple[Action, int, int]) -> list[Action]:
+    return [Action(int(at)) for at in np.flatnonzero(unclear_moves(moved(*steps), len(Action)))]
+
+
+def test_where_nothing_slips_one_step_makes_a_move_clear() -> None:
+    assert unclear((Action.L, -1, 0), (Action.B, 0, -1), (Action.L, 0, 0)) == []
+
+
+def test_where_something_slips_a_move_is_clear_once_it_leads_by_two() -> None:
+    slipped = (Action.L, -1, 0), (Action.L, -1, 0), (Action.L, -1, 0), (Action.L, 0, 1)
+    once, twice = (Action.B, -1, 0), ((Action.R, 1, 0), (Action.R, 1, 0))
+    assert unclear(*slipped, once, *twice) == [each for each in Action if each not in (Action.L, Action.R)]
+    assert Action.L in unclear(*slipped, (Action.L, 0, 1))
