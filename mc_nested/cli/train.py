@@ -152,7 +152,8 @@ def run_training(
     scores = ", ".join(f"{score:g}" for score in summary["final_scores"])
     if folder.config.stop_at_optimum:
         reached = ", ".join("never" if done is None else f"{done}" for done in summary["episodes_to_optimum"])
-        typer.echo(f"episodes to the optimum: {reached}")
+        played = ", ".join("never" if each is None else f"{each['episodes']}" for each in summary["played_to_optimum"])
+        typer.echo(f"episodes to the optimum: {reached}; with the greedy ones: {played}")
     typer.echo(f"final scores (optimum {summary['optimum']:g}): {scores}")
     typer.echo(f"run:        {folder.path}")
     typer.echo(f"curve:      {folder.path / 'curve.png'}")

@@ -85,6 +85,19 @@ def test_a_training_that_imagines_goes_on_after_a_stop_to_the_same_files(tmp_pat
         assert (tmp_path / "stopped" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes(), name
 
 
+def test_a_training_that_stops_at_the_optimum_says_after_how_many_episodes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    small = write_scenario(tmp_path / "small.toml", SMALL)
+    words: list[str | Path] = ["train", "--preset", "live", "--scenario", small, "--stop-at-optimum"]
+    assert run(*words, "--out", tmp_path / "run") == 0
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))
+    (trained,), (played,) = summary["episodes_to_optimum"], summary["played_to_optimum"]
+    assert played["episodes"] > trained
+    printed = capsys.readouterr().out
+    assert f"episodes to the optimum: {trained}; with the greedy ones: {played['episodes']}\n" in printed
+
+
 @pytest.mark.parametrize(
     ("more", "says"),
     [((), "expected: about 0 minutes of game time, 3 episodes"), (("--stop-at-optimum",), "expected: at most about 0")],
