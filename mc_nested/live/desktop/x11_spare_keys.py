@@ -1,8 +1,8 @@
 """Keys of an X server that type nothing, lent to characters that the keyboard's layout lacks.
 
-A window looks up what a key types when it handles the key's event, and may have missed a change of the layout by then:
-libX11 forgets the changes that come while it rereads the layout for an earlier one. So the keys are lent once, all
-together, announced again when that is over, and never changed until they are given back (FACTS: Input and windows).
+A window looks up what a key types when it handles the key's event, and may have missed a change of the layout by then,
+or for good if it came while another one was being reread, as it seems. So the keys are lent once, all together,
+announced again when that is over, and never changed until they are given back (FACTS: Input and windows).
 """
 
 import time
