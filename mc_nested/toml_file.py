@@ -68,7 +68,10 @@ def parse_toml(model: type[Model], text: str, source: str, error: type[UserError
         # Through JSON, since TOML's arrays are lists, and strict tuples accept lists only from JSON.
         return model.model_validate_json(json.dumps(tables, default=str))
     except ValidationError as cause:
-        raise error(f"{source}: {_in_one_line(model, cause.errors()[0])}") from cause
+        mistakes = cause.errors()
+        # A misspelt key is unknown, and what was meant is missing: the first says more.
+        unknown = [mistake for mistake in mistakes if mistake["type"] == "extra_forbidden"]
+        raise error(f"{source}: {_in_one_line(model, (unknown or mistakes)[0])}") from cause
 
 
 def table_of_key(model: type[BaseModel], key: str) -> type[BaseModel] | None:

@@ -22,13 +22,19 @@ def stay_behind(work: Work) -> int:
     Ctrl+C is passed on as SIGTERM, and ``work`` is then waited for. An exception in it is printed, and counts as 1.
     """
     result, report = os.pipe()
-    keeper = os.fork()
-    if keeper == 0:
-        _keep(work, report)
-    os.close(report)
-    said = b""
-    while not said:
-        said = _read(result, keeper)
+    # Ctrl+C waits until it can be passed on: the work may begin before fork has returned here.
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        keeper = os.fork()
+        if keeper == 0:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+            _keep(work, report)
+        os.close(report)
+        said = b""
+        while not said:
+            said = _read(result, keeper)
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
     os.close(result)
     return said[0]
 
@@ -36,10 +42,13 @@ def stay_behind(work: Work) -> int:
 def _read(result: int, keeper: int) -> bytes:
     """The keeper's report, empty after Ctrl+C; a keeper that ends without one reports 1."""
     try:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
         return os.read(result, 1) or b"\x01"
     except KeyboardInterrupt:
         os.kill(keeper, signal.SIGTERM)
         return b""
+    finally:
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
 
 def _keep(work: Work, report: int) -> NoReturn:

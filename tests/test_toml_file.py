@@ -39,7 +39,8 @@ def test_arrays_become_tuples() -> None:
         ("size = [2, 3]", "house.toml: name: missing: add it"),
         ('name = "A"\nnmae = 1', "house.toml: nmae: unknown key: did you mean name?"),
         ('name = "A"\nzzz = 1', "house.toml: zzz: unknown key: remove it; known are name, door, doors, size"),
-        ('name = "A"\n[door]\nheigth = 1', "house.toml: door.height: missing: add it"),
+        ('name = "A"\n[door]\nheigth = 1', "house.toml: door.heigth: unknown key: did you mean height?"),
+        ('name = "A"\n[door]', "house.toml: door.height: missing: add it"),
         ('name = "A"\n[door]\nheight = 1\nheigth = 1', "house.toml: door.heigth: unknown key: did you mean height?"),
         (
             'name = "A"\n[[doors]]\nheight = 1\nheigth = 1',

@@ -1,5 +1,6 @@
 """The ``mc-nested`` command: its verbs; every mistake is one line and exit code 2."""
 
+import contextlib
 import importlib
 import importlib.metadata
 import sys
@@ -81,5 +82,6 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def _say(message: str, code: int = MISTAKE) -> int:
-    print("mc-nested: " + " ".join(message.split()), file=sys.stderr)
+    with contextlib.suppress(OSError):  # a pipe that nobody reads any more
+        print("mc-nested: " + " ".join(message.split()), file=sys.stderr)
     return code

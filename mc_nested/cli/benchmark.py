@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.table import Table
+from rich.table import Column, Table
 from rich.text import Text
 
 from mc_nested.arena.corpus_file import MOST_DESIGNS, load_corpus
@@ -46,6 +46,9 @@ if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others 
 VERB = "benchmark"
 TRIALS, DESIGNS = 1, 100
 DEFAULT_AGENTS, DEFAULT_PRESETS = ("nested", SB3), ("live", "tuned", "paper")
+
+WIDE = 120
+"""Characters a line of the table where no terminal says how many there are."""
 
 LIKE = "line"
 """The shipped design whose start cell and materials every design of a benchmark has."""
@@ -179,7 +182,11 @@ def benchmark_of(config: BenchmarkConfig, outcomes: Outcomes) -> Benchmark:
 
 def _print_measures(found: "Sequence[tuple[str, Measures]]") -> None:
     heads = ("solved", "median", "interquartile mean", "worst", "without a prior", "within twice that")
-    table = Table("episodes to the optimum", *heads, box=None, padding=(0, 1))
+    columns = (Column(head, overflow="fold") for head in ("episodes to the optimum", *heads))
+    table = Table(*columns, box=None, padding=(0, 1))
     for name, measures in found:
         table.add_row(Text(name), *measures.in_words())
-    Console().print(table)
+    console = Console()
+    if not console.is_terminal:
+        console.width = WIDE
+    console.print(table)

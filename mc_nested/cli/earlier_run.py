@@ -39,8 +39,8 @@ def earlier_run(run: Path, wanted: RunFolder) -> EarlierRun:
     theirs, ours = folder.new_agent(1), wanted.new_agent(1)
     if (theirs.spec, theirs.sizes) != (ours.spec, ours.sizes):
         raise RunError(
-            f"{run}: its {folder.config.agent} agent has other networks than this {wanted.config.agent} agent: take "
-            f"the same agent, a preset with the same networks, and a design of as many blocks in an arena as large"
+            f"{run}: its networks don't fit this training: take its agent, {folder.config.agent}, its preset, and a "
+            f"design of {folder.scenario.blocks} blocks in an arena of {folder.scenario.size} x {folder.scenario.size}"
         )
     kept = folder.kept()
     best = int(kept["scores"].argmax())

@@ -11,6 +11,7 @@ from rich.text import Text
 
 from mc_nested.cli.experiment_status import ExperimentStatus
 from mc_nested.cli.job_process import JobEnded, JobReport
+from mc_nested.cli.progress_line import print_line
 
 REFRESH_S = 0.25
 """No more often than an eye can follow."""
@@ -78,7 +79,7 @@ class ExperimentProgress:
             self._live.update(Group(self._bar, self._table()), refresh=True)
         else:
             self._next = now + LINE_EVERY_S
-            self._console.print(self._line(now), markup=False, highlight=False, soft_wrap=True)
+            print_line(self._console, self._line(now))
 
     def _rate(self) -> str:
         return f"{self._status.updates / max(time.monotonic() - self._began, 1e-9):,.0f} updates/s"

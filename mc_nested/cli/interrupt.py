@@ -1,5 +1,7 @@
 """Ctrl+C that lets the current step finish, so that everything can be saved."""
 
+import contextlib
+import os
 import signal
 import threading
 import time
@@ -9,6 +11,8 @@ from types import FrameType
 
 INTERRUPTED = 130
 """Exit code after Ctrl+C."""
+
+STDERR = 2
 
 SAME_REQUEST_S = 1.0
 """A terminal and a launcher in it can both pass on the same Ctrl+C, and a finger can slip: a signal within this time of
@@ -20,10 +24,11 @@ class Stopped(Exception):  # noqa: N818 - no error: it was asked for
 
 
 class Interrupt:
-    """Whether somebody asked to stop."""
+    """Whether somebody asked to stop. ``says`` is told them on standard error, if there is no better place."""
 
     def __init__(self) -> None:
         self.requested = False
+        self.says = ""
         self._first = 0.0
 
     def request(self, _number: int, _frame: FrameType | None) -> None:
@@ -31,6 +36,9 @@ class Interrupt:
         now = time.monotonic()
         if not self.requested:
             self.requested, self._first = True, now
+            if self.says:
+                with contextlib.suppress(OSError):
+                    os.write(STDERR, f"{self.says}\n".encode())  # print can't be entered twice, a signal comes anywhere
         elif now - self._first > SAME_REQUEST_S:
             raise KeyboardInterrupt
 

@@ -1,41 +1,53 @@
 """A training's progress: a bar with episodes, score, ε (the main agent's, the nested agent's) and updates per second.
 
 With an imagination, instead of ε, what it has found out; and in a terminal, for a single trial, its map of the arena.
+Where there is no terminal, a line of text now and then.
 """
 
 import time
+from collections.abc import Callable
 from types import TracebackType
 
 import numpy as np
 from rich.console import Console, Group, RenderableType
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Column
+from rich.text import Text
 
 from mc_nested.arena.scenario import Scenario
+from mc_nested.cli.progress_line import print_line
 from mc_nested.learn.imagination.imagination import Imagination
 from mc_nested.learn.trainer import Trainer
 from mc_nested.report.terminal_map import map_view
 
 REFRESH_S = 0.2
+LINE_EVERY_S = 30.0
+"""Seconds between two lines of text, if there is no terminal to show a bar."""
+
+STOPPING = "stopping: what is under way ends, then it is saved; Ctrl+C again, after a second, stops at once, unsaved"
+"""A practice that is under way can take half a minute."""
+
 RECENT = 30
 """The score shown is the mean over this many episodes."""
 
 LOOK_S = 1.0
 """Seconds between two looks at what was learnt within an episode: each replays what was seen."""
 
-LINES_BESIDE = 4
-"""Lines of a terminal that the map leaves free: the bar, the legend, and the line of the cursor."""
+LINES_BESIDE = 6
+"""Lines of a terminal that the map leaves free: bar, figures, the legend's two, whether it stops, and the cursor's."""
 
 
 class _BarAndMap(Progress):
-    """A progress bar with something below it."""
+    """A progress bar with figures and a map below it; rich asks several times a second, while a tick lasts, too."""
 
-    below: RenderableType | None = None
+    figures: str = ""
+    map: RenderableType | None = None
+    stops: Callable[[], bool] = staticmethod(lambda: False)
 
     def get_renderable(self) -> RenderableType:
-        """The bar, and what is below it."""
-        bar = super().get_renderable()
-        return bar if self.below is None else Group(bar, self.below)
+        """The bar, what is below it, and whether it is stopping."""
+        below = [] if self.map is None else [self.map]
+        return Group(super().get_renderable(), Text(self.figures), *below, *([Text(STOPPING)] if self.stops() else []))
 
 
 class TrainingProgress:
@@ -44,51 +56,69 @@ class TrainingProgress:
     Args:
         scenario: what is built.
         trainer: what is shown.
-        console: where; standard output if there is none.
+        console: where; standard error if there is none.
+        stops: whether somebody asked to stop.
     """
 
-    def __init__(self, scenario: Scenario, trainer: Trainer, console: Console | None = None) -> None:
+    def __init__(
+        self,
+        scenario: Scenario,
+        trainer: Trainer,
+        console: Console | None = None,
+        stops: Callable[[], bool] = lambda: False,
+    ) -> None:
         self._scenario = scenario
         self._trainer = trainer
         self._bar = _BarAndMap(
             TextColumn("{task.description}"),
             BarColumn(bar_width=None),
             MofNCompleteColumn(table_column=Column(no_wrap=True)),
-            TextColumn("{task.fields[figures]}"),
             TimeRemainingColumn(table_column=Column(no_wrap=True)),
-            console=console,
+            console=console or Console(stderr=True),
             expand=True,
         )
+        self._bar.stops = stops
         self._found_out = ""
         self._looked_at, self._look_again = -1, 0.0
-        trials = len(trainer.episodes_done)
-        self._task = self._bar.add_task("episodes", total=trials * trainer.preset.episodes, figures="")
+        self._task = self._bar.add_task("episodes", total=len(trainer.episodes_done) * trainer.preset.episodes)
         self._began = time.monotonic()
         self._updates_before = trainer.agent.updates
         self._next = self._began
 
     def __enter__(self) -> "TrainingProgress":
-        self._bar.start()
+        if self.in_terminal:
+            self._bar.start()
+        else:
+            self._next += LINE_EVERY_S
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
     ) -> None:
-        self._refresh(time.monotonic())
-        self._bar.stop()
+        self._look_again = 0.0
+        if self.in_terminal or error is None:  # what failed is one line
+            self._refresh(time.monotonic())
+        if self.in_terminal:
+            self._bar.stop()
+
+    @property
+    def in_terminal(self) -> bool:
+        """Whether it is shown in a terminal, which says that it is stopping, too."""
+        return self._bar.console.is_terminal
 
     def show(self) -> None:
-        """Refresh the bar if it is time."""
+        """Refresh the bar, or print a line, if it is time."""
         now = time.monotonic()
         if now >= self._next:
-            self._next = now + REFRESH_S
+            self._next = now + (REFRESH_S if self.in_terminal else LINE_EVERY_S)
             self._refresh(now)
 
     def _refresh(self, now: float) -> None:
         trainer = self._trainer
         recent = trainer.episode_rows[-RECENT * len(trainer.episodes_done) :]
         score = f"{sum(row.score for row in recent) / len(recent):5.1f}" if recent else "    -"
-        done = np.where(trainer.runs_finished, trainer.preset.episodes, trainer.episodes_done)
+        done = int(trainer.episodes_done.sum())
+        most = int(np.where(trainer.runs_finished, trainer.episodes_done, trainer.preset.episodes).sum())
         if trainer.imagination:
             self._look_at(trainer.imagination, now)
             exploring = self._found_out
@@ -97,7 +127,10 @@ class TrainingProgress:
             exploring = f"ε {main:.2f} {nested:.2f}"
         rate = (trainer.agent.updates - self._updates_before) / max(now - self._began, 1e-9)
         figures = f"mean score {score} of {self._scenario.optimum:g}  {exploring}  {rate:,.0f} updates/s"
-        self._bar.update(self._task, completed=int(done.sum()), figures=figures)
+        self._bar.figures = figures
+        self._bar.update(self._task, completed=done, total=most)
+        if not self.in_terminal:
+            print_line(self._bar.console, f"episodes {done:,} of at most {most:,}  {figures}")
 
     def _look_at(self, imagination: Imagination, now: float) -> None:
         """See what the first trial has found out, in a new episode at once."""
@@ -113,4 +146,4 @@ class TrainingProgress:
         )
         console = self._bar.console
         if console.is_terminal and not of_several and console.height >= len(seen.cells) + LINES_BESIDE:
-            self._bar.below = map_view(seen)
+            self._bar.map = map_view(seen)

@@ -59,7 +59,7 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     """Vary each choice that the paper leaves open, one at a time; Ctrl+C saves, and --resume goes on from there.
 
     Writes sweep.png, sweep.md and sweep.csv, or ablation.*. The defaults take about ten minutes on two cores, those of
-    an ablation hours.
+    an ablation about an hour.
     """
     if resume is not None:
         check_nothing_beside_resume(context.params)

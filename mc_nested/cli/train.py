@@ -12,7 +12,7 @@ from mc_nested.atomic_file import atomic_write
 from mc_nested.cli.earlier_run import earlier_run
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
 from mc_nested.cli.options import DEFAULT_PROFILE, Backend, ProfileOption, ServerOption, open_arenas, played_live
-from mc_nested.cli.progress import TrainingProgress
+from mc_nested.cli.progress import STOPPING, TrainingProgress
 from mc_nested.errors import DesktopError, LiveError, UserError
 from mc_nested.learn.agents import AGENT_SPECS, view_of
 from mc_nested.learn.preset import MOST, load_preset
@@ -172,7 +172,9 @@ def _tick_until_done(
     every = SAVE_EVERY_S[Backend(folder.config.backend)]
     save_at = time.monotonic() + every
     events = _events(folder, trainer)
-    with TrainingProgress(folder.scenario, trainer) as progress:
+    with TrainingProgress(folder.scenario, trainer, stops=lambda: interrupt.requested) as progress:
+        if not progress.in_terminal:
+            interrupt.says = STOPPING
         while not (trainer.finished or interrupt.requested):
             try:
                 trainer.tick()

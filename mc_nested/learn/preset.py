@@ -22,6 +22,9 @@ MOST_UPDATES_A_STEP = 1000
 MOST_TABLE_STEPS, MOST_STEPS_OF_A_RETURN = 100_000_000, 1000
 """More imagined steps would take minutes; a return of more steps is longer than an episode."""
 
+MOST_BEFORE_PRACTICE = 250_000
+"""Imagined transitions before the first update: as many as a practice keeps."""
+
 Count = Annotated[int, Field(ge=1, le=MOST)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(gt=0, le=1)]
@@ -132,7 +135,10 @@ class ImaginationRule(_GrownTable):
     @classmethod
     def _check_version(cls, table: object) -> object:
         needed = {"table_steps_exploring", "table_steps_building", "n_steps"}
-        if isinstance(table, Mapping) and not table.keys() >= needed:
+        if not isinstance(table, Mapping) or table.keys() >= needed:
+            return table
+        is_misspelt = table.keys() & needed and table.keys() - cls.model_fields.keys()
+        if not is_misspelt:
             raise ValueError(
                 f"lacks {', '.join(sorted(needed - table.keys()))}: copy what is missing from the preset live; a run "
                 "of an earlier version has to be trained anew"
@@ -142,9 +148,9 @@ class ImaginationRule(_GrownTable):
     @model_validator(mode="after")
     def _check(self) -> "ImaginationRule":
         if self.lowest_epsilon > self.highest_epsilon:
-            raise ValueError("[imagination] lowest_epsilon is above highest_epsilon: swap them")
+            raise ValueError("lowest_epsilon is above highest_epsilon: swap them")
         if self.neighbours and not self.optimism:
-            raise ValueError("[imagination] neighbours are a part of optimism: turn them off, too")
+            raise ValueError("neighbours are a part of optimism: turn them off, too")
         return self
 
 
@@ -199,6 +205,8 @@ class Preset(_Table):
             raise ValueError('[imagination] takes encoding "cell", which only it can, and two hidden layers or more')
         if self.imagination and (self.prioritized or self.main):
             raise ValueError("[imagination] has its own replay and lessons: leave out [prioritized] and [main]")
+        if self.imagination and self.update.learning_starts > MOST_BEFORE_PRACTICE:
+            raise ValueError(f"[imagination] takes an [update] learning_starts of at most {MOST_BEFORE_PRACTICE:,}")
         if self.imitation and not self.excursions:
             raise ValueError("[imitation] needs a best episode: add [excursions], or leave it out")
         if self.imitation and self.imitation.batch > self.update.batch:

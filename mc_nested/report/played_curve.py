@@ -42,7 +42,7 @@ def _draw_trial(axes: Axes, along: Float64s, trial: Played, *, named: bool) -> N
     axes.plot(along, trial.scores, color=MEAN, linewidth=1.0, alpha=0.5)
     for kind, color, size, name in (
         (~trial.greedy, MEAN, 16, "an episode of training"),
-        (trial.greedy, EVALUATED, 36, "an evaluation: the design is known"),
+        (trial.greedy, EVALUATED, 36, "a greedy evaluation"),
     ):
         axes.scatter(
             along[kind], trial.scores[kind], color=color, s=size, zorder=3, label=name if named else "_nolegend_"

@@ -1,6 +1,8 @@
-"""What a run knows of its arena, in a terminal: two columns a cell, coloured, with a legend of one line."""
+"""What a run knows of its arena, in a terminal: two columns a cell, coloured, with a legend."""
 
+from rich.columns import Columns
 from rich.console import Group
+from rich.padding import Padding
 from rich.text import Text
 
 from mc_nested.learn.imagination.beliefs import Belief
@@ -33,8 +35,5 @@ def map_view(seen: Seen) -> Group:
             sign = BUILT_SIGNS[belief is Belief.PAYS] if (x, y) in seen.built_last else SIGNS[belief]
             row.append(f"{sign} ", style=STYLES[sign])
         rows.append(row)
-    legend = Text("  ", no_wrap=True)
-    for sign, name in NAMES.items():
-        legend.append(f"{sign} ", style=STYLES[sign])
-        legend.append(f"{name}  ", style="default")
-    return Group(*rows, legend)
+    legend = [Text.assemble((f"{sign} ", STYLES[sign]), name) for sign, name in NAMES.items()]
+    return Group(*rows, Padding(Columns(legend, padding=(0, 2)), (0, 0, 0, 2)))

@@ -29,3 +29,11 @@ def test_afterwards_everything_is_as_before() -> None:
     with catch_interrupts():
         pass
     assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == before
+
+
+def test_it_says_once_what_it_is_told_to_say(capfd: pytest.CaptureFixture[str]) -> None:
+    with catch_interrupts() as interrupt:
+        interrupt.says = "stopping"
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+    assert capfd.readouterr().err == "stopping\n"

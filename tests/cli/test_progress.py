@@ -1,6 +1,8 @@
 """A training's progress bar: what it says of a training, and no more often than is needed."""
 
 import io
+import os
+import re
 
 import pytest
 from rich.console import Console
@@ -22,12 +24,12 @@ def trainer() -> Trainer:
 
 
 def figures(progress: TrainingProgress) -> str:
-    return str(progress._bar.tasks[0].fields["figures"])
+    return progress._bar.figures
 
 
 def test_it_says_score_optimum_epsilon_and_updates() -> None:
     training = trainer()
-    with TrainingProgress(DOT, training) as progress:
+    with TrainingProgress(DOT, training, terminal(40)) as progress:
         progress.show()
         assert figures(progress) == "mean score     - of 11  ε 1.00 1.00  0 updates/s"
         training.episode_rows += [EpisodeRow(0, 1, 11.0, 1, 4, 1.0, 1.0), EpisodeRow(1, 1, -5.0, 0, 4, 1.0, 1.0)]
@@ -39,16 +41,19 @@ def test_it_says_score_optimum_epsilon_and_updates() -> None:
         assert progress._bar.tasks[0].total == 40
 
 
-def test_a_finished_run_counts_whole_and_the_bar_is_not_refreshed_too_often(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_finished_run_has_nothing_left_and_the_bar_is_not_refreshed_too_often(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(progress_module, "REFRESH_S", 1000.0)
     training = trainer()
-    with TrainingProgress(DOT, training) as progress:
+    with TrainingProgress(DOT, training, terminal(40)) as progress:
         progress.show()
         training.episodes_done[:] = [3, 5]
         training.runs_finished[0] = True
         progress.show()
         assert progress._bar.tasks[0].completed == 0
-    assert progress._bar.tasks[0].completed == 20 + 5
+    assert progress._bar.tasks[0].completed == 3 + 5
+    assert progress._bar.tasks[0].total == 3 + 20
 
 
 def imagining(trials: int = 1) -> Trainer:
@@ -79,17 +84,78 @@ def test_with_an_imagination_it_says_what_was_found_out_instead_of_epsilon() -> 
 
 
 def test_a_terminal_shows_the_map_of_a_single_trial_below_the_bar() -> None:
-    console = terminal(9)
+    console = terminal(11)
     with TrainingProgress(SMALL, imagining(), console):
         pass
     assert "built elsewhere" in printed(console)
 
 
 @pytest.mark.parametrize(
-    ("trials", "console"), [(2, terminal(40)), (1, terminal(8)), (1, terminal(40, is_terminal=False))]
+    ("trials", "console"), [(2, terminal(40)), (1, terminal(10)), (1, terminal(40, is_terminal=False))]
 )
 def test_of_several_trials_or_where_there_is_no_room_no_map_is_shown(trials: int, console: Console) -> None:
     with TrainingProgress(SMALL, imagining(trials), console) as progress:
         progress.show()
     assert "built elsewhere" not in printed(console)
     assert ("trial 0: 0 played" in figures(progress)) == (trials > 1)
+
+
+def test_without_a_terminal_the_figures_are_whole_lines_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(progress_module, "LINE_EVERY_S", 1000.0)
+    console = Console(file=io.StringIO(), width=40)
+    training = imagining()
+    with TrainingProgress(SMALL, training, console) as progress:
+        progress.show()
+        assert printed(console) == ""
+        progress._next = 0.0
+        progress.show()
+        progress.show()
+        line = "episodes 0 of at most 200  mean score     - of 12  0 played, probing, 0 of 2 cells known  0 updates/s\n"
+        assert printed(console) == line
+        training.episodes_done[:], training.runs_finished[:] = 3, True
+    assert printed(console).removeprefix(line).startswith("episodes 3 of at most 3  ")
+    assert printed(console).count("\n") == 2
+
+
+def test_a_terminal_says_that_it_is_stopping_while_the_last_tick_still_lasts() -> None:
+    stops, console = [False], terminal(40)
+    with TrainingProgress(SMALL, imagining(), console, lambda: stops[0]) as progress:
+        progress._bar.refresh()
+        assert "stopping" not in printed(console)
+        stops[0] = True
+        progress._bar.refresh()
+        assert "stopping: what is under way ends, then it is saved" in printed(console)
+
+
+@pytest.mark.parametrize("trials", [1, 2])
+def test_in_a_narrow_terminal_nothing_is_cut(trials: int) -> None:
+    console = Console(file=io.StringIO(), force_terminal=True, width=60, height=40)
+    with TrainingProgress(SMALL, imagining(trials), console) as progress:
+        progress.show()
+    shown = re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]", "", printed(console))
+    assert "episodes ━" in shown
+    assert f" 0/{200 * trials} " in shown
+    assert " updates/s" in shown
+    assert "…" not in shown
+
+
+def test_the_last_view_of_the_map_is_of_the_end() -> None:
+    training, console = imagining(), terminal(40)
+    with TrainingProgress(SMALL, training, console) as progress:
+        progress.show()
+        for _ in range(SMALL.step_limit):
+            training.tick()
+        progress._looked_at, progress._look_again = 1, float("inf")
+        shown = progress._bar.map
+    assert progress._bar.map is not shown
+
+
+def test_a_reader_that_is_gone_does_not_end_the_training() -> None:
+    reads, writes = os.pipe()
+    os.close(reads)
+    gone = os.fdopen(writes, "w")
+    with TrainingProgress(SMALL, imagining(), Console(file=gone, width=80)) as progress:
+        progress._next = 0.0
+        progress.show()
+    with pytest.raises(BrokenPipeError):
+        gone.close()

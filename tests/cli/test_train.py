@@ -158,7 +158,7 @@ def test_networks_that_do_not_fit_are_one_line(
     write_scenario(Path("small.toml"), SMALL)  # five cells a side, so that there are fewer inputs
     base = [] if other[0] == "--preset" else ["--preset", "live"]
     assert run("train", *base, *other, "--from", optimal, "--out", tmp_path / "new") == 2
-    assert "has other networks than this" in capsys.readouterr().err
+    assert "its networks don't fit this training: take its agent, nested, " in capsys.readouterr().err
     assert not (tmp_path / "new").exists()
 
 
@@ -204,12 +204,28 @@ def test_ctrl_c_saves_and_resume_goes_on_to_the_same_files(trained: Path, tmp_pa
     process.send_signal(signal.SIGINT)
     _, said = process.communicate(timeout=60)
     assert process.returncode == 130
-    assert said.strip() == f"mc-nested: stopped and saved: go on with mc-nested train --resume {out}"
+    assert said.splitlines()[-1] == f"mc-nested: stopped and saved: go on with mc-nested train --resume {out}"
     assert len(table(out / "episodes.csv")) < 80
     assert json.loads((out / "summary.json").read_text())["final_scores"] == [None, None]
     assert run("train", "--resume", out) == 0
     for name in ("episodes.csv", "evaluations.csv", f"checkpoint/{FILE}"):
         assert (out / name).read_bytes() == (trained / name).read_bytes(), name
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for another process")
+def test_ctrl_c_saves_where_it_has_also_ended_who_reads_the_pipe(tmp_path: Path) -> None:
+    reads, writes = os.pipe()
+    command = [sys.executable, "-m", "mc_nested.cli", *TRAIN, "--out", str(tmp_path / "run")]
+    process = subprocess.Popen(command, stdout=writes, stderr=writes)
+    os.close(writes)
+    deadline = time.monotonic() + 60
+    while not (tmp_path / "run" / "config.toml").exists() and time.monotonic() < deadline:
+        os.sched_yield()
+    os.close(reads)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(timeout=60) == 130
+    assert (tmp_path / "run" / "summary.json").exists()
+    assert run("train", "--resume", tmp_path / "run") == 0
 
 
 def test_a_training_killed_before_its_first_checkpoint_begins_again(trained: Path, tmp_path: Path) -> None:
@@ -241,8 +257,8 @@ def test_a_disk_that_fills_up_costs_one_line_and_not_the_last_checkpoint(
     assert run("train", "--resume", out) == 2
     said = capsys.readouterr().err
     assert "No space left on device" in said
-    assert f"make room, then mc-nested train --resume {out}" in said
-    assert said.count("\n") == 1
+    assert f"make room, then mc-nested train --resume {out}" in said.splitlines()[-1]
+    assert said.count("mc-nested: ") == 1
     assert {path.name for path in out.iterdir()} == {path.name for path in trained.iterdir()}
     assert (out / "curve.png").read_bytes() == (trained / "curve.png").read_bytes()
 

@@ -94,10 +94,11 @@ LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_te
         (("highest_epsilon = 1.0", "highest_epsilon = 0.0001"), "lowest_epsilon is above highest_epsilon: swap them"),
         (("enough = 0.9", "enough = 1.1"), "imagination.enough"),
         (("enough = 0.9", "enough = 0.0"), "imagination.enough"),
-        (("updates_exploring = 20_000", "updates_exploring = 0"), "imagination.updates_exploring"),
+        (("updates_exploring = 60_000", "updates_exploring = 0"), "imagination.updates_exploring"),
         (("updates_building = 100_000", ""), "imagination.updates_building"),
         (('encoding = "cell"', 'encoding = "one-hot"'), '[imagination] takes encoding "cell"'),
         (("hidden = [128, 64]", "hidden = [64]"), "two hidden layers or more"),
+        (("learning_starts = 1000", "learning_starts = 250_001"), "an [update] learning_starts of at most 250,000"),
         (("[imagination]", "[prioritized]\nalpha = 0.6\nbeta = 0.5\n[imagination]"), "leave out [prioritized]"),
         (("[imagination]", "[main]\nlearning_starts = 2\nupdates_an_episode = 5\n[imagination]"), "and [main]"),
         (
@@ -195,8 +196,9 @@ LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_te
         (("enough = 0.9", "enough = 0.9\ndouble = 1"), "imagination.double"),
         (("table_steps_building = 60_000_000", "table_steps_building = -1"), "imagination.table_steps_building"),
         (("n_steps = 20", "n_steps = 0"), "imagination.n_steps"),
+        (("n_steps = 20", "n_stepz = 20"), "imagination.n_stepz: unknown key: did you mean n_steps?"),
         (
-            ("table_steps_exploring", "table_steps"),
+            ("table_steps_exploring", "# table_steps_exploring"),
             "lacks table_steps_exploring: copy what is missing from the preset live; a run of",
         ),
         (("lowest_epsilon = 0.001", "lowest_epsilon = 0.001\nhighest = 1"), "imagination.highest"),

@@ -14,3 +14,13 @@ def test_every_belief_and_what_was_built_last_have_their_signs() -> None:
     assert lines[:4] == ["  . . . x", "  . . . .", "  . . . .", "  # o ? ."]
     assert lines[4] == "  o pays  - doesn't  ? believed  . unknown  # built, pays  x built elsewhere"
     assert len(lines) == 5
+
+
+def test_a_narrow_terminal_has_the_whole_legend_in_two_lines() -> None:
+    console = Console(width=50, force_terminal=False)
+    with console.capture() as capture:
+        console.print(map_view(made_seen()))
+    lines = [line.rstrip() for line in capture.get().splitlines()]
+    assert len(lines) == 6
+    for part in ("o pays", "- doesn't", "? believed", ". unknown", "# built, pays", "x built elsewhere"):
+        assert part in lines[4] + "\n" + lines[5]

@@ -16,16 +16,17 @@ sys.path.insert(0, {root!r})
 from scripts.standin_keeper import stay_behind
 signal.signal(signal.SIGINT, signal.default_int_handler)
 signal.signal(signal.SIGTERM, signal.default_int_handler)
+{before}
 def work():
 {work}
 print(stay_behind(work), flush=True)
 """
 
 
-def run(work: str, timeout_s: float = 30) -> subprocess.CompletedProcess[str]:
+def run(work: str, timeout_s: float = 30, before: str = "") -> subprocess.CompletedProcess[str]:
     """What a script says that leaves ``work`` to a keeper: returns once nobody holds its output any more."""
     lines = "\n".join(f"    {line}" for line in work.splitlines())
-    code = SCRIPT.format(root=str(ROOT), work=lines)
+    code = SCRIPT.format(root=str(ROOT), work=lines, before=before)
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=timeout_s, check=False)
 
 
@@ -46,6 +47,27 @@ try:
     time.sleep(30)
 except KeyboardInterrupt:
     return 130""")
+    assert done.stdout == "130\n"
+
+
+def test_ctrl_c_before_the_fork_has_returned_reaches_the_work_too() -> None:
+    slow_fork = """\
+fork = os.fork
+def slow():
+    child = fork()
+    if child:
+        time.sleep(0.5)
+    return child
+os.fork = slow"""
+    done = run(
+        """\
+try:
+    os.kill(os.getppid(), signal.SIGINT)
+    time.sleep(30)
+except KeyboardInterrupt:
+    return 130""",
+        before=slow_fork,
+    )
     assert done.stdout == "130\n"
 
 

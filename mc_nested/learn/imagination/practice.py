@@ -24,9 +24,9 @@ from mc_nested.learn.imagination.practice_kernel import (
 from mc_nested.learn.imagination.table_learner import QTables, empty_tables, empty_trail, longest_episode
 from mc_nested.learn.imagination.table_practice import TablePractice
 from mc_nested.learn.learner import Learner
-from mc_nested.learn.preset import ImaginationRule, Preset
+from mc_nested.learn.preset import MOST_BEFORE_PRACTICE, ImaginationRule, Preset
 
-CAPACITY = 250_000
+CAPACITY = MOST_BEFORE_PRACTICE
 """Imagined transitions that are kept, the last ones; a practice begins with the real ones alone."""
 
 NUMBERS_AT_ONCE = 65_536
@@ -63,7 +63,7 @@ class Goal(NamedTuple):
 
 
 class Practised(NamedTuple):
-    """What a practice came to: its updates and imagined episodes, the last greedy score, whether that was enough."""
+    """What a practice came to: its updates and imagined episodes, the best greedy score, whether that was enough."""
 
     updates: int
     episodes: int
@@ -73,6 +73,8 @@ class Practised(NamedTuple):
 
 class PracticeSession:
     """One practice of one row, which can be stopped and gone on with.
+
+    A policy that learns gets worse now and then. What practice leaves, and what plays, is the one that did best.
 
     Args:
         own: the row's networks, which are updated.
@@ -97,12 +99,12 @@ class PracticeSession:
         self._random, self._numbers_at_once = random, numbers_at_once
         self._has_begun = False
         self._first, self._goal = int(own.updates[0]), goal
-        self._progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_))
+        self._progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_), own.online.copy())
 
     @property
     def practised(self) -> Practised:
         """What it came to so far."""
-        done, score = self._progress, float(self._progress.greedy_score[0])
+        done, score = self._progress, float(self._progress.best_score[0])
         reached = bool(done.reached[0]) and score >= self._goal.aim
         return Practised(self._updates, int(done.episodes[0]), score, reached)
 
@@ -126,15 +128,18 @@ class PracticeSession:
                 self._begin()
                 self._has_begun = True
             self._practise(self._random.random(self._numbers_at_once), self._parts, self._progress)
+        if self.is_over:
+            self._parts.online[:] = self._parts.target[:] = self._progress.best
 
     def go_on_with_a_copy(self) -> None:
         """From now on a copy of the networks is updated, until ``take_over``: the row can be used meanwhile."""
         self._parts = Row(*(part.copy() for part in self._own))
+        self._own.online[:] = self._progress.best
 
     def take_over(self) -> None:
         """Put the copy's networks and moments into the row."""
         own, practised = self._own, self._parts
-        own.online[:], own.target[:] = practised.online, practised.target
+        own.online[:] = own.target[:] = self._progress.best
         own.first_moment[:], own.second_moment[:] = practised.first_moment, practised.second_moment
         own.updates[:] = practised.updates
 

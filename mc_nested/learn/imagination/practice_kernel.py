@@ -85,11 +85,15 @@ class Workspace(NamedTuple):
 
 
 class Progress(NamedTuple):
-    """What practice has come to, (1,) each: imagined episodes, the last greedy score, whether it reached the aim."""
+    """What practice has come to, (1,) each: imagined episodes, the best greedy score, whether that is the aim.
+
+    ``best`` (parameters,) is the online network that scored it, the last one of several.
+    """
 
     episodes: Int64s
-    greedy_score: Float64s
+    best_score: Float64s
     reached: Bools
+    best: Float32s
 
 
 @compiled(nogil=True)
@@ -110,7 +114,7 @@ def practise(
     widely, most stay near the policy. They end where a block is wasted. Where an episode comes to a state again, a
     policy would go round for ever: a greedy episode ends there, another goes on by chance.
     """
-    _order_by_input(row, work.sizes)
+    _order_by_input(row, progress.best, work.sizes)
     batch = work.batch.values.shape[1]
     longest = 2 + task.step_limit * (2 + batch)
     used = 0
@@ -152,20 +156,28 @@ def practise(
             state = next_state
         progress.episodes[0] += 1
         if greedy:
-            progress.greedy_score[0], progress.reached[0] = score, score >= task.aim
-    _order_by_node(row, work.sizes)
+            _judge(score, task.aim, row.online, progress)
+    _order_by_node(row, progress.best, work.sizes)
 
 
 @compiled(nogil=True)
-def _order_by_input(row: Row, sizes: Int64s) -> None:
-    for parameters in (row.online, row.target, row.first_moment, row.second_moment):
+def _order_by_input(row: Row, best: Float32s, sizes: Int64s) -> None:
+    for parameters in (row.online, row.target, row.first_moment, row.second_moment, best):
         by_input(parameters, sizes)
 
 
 @compiled(nogil=True)
-def _order_by_node(row: Row, sizes: Int64s) -> None:
-    for parameters in (row.online, row.target, row.first_moment, row.second_moment):
+def _order_by_node(row: Row, best: Float32s, sizes: Int64s) -> None:
+    for parameters in (row.online, row.target, row.first_moment, row.second_moment, best):
         by_node(parameters, sizes)
+
+
+@compiled(nogil=True)
+def _judge(score: float, aim: float, online: Float32s, progress: Progress) -> None:
+    progress.reached[0] = score >= aim
+    if score >= progress.best_score[0]:
+        progress.best_score[0] = score
+        progress.best[:] = online
 
 
 @compiled(nogil=True)

@@ -22,11 +22,12 @@ def row() -> Row:
 
 
 def session_of(own: Row, most_updates: int = FOR_EVER, after: Callable[[], None] = lambda: None) -> PracticeSession:
-    """Each update adds 1 to the online network."""
+    """Each update adds 1 to the online network, and makes it play better."""
 
-    def practise(numbers: Float64s, parts: Row, _: Progress) -> None:
+    def practise(numbers: Float64s, parts: Row, progress: Progress) -> None:
         parts.online[:] += len(numbers)
         parts.updates[0] += len(numbers)
+        progress.best[:] = parts.online
         if len(numbers):
             after()
 
@@ -160,6 +161,29 @@ def test_within_an_episode_the_policy_stays_and_what_was_practised_meanwhile_is_
     assert not threads()
     assert own.online[0] > played_by[0]
     assert own.online[0] == own.updates[0]
+
+
+def test_an_episode_is_played_by_the_best_policy_so_far_while_another_goes_on() -> None:
+    own, ends, practised = row(), np.array([1.0, 1.0], np.float32), threading.Event()
+
+    def worsens(numbers: Float64s, parts: Row, progress: Progress) -> None:
+        parts.online[:] -= len(numbers)
+        parts.updates[0] += len(numbers)
+        progress.best[:] = ends
+        if len(numbers):
+            practised.set()
+
+    goal = Goal((0, 0), 1, 1, 1.0, FOR_EVER, 0)
+    session = PracticeSession(own, lambda: None, worsens, goal, np.random.default_rng(0), 1)
+    beside = BackgroundPractice(BackgroundThread())
+    beside.during_reset({0: session}, lambda: None)
+    beside.during_episode()
+    assert own.online.tolist() == ends.tolist()
+    practised.clear()
+    assert practised.wait(PATIENCE_S)
+    beside.end_of_episode()
+    assert session._parts.online[0] < 0, "the copy went on from what was practised last"
+    assert own.online.tolist() == own.target.tolist() == ends.tolist()
 
 
 def test_what_is_over_is_neither_gone_on_with_nor_taken_over() -> None:

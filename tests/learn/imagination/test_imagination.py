@@ -237,7 +237,7 @@ def test_with_a_known_design_an_untried_action_is_tried_where_practice_fell_shor
     _, imagination = imagination_of()
     play(imagination, [Action.FD, Action.R, Action.FD, Action.F])
     session = imagination.session(0, 1)
-    session._progress.reached[0], session._progress.greedy_score[0] = not falls_short, session._goal.aim
+    session._progress.reached[0], session._progress.best_score[0] = not falls_short, session._goal.aim
     imagination._explores[0] = False  # every cell that pays is known
     assert imagination.builds_it_all(0, session) != falls_short
     chosen = imagination.act(np.array([0]), np.array([int(Action.R)]))

@@ -101,6 +101,17 @@ def test_where_the_tables_fall_short_it_ends_when_the_networks_have_what_those_f
     assert 0 < result.updates < GOAL.most_updates
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_one_that_falls_short_leaves_the_policy_that_did_best(seed: int) -> None:
+    learner = learner_of(seed=seed)
+    result, _ = practised(learner, goal=UNREACHABLE._replace(most_updates=3_000), seed=seed)
+    assert not result.reached
+    assert result.score == greedy_score(learner, 0)
+    again, _ = practised(learner, goal=UNREACHABLE, seed=seed)
+    assert again.score >= result.score, "practice makes no policy worse"
+    np.testing.assert_array_equal(learner.ddqn.online, learner.ddqn.target)
+
+
 def test_networks_that_can_not_learn_any_more_begin_anew_where_they_are_told_to() -> None:
     results = []
     for anew in (False, True):

@@ -36,7 +36,7 @@ class Practising:
             practice._workspaces[0]._replace(table=np.zeros((learner.space.count, learner.space.actions), np.float32)),
         )
         self.row = Row(*learner.ddqn.row(0))
-        self.progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_))
+        self.progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_), self.row.online.copy())
 
     @property
     def longest(self) -> int:
