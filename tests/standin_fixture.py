@@ -41,6 +41,10 @@ class Standin:
         """The blocks, not air, that the server has between two corners, both inside, by position."""
         return standin_oracle.blocks(self.oracle, low, high)
 
+    def is_playing(self) -> bool:
+        """Whether the page shows the world, and neither a menu nor an error instead of it."""
+        return bool(standin_oracle.ask(self.oracle, "/screen")["playing"])
+
     def errors(self) -> list[str]:
         """The errors of the page since it was opened."""
         return [str(error) for error in standin_oracle.ask(self.oracle, "/errors")]

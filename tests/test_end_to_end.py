@@ -20,9 +20,6 @@ from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import load_profile
 from tests.standin_fixture import Block, Standin
 
-LATE_ERROR_S = 5.5
-"""The stand-in's page reports a placing that its server refused this long after the click."""
-
 
 def mc_nested(*arguments: str | Path, env: Mapping[str, str] = os.environ) -> str:
     """What the command prints; the test fails with what it says where it doesn't succeed."""
@@ -65,7 +62,6 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design_in_a_real_window(
     assert len(pictures) == found["steps"][0]
     sizes = {picture.shape for path in pictures if (picture := cv2.imread(str(path))) is not None}
     assert sizes == {(767, 1023, 3)}, "every picture shows the stand-in's window and nothing beside it"
-    time.sleep(LATE_ERROR_S)
     assert standin.errors() == []
 
 

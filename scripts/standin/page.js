@@ -1,5 +1,5 @@
 'use strict'
-// The web page that plays: prismarine-web-client with two of its defects mended, and its way to the game server.
+// The web page that plays: prismarine-web-client with three of its defects mended, and its way to the game server.
 
 const fs = require('fs')
 const path = require('path')
@@ -13,6 +13,9 @@ const CLIENT_PATCHES = [
     'const t=/^Digit[1-9]$/.test(e.code)&&!document.getElementById("hud").shadowRoot.querySelector("#chat").inChat?+e.code[5]:0;t<1||t>9||'],
   // Its delay between two placings by a held button never worked: a click of 0.1 s placed two blocks.
   ['e.lastPlaced=0', 'this.lastPlaced=0'],
+  // A block that can't be placed there stopped the client with an error; in the game nothing happens then.
+  ['e._placeBlockWithOptions(t,a[t.face],{delta:n,forceLook:"ignore"})',
+    'e._placeBlockWithOptions(t,a[t.face],{delta:n,forceLook:"ignore"}).catch(()=>{})'],
   // Without a graphics card most of a frame's time goes into the world's pixels: each one drawn stands for several.
   ['m.setPixelRatio(window.devicePixelRatio||1)', 'm.setPixelRatio(0.25)']
 ]

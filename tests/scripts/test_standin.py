@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -97,6 +98,38 @@ def test_a_held_key_walks_in_the_stand_in(standin: Standin) -> None:
     assert walked_z > z + 0.2
     assert standin.blocks((0, 4, 0), (1, 6, 0)) == {(0, 4, 0): "stone", (1, 4, 0): "stone"}
     assert standin.errors() == []
+
+
+PLACE_A_BLOCK_WHERE_THE_PLAYER_STANDS = """
+import time
+from pynput.keyboard import Controller, Key
+from pynput.mouse import Button, Controller as Mouse
+keyboard, mouse = Controller(), Mouse()
+for command in ("/item replace entity @s hotbar.0 with stone 1", "/tp @s 8.5 5 8.5 0 90"):
+    keyboard.tap("t")
+    time.sleep(0.3)
+    keyboard.type(command)
+    keyboard.tap(Key.enter)
+    time.sleep(1)
+keyboard.tap("1")
+time.sleep(0.3)
+mouse.press(Button.right)
+time.sleep(0.1)
+mouse.release(Button.right)
+"""
+CLIENT_GIVES_UP_S = 5.0
+"""The client waits this long for the server to say that the block is there."""
+
+
+@pytest.mark.standin
+def test_a_block_that_the_server_refuses_changes_nothing_as_in_the_game(standin: Standin) -> None:
+    script = [sys.executable, "-c", PLACE_A_BLOCK_WHERE_THE_PLAYER_STANDS]
+    subprocess.run(script, env=standin.env, timeout=30, check=True)
+    time.sleep(CLIENT_GIVES_UP_S + 1)
+    assert standin.position() == (8.5, 5, 8.5)
+    assert standin.blocks((8, 5, 8), (8, 6, 8)) == {}
+    assert standin.errors() == []
+    assert standin.is_playing()
 
 
 @pytest.mark.standin

@@ -6,6 +6,7 @@ place: see the floor ahead -> click, perhaps while still moving -> wait until th
 """
 
 from collections.abc import Callable, Collection
+from functools import partial
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import front_of, is_inside
@@ -200,9 +201,16 @@ class Body:
 
         An agent that a late release carried on walks back if it may, which is as long as nothing was clicked.
         """
-        pose = check_pose(self._observer.watch(lambda seen: self._is_aimed(seen, cell, block), self._limits.confirm_s))
+
+        def watch() -> PoseEstimate:
+            is_aimed = partial(self._is_aimed, cell=cell, block=block)
+            return check_pose(self._observer.watch(is_aimed, self._limits.confirm_s))
+
+        pose = watch()
         if may_walk and not self._may_click(pose, cell):
-            pose = self.move_to(cell)
+            # It is known where this walk ends while the agent still coasts there.
+            self.move_to(cell)
+            pose = watch()
         if not self._looks_at_floor(pose, block):
             raise NotConfirmedError(
                 f"the floor at {_below(block)} must be looked at before placing, the screen says "

@@ -1,7 +1,7 @@
 """Body: one cell and one block, each confirmed by what the screen says, or an error that says what was seen."""
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Cell
@@ -213,6 +213,15 @@ def test_an_agent_too_far_off_walks_back_before_it_clicks(off: tuple[float, floa
     assert game.presses.count("right button") == 1
     assert len(game.presses) > 1
     assert _off(game, (7, 7)) <= 0.15
+
+
+@given(st.floats(-0.99, -0.16), st.floats(0.0, 0.049))
+@example(off=-0.9, phase=0.0)
+def test_an_agent_that_walks_back_is_waited_for_until_it_looks_at_the_floor(off: float, phase: float) -> None:
+    game = _game(off=(0.0, off))
+    game.phase = phase
+    assert _body(game).place((7, 7), "minecraft:stone") == (7, 8)
+    assert game.built == {FRONT}
 
 
 def test_an_agent_that_passes_by_the_middle_does_not_click() -> None:
