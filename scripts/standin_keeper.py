@@ -8,7 +8,7 @@ import ctypes
 import os
 import signal
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import NoReturn
 
 _PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
@@ -27,8 +27,7 @@ def stay_behind(work: Work) -> int:
     try:
         keeper = os.fork()
         if keeper == 0:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
-            _keep(work, report)
+            _keep(work, report, before)
         os.close(report)
         said = b""
         while not said:
@@ -51,11 +50,12 @@ def _read(result: int, keeper: int) -> bytes:
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
 
-def _keep(work: Work, report: int) -> NoReturn:
-    """Run the keeper to its end."""
+def _keep(work: Work, report: int, signals: Collection[int]) -> NoReturn:
+    """Run the keeper to its end, with these signals blocked, as the caller had them."""
     code = 1
     try:
         os.setsid()
+        signal.pthread_sigmask(signal.SIG_SETMASK, signals)
         # Otherwise this process would keep the starting script's lock for as long as it lives.
         os.closerange(3, report)
         os.closerange(report + 1, os.sysconf("SC_OPEN_MAX"))

@@ -39,7 +39,7 @@ def earlier_run(run: Path, wanted: RunFolder) -> EarlierRun:
     theirs, ours = folder.new_agent(1), wanted.new_agent(1)
     if (theirs.spec, theirs.sizes) != (ours.spec, ours.sizes):
         raise RunError(
-            f"{run}: its networks don't fit this training: take its agent, {folder.config.agent}, its preset, and a "
+            f"{run}: its networks don't fit this training: take its agent ({folder.config.agent}), its preset, and a "
             f"design of {folder.scenario.blocks} blocks in an arena of {folder.scenario.size} x {folder.scenario.size}"
         )
     kept = folder.kept()

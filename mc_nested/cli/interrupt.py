@@ -24,7 +24,7 @@ class Stopped(Exception):  # noqa: N818 - no error: it was asked for
 
 
 class Interrupt:
-    """Whether somebody asked to stop. ``says`` is told them on standard error, if there is no better place."""
+    """Whether somebody asked to stop. ``says``, unless empty, is written to standard error at the first request."""
 
     def __init__(self) -> None:
         self.requested = False

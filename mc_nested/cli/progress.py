@@ -33,8 +33,8 @@ RECENT = 30
 LOOK_S = 1.0
 """Seconds between two looks at what was learnt within an episode: each replays what was seen."""
 
-LINES_BESIDE = 6
-"""Lines of a terminal that the map leaves free: bar, figures, the legend's two, whether it stops, and the cursor's."""
+LINES_BESIDE = 8
+"""Lines of a terminal that the map leaves free: bar, figures (2), legend (2), whether it stops (2), the cursor's."""
 
 
 class _BarAndMap(Progress):

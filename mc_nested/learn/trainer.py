@@ -310,12 +310,12 @@ class Trainer:
             runs.evaluating[rows] = builds_it_all & (runs.episodes > runs.evaluated_at)[rows] | anyway
         else:
             self._reset(begins)
+        if self._beside_the_game:
+            self._beside_the_game.during_episode()
         if len(begins) == 1 and self._resumable is None:
             self._rollback = EpisodeRollback.of(self.agent, self._recorders)
         if self._explorer:
             self._explorer.begin(rows, exploring)
-        if self._beside_the_game:
-            self._beside_the_game.during_episode()
         if self._imagination:
             self._imagination.begin(rows)
         runs.steps_in_episode[begins] = 0

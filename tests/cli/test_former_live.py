@@ -48,6 +48,6 @@ def test_the_new_preset_cannot_begin_from_it_and_says_so_in_one_line(
 ) -> None:
     assert run("train", "--preset", "live", "--from", former, "--out", tmp_path / "new") == 2
     said = capsys.readouterr().err
-    assert said.startswith(f"mc-nested: {former}: its networks don't fit this training: take its agent, nested")
+    assert said.startswith(f"mc-nested: {former}: its networks don't fit this training: take its agent (nested)")
     assert said.count("\n") == 1
     assert not (tmp_path / "new").exists()

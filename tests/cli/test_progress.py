@@ -84,14 +84,14 @@ def test_with_an_imagination_it_says_what_was_found_out_instead_of_epsilon() -> 
 
 
 def test_a_terminal_shows_the_map_of_a_single_trial_below_the_bar() -> None:
-    console = terminal(11)
+    console = terminal(13)
     with TrainingProgress(SMALL, imagining(), console):
         pass
     assert "built elsewhere" in printed(console)
 
 
 @pytest.mark.parametrize(
-    ("trials", "console"), [(2, terminal(40)), (1, terminal(10)), (1, terminal(40, is_terminal=False))]
+    ("trials", "console"), [(2, terminal(40)), (1, terminal(12)), (1, terminal(40, is_terminal=False))]
 )
 def test_of_several_trials_or_where_there_is_no_room_no_map_is_shown(trials: int, console: Console) -> None:
     with TrainingProgress(SMALL, imagining(trials), console) as progress:
@@ -145,7 +145,8 @@ def test_the_last_view_of_the_map_is_of_the_end() -> None:
         progress.show()
         for _ in range(SMALL.step_limit):
             training.tick()
-        progress._looked_at, progress._look_again = 1, float("inf")
+        assert training.imagination
+        progress._looked_at, progress._look_again = training.imagination.episodes(0), float("inf")
         shown = progress._bar.map
     assert progress._bar.map is not shown
 

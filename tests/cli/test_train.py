@@ -158,7 +158,7 @@ def test_networks_that_do_not_fit_are_one_line(
     write_scenario(Path("small.toml"), SMALL)  # five cells a side, so that there are fewer inputs
     base = [] if other[0] == "--preset" else ["--preset", "live"]
     assert run("train", *base, *other, "--from", optimal, "--out", tmp_path / "new") == 2
-    assert "its networks don't fit this training: take its agent, nested, " in capsys.readouterr().err
+    assert "its networks don't fit this training: take its agent (nested), " in capsys.readouterr().err
     assert not (tmp_path / "new").exists()
 
 
@@ -216,7 +216,9 @@ def test_ctrl_c_saves_and_resume_goes_on_to_the_same_files(trained: Path, tmp_pa
 def test_ctrl_c_saves_where_it_has_also_ended_who_reads_the_pipe(tmp_path: Path) -> None:
     reads, writes = os.pipe()
     command = [sys.executable, "-m", "mc_nested.cli", *TRAIN, "--out", str(tmp_path / "run")]
-    process = subprocess.Popen(command, stdout=writes, stderr=writes)
+    # With it Python keeps nothing back that it would have to write when it ends.
+    buffered = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    process = subprocess.Popen(command, stdout=writes, stderr=writes, env=buffered)
     os.close(writes)
     deadline = time.monotonic() + 60
     while not (tmp_path / "run" / "config.toml").exists() and time.monotonic() < deadline:

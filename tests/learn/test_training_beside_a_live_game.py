@@ -62,6 +62,18 @@ class Rounds:
             self._work = None
 
 
+class PutsIn(Rounds):
+    """A background before whose work something is done."""
+
+    def __init__(self, before: Callable[[], None]) -> None:
+        super().__init__(0)
+        self._before = before
+
+    def begin(self, work: Callable[[GoesOn], None]) -> None:
+        self._before()
+        super().begin(work)
+
+
 ENOUGH = 1_000
 
 
@@ -144,6 +156,28 @@ def test_practice_runs_in_a_thread_while_the_game_resets() -> None:
     game.at_reset = waits_for_practice
     trainer.tick()
     assert updates > 0
+
+
+def test_a_spoiled_episode_leaves_the_networks_that_were_put_in_to_play_it() -> None:
+    begun = 0
+
+    def best_are_put_in() -> None:
+        nonlocal begun
+        begun += 1
+        trainer.agent.low_level.ddqn.online[:] = begun
+
+    game = Slow(LINE)
+    trainer = training(PutsIn(best_are_put_in), game)
+    while not trainer.episode_rows:
+        trainer.tick()
+    before = begun
+    game.acts_left = 2
+    with pytest.raises(LiveError):
+        finish(trainer)
+    assert begun == before + 2, "beside the reset and beside the episode"
+    trainer.agent.low_level.ddqn.online[:] = 0.0
+    trainer.abandon_episodes()
+    assert np.all(trainer.agent.low_level.ddqn.online == begun)
 
 
 def test_a_spoiled_episode_leaves_what_was_practised_before_and_beside_it_and_nothing_of_its_own() -> None:

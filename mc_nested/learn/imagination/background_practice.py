@@ -2,8 +2,8 @@
 
 A simulated game waits until practice is over. A live game's time is a person's: nobody is to wait longer than a second
 between two episodes. The compiled updates leave Python's lock to others, so a thread of its own does them. What isn't
-over a second after the reset goes on while the game acts, on a copy of the networks, which is taken over before the
-next reset: the policy that plays an episode doesn't change within it.
+over a second after the reset goes on while the game acts, on a copy of the networks: the policy that plays an episode,
+the best so far, doesn't change within it. Before the next reset the best one since then takes its place.
 """
 
 import threading
@@ -81,7 +81,7 @@ class BackgroundPractice:
     def during_reset(self, sessions: Mapping[int, PracticeSession], reset: Callable[[], None]) -> None:
         """Run these sessions, by run, while the game resets, and LONGER_S after that.
 
-        An error of the reset ends them and passes through; what was practised so far stays.
+        An error of the reset ends them and passes through; the best networks so far stay.
         """
         self._sessions = dict(sessions)
         for session in self._sessions.values():
@@ -90,20 +90,19 @@ class BackgroundPractice:
         try:
             reset()
         except BaseException:
-            self._background.end()
-            self._sessions = {}
+            self.end_of_episode()
             raise
         self._background.end(LONGER_S)
 
     def during_episode(self) -> None:
-        """Go on with what isn't over, on copies of the networks."""
+        """Go on with what isn't over, on copies of the networks; the best so far play."""
         self._sessions = {run: session for run, session in self._sessions.items() if not session.is_over}
         for session in self._sessions.values():
             session.go_on_with_a_copy()
         self._begin()
 
     def end_of_episode(self) -> None:
-        """End what goes on, and put what it came to into the networks."""
+        """End what goes on; the best networks that it came to stay."""
         self._background.end()
         for session in self._sessions.values():
             session.take_over()

@@ -132,12 +132,12 @@ class PracticeSession:
             self._parts.online[:] = self._parts.target[:] = self._progress.best
 
     def go_on_with_a_copy(self) -> None:
-        """From now on a copy of the networks is updated, until ``take_over``: the row can be used meanwhile."""
+        """From now on a copy of the networks is updated, until ``take_over``; the row has the best ones meanwhile."""
         self._parts = Row(*(part.copy() for part in self._own))
-        self._own.online[:] = self._progress.best
+        self._own.online[:] = self._own.target[:] = self._progress.best
 
     def take_over(self) -> None:
-        """Put the copy's networks and moments into the row."""
+        """Put the best networks, and the moments of those that are updated, into the row."""
         own, practised = self._own, self._parts
         own.online[:] = own.target[:] = self._progress.best
         own.first_moment[:], own.second_moment[:] = practised.first_moment, practised.second_moment

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from mc_nested.arrays import Float64s
+from mc_nested.arrays import Float32s, Float64s
 from mc_nested.errors import LiveError
 from mc_nested.learn.imagination.background_practice import LONGER_S, BackgroundPractice, BackgroundThread, GoesOn
 from mc_nested.learn.imagination.practice import Goal, PracticeSession
@@ -33,6 +33,21 @@ def session_of(own: Row, most_updates: int = FOR_EVER, after: Callable[[], None]
 
     goal = Goal((0, 0), 1, 1, 1.0, most_updates, 0)
     return PracticeSession(own, lambda: None, practise, goal, np.random.default_rng(0), 1)
+
+
+def worsening_session(own: Row, after: Callable[[], None]) -> tuple[PracticeSession, Float32s]:
+    """Each update takes 1 from the online network, and makes it play worse than the second value, the best."""
+    best = np.array([1.0, 1.0], np.float32)
+
+    def worsens(numbers: Float64s, parts: Row, progress: Progress) -> None:
+        parts.online[:] -= len(numbers)
+        parts.updates[0] += len(numbers)
+        progress.best[:] = best
+        if len(numbers):
+            after()
+
+    goal = Goal((0, 0), 1, 1, 1.0, FOR_EVER, 0)
+    return PracticeSession(own, lambda: None, worsens, goal, np.random.default_rng(0), 1), best
 
 
 class Steps:
@@ -142,6 +157,19 @@ def test_a_reset_that_fails_ends_practice_at_once_and_passes_through() -> None:
     assert own.online[0] == own.updates[0] >= 1, "what was practised stays"
 
 
+def test_a_reset_that_fails_leaves_the_best_networks_so_far() -> None:
+    own, practised = row(), threading.Event()
+    session, best = worsening_session(own, practised.set)
+
+    def reset() -> None:
+        assert practised.wait(PATIENCE_S)
+        raise LiveError("the game is gone")
+
+    with pytest.raises(LiveError, match="the game is gone"):
+        BackgroundPractice(BackgroundThread()).during_reset({0: session}, reset)
+    assert own.online.tolist() == own.target.tolist() == best.tolist()
+
+
 def test_within_an_episode_the_policy_stays_and_what_was_practised_meanwhile_is_taken_over_afterwards() -> None:
     now = [0.0]
 
@@ -164,25 +192,17 @@ def test_within_an_episode_the_policy_stays_and_what_was_practised_meanwhile_is_
 
 
 def test_an_episode_is_played_by_the_best_policy_so_far_while_another_goes_on() -> None:
-    own, ends, practised = row(), np.array([1.0, 1.0], np.float32), threading.Event()
-
-    def worsens(numbers: Float64s, parts: Row, progress: Progress) -> None:
-        parts.online[:] -= len(numbers)
-        parts.updates[0] += len(numbers)
-        progress.best[:] = ends
-        if len(numbers):
-            practised.set()
-
-    goal = Goal((0, 0), 1, 1, 1.0, FOR_EVER, 0)
-    session = PracticeSession(own, lambda: None, worsens, goal, np.random.default_rng(0), 1)
+    own, practised = row(), threading.Event()
+    session, ends = worsening_session(own, practised.set)
     beside = BackgroundPractice(BackgroundThread())
     beside.during_reset({0: session}, lambda: None)
+    last = own.online[0]
     beside.during_episode()
-    assert own.online.tolist() == ends.tolist()
+    assert own.online.tolist() == own.target.tolist() == ends.tolist()
     practised.clear()
     assert practised.wait(PATIENCE_S)
     beside.end_of_episode()
-    assert session._parts.online[0] < 0, "the copy went on from what was practised last"
+    assert session._parts.online[0] < last, "the copy went on from what was practised last"
     assert own.online.tolist() == own.target.tolist() == ends.tolist()
 
 
