@@ -6,7 +6,6 @@ place: see the floor ahead -> click, perhaps while still moving -> wait until th
 """
 
 from collections.abc import Callable, Collection
-from functools import partial
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import front_of, is_inside
@@ -203,8 +202,8 @@ class Body:
         """
 
         def watch() -> PoseEstimate:
-            is_aimed = partial(self._is_aimed, cell=cell, block=block)
-            return check_pose(self._observer.watch(is_aimed, self._limits.confirm_s))
+            seen = self._observer.watch(lambda pose: self._is_aimed(pose, cell, block), self._limits.confirm_s)
+            return check_pose(seen)
 
         pose = watch()
         if may_walk and not self._may_click(pose, cell):
