@@ -12,30 +12,47 @@ from mc_nested.live.desktop import open_desktop
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.input.watchdog import watched
+from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.menus.wait_for_player import wait_for_front
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.recording.opened import OpenRecorder, no_recorder
 
 OpenContext = Callable[[Profile], AbstractContextManager[CalibrationContext]]
 """Opens the context of a profile's window. When it ends, every key is released."""
 
 
 def context_opener(
-    say: Callable[[str], None], ask: Callable[[str], bool], *, is_server_allowed: bool = False
+    say: Callable[[str], None],
+    ask: Callable[[str], bool],
+    *,
+    is_server_allowed: bool = False,
+    open_recorder: OpenRecorder = no_recorder,
+    journal: Journal | None = None,
 ) -> OpenContext:
     """Opens contexts on this desktop that speak to the person through ``say`` and ``ask``. DesktopError if no window.
+
+    ``open_recorder`` opens what records the calibration; ``journal`` is told what it does.
 
     After a yes, the game is in front again. If the person doesn't return to it in time, asking raises NotInFrontError.
     """
 
     @contextmanager
     def opened(profile: Profile) -> Iterator[CalibrationContext]:
-        with open_desktop(profile.window.title) as devices:
+        with open_desktop(profile.window.title) as window, open_recorder(profile, window) as recording:
             # Imported here, since it needs the display that is open only now.
             from mc_nested.live.desktop.panic import open_panic_switch
 
+            devices = recording.devices(window)
             controller = InputController(devices, profile.input)
-            connection = GameConnection(devices, controller, is_server_allowed=is_server_allowed)
-            with connection, watched(controller), open_panic_switch(profile.keys.panic, controller.stop):
+            connection = GameConnection(
+                devices,
+                controller,
+                is_server_allowed=is_server_allowed,
+                journal=Journals(*([journal] if journal else []), recording),
+                on_screen=recording.screen,
+            )
+            stop = recording.stopping(controller.stop)
+            with connection, watched(controller), open_panic_switch(profile.keys.panic, stop):
                 yield CalibrationContext(connection, say, ask_in_terminal(ask, say, devices))
 
     return opened

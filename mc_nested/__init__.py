@@ -2,9 +2,9 @@
 
 import gymnasium
 
-# Strings, resolved when an env is made: only here do the lower packages name the simulator.
+# Strings, resolved when an env is made: only here does the ground floor name what is above it.
 gymnasium.register(
     id="mc_nested/Arena-v0",
-    entry_point="sim.grid:arena_env",
-    vector_entry_point="sim.grid:arena_vector_env",
+    entry_point="mc_nested.entry_point:MadeArenaEnv",
+    vector_entry_point="mc_nested.entry_point:made_vector_env",
 )

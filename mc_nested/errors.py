@@ -7,7 +7,9 @@ McNestedError
 │   ├── ProfileError     a profile that can't be found or read, or doesn't fit the screen
 │   ├── FontError        a font picture or jar that can't be used
 │   ├── PictureError     a file that is no picture, so that nothing can be read of it
+│   ├── FilmError        a film that can't be written
 │   ├── DivergedError    a training whose networks hold what is no number
+│   ├── RecordingError   a recording that can't be used
 │   ├── RunError         an output folder, a run or a checkpoint that can't be used
 │   └── DesktopError     no display, a Wayland session without Xwayland, a window that can't be used
 │       ├── NoWindowError     no window of that title is there
@@ -50,8 +52,16 @@ class PictureError(UserError):
     """A file that is no picture, or can't be opened."""
 
 
+class FilmError(UserError):
+    """A film that can't be written: its folder, its format, or what writes it."""
+
+
 class DivergedError(UserError):
     """A training whose networks hold what is no number: its learning rate is too high."""
+
+
+class RecordingError(UserError):
+    """A recording that can't be used: foreign, newer, or nothing of it is left."""
 
 
 class RunError(UserError):

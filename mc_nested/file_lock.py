@@ -1,20 +1,26 @@
 """A lock by a file, for one process at a time; the system lifts it when that process ends, even if it is killed."""
 
+import contextlib
 import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 if sys.platform == "win32":
     import msvcrt
 
+    _FAR_BEHIND = 1 << 20
+    """The byte that is locked: nobody else can read it then, and everybody may read the process id at the beginning."""
+
     def _take(file: int) -> None:
+        os.lseek(file, _FAR_BEHIND, os.SEEK_SET)
         msvcrt.locking(file, msvcrt.LK_NBLCK, 1)
 
     def _give_back(file: int) -> None:
         # Windows lifts the lock of a file that is closed, but not at once.
-        os.lseek(file, 0, os.SEEK_SET)
+        os.lseek(file, _FAR_BEHIND, os.SEEK_SET)
         msvcrt.locking(file, msvcrt.LK_UNLCK, 1)
 else:
     import fcntl
@@ -26,23 +32,74 @@ else:
         fcntl.flock(file, fcntl.LOCK_UN)
 
 
+_LONGEST_ID = 20
+"""Bytes of a process id that are read."""
+
+
+@dataclass(frozen=True)
+class Lock:
+    """Whether it is this process's, and the id of the process that has it; None where the file doesn't say."""
+
+    is_mine: bool
+    holder: int | None
+
+
 @contextmanager
-def file_lock(path: Path) -> Iterator[bool]:
+def file_lock(path: Path) -> Iterator[Lock]:
     """Take the lock for the block, and say whether it is this process's: it doesn't wait for another to give it up.
 
-    The file stays: one that is removed could be locked by one process under its old name and by another under its new.
+    The file is removed after the block, and stays after a process was killed; whether it is there says nothing.
     OSError if the file can't be made, or is on a disk that knows no locks.
     """
-    file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
+    file, is_mine = _opened(path)
     try:
-        try:
-            _take(file)
-        except (BlockingIOError, PermissionError):  # another process has it: POSIX's error, and Windows's
-            yield False
+        if not is_mine:
+            yield Lock(False, _holder(file))
             return
+        os.lseek(file, 0, os.SEEK_SET)
+        os.ftruncate(file, 0)
+        os.write(file, str(os.getpid()).encode())
         try:
-            yield True
+            yield Lock(True, os.getpid())
         finally:
+            if sys.platform != "win32":  # which removes no open file
+                _remove(path)
             _give_back(file)
     finally:
         os.close(file)
+        if sys.platform == "win32" and is_mine:
+            _remove(path)  # refused where another process has opened it by now
+
+
+def _opened(path: Path) -> tuple[int, bool]:
+    """The open file, and whether it is locked by this process."""
+    while True:
+        file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
+        try:
+            _take(file)
+        except (BlockingIOError, PermissionError):  # another process has it: POSIX's error, and Windows's
+            return file, False
+        except BaseException:
+            os.close(file)
+            raise
+        if _is_still_there(file, path):
+            return file, True
+        os.close(file)  # it was removed between opening and locking: another process may have made a new one
+
+
+def _is_still_there(file: int, path: Path) -> bool:
+    try:
+        return os.path.samestat(os.fstat(file), path.stat())
+    except FileNotFoundError:
+        return False
+
+
+def _holder(file: int) -> int | None:
+    os.lseek(file, 0, os.SEEK_SET)
+    written = os.read(file, _LONGEST_ID)
+    return int(written) if written.isdigit() else None
+
+
+def _remove(path: Path) -> None:
+    with contextlib.suppress(OSError):
+        path.unlink()

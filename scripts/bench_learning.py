@@ -16,6 +16,7 @@ import multiprocessing
 import os
 import statistics
 import sys
+import tempfile
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
@@ -123,6 +124,9 @@ def measure(runs: Sequence[int], rounds: int, slice_s: float, cores: int) -> dic
     context = multiprocessing.get_context("spawn")
     os.environ["OMP_NUM_THREADS"] = "1"
     with ExitStack() as ends:
+        # torch makes a folder among the temporary files; each system has its own variable for where they are.
+        scratch = ends.enter_context(tempfile.TemporaryDirectory(prefix="mc-nested-bench-"))
+        os.environ.update(dict.fromkeys(("TMPDIR", "TEMP", "TMP"), scratch))
         pipes = []
         for core in range(cores):
             here, there = context.Pipe()

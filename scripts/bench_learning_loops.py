@@ -87,6 +87,7 @@ def _features(observation: np.ndarray) -> np.ndarray:
 def sb3() -> Slices:
     """stable-baselines3's DQN on the same Env; single, not double, so a little less work."""
     from stable_baselines3 import DQN
+    from stable_baselines3.common.logger import Logger
 
     update = PAPER.update
     model = DQN(
@@ -103,6 +104,7 @@ def sb3() -> Slices:
         policy_kwargs={"net_arch": [32, 32], "activation_fn": nn.Tanh},
         device="cpu",
     )
+    model.set_logger(Logger(folder=None, output_formats=[]))  # its own makes a folder at each call of learn
     model.learn(200)
 
     def work() -> int:

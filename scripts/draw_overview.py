@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from mc_nested.arena.drawing import draw_picture
+from mc_nested.arena.picture import draw_picture
 from mc_nested.cli.evaluate import greedy_episodes, load_agent
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.model.reading import Target

@@ -27,17 +27,23 @@ def main_python(extras: Sequence[str] = ()) -> Path:
     python = ENVIRONMENT / ("Scripts/python.exe" if sys.platform == "win32" else "bin/python")
     if not python.exists():
         _make_environment()
-    wanted = _wanted(extras)
+    wanted = stamp_of(extras)
     if not STAMP.is_file() or STAMP.read_text() != wanted:
         STAMP.unlink(missing_ok=True)
         print("installing the project; torch is large, the first time takes minutes", flush=True)
-        if _can_build_evdev():
-            _pip(python, "-e", f".[{','.join(extras)}]" if extras else ".")
-        else:
-            _install_without_evdev(python, extras)
+        install(python, extras, ["-e", "."])
         _settle_xlib(python)
         STAMP.write_text(wanted)
     return python
+
+
+def install(python: Path, extras: Sequence[str], project: Sequence[str]) -> None:
+    """Install the project, named by the words that pip takes, with the extras; exits with one line if that fails."""
+    *options, where = project
+    if _can_build_evdev():
+        _pip(python, *options, f"{where}[{','.join(extras)}]" if extras else where)
+    else:
+        _install_without_evdev(python, extras, project)
 
 
 def run(command: Sequence[str | Path], variables: Mapping[str, str] | None = None) -> int:
@@ -54,7 +60,8 @@ def _make_environment() -> None:
         sys.exit("no virtual environment could be made: install Python's venv (on Debian: apt install python3-venv)")
 
 
-def _wanted(extras: Sequence[str]) -> str:
+def stamp_of(extras: Sequence[str]) -> str:
+    """What STAMP holds once the project is installed with these extras."""
     sources = [(ROOT / name).read_bytes() for name in ("pyproject.toml", "constraints.txt")]
     return hashlib.sha256(b"".join(sources)).hexdigest() + " " + ",".join(sorted(extras))
 
@@ -72,10 +79,10 @@ def _can_build_evdev() -> bool:
     return shutil.which("cc") is not None and all(header.exists() for header in headers)
 
 
-def _install_without_evdev(python: Path, extras: Sequence[str]) -> None:
+def _install_without_evdev(python: Path, extras: Sequence[str], project: Sequence[str]) -> None:
     """Install everything but evdev: pynput needs it only for a console without X11, which nothing here uses."""
     print("no C compiler or headers here: installing pynput without evdev", flush=True)
-    _pip(python, "--no-deps", "-e", ".")
+    _pip(python, "--no-deps", *project)
     listing = "import importlib.metadata, json; print(json.dumps(importlib.metadata.requires('mc-nested')))"
     found = subprocess.run([str(python), "-c", listing], cwd=ROOT, capture_output=True, check=True, text=True)  # noqa: S603 - our own
     _pip(python, "six", *_requirements_but_pynput(json.loads(found.stdout), extras))

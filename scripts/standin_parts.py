@@ -119,17 +119,21 @@ def check_node() -> None:
 
 def install_server(cache: Path, say: Say, log: Path) -> Path:
     """Install the game server with npm, unless this lock file is already installed; returns its node_modules."""
-    folder = cache / "node"
-    lock = (NODE_FOLDER / "package-lock.json").read_bytes()
+    return install_locked("the game server", NODE_FOLDER, cache / "node", say, log)
+
+
+def install_locked(what: str, locked: Path, folder: Path, say: Say, log: Path) -> Path:
+    """Install with npm what the lock file in ``locked`` pins into ``folder``, unless it is there; its node_modules."""
+    lock = (locked / "package-lock.json").read_bytes()
     done = folder / "installed-lock.json"
     if not (done.exists() and done.read_bytes() == lock):
-        say("installing the game server with npm")
+        say(f"installing {what} with npm")
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         for name in ("package.json", "package-lock.json"):
-            shutil.copy(NODE_FOLDER / name, folder / name)
+            shutil.copy(locked / name, folder / name)
         if not run_logged([NPM.required(), "ci", "--ignore-scripts", "--no-audit", "--no-fund"], log, cwd=folder):
-            raise MissingError(f"npm could not install the game server (see {log}): can the registry be reached?")
+            raise MissingError(f"npm could not install {what} (see {log}): can the registry be reached?")
         done.write_bytes(lock)
     return folder / "node_modules"
 

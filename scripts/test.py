@@ -10,6 +10,9 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from scripts import environment
 
+EXTRAS = ["dev", "bench"]
+"""What is installed beside the project: bench brings stable-baselines3, which an example and the benchmark train."""
+
 OTHERS = "slow or standin or realtime or window or wine"
 """The markers of the tests that the unit suite leaves out."""
 
@@ -29,6 +32,7 @@ CHECKS = {
     "format": ["ruff", "format", "--check", "."],
     "types": ["mypy"],
     "import contracts": ["lint-imports"],
+    "documentation": ["mkdocs", "build", "--strict"],
     "compiled code in plain Python": ["pytest", *KERNELS, "--cov", "--cov-report=", "--cov-fail-under=0"],
     "unit tests": ["pytest", "-n", "2", "-m", f"not ({OTHERS})", "--cov", "--cov-append", "--cov-report="],
     "branch coverage": ["coverage", "report", "--skip-covered"],
@@ -36,13 +40,16 @@ CHECKS = {
 }
 
 
-VARIABLES = {"compiled code in plain Python": {"NUMBA_DISABLE_JIT": "1"}}
+VARIABLES = {
+    "compiled code in plain Python": {"NUMBA_DISABLE_JIT": "1"},
+    "documentation": {"NO_MKDOCS_2_WARNING": "1"},  # it says that mkdocs-material ends in 2027
+}
 """Environment variables of a check."""
 
 
 def main() -> int:
     """Run every check, even after one failed; 1 where any failed."""
-    python = environment.main_python(extras=["dev"])
+    python = environment.main_python(EXTRAS)
     outcome = {}
     for name, command in CHECKS.items():
         print(f"\n== {name}: {' '.join(command)}", flush=True)

@@ -10,12 +10,12 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.env import ArenaEnv, highest_observation, space_up_to
+from mc_nested.arena.env import ArenaEnv, highest_observation, rendered, space_up_to
 from mc_nested.arena.game import Outcome, PlayLog, Resumable
 from mc_nested.arena.rules import PLACES, STEP, cells_of, grid_of, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options
+from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options, seeds_of
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
 
@@ -61,15 +61,9 @@ class GridGame:
 
 
 def arena_env(scenario: str | Scenario = "line", render_mode: str | None = None) -> ArenaEnv:
-    """What ``gymnasium.make("mc_nested/Arena-v0", scenario=...)`` makes: a name, a file or a Scenario, simulated."""
+    """One simulated arena of a shipped scenario's name, a scenario file, or a Scenario."""
     loaded = scenario if isinstance(scenario, Scenario) else load_scenario(scenario)
     return ArenaEnv(GridGame(loaded), loaded, render_mode)
-
-
-def arena_vector_env(num_envs: int = 1, scenario: str | Scenario = "line") -> "GridVectorEnv":
-    """What ``gymnasium.make_vec("mc_nested/Arena-v0", num_envs=..., scenario=...)`` makes."""
-    loaded = scenario if isinstance(scenario, Scenario) else load_scenario(scenario)
-    return GridVectorEnv([loaded] * num_envs)
 
 
 _PLACES = np.array([action in PLACES for action in Action])
@@ -86,8 +80,9 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
 
     metadata = METADATA
 
-    def __init__(self, scenarios: Sequence[Scenario]) -> None:
+    def __init__(self, scenarios: Sequence[Scenario], render_mode: str | None = None) -> None:
         self.scenarios = tuple(scenarios)
+        self.render_mode = render_mode
         runs = self.num_envs = len(self.scenarios)
         highest = np.max([highest_observation(scenario) for scenario in self.scenarios], axis=0)
         self.single_observation_space = space_up_to(highest)
@@ -125,7 +120,7 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Int64s, dict[str, Any]]:
         """Begin an episode in the masked arenas (all, without a mask), each with its material (the best, without)."""
-        super().reset(seed=seed if isinstance(seed, int) else None)
+        super().reset(seed=seeds_of(seed, self.num_envs)[0])
         mask, materials = reset_options(options, self.scenarios)
         self._solid.reshape(self._border.shape)[mask] = self._border[mask]
         self._position[mask] = self._start[mask]
@@ -152,6 +147,21 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         ended = running & (self._terminated | self._truncated)
         info = {"score": np.where(ended, self._score, 0.0), "_score": ended}
         return self._observations(), rewards, self._terminated.copy(), self._truncated.copy(), info
+
+    def render(self) -> tuple[Any, ...] | None:
+        """Every arena from above, as ArenaEnv renders it; None without a render mode."""
+        if self.render_mode is None:
+            return None
+        cells = self._observations()[:, :2].tolist()
+        return tuple(
+            rendered(self.render_mode, scenario, (x, y), self.placed(run))
+            for run, (scenario, (x, y)) in enumerate(zip(self.scenarios, cells, strict=True))
+        )
+
+    def cell(self, run: int) -> Cell:
+        """Where the agent stands in that arena."""
+        x, y = divmod(int(self._position[run] - self._base[run]), self._side)
+        return x - 1, y - 1
 
     def placed(self, run: int) -> frozenset[Cell]:
         """The cells where a block landed in that arena since its last reset."""

@@ -52,7 +52,9 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design_in_a_real_window(
     assert found["scores"] == [scenario.optimum]
 
     printed = mc_nested(
-        *("play", run, "--backend", "live", "--profile", standin.profile, "--screenshots"), env=standin.env
+        *("play", run, "--backend", "live", "--profile", standin.profile, "--screenshots"),
+        *("--record", tmp_path / "recording"),
+        env=standin.env,
     )
     assert f"score {scenario.optimum:g} of {scenario.optimum:g}, in {found['materials'][0]}" in printed
     arena = load_profile(standin.profile).marked_arena()
@@ -62,6 +64,9 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design_in_a_real_window(
     assert len(pictures) == found["steps"][0]
     sizes = {picture.shape for path in pictures if (picture := cv2.imread(str(path))) is not None}
     assert sizes == {(767, 1023, 3)}, "every picture shows the stand-in's window and nothing beside it"
+    replayed = json.loads(mc_nested("replay", tmp_path / "recording", "--json", env=standin.env))
+    assert (replayed["actions"], replayed["differences"]) == (found["steps"][0], [])
+    assert replayed["read_anew"] > replayed["actions"]
     assert standin.errors() == []
 
 

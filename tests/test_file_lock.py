@@ -1,48 +1,104 @@
 """A lock by a file: one at a time, free again after the block, and after the process that held it is killed."""
 
+import os
 import subprocess
 import sys
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
-from mc_nested.file_lock import file_lock
+import pytest
+
+from mc_nested.file_lock import Lock, file_lock
 
 HOLD = """
 import sys
 from pathlib import Path
 from mc_nested.file_lock import file_lock
-with file_lock(Path(sys.argv[1])) as is_mine:
-    print(is_mine, flush=True)
+with file_lock(Path(sys.argv[1])) as lock:
+    print(lock.is_mine, flush=True)
     sys.stdin.read()
 """
 
 
-def test_one_at_a_time_has_it_and_then_it_is_free(tmp_path: Path) -> None:
-    path = tmp_path / "one.lock"
-    with file_lock(path) as is_mine:
-        assert is_mine
-        with file_lock(path) as is_mine_too:
-            assert not is_mine_too
-        with file_lock(path) as is_still_taken:
-            assert not is_still_taken
-    with file_lock(path) as is_mine_again:
-        assert is_mine_again
-
-
-def test_locks_of_other_names_are_others(tmp_path: Path) -> None:
-    with file_lock(tmp_path / "one.lock") as one, file_lock(tmp_path / "other.lock") as other:
-        assert one
-        assert other
-
-
-def test_a_killed_process_holds_it_no_longer(tmp_path: Path) -> None:
-    path = tmp_path / "one.lock"
+@contextmanager
+def held_elsewhere(path: Path) -> Iterator["subprocess.Popen[str]"]:
+    """Another process, which has the lock until its input ends."""
     command = [sys.executable, "-c", HOLD, str(path)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
         assert process.stdout.readline() == "True\n"
-        with file_lock(path) as is_mine:
-            assert not is_mine
+        yield process
+
+
+def test_one_at_a_time_has_it_and_then_it_is_free(tmp_path: Path) -> None:
+    path = tmp_path / "one.lock"
+    with file_lock(path) as first:
+        assert first == Lock(True, os.getpid())
+        for _ in range(2):
+            with file_lock(path) as other:
+                assert not other.is_mine
+    with file_lock(path) as again:
+        assert again.is_mine
+
+
+def test_locks_of_other_names_are_others(tmp_path: Path) -> None:
+    with file_lock(tmp_path / "one.lock") as one, file_lock(tmp_path / "other.lock") as other:
+        assert one.is_mine
+        assert other.is_mine
+
+
+def test_a_process_that_has_it_is_named_by_its_id(tmp_path: Path) -> None:
+    path = tmp_path / "one.lock"
+    path.write_text("4000000000, or whatever was there before")
+    with held_elsewhere(path) as process, file_lock(path) as lock:
+        assert lock == Lock(False, process.pid)
+
+
+def test_a_killed_process_holds_it_no_longer(tmp_path: Path) -> None:
+    path = tmp_path / "one.lock"
+    with held_elsewhere(path) as process:
         process.kill()
         process.wait()
-        with file_lock(path) as is_mine:
-            assert is_mine
+        with file_lock(path) as lock:
+            assert lock.is_mine
+
+
+def test_its_file_is_gone_after_the_block_and_after_an_error(tmp_path: Path) -> None:
+    path = tmp_path / "one.lock"
+    with file_lock(path):
+        assert path.exists()
+    assert not path.exists()
+    with pytest.raises(KeyboardInterrupt), file_lock(path):
+        raise KeyboardInterrupt
+    assert not path.exists()
+
+
+def test_who_is_refused_leaves_the_file_to_who_has_it(tmp_path: Path) -> None:
+    path = tmp_path / "one.lock"
+    with file_lock(path):
+        with file_lock(path):
+            pass
+        assert path.read_text() == str(os.getpid())
+
+
+def test_many_at_once_never_have_it_together(tmp_path: Path) -> None:
+    path, inside, most, taken = tmp_path / "one.lock", [0], [0], [0]
+
+    def take_often() -> None:
+        for _ in range(300):
+            with file_lock(path) as lock:
+                if lock.is_mine:
+                    inside[0] += 1
+                    most[0] = max(most[0], inside[0])
+                    taken[0] += 1
+                    inside[0] -= 1
+
+    threads = [threading.Thread(target=take_often) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert most == [1]
+    assert taken[0] > 8

@@ -23,10 +23,14 @@ from Xlib.ext import xtest
 from Xlib.protocol import event
 
 from mc_nested.arena.scenario_file import draw_grid, load_scenario
+from mc_nested.design_files.load import load_any_scenario
+from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.store import load_profile
 from scripts.bench_rehearsal import CONDITIONS, USUAL, Condition, play
 from scripts.rehearsal_window import ROOT, RehearsalWindow, mc_nested, open_rehearsal
 from scripts.window_display import open_display
+from sim.client.game.world import AIR
+from tests.design_files.written import HUT, sponge
 
 pytestmark = pytest.mark.window
 
@@ -89,11 +93,16 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design(
     with in_its_arena(profile, tmp_path) as rehearsal:
         words = ("--scenario", design, "--preset", preset, "--stop-at-optimum", "--out", run)
         mc_nested("train", *words, env=rehearsal.env)
-        printed = mc_nested("play", run, "--backend", "live", "--profile", profile, env=rehearsal.env)
+        recording = tmp_path / "recording"
+        live = ("--backend", "live", "--profile", profile, "--record", recording)
+        printed = mc_nested("play", run, *live, env=rehearsal.env)
         assert f"score {scenario.optimum:g} of {scenario.optimum:g}" in printed
         arena = load_profile(str(profile)).marked_arena()
         material = printed.split(", in ")[1].split(",")[0]
         block = scenario.materials[scenario.material_index(material)].block
+        replayed = json.loads(mc_nested("replay", recording, "--json", env=rehearsal.env))
+        assert (replayed["actions"] > 0, replayed["differences"]) == (True, [])
+        assert replayed["followed"] == replayed["actions"]
         assert rehearsal.truth.standing(arena) == {arena.block_of(cell): block for cell in scenario.design}
         assert rehearsal.truth.now()["keys_down"] == []
 
@@ -109,6 +118,28 @@ def test_the_line_is_learnt_from_nothing_in_the_window_and_built(profile: Path, 
         best = max(line.materials, key=lambda material: material.p)
         assert rehearsal.truth.standing(arena) == {arena.block_of(cell): best.block for cell in line.design}
         assert rehearsal.truth.now()["keys_down"] == []
+
+
+@pytest.mark.usefixtures("window_programs")
+def test_a_schematics_layer_is_built_without_learning_and_what_stood_there_is_put_back(tmp_path: Path) -> None:
+    profile, hut = tmp_path / "profile.toml", tmp_path / "hut.schem"
+    hut.write_bytes(sponge(HUT))
+    with open_display() as env, open_rehearsal(env, tmp_path) as rehearsal:
+        before = without_air(rehearsal.truth.built())
+        calibrate(rehearsal, profile)
+        arena, scenario = load_profile(str(profile)).marked_arena(), load_any_scenario(hut, 0).scenario
+        words = ("--layer", "0", "--material", "wood", "--backend", "live", "--profile", profile)
+        printed = mc_nested("build", hut, *words, env=rehearsal.env)
+        assert "built 11 of 11 blocks, of wood" in printed
+        assert f"mc-nested calibrate arena --undo --profile {profile}" in printed
+        assert rehearsal.truth.standing(arena) == {arena.block_of(cell): "oak_planks" for cell in scenario.design}
+        mc_nested("calibrate", "arena", "--undo", "--profile", profile, env=rehearsal.env)
+        assert without_air(rehearsal.truth.built()) == before
+        assert rehearsal.truth.now()["keys_down"] == []
+
+
+def without_air(blocks: dict[Block, str]) -> dict[Block, str]:
+    return {at: name for at, name in blocks.items() if name != AIR}
 
 
 @pytest.mark.parametrize("condition", [each for each in CONDITIONS if each != USUAL], ids=lambda each: each.name)

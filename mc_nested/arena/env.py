@@ -3,7 +3,7 @@
 Actions 0 to 7 (action.Action) go in; raw (x, y, b) comes out, b being the blocks left. Encoding belongs to learn/.
 """
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, TypedDict
 
 import gymnasium
@@ -13,8 +13,9 @@ from gymnasium.spaces import Box, Discrete, Space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.drawing import draw_picture, draw_text
+from mc_nested.arena.drawing import draw_text
 from mc_nested.arena.game import Game, Resumable
+from mc_nested.arena.picture import draw_picture
 from mc_nested.arena.rules import cells_of, grid_of
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Int64s
@@ -25,15 +26,21 @@ Observation = Int64s
 X, Y, BLOCKS_LEFT = range(3)
 """Columns of an observation."""
 
-METADATA: dict[str, Any] = {"render_modes": ["rgb_array", "ansi"], "render_fps": 4}
+RENDERING: dict[str, Any] = {"render_modes": ["rgb_array", "ansi"], "render_fps": 4}
+"""What Gymnasium's wrappers ask of an Env: how it can be drawn, and how many steps a second a film of it shows."""
 
 
 class Info(TypedDict, total=False):
-    """What a step returns beside the reward: ``placed`` if a block landed, ``score`` (r_M) on the last step."""
+    """What a step returns beside the reward."""
 
     material: str
+    """The name of the episode's material."""
+
     placed: Cell
+    """Where a block landed; not there if none did."""
+
     score: float
+    """The episode's score, the main agent's r_M; there on the last step alone."""
 
 
 def highest_observation(scenario: Scenario) -> Observation:
@@ -47,6 +54,15 @@ def space_up_to(highest: Int64s) -> Space[Any]:
     return space
 
 
+def rendered(mode: str | None, scenario: Scenario, cell: Cell, placed: Collection[Cell]) -> Any:
+    """The arena from above as a render mode wants it; None without one."""
+    if mode == "rgb_array":
+        return draw_picture(scenario, cell, placed)
+    if mode == "ansi":
+        return draw_text(scenario, cell, placed)
+    return None
+
+
 def blank_observations(space: Space[Any], runs: int) -> Int64s:
     """Zeros for one observation of that space per run."""
     return np.zeros((runs, *(space.shape or ())), dtype=np.int64)
@@ -56,11 +72,11 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
     """One arena. The reward is the nested agent's r_N; the last step's ``info["score"]`` is the main agent's r_M.
 
     ``reset(options={"material": name})`` takes the main agent's choice; without it, the material with the best p.
-    Terminated when no block is left, truncated at the scenario's step limit (TASK.md).
+    Terminated when no block is left, truncated at the scenario's step limit (docs/explanation/task.md).
     A live game's LiveError passes through; the episode is over then and has to be reset.
     """
 
-    metadata = METADATA
+    metadata = RENDERING
 
     def __init__(self, game: Game, scenario: Scenario, render_mode: str | None = None) -> None:
         self.game = game
@@ -116,16 +132,12 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
         if outcome.placed is not None:
             info["placed"] = outcome.placed
         if not self._running:
-            info["score"] = self._score
+            info["score"] = self.scenario.score(self._placed, self._material)
         return self._observation(), reward, terminated, truncated, dict(info)
 
     def render(self) -> Any:
         """The arena from above: (H, W, 3) RGB for "rgb_array", lines of text for "ansi"."""
-        if self.render_mode == "rgb_array":
-            return draw_picture(self.scenario, self._cell, self._placed)
-        if self.render_mode == "ansi":
-            return draw_text(self.scenario, self._cell, self._placed)
-        return None
+        return rendered(self.render_mode, self.scenario, self._cell, self._placed)
 
     @property
     def resumable(self) -> Resumable | None:
@@ -149,10 +161,6 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
     @property
     def _blocks_left(self) -> int:
         return self.scenario.blocks - len(self._placed)
-
-    @property
-    def _score(self) -> float:
-        return len(self._placed & self.scenario.design) + self.scenario.materials[self._material].p
 
     def _observation(self) -> Observation:
         return np.array([*self._cell, self._blocks_left], dtype=np.int64)

@@ -1,4 +1,4 @@
-"""The rules of the task: where a move leads and where a block lands (TASK.md).
+"""The rules of the task: where a move leads and where a block lands (docs/explanation/task.md).
 
 Cells are (x, y): x to the right, y forward, the way the agent looks for the whole episode (paper, section 5).
 ``size`` is the number of cells along each side of the arena (Scenario.size).

@@ -1,5 +1,6 @@
 """Scenario: the arena's size, the design to build, the start cell, the step limit, and each material's value."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from mc_nested.arena.action import Cell
@@ -73,6 +74,10 @@ class Scenario:
     def optimum(self) -> float:
         """The highest score: every block on the design, of the best material."""
         return self.blocks + self.materials[self.best_material].p
+
+    def score(self, placed: Collection[Cell], material: int) -> float:
+        """r_M for what stands, of the material of that index: the blocks on the design, plus p."""
+        return len(self.design.intersection(placed)) + self.materials[material].p
 
     def material_index(self, name: str) -> int:
         """Index of the material of that name; ScenarioError if there is none."""

@@ -18,28 +18,43 @@ BLOCK, FREE = "#", "."
 LARGEST_P, LONGEST = 1_000_000.0, 100_000
 """The largest absolute p, and the highest step limit: 32-bit floats hold every score, and episodes end in time."""
 
-Name = Annotated[str, Field(min_length=1, max_length=60, pattern=r"^\P{C}+$")]
+LONGEST_NAME = 60
+
+Name = Annotated[str, Field(min_length=1, max_length=LONGEST_NAME, pattern=r"^\P{C}+$")]
 """A name of one line: no control characters."""
 
 
 class MaterialTable(BaseModel):
-    """A material in a scenario file."""
+    """A material in a scenario file: one that the main agent can choose."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-    name: Name
-    p: Annotated[float, Field(ge=-LARGEST_P, le=LARGEST_P)]
-    block: Annotated[str, Field(pattern=r"^[a-z0-9_]+$")]
+    name: Name = Field(description="what it is called: each has a name of its own")
+    p: Annotated[float, Field(ge=-LARGEST_P, le=LARGEST_P)] = Field(
+        description="what choosing it adds to the episode's score"
+    )
+    block: Annotated[str, Field(pattern=r"^[a-z0-9_]+$")] = Field(
+        description="its block, as Minecraft 1.13 and later name it, without namespace: stone, oak_planks"
+    )
 
 
 class ScenarioTable(BaseModel):
     """A scenario file."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-    name: Name
-    start: Annotated[list[int], Field(min_length=2, max_length=2)]
-    step_limit: Annotated[int, Field(ge=1, le=LONGEST)]
-    design: str
-    materials: Annotated[list[MaterialTable], Field(min_length=1)]
+    name: Name = Field(description="what the scenario is called")
+    start: Annotated[list[int], Field(min_length=2, max_length=2)] = Field(
+        description="the cell where each episode begins, as x, y: counted from 0 at the near left corner"
+    )
+    step_limit: Annotated[int, Field(ge=1, le=LONGEST)] = Field(
+        description="the most steps of an episode; at least as many as the design has blocks"
+    )
+    design: str = Field(
+        description="the drawing: # is a block, . is none, the far edge on top; N rows of N characters make an arena "
+        "of N x N cells, 5 to 32; the bottom row stays free, since a block lands in front of the agent"
+    )
+    materials: Annotated[list[MaterialTable], Field(min_length=1)] = Field(
+        description="what can be built of, a table each"
+    )
 
 
 def paper_scenarios() -> list[str]:

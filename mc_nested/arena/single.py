@@ -1,9 +1,9 @@
 """The single agent's view of the arenas: ten actions, the first two of which choose the material (paper, appendix).
 
 The main and the nested agent's actions are one set: 0 to M - 1 choose one of the M materials, the rest are the eight
-building actions. The state is (x, y, b, m); m is 0 until a material is chosen, then its action + 1 (TASK.md).
-The choice earns the material's p and counts as a step. A first action that is no material ends the episode with score
-0. A later material action does nothing, and counts as a step.
+building actions. The state is (x, y, b, m); m is 0 until a material is chosen, then its action + 1
+(docs/explanation/task.md). The choice earns the material's p and counts as a step. A first action that is no material
+ends the episode with score 0. A later material action does nothing, and counts as a step.
 """
 
 from collections.abc import Mapping, Sequence

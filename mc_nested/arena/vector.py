@@ -1,7 +1,8 @@
 """The vector form of ArenaEnv over any games: what a trainer sees of one live game, or of several games.
 
 Autoreset is disabled. ``reset(options={"reset_mask": bool (R,), "material": int (R,)})`` begins an episode in the
-masked arenas. An arena whose episode has ended does nothing until then: its reward is 0 and its flags stay set.
+masked arenas; a material may also be the name of one, for all. An arena whose episode has ended does nothing until
+then: its reward is 0 and its flags stay set.
 """
 
 from collections.abc import Mapping, Sequence
@@ -13,12 +14,12 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.env import ArenaEnv, blank_observations
+from mc_nested.arena.env import RENDERING, ArenaEnv, blank_observations
 from mc_nested.arena.game import Resumable
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
-METADATA: dict[str, Any] = {"autoreset_mode": AutoresetMode.DISABLED}
+METADATA: dict[str, Any] = {**RENDERING, "autoreset_mode": AutoresetMode.DISABLED}
 """Autoreset is off: the trainer decides which arenas begin an episode, and with which material."""
 
 NO_ACTION = -1
@@ -42,6 +43,7 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     def __init__(self, envs: Sequence[ArenaEnv]) -> None:
         self.envs = tuple(envs)
         self.num_envs = len(self.envs)
+        self.render_mode = self.envs[0].render_mode
         self.scenario = self.envs[0].scenario
         self.single_observation_space, self.single_action_space = (
             self.envs[0].observation_space,
@@ -73,6 +75,10 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
 
     _STATE = ("_observations", "_terminated", "_truncated")
 
+    def cell(self, run: int) -> Cell:
+        """Where the agent stands in that arena."""
+        return self.envs[run].cell
+
     def placed(self, run: int) -> frozenset[Cell]:
         """The cells where a block landed in that arena since its last reset."""
         return self.envs[run].placed
@@ -82,7 +88,7 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     ) -> tuple[Int64s, dict[str, Any]]:
         """Begin an episode in the masked arenas (all, without a mask), each with its material (the best, without)."""
         mask, materials = reset_options(options, [env.scenario for env in self.envs])
-        seeds = seed if isinstance(seed, list) else [seed] * self.num_envs
+        seeds = seeds_of(seed, self.num_envs)
         for run in np.flatnonzero(mask):
             name = self.scenario.materials[materials[run]].name
             self._observations[run], _ = self.envs[run].reset(seed=seeds[run], options={"material": name})
@@ -104,11 +110,35 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         flags = self._terminated.copy(), self._truncated.copy()
         return self._observations.copy(), rewards, *flags, {"score": scores, "_score": ended}
 
+    def render(self) -> tuple[Any, ...] | None:
+        """Every arena as its Env draws it; None without a render mode."""
+        return tuple(env.render() for env in self.envs) if self.render_mode else None
+
+    def close_extras(self, **_: Any) -> None:
+        """Close every Env."""
+        for env in self.envs:
+            env.close()
+
+
+def seeds_of(seed: int | list[int | None] | None, runs: int) -> list[int | None]:
+    """A seed for each run, as Gymnasium's own vector envs give them out: of a number the next ones, or the list.
+
+    ValueError if the list doesn't have one entry per run.
+    """
+    if seed is None:
+        return [None] * runs
+    if isinstance(seed, int):
+        return [seed + run for run in range(runs)]
+    if len(seed) != runs:
+        raise ValueError(f"seed needs one entry for each of the {runs} runs")
+    return list(seed)
+
 
 def reset_options(options: dict[str, Any] | None, scenarios: Sequence[Scenario]) -> tuple[Bools, Int64s]:
     """The mask (R,) and the materials (R,) of a vector reset, including defaults.
 
-    ValueError if an array doesn't have one entry per run, or a material's index doesn't exist.
+    ValueError if an array doesn't have one entry per run, or a material's index doesn't exist; ScenarioError if no
+    material has that name.
     """
     runs = len(scenarios)
     options = options or {}
@@ -116,6 +146,8 @@ def reset_options(options: dict[str, Any] | None, scenarios: Sequence[Scenario])
     materials = options.get("material")
     if materials is None:
         materials = [scenario.best_material for scenario in scenarios]
+    elif isinstance(materials, str):
+        materials = [scenario.material_index(materials) for scenario in scenarios]
     materials = np.asarray(materials, dtype=np.int64)
     if mask.shape != (runs,) or materials.shape != (runs,):
         raise ValueError(f"reset_mask and material need one entry for each of the {runs} runs")

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-import typer
-
 from mc_nested.cli.experiment import Outcomes, train_all
+from mc_nested.cli.experiment_end import say_end
+from mc_nested.cli.output import Output
 from mc_nested.errors import RunError
 from mc_nested.learn.experiments.ablation import AblationConfig
 from mc_nested.learn.experiments.experiment_folder import CONFIG, ExperimentFolder
@@ -13,6 +13,8 @@ from mc_nested.report.benchmark_results import played_to_optimum
 from mc_nested.toml_file import parse_document, read_toml_text
 
 TRIALS = 10
+
+FILES = {"table": "ablation.md", "plot": "ablation.png", "rows": "ablation.csv"}
 
 OWN_KEY = "parts"
 """The key of config.toml that only an ablation has, not a sweep."""
@@ -24,16 +26,15 @@ def is_ablation(folder: Path) -> bool:
     return file.is_file() and OWN_KEY in parse_document(read_toml_text(file, RunError), str(file), RunError)
 
 
-def run_ablation(folder: ExperimentFolder[AblationConfig]) -> None:
+def run_ablation(folder: ExperimentFolder[AblationConfig], output: Output) -> None:
     """Train what is missing, and write the report; errors as train_all's."""
-    found = ablation_of(folder.config, train_all(folder))
+    found = ablation_of(folder.config, train_all(folder, output))
     # Statistics and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.ablation import write_ablation
 
     with folder.writing():
         write_ablation(folder.path, found)
-    for what, name in (("plot", "ablation.png"), ("table", "ablation.md"), ("rows", "ablation.csv")):
-        typer.echo(f"{what + ':':7}{folder.path / name}")
+    say_end(output, folder.path, FILES, {})
 
 
 def ablation_of(config: AblationConfig, outcomes: Outcomes) -> Ablation:

@@ -3,6 +3,7 @@
 import contextlib
 import importlib
 import importlib.metadata
+import os
 import sys
 from collections.abc import Sequence
 from typing import Annotated
@@ -10,8 +11,16 @@ from typing import Annotated
 import typer
 
 from mc_nested.cli.interrupt import INTERRUPTED, Stopped
+from mc_nested.cli.json_fields import epilog_of
 from mc_nested.errors import McNestedError
 from mc_nested.live.input.signals import EndedBySignal
+
+NAME = "mc-nested"
+
+COMPLETES = "_MC_NESTED_COMPLETE"
+"""The environment variable by which a shell asks for completions, as Typer names it."""
+
+COMPLETION_OPTIONS = ("--install-completion", "--show-completion")
 
 VERBS = (
     "train",
@@ -20,11 +29,18 @@ VERBS = (
     "benchmark",
     "evaluate",
     "play",
+    "build",
     "scenarios",
     "read",
+    "runs",
+    "view",
     "calibrate",
+    "profiles",
     "doctor",
     "rehearse",
+    "recordings",
+    "replay",
+    "bug-report",
 )
 """Each is a module of this package; in the order of the help."""
 
@@ -32,17 +48,31 @@ VERBS = (
 def app_for(words: Sequence[str]) -> typer.Typer:
     """The command with the verb that the words begin with, or with all verbs if they begin with none.
 
-    A verb's module is loaded only if it is needed: together they take seconds and hundreds of megabytes.
+    A verb's module is loaded only if it is needed: together they take seconds and hundreds of megabytes. To complete a
+    command line none is.
     """
-    app = typer.Typer(name="mc-nested", add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False)
+    if COMPLETES in os.environ or (words and words[0] in COMPLETION_OPTIONS):
+        return _completing_app()
+    app = typer.Typer(name=NAME, rich_markup_mode=None, pretty_exceptions_enable=False)
     app.callback(invoke_without_command=True)(version)
     for verb in words[:1] if words and words[0] in VERBS else VERBS:
-        module = importlib.import_module(f"mc_nested.cli.{verb}")
-        if verb == "calibrate":
+        name = verb.replace("-", "_")
+        module = importlib.import_module(f"mc_nested.cli.{name}")
+        if hasattr(module, "app"):  # verbs of its own
             app.add_typer(module.app, name=verb)
         else:
-            app.command()(getattr(module, verb))
+            app.command(verb, epilog=epilog_of(verb))(getattr(module, name))
     return app
+
+
+def _completing_app() -> typer.Typer:
+    from mc_nested.cli.completion.app import completing_app
+    from mc_nested.cli.completion.shell import check_shell
+    from mc_nested.cli.completion.verbs import shipped
+
+    if COMPLETES not in os.environ:
+        check_shell()
+    return completing_app(shipped())
 
 
 def version(show: Annotated[bool, typer.Option("--version", help="print the version")] = False) -> None:
@@ -61,7 +91,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if words in ([], ["calibrate"]):
         words.append("--help")
     try:
-        code = app_for(words)(args=words, standalone_mode=False)
+        code = app_for(words)(args=words, prog_name=NAME, standalone_mode=False)
         if code == INTERRUPTED:  # typer's code for a KeyboardInterrupt, and for nothing else
             code = _say("stopped", INTERRUPTED)
     except typer.TyperException as error:

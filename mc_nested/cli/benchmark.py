@@ -1,11 +1,11 @@
 """``mc-nested benchmark``: how few episodes agents and presets need on designs that nobody tuned them on."""
 
+import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Column, Table
 from rich.text import Text
 
@@ -21,11 +21,13 @@ from mc_nested.cli.experiment import (
     OutOption,
     ResumeOption,
     SeedOption,
-    check_new_folder,
     check_nothing_beside_resume,
     cores,
     train_all,
 )
+from mc_nested.cli.experiment_end import say_end
+from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.output_folder import output_folder
 from mc_nested.errors import UserError
 from mc_nested.learn.experiments.benchmark import (
     AGENTS,
@@ -38,6 +40,7 @@ from mc_nested.learn.experiments.benchmark import (
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.learn.experiments.sb3_model import HOW_TO_INSTALL, LIBRARY, is_installed
 from mc_nested.learn.preset import load_preset
+from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.benchmark_results import Benchmark, BenchmarkRow, played_to_optimum
 
 if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others doesn't need
@@ -47,8 +50,7 @@ VERB = "benchmark"
 TRIALS, DESIGNS = 1, 100
 DEFAULT_AGENTS, DEFAULT_PRESETS = ("nested", SB3), ("live", "tuned", "paper")
 
-WIDE = 120
-"""Characters a line of the table where no terminal says how many there are."""
+FILES = {"report": "benchmark.md", "plot": "benchmark.png", "rows": "benchmark.csv"}
 
 LIKE = "line"
 """The shipped design whose start cell and materials every design of a benchmark has."""
@@ -74,16 +76,20 @@ def benchmark(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     jobs: JobsOption = None,
     out: OutOption = None,
     resume: ResumeOption = None,
+    quiet: QuietOption = False,
+    as_json: JsonOption = False,
 ) -> None:
     """Count the episodes to the optimum on many designs; Ctrl+C saves, and --resume goes on from there.
 
     Writes benchmark.png, benchmark.md and benchmark.csv. sb3 is stable-baselines3's DQN, for comparison.
     """
+    output = Output(quiet, as_json)
     if resume is not None:
         check_nothing_beside_resume(context.params)
-        _run(ExperimentFolder.open(resume, BenchmarkConfig, VERB))
+        folder = ExperimentFolder.open(resume, BenchmarkConfig, VERB)
+        with folder_lock(resume):
+            _run(folder, output)
         return
-    path = check_new_folder(out)
     if corpus is not None and designs is not None:
         raise UserError("--designs is how many are drawn at random: leave it out, or leave out --corpus")
     chosen = [(name, load_preset(name)) for name in _listed(presets) or DEFAULT_PRESETS]
@@ -99,7 +105,8 @@ def benchmark(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         designs=[table_of(scenario) for scenario in scenarios],
         contestants=contestants,
     )
-    _run(ExperimentFolder.new(path, config, VERB))
+    with output_folder(out, VERB) as path:
+        _run(ExperimentFolder.new(path, config, VERB), output)
 
 
 def _listed(options: Sequence[str] | None) -> list[str]:
@@ -129,16 +136,15 @@ def _scenarios(corpus: Path | None, designs: int, seed: int) -> list[Scenario]:
     return load_corpus(corpus, like) if corpus else [random_scenario(seed, number, like) for number in range(designs)]
 
 
-def _run(folder: ExperimentFolder[BenchmarkConfig]) -> None:
-    found = benchmark_of(folder.config, train_all(folder))
+def _run(folder: ExperimentFolder[BenchmarkConfig], output: Output) -> None:
+    found = benchmark_of(folder.config, train_all(folder, output))
     # Statistics and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.benchmark import write_benchmark
 
     with folder.writing():
         measures = write_benchmark(folder.path, found)
-    _print_measures(measures)
-    for what, name in (("plot", "benchmark.png"), ("report", "benchmark.md"), ("rows", "benchmark.csv")):
-        typer.echo(f"{what + ':':8}{folder.path / name}")
+    figures = [{"contestant": name, **dataclasses.asdict(own)} for name, own in measures]
+    say_end(output, folder.path, FILES, {"measures": figures}, _table(measures))
 
 
 def benchmark_of(config: BenchmarkConfig, outcomes: Outcomes) -> Benchmark:
@@ -180,13 +186,10 @@ def benchmark_of(config: BenchmarkConfig, outcomes: Outcomes) -> Benchmark:
     )
 
 
-def _print_measures(found: "Sequence[tuple[str, Measures]]") -> None:
+def _table(found: "Sequence[tuple[str, Measures]]") -> Table:
     heads = ("solved", "median", "interquartile mean", "worst", "without a prior", "within twice that")
     columns = (Column(head, overflow="fold") for head in ("episodes to the optimum", *heads))
     table = Table(*columns, box=None, padding=(0, 1))
     for name, measures in found:
         table.add_row(Text(name), *measures.in_words())
-    console = Console()
-    if not console.is_terminal:
-        console.width = WIDE
-    console.print(table)
+    return table

@@ -8,11 +8,12 @@ from mc_nested.cli.calibrate_clicks import clicks
 from mc_nested.cli.calibrate_font import font
 from mc_nested.cli.calibrate_report import report
 from mc_nested.cli.calibrate_walk import walk
+from mc_nested.cli.json_fields import epilog_of
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 from mc_nested.live.profile.store import profile_path, undo_profile
 
 app = typer.Typer(help="Tell the agent where your arena and your buttons are.")
-app.command("all")(calibrate_all.calibrate)
+app.command("all", epilog=epilog_of("calibrate all"))(calibrate_all.calibrate)
 app.command()(font)
 app.command()(arena)
 app.command()(walk)

@@ -11,6 +11,8 @@ from calibration.arena.undo import undo_built_arena
 from calibration.open_context import context_opener
 from mc_nested.cli.arena_options import ForScenarioOption, SizeOption, StandingOption, arena_size
 from mc_nested.cli.options import DEFAULT_PROFILE, ServerOption
+from mc_nested.cli.recording_options import RecordOption, live_recorder
+from mc_nested.cli.scenario_options import LayerOption
 from mc_nested.errors import UserError
 
 
@@ -23,21 +25,24 @@ def arena(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     ] = None,
     size: SizeOption = None,
     scenario: ForScenarioOption = None,
+    layer: LayerOption = None,
     standing: StandingOption = None,
     yes: Annotated[bool, typer.Option("--yes", help="build, or mark, without asking")] = False,
     mark_only: Annotated[bool, typer.Option("--mark-only", help="type no commands, write only where it is")] = False,
     undo: Annotated[bool, typer.Option("--undo", help="put back what stood there before it was built")] = False,
     server_allowed: ServerOption = False,
+    record: RecordOption = None,
 ) -> None:
     """Build the arena where you stand and look, with commands; what stood there is shown, asked about and copied."""
     if mark_only and undo:
         raise UserError("--mark-only and --undo do different things: choose one of them")
-    cells = arena_size(size, scenario)
+    cells = arena_size(size, scenario, layer)
     if mark_only:
         path = mark_arena(profile, ask=typer.confirm, say=typer.echo, size=cells, standing=standing, font=font, yes=yes)
         typer.echo(f"arena written to {path}" if path else "nothing was written")
         return
-    context_of = context_opener(typer.echo, typer.confirm, is_server_allowed=server_allowed)
+    recorder = live_recorder(record, "calibrate-arena", server_allowed=server_allowed)
+    context_of = context_opener(typer.echo, typer.confirm, is_server_allowed=server_allowed, open_recorder=recorder)
     if undo:
         found, file = undo_built_arena(profile, context_of)
     else:

@@ -8,6 +8,7 @@ from calibration.clicks.find import calibrate_clicks
 from calibration.clicks.show import show_clicks, try_clicks
 from calibration.open_context import context_opener
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
+from mc_nested.cli.recording_options import RecordOption, live_recorder
 from mc_nested.errors import UserError
 
 
@@ -21,9 +22,11 @@ def clicks(
     yes: Annotated[bool, typer.Option("--yes", help="visit the title without asking; nothing by hand")] = False,
     show: Annotated[bool, typer.Option("--show", help="only mark the points on a picture of the screen")] = False,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="only move the mouse there, and press nothing")] = False,
+    record: RecordOption = None,
 ) -> None:
     """Find the places to click in the menus; name points to record those by hand: hover and press the hotkey."""
-    context_of = context_opener(typer.echo, (lambda _: True) if yes else typer.confirm)
+    ask = (lambda _: True) if yes else typer.confirm
+    context_of = context_opener(typer.echo, ask, open_recorder=live_recorder(record, "calibrate-clicks"))
     if show and dry_run:
         raise UserError("--show and --dry-run do different things: choose one of them")
     if show:

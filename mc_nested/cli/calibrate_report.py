@@ -1,6 +1,7 @@
 """``mc-nested calibrate report``: what a calibration found, as one HTML file to look at or attach to a bug report."""
 
 import importlib.metadata
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -32,8 +33,8 @@ def report_path(profile: Path) -> Path:
     return profile.with_name(f"{profile.stem}-calibration.html")
 
 
-def write_report(name: str, out: Path, *, with_pictures: bool = True) -> None:
-    """Write the report of a profile whole or not at all, and print what is in it.
+def write_report(name: str, out: Path, *, with_pictures: bool = True, say: Callable[[str], None] = typer.echo) -> None:
+    """Write the report of a profile whole or not at all, and say what is in it.
 
     ProfileError if the profile, or what lies beside it, can't be read, or the file can't be written.
     """
@@ -49,6 +50,6 @@ def write_report(name: str, out: Path, *, with_pictures: bool = True) -> None:
             unfinished.write_text(report_html(made, names), "utf-8")
     except OSError as error:
         raise ProfileError(f"{out}: can't be written ({error.strerror or error}): name another --out") from error
-    typer.echo(f"report: {out}")
+    say(f"report: {out}")
     for line in contents(made):
-        typer.echo(f"  - {names.removed_from(line)}")
+        say(f"  - {names.removed_from(line)}")

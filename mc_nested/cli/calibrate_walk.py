@@ -7,6 +7,7 @@ import typer
 from calibration.open_context import context_opener
 from calibration.walk.measure import calibrate_walk
 from mc_nested.cli.options import DEFAULT_PROFILE, ServerOption
+from mc_nested.cli.recording_options import RecordOption, live_recorder
 
 
 def walk(
@@ -14,10 +15,17 @@ def walk(
         str, typer.Option(metavar="NAME|FILE", help="the profile to write; it must name the font")
     ] = DEFAULT_PROFILE,
     server_allowed: ServerOption = False,
+    record: RecordOption = None,
 ) -> None:
     """Measure how you walk, for a minute, in the marked arena or around where you stand."""
     found, picture = calibrate_walk(
-        profile, context_opener(typer.echo, typer.confirm, is_server_allowed=server_allowed)
+        profile,
+        context_opener(
+            typer.echo,
+            typer.confirm,
+            is_server_allowed=server_allowed,
+            open_recorder=live_recorder(record, "calibrate-walk", server_allowed=server_allowed),
+        ),
     )
     for line in found.lines:
         typer.echo(line)

@@ -1,13 +1,12 @@
 """``mc-nested doctor``: one table of all that keeps an agent from playing on this computer, and what to do."""
 
 import dataclasses
-import json
 from collections.abc import Sequence
 from functools import partial
 from typing import Annotated
 
 import typer
-from rich.console import Console
+from rich.constrain import Constrain
 from rich.table import Table
 from rich.text import Text
 
@@ -16,6 +15,7 @@ from calibration.doctor.examination import Examination, examine
 from calibration.doctor.repair import repair
 from calibration.installation.folders import System
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption
+from mc_nested.cli.output import JsonOption, Output
 from mc_nested.live.desktop import open_clipboard
 
 STYLES: dict[Status, str] = {"pass": "green", "warn": "yellow", "fail": "bold red", "skip": "bright_black"}
@@ -29,7 +29,7 @@ FAILED = 1
 
 def doctor(
     profile: ProfileOption = None,
-    as_json: Annotated[bool, typer.Option("--json", help="print one JSON object, and nothing else")] = False,
+    as_json: JsonOption = False,
     fix: Annotated[
         bool, typer.Option("--fix", help="write safe values into options.txt, with a backup; the game must be closed")
     ] = False,
@@ -39,13 +39,9 @@ def doctor(
     found = _examined(profile)
     if fix and repair(found, say):
         found = _examined(profile)
-    if as_json:
-        print(json.dumps({"checks": [dataclasses.asdict(check) for check in found.checks]}))
-    else:
-        console = Console()
-        console = Console(width=min(WIDTH, console.width) if console.is_terminal else WIDTH)
-        console.print(table_of(found.checks))
-        console.print(summary_of(found.checks))
+    rows = [dataclasses.asdict(check) for check in found.checks]
+    table = Constrain(table_of(found.checks), WIDTH)
+    Output(as_json=as_json).result({"checks": rows}, table, summary_of(found.checks))
     if any(check.status == "fail" for check in found.checks):
         raise typer.Exit(FAILED)
 

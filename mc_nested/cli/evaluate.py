@@ -1,41 +1,36 @@
 """``mc-nested evaluate``: replay a training's greedy policies."""
 
-import json
-from typing import Annotated
-
-import typer
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from mc_nested.cli.options import RunArgument
+from mc_nested.cli.output import JsonOption, Output
 from mc_nested.learn.agents import Agent, view_of
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
 from sim.grid import GridVectorEnv
 
 
-def evaluate(
-    run: RunArgument, as_json: Annotated[bool, typer.Option("--json", help="print one JSON object")] = False
-) -> None:
+def evaluate(run: RunArgument, as_json: JsonOption = False) -> None:
     """Replay the greedy policy of every trial in the simulator and print the scores."""
     folder = RunFolder.open(run)
     episodes = greedy_episodes(folder, load_agent(folder))
     scenario = folder.scenario
-    if as_json:
-        scores = [episode.score for episode in episodes]
-        materials = [episode.material_name(scenario) for episode in episodes]
-        steps = [len(episode.actions) for episode in episodes]
-        found = {"scenario": scenario.name, "optimum": scenario.optimum, "scores": scores}
-        print(json.dumps({**found, "materials": materials, "steps": steps}))
-        return
+    found = {
+        "folder": folder.path,
+        "scenario": scenario.name,
+        "optimum": scenario.optimum,
+        "scores": [episode.score for episode in episodes],
+        "materials": [episode.material_name(scenario) for episode in episodes],
+        "steps": [len(episode.actions) for episode in episodes],
+    }
     table = Table("trial", "score", "optimum", "material", "steps", title=Text(f"{scenario.name}, greedy"))
     for trial, episode in enumerate(episodes):
         material = episode.material_name(scenario)
         table.add_row(
             f"{trial}", f"{episode.score:g}", f"{scenario.optimum:g}", Text(material), f"{len(episode.actions)}"
         )
-    Console().print(table)
+    Output(as_json=as_json).result(found, table)
 
 
 def load_agent(folder: RunFolder) -> Agent:

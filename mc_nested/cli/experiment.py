@@ -10,6 +10,7 @@ from mc_nested.cli.experiment_progress import ExperimentProgress
 from mc_nested.cli.experiment_status import ExperimentStatus
 from mc_nested.cli.interrupt import Stopped, catch_interrupts
 from mc_nested.cli.job_processes import JobProcesses
+from mc_nested.cli.output import Output
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.experiments.experiment_folder import Config, ExperimentFolder
 from mc_nested.learn.experiments.job_training import JobOutcome
@@ -18,6 +19,9 @@ from mc_nested.learn.experiments.jobs import Job
 MOST_JOBS, MOST_TRIALS = 256, 1000
 """More would only run out of memory."""
 
+BESIDE_RESUME = ("resume", "quiet", "as_json")
+"""The options that an experiment can be resumed with."""
+
 Outcomes = list[tuple[Job, JobOutcome]]
 """Every job of a finished experiment with its outcome."""
 
@@ -25,7 +29,9 @@ SeedOption = Annotated[int | None, typer.Option(min=0, help="the same seed gives
 JobsOption = Annotated[
     int | None, typer.Option(min=1, max=MOST_JOBS, help="processes to train in [as many as there are cores]")
 ]
-OutOption = Annotated[Path | None, typer.Option(metavar="DIR", help="a new or empty folder for all of it")]
+OutOption = Annotated[
+    Path | None, typer.Option(metavar="DIR", help="a new or empty folder for all of it [one under runs, with the date]")
+]
 ResumeOption = Annotated[Path | None, typer.Option(metavar="DIR", help="go on where it was stopped or killed")]
 
 
@@ -36,29 +42,23 @@ def cores() -> int:
 
 
 def check_nothing_beside_resume(options: dict[str, Any]) -> None:
-    """UserError if anything but --resume was given: a resumed experiment keeps its own config."""
+    """UserError if anything but --resume, or how to print, was given: a resumed experiment keeps its own config."""
     for name, value in options.items():
-        if name != "resume" and value is not False and value not in (None, [], ()):
+        if name not in BESIDE_RESUME and value is not False and value not in (None, [], ()):
             raise UserError(f"--resume goes on with its own config.toml: leave out --{name.replace('_', '-')}")
 
 
-def check_new_folder(out: Path | None) -> Path:
-    """The folder that was named; UserError if none was."""
-    if out is None:
-        raise UserError("name a new folder with --out DIR, or one to go on with, --resume DIR")
-    return out
-
-
-def train_all(folder: ExperimentFolder[Config]) -> Outcomes:
+def train_all(folder: ExperimentFolder[Config], output: Output) -> Outcomes:
     """Train all jobs that aren't finished; return the outcomes of all.
 
     Stopped if somebody asked to stop, RunError if a job failed: all are saved, and the message says how to resume.
     """
     before = folder.outcomes()
     folder.begin()
+    output.note(f"folder: {folder.path}")
     missing = [(job, folder.folder_of(job)) for job, outcome in before if outcome is None]
     if missing:
-        progress = ExperimentProgress(folder.verb, ExperimentStatus(before))
+        progress = ExperimentProgress(folder.verb, ExperimentStatus(before), output.progress)
         with catch_interrupts() as interrupt, JobProcesses(min(folder.config.jobs, len(missing))) as processes:
             try:
                 with progress:

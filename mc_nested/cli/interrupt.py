@@ -3,6 +3,7 @@
 import contextlib
 import os
 import signal
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -45,12 +46,17 @@ class Interrupt:
 
 @contextmanager
 def catch_interrupts() -> Iterator[Interrupt]:
-    """Inside, the first Ctrl+C or SIGTERM is only recorded; outside the main thread nothing changes."""
+    """Inside, the first Ctrl+C, SIGTERM, or SIGHUP of a closed terminal is only recorded.
+
+    A SIGHUP that is ignored, as under nohup, stays so. Outside the main thread nothing changes.
+    """
     interrupt = Interrupt()
     if threading.current_thread() is not threading.main_thread():
         yield interrupt
         return
-    numbers = (signal.SIGINT, signal.SIGTERM)
+    numbers = [signal.SIGINT, signal.SIGTERM]
+    if sys.platform != "win32" and signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:
+        numbers.append(signal.SIGHUP)
     before = {number: signal.signal(number, interrupt.request) for number in numbers}
     try:
         yield interrupt

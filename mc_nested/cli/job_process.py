@@ -17,11 +17,15 @@ from mc_nested.errors import UserError
 from mc_nested.learn.experiments.job_training import JobTraining, Training, writing
 from mc_nested.learn.experiments.jobs import PLANNER, Job
 from mc_nested.learn.experiments.planner_training import PlannerTraining
+from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from sim.grid import GridVectorEnv
 
 REPORT_EVERY_S = 0.25
 """Seconds between two reports, and between two looks whether to stop."""
+
+PATIENCE_S = 10.0
+"""Seconds that a process whose parent was killed may take to save the job that another goes on with."""
 
 
 @dataclass(frozen=True)
@@ -68,12 +72,13 @@ class _StopSignal:
 
 def _train(pipe: Connection, job: Job, folder: Path, stop: _StopSignal) -> JobEnded:
     try:
-        training = _training_of(job, folder)
-        _tick_until_done(pipe, training, folder, stop)
-        if training.finished:
-            training.finish()
-        else:
-            training.save()
+        with folder_lock(folder, PATIENCE_S):
+            training = _training_of(job, folder)
+            _tick_until_done(pipe, training, folder, stop)
+            if training.finished:
+                training.finish()
+            else:
+                training.save()
     except UserError as error:
         return JobEnded(job.name, finished=False, failed=str(error))
     except MemoryError:

@@ -8,16 +8,16 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import typer
-from gymnasium.vector import VectorEnv
 
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game, PlayLog
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ArenaVectorEnv
-from mc_nested.arrays import Int64s
 from mc_nested.errors import RunError
 from mc_nested.live.devices import Display
 from mc_nested.live.failure_budget import FailureBudget
+from mc_nested.live.journal import Journal
+from mc_nested.live.recording.opened import OpenRecorder, no_recorder
 from mc_nested.live.session import open_live_game
 from sim.grid import GridGame, GridVectorEnv
 
@@ -27,6 +27,11 @@ class Backend(str, Enum):
 
     SIM = "sim"
     LIVE = "live"
+
+
+def where_words(backend: Backend) -> str:
+    """Where it is played, in words."""
+    return "in the simulator" if backend is Backend.SIM else "in the running game"
 
 
 RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="the folder of a training (its --out)")]
@@ -51,10 +56,13 @@ def open_game(
     *,
     server_allowed: bool = False,
     evidence: Path | None = None,
+    open_recorder: OpenRecorder = no_recorder,
+    journal: Journal | None = None,
 ) -> Iterator[tuple[Game, Display | None]]:
     """The backend's game, and its window, if it has one; both are closed after the block.
 
-    ``evidence`` is the folder for the last frames of a live game that was given up.
+    ``evidence`` is the folder for the last frames of a live game that was given up; ``open_recorder`` opens what
+    records it; ``journal`` is told what it does.
 
     DesktopError or ProfileError, one line each if a live game can't be played.
     """
@@ -68,6 +76,8 @@ def open_game(
         say,
         evidence=evidence,
         is_server_allowed=server_allowed,
+        open_recorder=open_recorder,
+        journal=journal,
     ) as live:
         yield live
 
@@ -80,7 +90,9 @@ def open_arenas(
     *,
     server_allowed: bool = False,
     evidence: Path | None = None,
-) -> Iterator[tuple[VectorEnv[Int64s, Int64s, Any], PlayLog | None]]:
+    open_recorder: OpenRecorder = no_recorder,
+    journal: Journal | None = None,
+) -> Iterator[tuple[GridVectorEnv | ArenaVectorEnv, PlayLog | None]]:
     """The backend's arenas, one per scenario, and the log of playing them, if any; closed after the block.
 
     RunError if a live game should be several arenas; otherwise as ``open_game``.
@@ -90,7 +102,16 @@ def open_arenas(
         return
     if len(scenarios) != 1:
         raise RunError(f"a live game is one arena, not {len(scenarios)}: train one trial at a time, --trials 1")
-    with open_game(backend, profile, scenarios[0], server_allowed=server_allowed, evidence=evidence) as (game, _):
+    opened = open_game(
+        backend,
+        profile,
+        scenarios[0],
+        server_allowed=server_allowed,
+        evidence=evidence,
+        open_recorder=open_recorder,
+        journal=journal,
+    )
+    with opened as (game, _):
         yield ArenaVectorEnv([ArenaEnv(game, scenarios[0])]), game.log
 
 

@@ -5,82 +5,117 @@ from typing import Annotated
 
 import cv2
 import typer
-from rich.console import Console, Group
-from rich.live import Live
-from rich.text import Text
 
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.evaluate import greedy_episodes, load_agent
-from mc_nested.cli.options import Backend, BackendOption, ProfileOption, RunArgument, ServerOption, open_game
-from mc_nested.errors import LiveError, NotInFrontError, RunError, StoppedError, UserError
+from mc_nested.cli.options import (
+    Backend,
+    BackendOption,
+    ProfileOption,
+    RunArgument,
+    ServerOption,
+    open_game,
+    where_words,
+)
+from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.recording_options import RecordOption, live_recorder
+from mc_nested.cli.video import VideoOption, filmed
+from mc_nested.cli.viewing import Viewed, ViewOption, viewed
+from mc_nested.cli.watching import started_over, watched
+from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import Agent, view_of
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.devices import Display
-from mc_nested.report.terminal import arena_view
-
-TRIES = 3
-"""Attempts at an episode: a mishap in the running game may end all but the last."""
+from mc_nested.report.film import check_film
 
 
-def play(
+def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     run: RunArgument,
     backend: BackendOption = Backend.SIM,
     profile: ProfileOption = None,
     server_allowed: ServerOption = False,
+    record: RecordOption = None,
     trial: Annotated[int | None, typer.Option(min=0, help="which trial plays (default: the best one)")] = None,
     screenshots: Annotated[
         bool, typer.Option("--screenshots", help="keep a picture of the window after each step, under RUN/screenshots")
     ] = False,
+    video: VideoOption = None,
+    view: ViewOption = False,
+    quiet: QuietOption = False,
+    as_json: JsonOption = False,
 ) -> None:
     """Play one greedy episode and show the arena as it is built; after a mishap the episode starts over."""
+    output = Output(quiet, as_json)
+    if video:
+        check_film(video)
     folder = RunFolder.open(run)
     scenario = folder.scenario
     if screenshots and backend is Backend.SIM:
         raise UserError("the simulator has no window to picture: leave out --screenshots, or play --backend live")
     agent, which = _choose(folder, trial)
     evidence = folder.path / "evidence"
-    with open_game(backend, profile, scenario, server_allowed=server_allowed, evidence=evidence) as (game, display):
-        pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
-        for tries_left in reversed(range(TRIES)):
-            try:
-                episode = _watch(game, scenario, agent, which, pictures)
-                break
-            except (StoppedError, NotInFrontError):
-                raise
-            except LiveError as error:
-                if not tries_left:
-                    raise
-                typer.echo(f"  {error}; the episode starts over", err=True)
+    recorder = live_recorder(record, f"play-{scenario.name}", scenario, server_allowed=server_allowed)
+    with viewed(view, "play", f"{scenario.name}, trial {which}, {where_words(backend)}") as viewing:
+        window = open_game(
+            backend,
+            profile,
+            scenario,
+            server_allowed=server_allowed,
+            evidence=evidence,
+            open_recorder=recorder,
+            journal=viewing.publisher.board,
+        )
+        with window as (opened, display), filmed(opened, display, scenario, video) as game:
+            pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
+            is_quiet = output.quiet or output.as_json
+            episode = started_over(lambda: _watch(game, scenario, agent, which, pictures, viewing, is_quiet=is_quiet))
     material = episode.material_name(scenario)
-    typer.echo(f"  score {episode.score:g} of {scenario.optimum:g}, in {material}, {len(episode.actions)} steps")
+    found = {
+        "folder": folder.path,
+        "trial": which,
+        "scenario": scenario.name,
+        "score": episode.score,
+        "optimum": scenario.optimum,
+        "material": material,
+        "steps": len(episode.actions),
+        "screenshots": pictures.folder if pictures else None,
+        "film": video,
+    }
+    lines = [f"  score {episode.score:g} of {scenario.optimum:g}, in {material}, {len(episode.actions)} steps"]
     if pictures:
-        typer.echo(f"  screenshots: {pictures.folder}")
+        lines.append(f"  screenshots: {pictures.folder}")
+    if video:
+        lines.append(f"  film: {video}")
+    output.result(found, *lines)
 
 
-def _watch(game: Game, scenario: Scenario, agent: Agent, which: int, pictures: "_Screenshots | None") -> GreedyEpisode:
+def _watch(
+    game: Game,
+    scenario: Scenario,
+    agent: Agent,
+    which: int,
+    pictures: "_Screenshots | None",
+    viewing: Viewed,
+    *,
+    is_quiet: bool,
+) -> GreedyEpisode:
     """One greedy episode, shown as it is built."""
     env = ArenaEnv(game, scenario)
-    console = Console()
     if pictures:
         pictures.begin()
-    with Live(console=console, auto_refresh=False) as live:
+    with watched(env, f"{scenario.name}, trial {which}", viewing, quiet=is_quiet) as show:
 
-        def show() -> None:
-            built = len(env.placed & scenario.design)
-            line = Text(f"  {scenario.name}, trial {which}: {built} of {scenario.blocks} blocks on the design")
-            live.update(Group(arena_view(scenario, env.cell, env.placed), line), refresh=True)
+        def after_step() -> None:
+            show()
             if pictures:
                 pictures.take()
 
         arenas = view_of(agent.spec, ArenaVectorEnv([env]), [scenario])
-        episode = play_greedily(arenas, [scenario], agent, show)[0]
-    if not console.is_terminal:
-        console.print()  # rich leaves the last line unfinished then
-    return episode
+        return play_greedily(arenas, [scenario], agent, after_step)[0]
 
 
 def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:

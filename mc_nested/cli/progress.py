@@ -4,6 +4,7 @@ With an imagination, instead of ε, what it has found out; and in a terminal, fo
 Where there is no terminal, a line of text now and then.
 """
 
+import contextlib
 import time
 from collections.abc import Callable
 from types import TracebackType
@@ -78,6 +79,8 @@ class TrainingProgress:
             expand=True,
         )
         self._bar.stops = stops
+        self.in_terminal = self._bar.console.is_terminal
+        """Whether it is shown in a terminal, which says that it is stopping, too."""
         self._found_out = ""
         self._looked_at, self._look_again = -1, 0.0
         self._task = self._bar.add_task("episodes", total=len(trainer.episodes_done) * trainer.preset.episodes)
@@ -99,12 +102,8 @@ class TrainingProgress:
         if self.in_terminal or error is None:  # what failed is one line
             self._refresh(time.monotonic())
         if self.in_terminal:
-            self._bar.stop()
-
-    @property
-    def in_terminal(self) -> bool:
-        """Whether it is shown in a terminal, which says that it is stopping, too."""
-        return self._bar.console.is_terminal
+            with contextlib.suppress(OSError):  # the terminal is closed
+                self._bar.stop()
 
     def show(self) -> None:
         """Refresh the bar, or print a line, if it is time."""
@@ -128,7 +127,8 @@ class TrainingProgress:
         rate = (trainer.agent.updates - self._updates_before) / max(now - self._began, 1e-9)
         figures = f"mean score {score} of {self._scenario.optimum:g}  {exploring}  {rate:,.0f} updates/s"
         self._bar.figures = figures
-        self._bar.update(self._task, completed=done, total=most)
+        with contextlib.suppress(OSError):  # the terminal is closed: the training goes on until it is saved
+            self._bar.update(self._task, completed=done, total=most)
         if not self.in_terminal:
             print_line(self._bar.console, f"episodes {done:,} of at most {most:,}  {figures}")
 

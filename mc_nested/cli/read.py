@@ -1,11 +1,11 @@
 """``mc-nested read``: what pictures of the debug screen say."""
 
-import json
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
+from mc_nested.cli.output import JsonOption, Output
 from mc_nested.errors import FontError, PictureError
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.store import load_profile
@@ -21,12 +21,13 @@ def read(
     profile: Annotated[
         str | None, typer.Option(metavar="NAME|FILE", help="take font and overlay from a profile")
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="print one JSON line a picture")] = False,
+    as_json: JsonOption = False,
 ) -> None:
-    """Read pictures of the debug screen: position, view and the block looked at.
+    """Read pictures of the debug screen: position, view and the block looked at; with --json a line a picture.
 
     A file that is no picture ends it with exit code 2, once the others are read.
     """
+    output = Output(as_json=as_json)
     known = load_profile(profile) if profile else None
     if font is None:
         if known is None:
@@ -43,7 +44,7 @@ def read(
         except PictureError as error:
             unusable.append(error)
             continue
-        print(json.dumps(found) if as_json else _line(found), flush=True)
+        output.result(found, _line(found))
     if unusable:
         count = len(unusable) - 1
         others = f"; {count} other file{'s' if count > 1 else ''} can't be read either" if count else ""

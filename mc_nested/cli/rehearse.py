@@ -111,8 +111,8 @@ def _size(text: str) -> Size:
 @contextmanager
 def _alone() -> Iterator[None]:
     """UserError where a window of the game is open already, or opening: an agent could not tell the two apart."""
-    with file_lock(_lock_file()) as is_mine:
-        if not is_mine or _has_window():
+    with file_lock(_lock_file()) as lock:
+        if not lock.is_mine or _has_window():
             raise UserError("a window of Minecraft, or another rehearsal, is open: close it first")
         yield
 

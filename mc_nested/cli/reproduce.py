@@ -5,13 +5,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from mc_nested.arena.builder import build
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.scenario_file import load_scenario, paper_scenarios, table_of
+from mc_nested.arena.scenario_file import paper_scenarios, table_of
 from mc_nested.cli.experiment import (
     MOST_TRIALS,
     JobsOption,
@@ -19,16 +18,20 @@ from mc_nested.cli.experiment import (
     OutOption,
     ResumeOption,
     SeedOption,
-    check_new_folder,
     check_nothing_beside_resume,
     cores,
     train_all,
 )
+from mc_nested.cli.experiment_end import say_end
+from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.output_folder import output_folder
+from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS, check_exploration
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.learn.experiments.reproduction import LONGER, LONGER_AGENTS, LONGER_SCENARIOS, ReproduceConfig
 from mc_nested.learn.preset import MOST, load_preset
+from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.results import Cost, Evaluation, Results
 from sim.grid import arena_env
 
@@ -38,6 +41,8 @@ if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others 
 VERB = "reproduce"
 TRIALS, PRESET = 10, "paper"
 
+FILES = {"report": "report.md", "figure": "figure5.png", "table": "results.csv"}
+
 
 def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
@@ -46,9 +51,8 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     ] = None,
     episodes: Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial [the preset's]")] = None,
     seed: SeedOption = None,
-    scenario: Annotated[
-        list[str] | None, typer.Option(metavar="NAME|FILE", help="a design, as often as you like [the paper's three]")
-    ] = None,
+    scenario: ScenariosOption = None,
+    layer: LayerOption = None,
     agent: Annotated[
         list[str] | None, typer.Option(help=f"an agent, as often as you like [{', '.join(AGENT_SPECS)}]")
     ] = None,
@@ -64,16 +68,20 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     jobs: JobsOption = None,
     out: OutOption = None,
     resume: ResumeOption = None,
+    quiet: QuietOption = False,
+    as_json: JsonOption = False,
 ) -> None:
     """Repeat the paper's experiment and test its claims; Ctrl+C saves, and --resume goes on from there.
 
     Writes figure5.png and figure5.svg, results.csv and report.md. The defaults take some minutes on two cores.
     """
+    output = Output(quiet, as_json)
     if resume is not None:
         check_nothing_beside_resume(context.params)
-        _run(ExperimentFolder.open(resume, ReproduceConfig, VERB))
+        folder = ExperimentFolder.open(resume, ReproduceConfig, VERB)
+        with folder_lock(resume):
+            _run(folder, output)
         return
-    path = check_new_folder(out)
     for name in agent or ():
         if name not in AGENT_SPECS:
             raise UserError(f"no agent {name!r}: choose one of {', '.join(AGENT_SPECS)}")
@@ -88,27 +96,31 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         longer=longer or 0,
         preset_name=preset or PRESET,
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
-        scenarios=[table_of(load_scenario(name)) for name in scenario or paper_scenarios()],
+        scenarios=[table_of(each) for each in named_scenarios(scenario or paper_scenarios(), layer)],
     )
     if longer and not (config.longer_agents and config.longer_scenarios):
         raise UserError(
             f"--longer is for {' and '.join(LONGER_AGENTS)} on {' and '.join(LONGER_SCENARIOS)}: "
             f"leave it out, or name one of each"
         )
-    _run(ExperimentFolder.new(path, config, VERB))
+    with output_folder(out, "figure5") as path:
+        _run(ExperimentFolder.new(path, config, VERB), output)
 
 
-def _run(folder: ExperimentFolder[ReproduceConfig]) -> None:
-    outcomes = train_all(folder)
+def _run(folder: ExperimentFolder[ReproduceConfig], output: Output) -> None:
+    outcomes = train_all(folder, output)
     results, longer = results_of(folder.config, outcomes)
     # Tests and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.reproduction import write_reproduction
 
     with folder.writing():
         claims = write_reproduction(folder.path, results, longer)
-    _print_verdicts(claims)
-    for what, name in (("figure", "figure5.png"), ("table", "results.csv"), ("report", "report.md")):
-        typer.echo(f"{what + ':':8}{folder.path / name}")
+    found = {
+        "claims": [
+            {"letter": each.claim.letter, "claim": each.claim.title, "verdict": each.verdict.value} for each in claims
+        ]
+    }
+    say_end(output, folder.path, FILES, found, _verdicts(claims))
 
 
 def results_of(config: ReproduceConfig, outcomes: Outcomes) -> tuple[Results, Results | None]:
@@ -182,8 +194,8 @@ def builders_score(scenario: Scenario) -> float:
     raise AssertionError("the builder places every block, which ends the episode")
 
 
-def _print_verdicts(claims: "Sequence[JudgedClaim]") -> None:
+def _verdicts(claims: "Sequence[JudgedClaim]") -> Table:
     table = Table("", "the paper's claim", "verdict", box=None, padding=(0, 1))
     for judged in claims:
         table.add_row(f"({judged.claim.letter})", Text(judged.claim.title), judged.verdict.value)
-    Console().print(table)
+    return table

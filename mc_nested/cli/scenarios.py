@@ -1,6 +1,8 @@
-"""``mc-nested scenarios``: the designs as drawings, with their optimum and the fewest steps."""
+"""``mc-nested scenarios``: the designs as drawings, with their optimum and the fewest steps; a file's layers."""
 
-from typing import Annotated
+import dataclasses
+from pathlib import Path
+from typing import Annotated, Any
 
 import typer
 from rich.console import Console, Group
@@ -8,21 +10,77 @@ from rich.text import Text
 
 from mc_nested.arena.builder import build
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
+from mc_nested.arena.scenario_file import draw_grid, shipped_scenarios
 from mc_nested.arena.search import EXACT_UP_TO, fewest_steps
+from mc_nested.cli.output import JsonOption, Output
+from mc_nested.cli.scenario_options import LayerOption, named_scenario, print_notes
+from mc_nested.design_files.layer_scenario import kinds_in_words
+from mc_nested.design_files.load import is_design_file, load_layer, read_volume
+from mc_nested.design_files.volume import Volume
 from mc_nested.report.terminal import arena_view
+
+MOST_LISTED = 100
+"""Layers of a file that are listed."""
 
 
 def scenarios(
     names: Annotated[
         list[str] | None, typer.Argument(metavar="[NAME|FILE]...", help="which (default: all that are shipped)")
     ] = None,
+    layer: LayerOption = None,
+    as_json: JsonOption = False,
 ) -> None:
-    """List the designs with a drawing, the optimum and the fewest steps of a full build."""
+    """List the designs with a drawing, the optimum and the fewest steps; of a schematic its layers, too."""
+    if as_json:
+        found = [_fields(named_scenario(name, layer)) for name in names or shipped_scenarios()]
+        Output(as_json=True).result({"scenarios": found})
+        return
     console = Console()
     for name in names or shipped_scenarios():
-        console.print(_facts(load_scenario(name)))
+        console.print(_facts(_shown(name, layer, console)))
         console.print()
+
+
+def _shown(name: str, layer: int | None, console: Console) -> Scenario:
+    """The scenario of a name or file; of a file with several layers these are printed first."""
+    if not is_design_file(name):
+        return named_scenario(name, layer)
+    volume = read_volume(Path(name))
+    loaded = load_layer(Path(name), volume, layer)
+    if volume.layers > 1:
+        console.print(_layers(Path(name).name, volume))
+    print_notes(loaded)
+    return loaded.scenario
+
+
+def _layers(name: str, volume: Volume) -> Group:
+    """The layers that have blocks: how many, over how many cells, and of what."""
+    filled = volume.layers_with_blocks()
+    lines = [f"  {'layer':>5}  {'blocks':>6}  {'cells':>9}  of"]
+    for layer in filled[:MOST_LISTED]:
+        kinds = volume.kinds(layer)
+        width, length = volume.extent(layer)
+        lines.append(f"  {layer:>5}  {kinds.total():>6}  {f'{width} x {length}':>9}  {kinds_in_words(kinds)}")
+    if len(filled) > MOST_LISTED:
+        lines.append(f"  and {len(filled) - MOST_LISTED} more")
+    head = Text(f"{name}: {len(filled)} of {volume.layers} layers have blocks, 0 is the lowest", style="bold")
+    return Group(head, *(Text(line, no_wrap=True, overflow="ellipsis") for line in lines), Text())
+
+
+def _fields(scenario: Scenario) -> dict[str, Any]:
+    fewest = fewest_steps(scenario)
+    return {
+        "name": scenario.name,
+        "size": scenario.size,
+        "blocks": scenario.blocks,
+        "materials": [dataclasses.asdict(material) for material in scenario.materials],
+        "optimum": scenario.optimum,
+        "fewest_steps": fewest.steps,
+        "is_exact": fewest.exact,
+        "builder_steps": len(build(scenario)),
+        "step_limit": scenario.step_limit,
+        "design": draw_grid(scenario.design, scenario.size).split(),
+    }
 
 
 def _facts(scenario: Scenario) -> Group:

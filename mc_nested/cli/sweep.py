@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.scenario_file import load_scenario, paper_scenarios, table_of
+from mc_nested.arena.scenario_file import paper_scenarios, table_of
 from mc_nested.cli.ablation import TRIALS as ABLATION_TRIALS
 from mc_nested.cli.ablation import is_ablation, run_ablation
 from mc_nested.cli.experiment import (
@@ -16,20 +16,26 @@ from mc_nested.cli.experiment import (
     OutOption,
     ResumeOption,
     SeedOption,
-    check_new_folder,
     check_nothing_beside_resume,
     cores,
     train_all,
 )
+from mc_nested.cli.experiment_end import say_end
+from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.output_folder import output_folder
+from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
 from mc_nested.errors import UserError
 from mc_nested.learn.experiments.ablation import AblationConfig, shipped_parts
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.learn.experiments.sweep import SweepConfig, shipped_variants
 from mc_nested.learn.preset import MOST, load_preset
+from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.sweep_results import Sweep, SweepRow
 
 VERB = "sweep"
 TRIALS, EPISODES, PRESET = 5, 1000, "paper"
+
+FILES = {"table": "sweep.md", "plot": "sweep.png", "rows": "sweep.csv"}
 
 
 def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
@@ -48,33 +54,39 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         typer.Option(min=1, max=MOST, help=f"episodes a trial [{EPISODES:,}; of an ablation live 30, tuned its own]"),
     ] = None,
     seed: SeedOption = None,
-    scenario: Annotated[
-        list[str] | None, typer.Option(metavar="NAME|FILE", help="a design, as often as you like [the paper's three]")
-    ] = None,
+    scenario: ScenariosOption = None,
+    layer: LayerOption = None,
     preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=f"what is varied [{PRESET}]")] = None,
     jobs: JobsOption = None,
     out: OutOption = None,
     resume: ResumeOption = None,
+    quiet: QuietOption = False,
+    as_json: JsonOption = False,
 ) -> None:
     """Vary each choice that the paper leaves open, one at a time; Ctrl+C saves, and --resume goes on from there.
 
     Writes sweep.png, sweep.md and sweep.csv, or ablation.*. The defaults take about ten minutes on two cores, those of
     an ablation about an hour.
     """
+    output = Output(quiet, as_json)
     if resume is not None:
         check_nothing_beside_resume(context.params)
         if is_ablation(resume):
-            run_ablation(ExperimentFolder.open(resume, AblationConfig, VERB))
+            ablated = ExperimentFolder.open(resume, AblationConfig, VERB)
+            with folder_lock(resume):
+                run_ablation(ablated, output)
             return
-        _run(ExperimentFolder.open(resume, SweepConfig, VERB))
+        folder = ExperimentFolder.open(resume, SweepConfig, VERB)
+        with folder_lock(resume):
+            _run(folder, output)
         return
-    path = check_new_folder(out)
-    scenarios = [load_scenario(name) for name in scenario or paper_scenarios()]
+    scenarios = named_scenarios(scenario or paper_scenarios(), layer)
     if ablation:
         if preset is not None:
             raise UserError("--ablation takes parts off the presets live and tuned: leave out --preset")
         ablation_config = _ablation(scenarios, trials, episodes, seed, jobs)
-        run_ablation(ExperimentFolder.new(path, ablation_config, VERB))
+        with output_folder(out, "ablation") as path:
+            run_ablation(ExperimentFolder.new(path, ablation_config, VERB), output)
         return
     base = load_preset(preset or PRESET).model_copy(update={"episodes": episodes or EPISODES})
     config = SweepConfig(
@@ -86,7 +98,8 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         scenarios=[table_of(each) for each in scenarios],
         variants=shipped_variants(base, scenarios),
     )
-    _run(ExperimentFolder.new(path, config, VERB))
+    with output_folder(out, "sweep") as path:
+        _run(ExperimentFolder.new(path, config, VERB), output)
 
 
 def _ablation(
@@ -101,15 +114,14 @@ def _ablation(
     )
 
 
-def _run(folder: ExperimentFolder[SweepConfig]) -> None:
-    found = sweep_of(folder.config, train_all(folder))
+def _run(folder: ExperimentFolder[SweepConfig], output: Output) -> None:
+    found = sweep_of(folder.config, train_all(folder, output))
     # Tests and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.sweep import write_sweep
 
     with folder.writing():
         write_sweep(folder.path, found)
-    for what, name in (("plot", "sweep.png"), ("table", "sweep.md"), ("rows", "sweep.csv")):
-        typer.echo(f"{what + ':':7}{folder.path / name}")
+    say_end(output, folder.path, FILES, {})
 
 
 def sweep_of(config: SweepConfig, outcomes: Outcomes) -> Sweep:

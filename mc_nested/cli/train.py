@@ -1,39 +1,29 @@
 """``mc-nested train``: begin a training, or resume one."""
 
-import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from mc_nested.arena.scenario_file import load_scenario, table_of
-from mc_nested.atomic_file import atomic_write
-from mc_nested.cli.earlier_run import earlier_run
-from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
-from mc_nested.cli.options import DEFAULT_PROFILE, Backend, ProfileOption, ServerOption, open_arenas, played_live
-from mc_nested.cli.progress import STOPPING, TrainingProgress
-from mc_nested.errors import DesktopError, LiveError, UserError
-from mc_nested.learn.agents import AGENT_SPECS, view_of
+from mc_nested.arena.scenario_file import table_of
+from mc_nested.cli.options import DEFAULT_PROFILE, Backend, ProfileOption, ServerOption
+from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.output_folder import output_folder
+from mc_nested.cli.recording_options import RecordOption
+from mc_nested.cli.scenario_options import FILES, NAME_OR_FILE, LayerOption, named_scenario
+from mc_nested.cli.training import HowToRun, run_training
+from mc_nested.cli.viewing import ViewOption
+from mc_nested.errors import UserError
+from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import MOST, load_preset
+from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
-from mc_nested.learn.trainer import Trainer
-from mc_nested.live.failure_budget import FailureBudget
-from mc_nested.report.arena_map import draw_map
-from mc_nested.report.curve import align_trials, draw_curve
-from mc_nested.report.game_time import expected
-from mc_nested.report.played import played_by
-from mc_nested.report.played_curve import draw_played_curve
-from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
-
-SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.LIVE: 15.0}
-"""Seconds between checkpoints, which is what a kill can cost: in the simulator, or in a game of a block per second."""
 
 MOST_TRIALS = 1000
 """More at once would only run out of memory."""
 
-MAP = "map.png"
-"""What was learnt of the arena, in a run's folder."""
+BESIDE_RESUME = ("resume", "profile", "server_allowed", "record", "view", "quiet", "as_json")
+"""The options that a run can be resumed with; all others are in its config.toml."""
 
 DEFAULTS: dict[str, Any] = {
     "scenario": "line",
@@ -47,7 +37,10 @@ DEFAULTS: dict[str, Any] = {
 
 def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
-    scenario: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="the design to build [line]")] = None,
+    scenario: Annotated[
+        str | None, typer.Option(metavar=NAME_OR_FILE, help=f"the design to build: {FILES} [line]")
+    ] = None,
+    layer: LayerOption = None,
     agent: Annotated[str | None, typer.Option(help=f"the agent: {', '.join(AGENT_SPECS)} [nested]")] = None,
     backend: Annotated[Backend | None, typer.Option(help="where [sim]")] = None,
     preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="hyper-parameters [paper]")] = None,
@@ -61,27 +54,34 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     ] = False,
     profile: ProfileOption = None,
     server_allowed: ServerOption = False,
+    record: RecordOption = None,
     begin_from: Annotated[
         Path | None,
         typer.Option(
             "--from", metavar="RUN", help="begin with the best policy of an earlier training, and its learnt game"
         ),
     ] = None,
-    out: Annotated[Path | None, typer.Option(metavar="DIR", help="a new or empty folder for the run")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="a new or empty folder for the run [runs/DESIGN-AGENT-DATE]")
+    ] = None,
     resume: Annotated[Path | None, typer.Option(metavar="DIR", help="go on from a run's last checkpoint")] = None,
+    view: ViewOption = False,
+    quiet: QuietOption = False,
+    as_json: JsonOption = False,
 ) -> None:
     """Train an agent; Ctrl+C saves, and --resume goes on from there."""
+    how = HowToRun(Output(quiet, as_json), server_allowed, record, view)
     if resume is not None:
         given = [name for name, value in context.params.items() if value is not None and value is not False]
-        beside = [name for name in given if name not in ("resume", "profile", "server_allowed")]
+        beside = [name for name in given if name not in BESIDE_RESUME]
         if beside:
             option = "--from" if beside[0] == "begin_from" else "--" + beside[0].replace("_", "-")
             raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
         folder = RunFolder.open(resume)
-        run_training(folder, profile or folder.config.profile, not folder.only_begun, server_allowed=server_allowed)
+        where_played = profile or folder.config.profile
+        with folder_lock(resume):
+            run_training(folder, where_played, not folder.only_begun, how)
         return
-    if out is None:
-        raise UserError("name a new folder for the run with --out DIR, or a run to go on with, --resume DIR")
     if agent not in (None, *AGENT_SPECS):
         raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENT_SPECS)}")
     chosen = load_preset(DEFAULTS["preset"] if preset is None else preset)
@@ -95,122 +95,8 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         stop_at_optimum=stop_at_optimum,
         preset_name=DEFAULTS["preset"] if preset is None else preset,
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
-        scenario=table_of(load_scenario(DEFAULTS["scenario"] if scenario is None else scenario)),
+        scenario=table_of(named_scenario(DEFAULTS["scenario"] if scenario is None else scenario, layer)),
     )
-    folder = RunFolder.new(out, config)
-    run_training(folder, config.profile, resumed=False, begin_from=begin_from, server_allowed=server_allowed)
-
-
-def run_training(
-    folder: RunFolder,
-    profile: str | None,
-    resumed: bool,
-    begin_from: Path | None = None,
-    *,
-    server_allowed: bool = False,
-) -> None:
-    """Train until the run is finished or somebody stops it; saved on the way and at the end."""
-    config = folder.config
-    earlier = earlier_run(begin_from, folder) if begin_from else None
-    began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
-    with catch_interrupts() as interrupt:
-        with open_arenas(
-            Backend(config.backend),
-            profile,
-            folder.scenarios,
-            server_allowed=server_allowed,
-            evidence=folder.path / "evidence",
-        ) as (env, log):
-            agent = folder.new_agent(config.trials)
-            view = view_of(agent.spec, env, folder.scenarios)
-            trainer = Trainer(view, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
-            if resumed:
-                folder.checkpoint.load_into(trainer)
-            else:
-                if earlier:
-                    earlier.begin(trainer)
-                    folder.save_before_all(trainer)
-                folder.begin()
-                if Backend(config.backend) is Backend.LIVE:
-                    expectation = expected(config.preset, folder.scenario, stop_at_optimum=config.stop_at_optimum)
-                    typer.echo(expectation.line(folder.scenario))
-            failure_budget = FailureBudget()
-
-            def save() -> dict[str, Any]:
-                return folder.save(trainer, time.monotonic() - began, played_live(log, failure_budget))
-
-            try:
-                _tick_until_done(folder, trainer, interrupt, failure_budget, save)
-            except (LiveError, DesktopError) as error:
-                trainer.abandon_episodes()
-                save()
-                raise LiveError(f"{error}; saved: go on with mc-nested train --resume {folder.path}") from error
-            summary = save()
-        _draw(folder, trainer)
-    if not trainer.finished:
-        raise Stopped(f"stopped and saved: go on with mc-nested train --resume {folder.path}")
-    scores = ", ".join(f"{score:g}" for score in summary["final_scores"])
-    if folder.config.stop_at_optimum:
-        reached = ", ".join("never" if done is None else f"{done}" for done in summary["episodes_to_optimum"])
-        played = ", ".join("never" if each is None else f"{each['episodes']}" for each in summary["played_to_optimum"])
-        typer.echo(f"episodes to the optimum: {reached}; with the greedy ones: {played}")
-    typer.echo(f"final scores (optimum {summary['optimum']:g}): {scores}")
-    typer.echo(f"run:        {folder.path}")
-    typer.echo(f"curve:      {folder.path / 'curve.png'}")
-    if trainer.imagination:
-        typer.echo(f"map:        {folder.path / MAP}")
-    typer.echo(f"checkpoint: {folder.path / 'checkpoint'}")
-
-
-def _tick_until_done(
-    folder: RunFolder,
-    trainer: Trainer,
-    interrupt: Interrupt,
-    failure_budget: FailureBudget,
-    save: Callable[[], dict[str, Any]],
-) -> None:
-    every = SAVE_EVERY_S[Backend(folder.config.backend)]
-    save_at = time.monotonic() + every
-    events = _events(folder, trainer)
-    with TrainingProgress(folder.scenario, trainer, stops=lambda: interrupt.requested) as progress:
-        if not progress.in_terminal:
-            interrupt.says = STOPPING
-        while not (trainer.finished or interrupt.requested):
-            try:
-                trainer.tick()
-            except LiveError as error:
-                failure_budget.record_failure(error, trainer.env_steps)
-                trainer.abandon_episodes()
-                continue
-            progress.show()
-            if events:
-                with folder.writing():
-                    events.write()
-            if time.monotonic() >= save_at:
-                save()
-                save_at = time.monotonic() + every
-
-
-def _events(folder: RunFolder, trainer: Trainer) -> TensorBoard | None:
-    if not is_installed():
-        return None
-    with folder.writing():
-        return TensorBoard([folder.path / FOLDER / f"trial-{trial}" for trial in range(folder.config.trials)], trainer)
-
-
-def _draw(folder: RunFolder, trainer: Trainer) -> None:
-    """Draw the curve, and what was learnt of the arena, if anything was."""
-    config, scenario = folder.config, folder.scenario
-    title = f"{scenario.name}, {config.agent} agent, preset {Path(config.preset_name).stem}"
-    with folder.writing(), atomic_write(folder.path / "curve.png") as path:
-        if trainer.imagination:
-            played = played_by(trainer.episode_rows, trainer.evaluation_rows, config.trials)
-            draw_played_curve(path, title, played, scenario.optimum)
-        else:
-            rows = [(row.trial, row.episode, row.score) for row in trainer.evaluation_rows]
-            episodes, scores = align_trials(rows, config.trials)
-            draw_curve(path, title, episodes, scores, scenario.optimum)
-    if trainer.imagination:
-        which = f", the first of {config.trials} trials" if config.trials > 1 else ""
-        with folder.writing(), atomic_write(folder.path / MAP) as path:
-            draw_map(path, title + which, trainer.imagination.seen(0))
+    with output_folder(out, f"{config.scenario.name}-{config.agent}") as path:
+        folder = RunFolder.new(path, config)
+        run_training(folder, config.profile, False, how, begin_from)

@@ -50,86 +50,94 @@ class _GrownTable(_Table):
 class Exploration(_Table):
     """ε from ``start`` to ``floor`` over the first ``share`` of the episodes."""
 
-    start: Probability
-    floor: Probability
-    share: Share
+    start: Probability = Field(description="ε in the first episode")
+    floor: Probability = Field(description="ε at the end of its way, and from then on")
+    share: Share = Field(description="the share of all episodes that its way takes")
 
 
 class ExcursionRule(_Table):
-    """Exploration from the best episode so far (return_then_explore.py), instead of ε.
+    """Exploration from the best episode so far (return_then_explore.py), instead of ε."""
 
-    ``at_end`` is the share of excursions that follow it to its end. The others leave it at a random step and wander at
-    most ``wander`` steps. ``rejoin`` is the probability to follow its path again each time it is met, ``repeat`` the
-    probability to place a block where that is known to be on the design.
-    """
-
-    at_end: Probability
-    wander: Count
-    rejoin: Probability
-    repeat: Probability
+    at_end: Probability = Field(
+        description="the share of excursions that follow the best episode to its end; the others leave it at a random "
+        "step"
+    )
+    wander: Count = Field(description="the most steps that an excursion then wanders")
+    rejoin: Probability = Field(
+        description="the probability to follow the best episode's path again, each time it is met"
+    )
+    repeat: Probability = Field(description="the probability to place a block where that is known to be on the design")
 
 
 class Imitation(_GrownTable):
-    """Self-imitation (self_imitation.py): how much of each batch is from the best episode, and its actions' margin.
+    """Self-imitation (self_imitation.py): a part of each batch comes from the best episode so far."""
 
-    ``td_weight`` is what the batch's TD errors count for beside it: at 0 nothing is left but imitation.
-    """
-
-    batch: Count
-    margin: Positive
-    td_weight: Probability = 1.0
+    batch: Count = Field(description="how many transitions of a batch come from the best episode")
+    margin: Positive = Field(description="by how much the value of its actions must exceed that of any other")
+    td_weight: Probability = Field(
+        default=1.0, description="what the batch's TD errors count for beside it: at 0 nothing is left but imitation"
+    )
 
 
 class Prioritized(_Table):
-    """Prioritized replay (prioritized.py): how much priorities count, and how much of their bias is corrected."""
+    """Prioritized replay (prioritized.py): transitions with large TD errors are drawn more often."""
 
-    alpha: Probability
-    beta: Probability
+    alpha: Probability = Field(description="how much priorities count; at 0 all transitions are drawn alike")
+    beta: Probability = Field(description="how much of their bias is corrected; 1 is all of it")
 
 
 class Update(_Table):
     """What an update of any agent does, and how many transitions there must be before the first."""
 
-    batch: Annotated[int, Field(ge=1, le=LARGEST_BATCH)]
-    learning_starts: Count
-    learning_rate: Positive
-    gamma: Probability
-    target_period: Count
-    huber_delta: Positive
+    batch: Annotated[int, Field(ge=1, le=LARGEST_BATCH)] = Field(description="transitions of an update")
+    learning_starts: Count = Field(description="transitions that there must be before the first update")
+    learning_rate: Positive = Field(description="Adam's")
+    gamma: Probability = Field(description="γ: what a reward is worth a step later")
+    target_period: Count = Field(description="updates from one renewal of the target network to the next")
+    huber_delta: Positive = Field(description="Huber's δ: a TD error beyond it counts linearly, not by its square")
 
 
 class MainUpdates(_Table):
     """When the main agent learns from its one transition an episode, and how many updates follow each of them."""
 
-    learning_starts: Count
-    updates_an_episode: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)]
+    learning_starts: Count = Field(description="its transitions that there must be before its first update")
+    updates_an_episode: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)] = Field(
+        description="updates that follow each of its transitions"
+    )
 
 
 class ImaginationRule(_GrownTable):
     """Practice in the learnt game between real episodes (imagination/), instead of exploring the real one by chance.
 
-    An imagined episode has an ε of its own, between the two. A practice ends when the greedy policy scores ``enough``
-    of the best that is imaginable while cells are still to be found, or all of it afterwards; or after so many updates.
-    Before it, tables learn where to go, for at most so many imagined ``table_steps``; at 0 there are none.
-    ``n_steps`` is how many rewards in a row a network's target adds up.
-
-    Parts that an ablation turns off: ``optimism`` takes unknown cells to pay, ``neighbours`` those beside a paying one
-    first; ``real_transitions`` puts what happened into the replay of what was imagined; ``double`` lets the online
-    network choose the action that the target network values.
+    A practice ends when the greedy policy scores ``enough`` of the best that is imaginable while cells are still to be
+    found, or all of it afterwards; or after so many updates. The last four keys are parts that an ablation turns off.
     """
 
-    highest_epsilon: Share
-    lowest_epsilon: Share
-    enough: Share
-    updates_exploring: Count
-    updates_building: Count
-    table_steps_exploring: Annotated[int, Field(ge=0, le=MOST_TABLE_STEPS)]
-    table_steps_building: Annotated[int, Field(ge=0, le=MOST_TABLE_STEPS)]
-    n_steps: Annotated[int, Field(ge=1, le=MOST_STEPS_OF_A_RETURN)]
-    optimism: bool = True
-    neighbours: bool = True
-    real_transitions: bool = True
-    double: bool = True
+    highest_epsilon: Share = Field(description="an imagined episode has an ε of its own: at most this")
+    lowest_epsilon: Share = Field(description="and at least this")
+    enough: Share = Field(
+        description="the share of the best imaginable score that ends a practice while cells are still to be found"
+    )
+    updates_exploring: Count = Field(description="the most updates of a practice while cells are still to be found")
+    updates_building: Count = Field(description="the most updates of a practice afterwards")
+    table_steps_exploring: Annotated[int, Field(ge=0, le=MOST_TABLE_STEPS)] = Field(
+        description="before the networks, tables learn where to go: the most imagined steps of that while cells are "
+        "still to be found; at 0 there are no tables"
+    )
+    table_steps_building: Annotated[int, Field(ge=0, le=MOST_TABLE_STEPS)] = Field(
+        description="the most imagined steps of the tables afterwards"
+    )
+    n_steps: Annotated[int, Field(ge=1, le=MOST_STEPS_OF_A_RETURN)] = Field(
+        description="how many rewards in a row a network's target adds up"
+    )
+    optimism: bool = Field(default=True, description="whether unknown cells are taken to pay")
+    neighbours: bool = Field(default=True, description="whether those beside a paying one are taken to pay first")
+    real_transitions: bool = Field(
+        default=True, description="whether what happened is in the replay, beside what was imagined"
+    )
+    double: bool = Field(
+        default=True, description="whether the online network chooses the action that the target network values"
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -155,21 +163,34 @@ class ImaginationRule(_GrownTable):
 
 
 class Preset(_Table):
-    """A training's hyper-parameters; ``paper`` is TASK.md's table.
+    """A training's hyper-parameters; ``paper`` is docs/explanation/task.md's table.
 
-    With ``imagination`` it is played without ε, and ``replay_capacity`` isn't used.
+    With ``imagination`` it is played without ε.
     Without ``main``, the main agent learns as the paper's: by one update an episode, from [update] ``learning_starts``
     transitions on, of which it has one an episode.
     """
 
-    episodes: Count
-    evaluate_every: Count
-    hidden: Annotated[list[Annotated[int, Field(ge=1, le=WIDEST)]], Field(min_length=1, max_length=DEEPEST)]
-    replay_capacity: Count
+    episodes: Count = Field(description="training episodes of a trial")
+    evaluate_every: Count = Field(
+        description="episodes from one greedy evaluation to the next; with [imagination] they come whenever a whole "
+        "design is known and its practice has reached the optimum, and at the end"
+    )
+    hidden: Annotated[list[Annotated[int, Field(ge=1, le=WIDEST)]], Field(min_length=1, max_length=DEEPEST)] = Field(
+        description="nodes of each hidden layer"
+    )
+    replay_capacity: Count = Field(description="transitions that are kept; not used with [imagination]")
     update: Update
-    encoding: Literal["scaled", "one-hot", "cell"] = "scaled"
-    updates_a_step: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)] = 1
-    keep: Literal["last", "best"] = "last"
+    encoding: Literal["scaled", "one-hot", "cell"] = Field(
+        default="scaled",
+        description='the network\'s input: "scaled" numbers, "one-hot" inputs for each value of x, y, b and a_M, or '
+        '"cell" inputs for each cell (x, y) and for each value of b and a_M',
+    )
+    updates_a_step: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)] = Field(
+        default=1, description="updates after each step"
+    )
+    keep: Literal["last", "best"] = Field(
+        default="last", description="the policy kept: the last, or the one that was best at greedy evaluation"
+    )
     explore_main: Exploration | None = None
     explore_nested: Exploration | None = None
     excursions: ExcursionRule | None = None

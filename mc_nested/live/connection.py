@@ -1,10 +1,12 @@
 """GameConnection: one running game: its window's devices, the one owner of held keys, and the screen reader."""
 
+from collections.abc import Callable
 from types import TracebackType
 
 from mc_nested.errors import ProfileError
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.journal import Journal, NoJournal
 from mc_nested.live.profile.fingerprint import check_single_player
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import Profile
@@ -20,6 +22,8 @@ class GameConnection:
         controller: presses keys and buttons, and releases them.
         screen: reads the window; None while the game's font is not known.
         is_server_allowed: whether to play in a game that others may share.
+        journal: is told what is waited for, read, planned and done.
+        on_screen: what every screen that reads the window is wrapped in, as by a recording.
     """
 
     def __init__(
@@ -29,11 +33,15 @@ class GameConnection:
         screen: GameScreen | None = None,
         *,
         is_server_allowed: bool = False,
+        journal: Journal | None = None,
+        on_screen: Callable[[GameScreen], GameScreen] = lambda screen: screen,
     ) -> None:
         self.devices = devices
         self.controller = controller
         self.is_server_allowed = is_server_allowed
-        self._screen = screen
+        self.journal = journal or NoJournal()
+        self._screen = on_screen(screen) if screen else None
+        self._on_screen = on_screen
 
     def __enter__(self) -> "GameConnection":
         self.controller.__enter__()
@@ -60,20 +68,41 @@ class GameConnection:
 
     def with_screen(self, screen: GameScreen) -> "GameConnection":
         """The same game, read by that screen."""
-        return GameConnection(self.devices, self.controller, screen, is_server_allowed=self.is_server_allowed)
+        return GameConnection(
+            self.devices,
+            self.controller,
+            screen,
+            is_server_allowed=self.is_server_allowed,
+            journal=self.journal,
+            on_screen=self._on_screen,
+        )
 
     def check_single_player(self) -> None:
         """DesktopError if the window's title says that others may play there, unless that is allowed."""
         check_single_player(self.devices.display.title(), is_server_allowed=self.is_server_allowed)
 
 
-def connect(profile: Profile, devices: Devices, *, is_server_allowed: bool = False) -> GameConnection:
+def connect(
+    profile: Profile,
+    devices: Devices,
+    *,
+    is_server_allowed: bool = False,
+    journal: Journal | None = None,
+    on_screen: Callable[[GameScreen], GameScreen] = lambda screen: screen,
+) -> GameConnection:
     """A connection to the game in that window, read with the profile's font and layout.
 
     Raises ProfileError or FontError where the profile names no font that can be used.
     """
-    controller = InputController(devices, profile.input)
-    return GameConnection(devices, controller, screen_for(profile, devices), is_server_allowed=is_server_allowed)
+    screen = screen_for(profile, devices)
+    return GameConnection(
+        devices,
+        InputController(devices, profile.input),
+        screen,
+        is_server_allowed=is_server_allowed,
+        journal=journal,
+        on_screen=on_screen,
+    )
 
 
 def screen_for(profile: Profile, devices: Devices) -> WindowScreen:

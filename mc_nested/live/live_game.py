@@ -1,5 +1,6 @@
 """LiveGame: the Game that is played in a window, by reading the debug screen and timing keys."""
 
+from collections.abc import Callable, Collection, Iterable
 from pathlib import Path
 from types import TracebackType
 
@@ -10,6 +11,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import LiveError, ProfileError, StoppedError
 from mc_nested.live.action_log import ActionLog
 from mc_nested.live.connection import GameConnection
+from mc_nested.live.journal import Fact
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.menus.click_points import ClickPoints
 from mc_nested.live.menus.commands import reset_commands, teleport_command
@@ -56,6 +58,7 @@ class LiveGame:
         connection: the running game.
         points: where menus are clicked if their labels aren't found.
         evidence: the folder for the last frames, written when a reset fails for good.
+        restore: makes a world's folder the same as its template, for games without commands.
 
     Raises:
         ProfileError: the profile has no arena, or ``check_fits`` refuses it.
@@ -72,6 +75,7 @@ class LiveGame:
         *,
         points: ClickPoints | None = None,
         evidence: Path | None = None,
+        restore: Callable[[Path, Path], None] = restore_world,
     ) -> None:
         check_fits(scenario, profile)
         self._scenario = scenario
@@ -80,6 +84,7 @@ class LiveGame:
         self.connection = connection
         self._controller = connection.controller
         self._clock = connection.devices.clock
+        self._journal = connection.journal
         self._body = Body(profile, connection)
         self._chat = Chat(profile, connection)
         self._recovery = Recovery(profile, connection, points)
@@ -89,6 +94,7 @@ class LiveGame:
         self._cell: Cell | None = None
         self._placed: set[Cell] = set()
         self._material = 0
+        self._restore = restore
 
     def __enter__(self) -> "LiveGame":
         self.connection.__enter__()
@@ -105,6 +111,8 @@ class LiveGame:
         If the last action left another screen open, that is left first.
         """
         self._cell = None
+        self._body.forget()
+        self._journal.note("resets", material=material, **self._known())
         for tries_left in reversed(range(RESET_TRIES)):
             try:
                 self.connection.check_single_player()
@@ -116,6 +124,7 @@ class LiveGame:
             except StoppedError:
                 raise
             except LiveError as error:
+                self._journal.note("fails", problem=str(error))
                 self._last_frames.take()
                 if not tries_left:
                     raise self._with_evidence(error) from None
@@ -125,22 +134,42 @@ class LiveGame:
         self._placed.clear()
         self._material = material
         self._cell = self._scenario.start
+        self._journal.note("stands", cell=self._cell)
         return self._cell
+
+    def go_on_from(
+        self, placed: Collection[Cell], pressed: Iterable[str], tick_phase: tuple[float, float, float]
+    ) -> None:
+        """Begin the next reset with what another LiveGame knew there, as the journal's note of its reset says."""
+        self._placed = set(placed)
+        self._controller.go_on_after(pressed)
+        self._body.tick_phase.go_on_from(tick_phase)
+
+    def _known(self) -> dict[str, Fact]:
+        return {
+            "placed": tuple(sorted(self._placed)),
+            "pressed": self._controller.pressed_before,
+            "tick_phase": self._body.tick_phase.state,
+        }
 
     def act(self, action: Action) -> Outcome:
         """Perform an action on the screen. Where the rules void both its move and its block, nothing is pressed."""
         if self._cell is None:
             raise LiveError("the game must be reset first: the last reset or action failed, or there was none")
         cell, self._cell = self._cell, None
+        self._journal.note("acts", action=int(action), cell=cell)
         began = self._clock.now()
         try:
             outcome = self._perform(cell, action)
-        except LiveError:
+        except LiveError as error:
             self.log.failed_actions += 1
+            self._journal.note("fails", problem=str(error))
             raise
         finally:
             self._controller.release_all()
-        self.log.seconds.append(self._clock.now() - began)
+        seconds = self._clock.now() - began
+        self.log.seconds.append(seconds)
+        self._journal.note("done", cell=outcome.cell, placed=outcome.placed, seconds=seconds)
         self._cell = outcome.cell
         if outcome.placed is not None:
             self._placed.add(outcome.placed)
@@ -175,7 +204,7 @@ class LiveGame:
     def _restore_world(self, world: WorldTable) -> None:
         """Leave the world, restore its folder, and enter it again: for games without commands."""
         self._recovery.leave_world()
-        restore_world(Path(world.folder).expanduser(), Path(world.template).expanduser())
+        self._restore(Path(world.folder).expanduser(), Path(world.template).expanduser())
         self._recovery.recover()
 
     def _send_reset_commands(self) -> None:

@@ -8,24 +8,30 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.live.connection import connect
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
+from mc_nested.live.input.panic import Stop
 from mc_nested.live.input.watchdog import watched
+from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.live_game import LiveGame, check_fits
 from mc_nested.live.menus.point_pictures import load_click_points
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.profile.fingerprint import Fingerprint, check_fit
 from mc_nested.live.profile.store import load_profile, profile_path
+from mc_nested.live.recording.opened import OpenRecorder, no_recorder
 from mc_nested.live.vision.font import load_font
 
 
 @contextmanager
-def open_live_game(
+def open_live_game(  # noqa: PLR0913 - each of a session's parts can be another, as in tests
     scenario: Scenario,
     profile_name: str,
     say: Callable[[str], None],
     *,
     evidence: Path | None = None,
     is_server_allowed: bool = False,
+    journal: Journal | None = None,
+    open_recorder: OpenRecorder = no_recorder,
     open_devices: Callable[[str], AbstractContextManager[Devices]] = open_desktop,
+    open_panic_switch: Callable[[str, Stop], AbstractContextManager[None]] | None = None,
 ) -> Iterator[tuple[LiveGame, Display]]:
     """The scenario in the profile's window, and the window. Every key is up again when the block is left.
 
@@ -37,7 +43,10 @@ def open_live_game(
         say: shows one line to the player.
         evidence: the folder for the last frames, as LiveGame takes it.
         is_server_allowed: whether to play in a game that others may share.
+        journal: is told what is waited for, read, planned and done.
+        open_recorder: opens what records the run.
         open_devices: opens the window whose title matches.
+        open_panic_switch: opens the panic switch of the key that a profile names; None for the desktop's.
 
     Raises:
         ProfileError, FontError, DesktopError: it can't be played, or the profile was calibrated on another version,
@@ -47,8 +56,12 @@ def open_live_game(
     profile = load_profile(profile_name)
     check_fits(scenario, profile, profile_name)
     load_font(profile.screen.font_path())
-    with open_devices(profile.window.title) as devices:
-        connection = connect(profile, devices, is_server_allowed=is_server_allowed)
+    with open_devices(profile.window.title) as window, open_recorder(profile, window) as recording:
+        devices = recording.devices(window)
+        journals = Journals(*([journal] if journal else []), recording)
+        connection = connect(
+            profile, devices, is_server_allowed=is_server_allowed, journal=journals, on_screen=recording.screen
+        )
         # Checked twice: before anybody has to switch windows, and again once the GUI scale can be read.
         check_fit(profile.calibrated, fingerprint_of(devices.display), profile_name)
         if not devices.display.is_in_front():
@@ -61,11 +74,16 @@ def open_live_game(
         points = load_click_points(profile, profile_path(profile_name))
         game = LiveGame(scenario, profile, connection, points=points, evidence=evidence)
         controller = connection.controller
-        # Imported here: importing it needs a display, which is open only now.
-        from mc_nested.live.desktop.panic import open_panic_switch
-
-        with game, watched(controller), open_panic_switch(profile.keys.panic, controller.stop):
+        panic = open_panic_switch or _panic_switch_of_the_desktop
+        with game, watched(controller), panic(profile.keys.panic, recording.stopping(controller.stop)):
             yield game, devices.display
+
+
+def _panic_switch_of_the_desktop(key: str, stop: Stop) -> AbstractContextManager[None]:
+    # Imported here: importing it needs a display, which is open only now.
+    from mc_nested.live.desktop.panic import open_panic_switch
+
+    return open_panic_switch(key, stop)
 
 
 def fingerprint_of(display: Display, gui_scale: int | None = None) -> Fingerprint:

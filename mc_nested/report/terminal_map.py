@@ -24,6 +24,12 @@ STYLES = {
 NAMES = {"o": "pays", "-": "doesn't", "?": "believed", ".": "unknown", "#": "built, pays", "x": "built elsewhere"}
 
 
+def belief_rows(seen: Seen) -> tuple[str, ...]:
+    """The sign of each cell's belief, a text a row, the nearest row first."""
+    size = len(seen.cells)
+    return tuple("".join(SIGNS[Belief(int(seen.cells[x, y]))] for x in range(size)) for y in range(size))
+
+
 def map_view(seen: Seen) -> Group:
     """The arena from above, the far edge on top, and what each sign means."""
     size = len(seen.cells)

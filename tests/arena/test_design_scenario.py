@@ -2,9 +2,14 @@
 
 from dataclasses import replace
 
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from mc_nested.arena.builder import build
 from mc_nested.arena.design_scenario import is_buildable, scenario_of_design
+from mc_nested.arena.scenario import SMALLEST_SIZE, Scenario
 from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arena.search import fewest_steps
 
 LINE = load_scenario("line")
 
@@ -30,3 +35,24 @@ def test_what_the_builder_can_not_build_is_none() -> None:
     assert scenario_of_design("near", frozenset({(3, 0), (3, 1)}), LINE) is None
     assert not is_buildable(replace(LINE, step_limit=10))
     assert is_buildable(LINE)
+
+
+@st.composite
+def small_designs(draw: st.DrawFn) -> Scenario:
+    """Any design of a few blocks off the near edge, from any start, with no step limit to speak of."""
+    size = draw(st.integers(SMALLEST_SIZE, 9))
+    cells = st.tuples(st.integers(0, size - 1), st.integers(0, size - 1))
+    design = draw(st.frozensets(cells.filter(lambda cell: cell[1] > 0), min_size=1, max_size=7))
+    return replace(LINE, size=size, design=design, start=draw(cells))
+
+
+@given(small_designs())
+@settings(max_examples=100)
+def test_every_design_is_built_within_its_limit_and_never_in_fewer_steps_than_the_exact_search_finds(
+    like: Scenario,
+) -> None:
+    scenario = scenario_of_design("any", like.design, like)
+    assert scenario
+    fewest = fewest_steps(scenario)
+    assert fewest.exact
+    assert fewest.steps <= len(build(scenario)) <= scenario.step_limit

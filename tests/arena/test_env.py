@@ -6,29 +6,15 @@ import pytest
 from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import check_env
 
-import mc_nested  # noqa: F401 - importing it registers the Env
-from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
-from mc_nested.arena.drawing import CELL_PX
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Outcome
+from mc_nested.arena.picture import CELL_PX, draw_picture
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, ScenarioError
-from sim.grid import GridGame, GridVectorEnv, arena_env
-
-
-@pytest.mark.parametrize("render_mode", ["rgb_array", "ansi"])
-@pytest.mark.parametrize("scenario", ["line", "zigzag", "diamond"])
-def test_gymnasiums_checker_passes(scenario: str, render_mode: str) -> None:
-    env = gymnasium.make("mc_nested/Arena-v0", scenario=scenario, render_mode=render_mode)
-    check_env(env.unwrapped)
-
-
-def test_gymnasium_makes_the_vector_form() -> None:
-    envs = gymnasium.make_vec("mc_nested/Arena-v0", num_envs=3, scenario="diamond")
-    assert isinstance(envs.unwrapped, GridVectorEnv)
-    assert envs.reset()[0].tolist() == [[7, 14, 16]] * 3
+from sim.grid import GridGame, arena_env
 
 
 def test_observations_are_raw_x_y_b() -> None:
@@ -150,12 +136,16 @@ def test_the_text_shows_agent_blocks_and_design() -> None:
     assert drawing[4] == ". . . . . . . o . . . . . . ."
 
 
-def test_the_picture_has_a_colour_for_each_kind_of_cell() -> None:
+def test_the_picture_is_the_arena_as_it_stands() -> None:
     env = arena_env("line", render_mode="rgb_array")
     env.reset()
-    picture = env.render()
-    assert picture.shape == (240, 240, 3)
-    middle_of: dict[Cell, list[int]] = {
-        cell: picture[232 - 16 * cell[1], 8 + 16 * cell[0]].tolist() for cell in [(7, 14), (7, 5), (0, 0)]
-    }
-    assert middle_of == {(7, 14): [214, 69, 65], (7, 5): [178, 205, 232], (0, 0): [236, 240, 233]}
+    before = env.render()
+    env.step(Action.BD)
+    np.testing.assert_array_equal(env.render(), draw_picture(env.scenario, (7, 13), {(7, 14)}))
+    assert (env.render() != before).any()
+
+
+def test_without_a_render_mode_nothing_is_drawn() -> None:
+    env = arena_env("line")
+    env.reset()
+    assert env.render() is None

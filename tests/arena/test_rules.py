@@ -1,4 +1,4 @@
-"""The rules, worked by hand (TASK.md). The Env over them is tested in test_env."""
+"""The rules, worked by hand (docs/explanation/task.md). The Env over them is tested in test_env."""
 
 import pytest
 from hypothesis import given

@@ -1,4 +1,4 @@
-"""The single agent's ten actions, step by step (paper, appendix; TASK.md)."""
+"""The single agent's ten actions, step by step (paper, appendix; docs/explanation/task.md)."""
 
 import numpy as np
 import pytest

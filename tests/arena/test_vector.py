@@ -1,6 +1,7 @@
 """ArenaVectorEnv: its games say whether episodes can be saved half-way; gymnasium's wrappers fit over it."""
 
 import numpy as np
+import pytest
 from gymnasium.wrappers.vector import RecordEpisodeStatistics
 
 from mc_nested.arena.action import Action
@@ -59,3 +60,26 @@ def test_gymnasiums_wrappers_fit_over_it_and_start_their_episodes_over() -> None
         wrapped.reset()
         assert wrapped.step(np.array([Action.BD]))[0].tolist() == [[7, 13, 10]]
         assert resumable_arenas(wrapped) is None
+
+
+def test_every_arena_gets_a_seed_of_its_own_as_in_gymnasiums_vector_envs() -> None:
+    env = arenas(GridGame(LINE), GridGame(LINE))
+    env.reset(seed=5)
+    assert [arena.np_random_seed for arena in env.envs] == [5, 6]
+    env.reset(seed=[9, None])
+    assert [arena.np_random_seed for arena in env.envs] == [9, 6]
+
+
+def test_a_seed_too_few_is_refused() -> None:
+    for env in (arenas(GridGame(LINE), GridGame(LINE)), GridVectorEnv([LINE] * 2)):
+        with pytest.raises(ValueError, match="seed needs one entry for each of the 2 runs"):
+            env.reset(seed=[5])
+
+
+def test_a_material_is_named_for_all_arenas_or_numbered_for_each() -> None:
+    for env in (arenas(GridGame(LINE), GridGame(LINE)), GridVectorEnv([LINE] * 2)):
+        for material, scores in (("wood", [-5.0, -5.0]), ([0, 1], [-5.0, 10.0])):
+            env.reset(options={"material": material})
+            for _ in range(LINE.step_limit):
+                info = env.step(np.array([Action.F, Action.F]))[4]
+            assert info["score"].tolist() == scores

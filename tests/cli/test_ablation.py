@@ -1,6 +1,7 @@
 """``mc-nested sweep --ablation``: its folder, its files, and what it refuses."""
 
 import csv
+import json
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from mc_nested.learn.experiments.ablation import AblationConfig, shipped_parts
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.learn.experiments.job_training import Evaluated, JobOutcome, RunOutcome
 from mc_nested.learn.experiments.jobs import Job
+from mc_nested.learn.runs.folder_lock import folder_lock
 from tests.learn.made_experiments import BAR, DOT, scenario_text
 
 
@@ -69,7 +71,6 @@ def test_a_folder_says_whether_it_is_an_ablation_s(tmp_path: Path) -> None:
     [
         (["--out", "new", "--preset", "tuned"], "--ablation takes parts off the presets live and tuned"),
         (["--resume", "old"], "leave out --ablation"),
-        ([], "name a new folder with --out DIR"),
         (["--out", "new", "--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
     ],
 )
@@ -80,7 +81,9 @@ def test_what_can_not_be_is_one_line(words: list[str], says: str, capsys: pytest
     assert "\n" not in error
 
 
-def test_an_ablation_goes_on_by_sweep_resume_and_leaves_its_files(tmp_path: Path) -> None:
+def test_an_ablation_goes_on_by_sweep_resume_and_leaves_its_files(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     out = tmp_path / "out"
     planner = "planner on the learnt map, no network"
     ExperimentFolder.new(out, config(planner, "tuned, γ 0"), "sweep").begin()
@@ -92,8 +95,13 @@ def test_an_ablation_goes_on_by_sweep_resume_and_leaves_its_files(tmp_path: Path
     ]
     assert {row["updates"] for row in rows if row["part"] == planner} == {"0"}
     written = {name: (out / name).read_bytes() for name in ("ablation.csv", "ablation.md", "ablation.png")}
-    assert run("sweep", "--resume", out) == 0
+    capsys.readouterr()
+    assert run("sweep", "--resume", out, "--json") == 0
+    assert json.loads(capsys.readouterr().out)["files"]["table"] == str(out / "ablation.md")
     assert {name: (out / name).read_bytes() for name in written} == written
+    with folder_lock(out):
+        assert run("sweep", "--resume", out) == 2
+    assert f"{out}: process " in capsys.readouterr().err
 
 
 @pytest.mark.slow

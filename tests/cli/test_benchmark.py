@@ -1,5 +1,6 @@
 """``mc-nested benchmark``, tiny: its files, that they are the same however it went, and what it refuses."""
 
+import json
 import re
 import shutil
 from pathlib import Path
@@ -9,7 +10,9 @@ import pytest
 
 from mc_nested.cli import benchmark as benchmark_module
 from mc_nested.cli.benchmark import benchmark_of
+from mc_nested.cli.json_fields import JSON_FIELDS
 from mc_nested.learn.experiments.job_training import Evaluated, JobOutcome, RunOutcome
+from mc_nested.learn.runs.folder_lock import folder_lock
 from tests.cli.running import run, table
 from tests.learn.experiments.test_benchmark import config
 from tests.learn.made_experiments import small_preset_text
@@ -61,6 +64,17 @@ def test_it_leaves_the_same_files_for_any_number_of_processes_and_after_a_resume
             shutil.rmtree(unit)
     assert run("benchmark", "--resume", files / "1") == 0
     assert written(files / "1") == found[0]
+    capsys.readouterr()
+    assert run("benchmark", "--resume", files / "1", "--json") == 0
+    printed = json.loads(capsys.readouterr().out)
+    assert printed.keys() == JSON_FIELDS["benchmark"].keys()
+    assert printed["files"]["report"] == str(files / "1" / "benchmark.md")
+    solved = {each["contestant"]: (each["trials"], each["solved"]) for each in printed["measures"]}
+    assert solved.keys() == {"nested, tiny", "nested, small", "single, tiny", "single, small"}
+    assert {trials for trials, _ in solved.values()} == {4}
+    with folder_lock(files / "1"):
+        assert run("benchmark", "--resume", files / "1") == 2
+    assert f"{files / '1'}: process " in capsys.readouterr().err
     rows = table(files / "1" / "benchmark.csv")
     assert [(row["agent"], row["preset"]) for row in rows[::4]] == [
         ("nested", "tiny"),
@@ -89,7 +103,6 @@ def test_it_leaves_the_same_files_for_any_number_of_processes_and_after_a_resume
         (["--out", "NEW", "--presets", "fast"], "no preset 'fast'"),
         (["--resume", "NEW", "--designs", "3"], "--resume goes on with its own config.toml: leave out --designs"),
         (["--resume", "NEW"], "no config.toml there: name the folder of a benchmark (its --out)"),
-        ([], "name a new folder with --out DIR"),
     ],
 )
 def test_a_mistake_is_one_line_and_nothing_is_written(
@@ -127,7 +140,7 @@ def test_by_default_sb3_takes_part_where_it_is_installed(
 ) -> None:
     begun: list[Any] = []
     monkeypatch.setattr(benchmark_module, "is_installed", lambda: installed)
-    monkeypatch.setattr(benchmark_module, "_run", begun.append)
+    monkeypatch.setattr(benchmark_module, "_run", lambda folder, _: begun.append(folder))
     assert run("benchmark", "--designs", "6", "--seed", "2", "--out", tmp_path / "new") == 0
     (folder,) = begun
     assert list(dict.fromkeys(each.agent for each in folder.config.contestants)) == agents

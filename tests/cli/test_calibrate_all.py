@@ -1,5 +1,7 @@
 """``mc-nested calibrate all``: what it says step by step, its exit codes, and the report beside the profile."""
 
+import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -10,6 +12,7 @@ from calibration.open_context import OpenContext
 from calibration.runner import CalibrationStep
 from mc_nested.cli import calibrate_all
 from mc_nested.cli.app import main
+from mc_nested.cli.json_fields import JSON_FIELDS
 from mc_nested.errors import LiveError
 from mc_nested.live.profile.tables import Profile, ScreenTable
 from scripts.bench_calibration import context_opener_for, write_font
@@ -81,6 +84,54 @@ def test_each_step_is_said_with_what_it_found_and_the_report_is_made(
     assert "GUI scale 2" in (tmp_path / "mine-calibration.html").read_text("utf-8")
 
 
+def test_for_a_program_it_prints_what_each_step_found_and_what_is_missing(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    nothing = failing(LiveError("no button is to be seen"), is_needed=False)
+    set_up(monkeypatch, client, with_font(tmp_path), nothing)
+    assert code_of(tmp_path / "mine.toml", "--json") in (0, None)
+    printed = capsys.readouterr()
+    found = json.loads(printed.out)
+    assert found == {
+        "profile": str(tmp_path / "mine.toml"),
+        "seconds": 4.0,
+        "steps": [{"step": "font", "lines": ["GUI scale 2"], "samples": 3}],
+        "left_out": {"clicks": "no button is to be seen"},
+        "report": str(tmp_path / "mine-calibration.html"),
+    }
+    assert found.keys() == JSON_FIELDS["calibrate all"].keys()
+    assert "1/2 Font and screen" in printed.err
+
+
+def test_quietly_it_says_only_what_became_of_it(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    set_up(monkeypatch, client, with_font(tmp_path))
+    assert code_of(tmp_path / "mine.toml", "--quiet") in (0, None)
+    printed = capsys.readouterr()
+    assert printed.out.splitlines()[:2] == ["calibrated in 4 s", f"profile: {tmp_path / 'mine.toml'}"]
+    assert printed.err == ""
+
+
+@pytest.mark.parametrize("words", [[], ["--quiet"], ["--json"]])
+def test_what_the_player_has_to_do_is_said_in_any_case(
+    words: list[str],
+    monkeypatch: pytest.MonkeyPatch,
+    client: VirtualClient,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def opener(say: Callable[[str], None], *_: object, **__: object) -> OpenContext:
+        say("Switch to the game.")
+        return context_opener_for(client)
+
+    set_up(monkeypatch, client, with_font(tmp_path))
+    monkeypatch.setattr(calibrate_all, "context_opener", opener)
+    assert code_of(tmp_path / "mine.toml", *words) in (0, None)
+    printed = capsys.readouterr()
+    assert "Switch to the game.\n" in (printed.err if words else printed.out)
+
+
 def test_what_fails_is_one_line_and_leaves_nothing(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -142,11 +193,11 @@ def test_the_steps_know_the_profiles_file_and_the_game_whether_a_server_is_allow
     monkeypatch.setattr(calibrate_all, "registered_steps", steps)
     assert code_of(tmp_path / "mine.toml") in (0, None)
     assert given == {"size": 15, "standing": None, "path": tmp_path / "mine.toml"}
-    assert allowed == {"is_server_allowed": False}
+    assert allowed["is_server_allowed"] is False
     assert code_of(tmp_path / "mine.toml", "--size", "20", "--standing", "3", "4") in (0, None)
     assert given == {"size": 20, "standing": (3, 4), "path": tmp_path / "mine.toml"}
     assert code_of(tmp_path / "mine.toml", "--server-allowed") in (0, None)
-    assert allowed == {"is_server_allowed": True}
+    assert allowed["is_server_allowed"] is True
 
 
 def test_a_report_that_can_not_be_made_is_a_warning(

@@ -24,7 +24,12 @@ def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
 
 
 def context_of(
-    client: VirtualClient, say: Callable[[str], None], _ask: Callable[[str], bool], *, is_server_allowed: bool
+    client: VirtualClient,
+    say: Callable[[str], None],
+    _ask: Callable[[str], bool],
+    *,
+    is_server_allowed: bool,
+    **_: object,
 ) -> OpenContext:
     return context_on(client, say, is_server_allowed=is_server_allowed)
 

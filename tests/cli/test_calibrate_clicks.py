@@ -16,7 +16,7 @@ def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
     """The game on this desktop."""
     client = started(VirtualClient())
     for verb in (calibrate_font, calibrate_clicks):
-        monkeypatch.setattr(verb, "context_opener", lambda _say, ask: context_of(client, ask))
+        monkeypatch.setattr(verb, "context_opener", lambda _say, ask, **_: context_of(client, ask))
     return client
 
 

@@ -15,7 +15,7 @@ from tests.cli.running import run
 def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
     """The game on this desktop."""
     client = started(VirtualClient(pitch=65.0))
-    monkeypatch.setattr(calibrate_font, "context_opener", lambda _say, ask: context_of(client, ask))
+    monkeypatch.setattr(calibrate_font, "context_opener", lambda _say, ask, **_: context_of(client, ask))
     return client
 
 

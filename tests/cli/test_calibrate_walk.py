@@ -20,7 +20,9 @@ def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
     """The game on this desktop."""
     client = VirtualClient(pitch=65.0)
 
-    def opener(say: Callable[[str], None], _ask: Callable[[str], bool], *, is_server_allowed: bool) -> OpenContext:
+    def opener(
+        say: Callable[[str], None], _ask: Callable[[str], bool], *, is_server_allowed: bool, **_: object
+    ) -> OpenContext:
         return context_on(client, say, is_server_allowed=is_server_allowed)
 
     monkeypatch.setattr(calibrate_walk, "context_opener", opener)

@@ -1,6 +1,7 @@
 """Ctrl+C: the first is noted, an echo of it ignored, a later one doesn't wait."""
 
 import signal
+import sys
 
 import pytest
 
@@ -37,3 +38,18 @@ def test_it_says_once_what_it_is_told_to_say(capfd: pytest.CaptureFixture[str]) 
         signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)
     assert capfd.readouterr().err == "stopping\n"
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGHUP")
+def test_a_closed_terminal_is_noted_unless_hang_ups_are_ignored() -> None:
+    before = signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may run under nohup
+    try:
+        with catch_interrupts() as interrupt:
+            signal.raise_signal(signal.SIGHUP)
+            assert interrupt.requested
+        signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        with catch_interrupts() as interrupt:
+            signal.raise_signal(signal.SIGHUP)
+            assert not interrupt.requested
+    finally:
+        signal.signal(signal.SIGHUP, before)

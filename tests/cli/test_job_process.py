@@ -1,16 +1,19 @@
 """What one of an experiment's processes does with what comes through its pipe; here in this process."""
 
+import os
 import signal
 from collections.abc import Iterator
+from contextlib import ExitStack
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from pathlib import Path
-from threading import Thread
+from threading import Thread, Timer
 
 import pytest
 
 from mc_nested.cli.job_process import JobEnded, JobReport, train_jobs
 from mc_nested.learn.experiments.job_training import OUTCOME, outcome_of
+from mc_nested.learn.runs.folder_lock import folder_lock
 from tests.learn.made_experiments import DOT, one_job
 
 JOB = one_job("nested", [DOT], 2)
@@ -75,6 +78,35 @@ def test_without_its_parent_it_saves_and_ends(pipe: tuple[Connection, Connection
     train_jobs(theirs)
     assert (tmp_path / "checkpoint").exists()
     assert not (tmp_path / OUTCOME).exists()
+
+
+def test_a_job_that_a_process_without_its_parent_still_saves_waits_for_that(
+    pipe: tuple[Connection, Connection], tmp_path: Path
+) -> None:
+    ours, theirs = pipe
+    ours.send((JOB, tmp_path))
+    ours.send(None)
+    with ExitStack() as other:
+        other.enter_context(folder_lock(tmp_path))
+        saved = Timer(0.2, other.close)
+        saved.start()
+        train_jobs(theirs)
+        saved.join()
+    assert heard(ours)[-1] == JobEnded(JOB.name, finished=False)
+
+
+def test_a_job_that_another_process_keeps_is_reported(
+    pipe: tuple[Connection, Connection], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("mc_nested.cli.job_process.PATIENCE_S", 0.1)
+    ours, theirs = pipe
+    ours.send((JOB, tmp_path))
+    ours.send(None)
+    with folder_lock(tmp_path):
+        train_jobs(theirs)
+    (ended,) = heard(ours)
+    assert isinstance(ended, JobEnded)
+    assert ended.failed.startswith(f"{tmp_path}: process {os.getpid()} is writing there")
 
 
 def test_ctrl_c_is_left_to_the_parent(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:

@@ -18,6 +18,17 @@ def test_play_shows_the_arena_and_the_score(trained: Path, capsys: pytest.Captur
     assert "still to build" in printed
 
 
+@pytest.mark.parametrize("words", [["--quiet"], ["--json"]])
+def test_play_can_leave_out_what_is_watched(
+    words: list[str], trained: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("play", trained, *words) == 0
+    printed = capsys.readouterr()
+    assert printed.out.count("\n") == 1
+    assert "score" in printed.out
+    assert printed.err == ""
+
+
 def test_play_takes_the_best_trial_by_itself(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("play", trained) == 0
     best = max(json.loads((trained / "summary.json").read_text())["final_scores"])

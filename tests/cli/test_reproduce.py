@@ -1,6 +1,7 @@
 """``mc-nested reproduce``, tiny: its files, that they are the same however it went, and what it refuses."""
 
 import contextlib
+import json
 import os
 import re
 import signal
@@ -13,8 +14,11 @@ from pathlib import Path
 import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.cli.reproduce import builders_score
+from mc_nested.cli import reproduce
+from mc_nested.cli.json_fields import JSON_FIELDS
+from mc_nested.cli.reproduce import FILES, builders_score
 from mc_nested.learn.runs.checkpoint import FILE
+from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.results import read_evaluations
 from tests.cli.running import run
 from tests.learn.made_experiments import BAR, DOT, scenario_text, small_preset_text
@@ -113,8 +117,39 @@ def test_on_a_finished_one_resume_writes_the_same_files_again(done: Path, capsys
     assert run("reproduce", "--resume", done) == 0
     assert {name: (done / name).read_bytes() for name in WRITTEN} == before
     printed = capsys.readouterr().out
-    assert re.search(r"\(e1\)  nested needs fewer networks and parameters than +holds", printed)
+    assert re.search(r"\(e1\)  nested needs fewer networks and parameters than hierarchical +holds", printed)
     assert f"report: {done / 'report.md'}" in printed
+    assert printed.startswith(f"folder: {done}\n")
+    assert printed.endswith(f"next:   open {done / 'report.md'}\n")
+
+
+def test_one_process_at_a_time_goes_on_with_it(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with folder_lock(done):
+        assert run("reproduce", "--resume", done) == 2
+    says = f"mc-nested: {done}: process {os.getpid()} is writing there: wait until it ends, or stop it\n"
+    assert capsys.readouterr().err == says
+
+
+def test_for_a_program_it_prints_its_files_and_the_verdicts(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("reproduce", "--resume", done, "--json", "--quiet") == 0
+    printed = capsys.readouterr()
+    found = json.loads(printed.out)
+    assert found.keys() == JSON_FIELDS["reproduce"].keys()
+    assert found["folder"] == str(done)
+    assert found["files"] == {what: str(done / name) for what, name in FILES.items()}
+    assert [claim["letter"] for claim in found["claims"]][:2] == ["a", "b"]
+    assert {"holds"} < {claim["verdict"] for claim in found["claims"]}
+    assert printed.err == ""
+
+
+def test_without_a_name_its_folder_has_the_figures_name_and_the_date(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun: list[Path] = []
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(reproduce, "_run", lambda folder, _: begun.append(folder.path))
+    assert run(*words) == 0
+    assert re.fullmatch(r"figure5-\d{4}-\d\d-\d\d-\d{6}", begun[0].name)
 
 
 @pytest.mark.slow
@@ -248,7 +283,6 @@ def test_a_disk_that_fills_up_at_the_end_costs_one_line_and_no_file(
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["reproduce"], "name a new folder with --out DIR, or one to go on with, --resume DIR"),
         (["reproduce", "--out", "DONE"], "is not empty: name a new folder, nothing was overwritten"),
         (["reproduce", "--out", "NEW", "--trials", "0"], "'--trials'"),
         (["reproduce", "--out", "NEW", "--episodes", "0"], "'--episodes'"),
@@ -266,7 +300,6 @@ def test_a_disk_that_fills_up_at_the_end_costs_one_line_and_no_file(
         (["reproduce", "--resume", "DONE", "--seed", "0"], "goes on with its own config.toml: leave out --seed"),
         (["reproduce", "--resume", "DONE", "--agent", "nested"], "leave out --agent"),
         (["reproduce", "--resume", "DONE", "--out", "NEW"], "leave out --out"),
-        (["sweep"], "name a new folder with --out DIR"),
         (["sweep", "--out", "NEW", "--trials", "0"], "'--trials'"),
         (["sweep", "--resume", "DONE"], "the folder of mc-nested reproduce, not of sweep"),
     ],

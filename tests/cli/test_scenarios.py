@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.running import run
+from tests.design_files.written import HUT, picture, sponge
 
 
 def test_scenarios_lists_the_designs(capsys: pytest.CaptureFixture[str]) -> None:
@@ -33,3 +34,55 @@ def test_a_large_design_of_a_users_own_is_listed_with_an_upper_bound(
     printed = capsys.readouterr().out
     assert "arena      15 x 15 cells" in printed
     assert "fewest     at most 42 steps, the scripted builder's: searched up to 18 blocks" in printed
+
+
+def test_a_schematics_layers_are_listed_and_the_one_that_is_named_is_drawn(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "hut.schem").write_bytes(sponge(HUT))
+    assert run("scenarios", tmp_path / "hut.schem", "--layer", "1") == 0
+    printed = capsys.readouterr()
+    assert printed.out.splitlines()[:6] == [
+        "hut.schem: 3 of 4 layers have blocks, 0 is the lowest",
+        "  layer  blocks      cells  of",
+        "      0      11      4 x 3  10 stone, 1 oak_stairs",
+        "      1       6      4 x 3  4 stone, 1 oak_stairs, 1 create:shaft",
+        "      2       2      2 x 1  2 create:shaft",
+        "",
+    ]
+    assert "hut-1\n" in printed.out
+    assert ". . . . . o . . o . . . . . ." in printed.out
+    assert ". . . . . o o o o . . . . . ." in printed.out
+    assert printed.err == (
+        "hut.schem, layer 1: its blocks are built of one material: 4 stone, 1 oak_stairs, 1 create:shaft\n"
+    )
+
+
+def test_without_a_layer_the_lowest_is_drawn_and_a_picture_has_only_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "hut.schem").write_bytes(sponge(HUT))
+    (tmp_path / "hut.png").write_bytes(picture(HUT[0]))
+    assert run("scenarios", tmp_path / "hut.schem", tmp_path / "hut.png") == 0
+    printed = capsys.readouterr()
+    assert printed.out.count("blocks     11") == 2
+    assert printed.out.count("layers have blocks") == 1
+    assert "hut.schem, layer 0: the lowest of 3 layers with blocks, --layer takes another\n" in printed.err
+
+
+def test_of_a_tower_only_the_first_hundred_layers_are_listed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "tower.schem").write_bytes(sponge([["s"]] * 250))
+    assert run("scenarios", tmp_path / "tower.schem") == 0
+    printed = capsys.readouterr().out
+    assert printed.count("1 stone\n") == 100
+    assert "  and 150 more\n" in printed
+
+
+def test_what_a_file_names_its_blocks_is_printed_as_it_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    drawing = [["ss"], ["cc"]]
+    data = sponge(drawing)
+    (tmp_path / "[red]x.schem").write_bytes(data)
+    assert run("scenarios", tmp_path / "[red]x.schem") == 0
+    assert "[red]x.schem: 2 of 2 layers have blocks" in capsys.readouterr().out

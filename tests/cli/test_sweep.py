@@ -1,11 +1,14 @@
 """``mc-nested sweep``, tiny."""
 
 import csv
+import json
 from pathlib import Path
 
 import pytest
 
 from mc_nested.cli.app import main
+from mc_nested.cli.json_fields import JSON_FIELDS
+from mc_nested.learn.runs.folder_lock import folder_lock
 from tests.learn.made_experiments import DOT, scenario_text, small_preset_text
 
 
@@ -17,7 +20,9 @@ def run(*arguments: str | Path) -> int:
 
 
 @pytest.mark.slow
-def test_a_sweep_leaves_a_row_for_each_trial_a_table_and_a_plot(tmp_path: Path) -> None:
+def test_a_sweep_leaves_a_row_for_each_trial_a_table_and_a_plot(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (tmp_path / "dot.toml").write_text(scenario_text(DOT), "utf-8")
     (tmp_path / "small.toml").write_text(small_preset_text(), "utf-8")
     words: list[str | Path] = [
@@ -38,6 +43,14 @@ def test_a_sweep_leaves_a_row_for_each_trial_a_table_and_a_plot(tmp_path: Path) 
         assert run("sweep", "--resume", out) == 0
         assert {name: (out / name).read_bytes() for name in before} == before
     assert found[0] == found[1]
+    capsys.readouterr()
+    assert run("sweep", "--resume", out, "--json") == 0
+    files = {"table": str(out / "sweep.md"), "plot": str(out / "sweep.png"), "rows": str(out / "sweep.csv")}
+    assert set(JSON_FIELDS["sweep"]) == {"folder", "files"}
+    assert json.loads(capsys.readouterr().out) == {"folder": str(out), "files": files}
+    with folder_lock(out):
+        assert run("sweep", "--resume", out) == 2
+    assert f"{out}: process " in capsys.readouterr().err
     with (out / "sweep.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     base = [row for row in rows if (row["agent"], row["choice"]) == ("nested", "")]

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -15,6 +16,7 @@ import pytest
 
 from mc_nested.errors import DesktopError, LiveError, McNestedError
 from mc_nested.learn.runs.checkpoint import FILE
+from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
@@ -26,7 +28,7 @@ from tests.cli.running import TRAIN, check_mistake, run, table
 def test_a_training_leaves_everything_behind(trained: Path) -> None:
     found = {path.name for path in trained.iterdir()}
     left = {"config.toml", "episodes.csv", "evaluations.csv", "curve.png", "checkpoint", "summary.json", "tensorboard"}
-    assert found == left
+    assert found == {*left, "view"}
     assert {path.name for path in (trained / "tensorboard").iterdir()} == {"trial-0", "trial-1"}
     summary = json.loads((trained / "summary.json").read_text())
     expected = {
@@ -129,7 +131,7 @@ def test_networks_that_diverge_end_the_training_in_one_line_and_are_not_saved(
     said = capsys.readouterr().err
     assert said.startswith("mc-nested: learning_rate 1e+38 is too high")
     assert said.count("\n") == 1
-    assert {path.name for path in (tmp_path / "new").iterdir()} <= {"config.toml", "tensorboard"}
+    assert {path.name for path in (tmp_path / "new").iterdir()} <= {"config.toml", "tensorboard", "view"}
 
 
 def test_a_training_begun_from_another_has_its_policy_before_the_first_episode(optimal: Path, tmp_path: Path) -> None:
@@ -230,6 +232,51 @@ def test_ctrl_c_saves_where_it_has_also_ended_who_reads_the_pipe(tmp_path: Path)
     assert run("train", "--resume", tmp_path / "run") == 0
 
 
+def test_a_run_is_resumed_by_one_process_at_a_time(
+    trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    shutil.copytree(trained, tmp_path / "run")
+    with folder_lock(tmp_path / "run"):
+        assert run("train", "--resume", tmp_path / "run") == 2
+    says = f"mc-nested: {tmp_path / 'run'}: process {os.getpid()} is writing there: wait until it ends, or stop it\n"
+    assert capsys.readouterr().err == says
+    assert run("train", "--resume", tmp_path / "run") == 0
+
+
+def test_without_a_name_the_folder_is_said_at_the_beginning_and_at_the_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run("train", "--episodes", "2", "--scenario", "zigzag", "--agent", "single") == 0
+    (folder,) = Path("runs").iterdir()
+    assert re.fullmatch(r"zigzag-single-\d{4}-\d\d-\d\d-\d{6}", folder.name)
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == f"run:        {folder}"
+    assert lines.count(f"run:        {folder}") == 2
+    assert lines[-2].startswith("below the optimum; for more: mc-nested train --from ")
+    assert lines[-1].startswith(f"next:       mc-nested play {folder} shows what it builds")
+
+
+def test_for_a_program_it_prints_its_summary_and_its_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(*TRAIN, "--json", "--quiet", "--out", tmp_path / "run") == 0
+    printed = capsys.readouterr()
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert json.loads(printed.out) == {"folder": str(tmp_path / "run"), **summary}
+    assert printed.err == ""
+
+
+def test_quietly_it_prints_the_result_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(*TRAIN, "-q", "--out", tmp_path / "run") == 0
+    printed = capsys.readouterr()
+    assert [line.split(":")[0] for line in printed.out.splitlines()] == [
+        "final scores (optimum 21)",
+        "run",
+        "curve",
+        "checkpoint",
+    ]
+    assert printed.err == ""
+
+
 def test_a_training_killed_before_its_first_checkpoint_begins_again(trained: Path, tmp_path: Path) -> None:
     (tmp_path / "config.toml").write_bytes((trained / "config.toml").read_bytes())
     assert run("train", "--resume", tmp_path) == 0
@@ -255,7 +302,7 @@ def test_a_disk_that_fills_up_costs_one_line_and_not_the_last_checkpoint(
     def full(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("mc_nested.cli.train.draw_curve", full)
+    monkeypatch.setattr("mc_nested.cli.training.draw_curve", full)
     assert run("train", "--resume", out) == 2
     said = capsys.readouterr().err
     assert "No space left on device" in said
@@ -331,7 +378,6 @@ def test_a_training_bears_an_episode_that_a_mishap_spoils(tmp_path: Path, monkey
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["train"], "name a new folder for the run with --out DIR"),
         (["train", "--out", "NEW", "--scenario", "pyramid"], "no scenario 'pyramid'"),
         (
             ["train", "--out", "NEW", "--agent", "double"],

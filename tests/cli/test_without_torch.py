@@ -22,7 +22,7 @@ def without_torch(code: str, *arguments: str | Path) -> subprocess.CompletedProc
 
 
 def test_every_verb_that_does_not_learn_loads_without_torch() -> None:
-    modules = [f"mc_nested.cli.{verb}" for verb in VERBS if verb not in LEARNING]
+    modules = [f"mc_nested.cli.{verb.replace('-', '_')}" for verb in VERBS if verb not in LEARNING]
     modules += ["calibration.calibrate_all", "sim.client.client", "mc_nested.live.session"]
     loaded = without_torch(f"{BLOCKED}import importlib; [importlib.import_module(name) for name in {modules}]")
     assert loaded.returncode == 0, loaded.stderr

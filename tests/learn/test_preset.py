@@ -1,4 +1,4 @@
-"""Presets: ``paper`` is TASK.md's table, and a mistake is one line."""
+"""Presets: ``paper`` is docs/explanation/task.md's table, and a mistake is one line."""
 
 import re
 from pathlib import Path

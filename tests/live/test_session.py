@@ -1,52 +1,24 @@
-"""Opening a live game: what can't be played is refused before anything is pressed."""
+"""Opening a live game: what can't be played is refused before anything is pressed; what can leaves no key down."""
 
 import dataclasses
 import re
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
-import cv2
 import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.errors import FontError, NotInFrontError, ProfileError
-from mc_nested.live.devices import Devices
-from mc_nested.live.profile.arena import Arena
+from mc_nested.errors import FontError, NotInFrontError, ProfileError, StoppedError
+from mc_nested.live.input.panic import Stop
 from mc_nested.live.profile.fingerprint import Fingerprint
-from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable, WindowTable
 from mc_nested.live.session import fingerprint_of, open_live_game
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
 from sim.client.settings import ClientSettings
+from tests.live.virtual_session import ARENA, font_in, live_on, opener, profile_in, saved
 
 LINE = load_scenario("line")
 CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
-ARENA = Arena.around((-20, 64, 31), "south")
-OpenDevices = Callable[[str], AbstractContextManager[Devices]]
-
-
-def font_in(folder: Path) -> ScreenTable:
-    font = folder / "ascii.png"
-    font.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
-    return ScreenTable(font=str(font))
-
-
-def saved(profile: Profile, folder: Path) -> str:
-    save_profile(profile, folder / "mine.toml")
-    return str(folder / "mine.toml")
-
-
-def opener(client: VirtualClient, titles: list[str]) -> OpenDevices:
-    """Opens that client's window, and notes the title that was asked for."""
-
-    @contextmanager
-    def opened(title: str) -> Iterator[Devices]:
-        titles.append(title)
-        yield client.devices
-
-    return opened
 
 
 @pytest.mark.parametrize(
@@ -125,3 +97,30 @@ def test_a_fingerprint_is_the_window_as_it_is_now() -> None:
     known = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), 2)
     assert fingerprint_of(client.display, 2) == known
     assert fingerprint_of(client.display).gui_scale is None
+
+
+def test_a_game_that_fits_is_opened_and_no_key_is_down_once_it_is_left(tmp_path: Path) -> None:
+    client = VirtualClient()
+    with live_on(client)(LINE, profile_in(tmp_path), print) as (game, display):
+        assert display is client.display
+        assert game.reset(LINE.best_material) == LINE.start == client.cell(ARENA)
+        game.connection.controller.press(client.clock.now() + 1.0, "s")
+        assert client.window.down
+    assert client.window.down == set()
+
+
+def test_the_panic_switch_stops_the_game_by_the_profiles_key(tmp_path: Path) -> None:
+    client = VirtualClient()
+    switches: list[tuple[str, Stop]] = []
+
+    def noted(key: str, stop: Stop) -> AbstractContextManager[None]:
+        switches.append((key, stop))
+        return nullcontext()
+
+    opened = open_live_game(LINE, profile_in(tmp_path), print, open_devices=opener(client, []), open_panic_switch=noted)
+    with opened as (game, _):
+        ((key, stop),) = switches
+        assert key == "f12"
+        stop("enough")
+        with pytest.raises(StoppedError, match="enough"):
+            game.reset(0)

@@ -17,7 +17,9 @@ from numba import njit
 from numba.core.caching import CompileResultCacheImpl, FunctionCache
 
 ROOT = Path(__file__).parents[3]
-"""The folder that holds the package."""
+"""The folder that holds the package; of an installed one, all other packages too."""
+
+PACKAGE = __name__.partition(".")[0]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -41,11 +43,11 @@ def compiled(*, fastmath: bool = False, nogil: bool = False) -> Callable[[Functi
 
 
 @cache
-def fingerprint_of(source: Path, root: Path = ROOT) -> str:
-    """A hash of the file and of every file below ``root`` that it imports, directly or not."""
+def fingerprint_of(source: Path, root: Path = ROOT, package: str = PACKAGE) -> str:
+    """A hash of the file and of every file of the package below ``root`` that it imports, directly or not."""
     found, new = {source}, [source]
     while new:
-        imported = _imported_by(new.pop(), root)
+        imported = _imported_by(new.pop(), root, package)
         new += sorted(imported - found)
         found |= imported
     digest = hashlib.sha256()
@@ -54,15 +56,15 @@ def fingerprint_of(source: Path, root: Path = ROOT) -> str:
     return digest.hexdigest()
 
 
-def _imported_by(source: Path, root: Path) -> set[Path]:
-    """The files below ``root`` that the file imports by their full names."""
+def _imported_by(source: Path, root: Path, package: str) -> set[Path]:
+    """The files of the package below ``root`` that the file imports by their full names."""
     modules: set[str] = set()
     for node in ast.walk(ast.parse(source.read_bytes())):
         if isinstance(node, ast.Import):
             modules |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
             modules |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
-    bases = [root.joinpath(*module.split(".")) for module in modules]
+    bases = [root.joinpath(*module.split(".")) for module in modules if module.partition(".")[0] == package]
     return {path for base in bases for path in (base.with_suffix(".py"), base / "__init__.py") if path.is_file()}
 
 

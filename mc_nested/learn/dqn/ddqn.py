@@ -26,7 +26,7 @@ EXPONENT = np.int32(0x7F800000)
 
 
 class UpdateRule(NamedTuple):
-    """What an update does (TASK.md): batch size, Adam's rate, the target's period and Huber's δ.
+    """What an update does (docs/explanation/task.md): batch size, Adam's rate, the target's period and Huber's δ.
 
     ``margin`` is that of imitated actions (self_imitation.py).
     """

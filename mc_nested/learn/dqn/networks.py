@@ -26,7 +26,7 @@ def parameter_count(sizes: Sizes) -> int:
 
 
 def initial_parameters(sizes: Sizes, random: np.random.Generator) -> Float32s:
-    """One network's parameters (parameters,), uniform in ±1/√inputs of each layer (TASK.md)."""
+    """One network's parameters (parameters,), uniform in ±1/√inputs of each layer (docs/explanation/task.md)."""
     parts = [random.uniform(-1.0, 1.0, (inputs + 1) * outputs) / np.sqrt(inputs) for inputs, outputs in pairwise(sizes)]
     return np.concatenate(parts).astype(np.float32)
 

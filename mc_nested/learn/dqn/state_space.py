@@ -118,7 +118,7 @@ def _every(radix: Int64s) -> Int64s:
 
 
 def scaled(states: Integers, highest: Int64s) -> Float32s:
-    """Each integer of the states (…, width) scaled to [-1, 1] (TASK.md), followed by a 1.
+    """Each integer of the states (…, width) scaled to [-1, 1] (docs/explanation/task.md), followed by a 1.
 
     A part of the state that has one value only (a single material) becomes 0.
     """

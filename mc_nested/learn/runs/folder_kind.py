@@ -4,6 +4,7 @@ from pathlib import Path
 
 from mc_nested.atomic_file import is_leftover
 from mc_nested.errors import RunError
+from mc_nested.learn.runs.folder_lock import FILE as LOCK
 from mc_nested.toml_file import parse_document
 
 VERB_OF_KEY = {
@@ -14,6 +15,10 @@ VERB_OF_KEY = {
     "contestants": "benchmark",
 }
 
+
+VIEW = "view"
+VIEW_FILES = frozenset({"now.json", "history.jsonl", "pause.request", "stop.request", "answer.request", LOCK})
+"""A run's folder of what ``mc-nested view`` shows, and its files; a run that never began leaves nothing else."""
 
 FORMAT = 1
 """Version of config.toml; a file without one is of this version."""
@@ -36,13 +41,23 @@ def check_config(text: str, folder: Path, verb: str) -> None:
 def check_free(path: Path) -> None:
     """RunError if the path can't become a new folder: it holds something already, or the system refuses.
 
-    What a killed process left half-written doesn't count.
+    What a killed process left half-written or for its view doesn't count, nor the lock of whoever asks.
     """
     try:
         if path.exists() and not path.is_dir():
             raise RunError(f"{path}: is a file: name a new folder, nothing was overwritten")
-        taken = path.exists() and any(not is_leftover(entry) for entry in path.iterdir())
+        entries = path.iterdir() if path.exists() else iter(())
+        taken = not all(is_leftover(entry) or entry.name == LOCK or _is_view(entry) for entry in entries)
     except OSError as error:
         raise RunError(f"{path}: can't be used, {error.strerror}: name another folder") from error
     if taken:
         raise RunError(f"{path}: exists and is not empty: name a new folder, nothing was overwritten")
+
+
+def _is_view(entry: Path) -> bool:
+    """Whether it is a run's view folder, with nothing else in it."""
+    return (
+        entry.name == VIEW
+        and entry.is_dir()
+        and all(is_leftover(each) or each.name in VIEW_FILES for each in entry.iterdir())
+    )

@@ -176,6 +176,11 @@ class RunFolder:
         save_policies(self.checkpoint, trainer.kept)
 
     @property
+    def has_begun(self) -> bool:
+        """Whether there is a config.toml, so that it can be resumed."""
+        return (self.path / "config.toml").is_file()
+
+    @property
     def only_begun(self) -> bool:
         """Whether nothing was ever saved here: the training was killed before its first checkpoint."""
         return not self.checkpoint.exists and not (self.path / "episodes.csv").exists()

@@ -13,7 +13,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from functools import partial
 from types import TracebackType
-from typing import Literal
+from typing import Literal, get_args
 
 from mc_nested.errors import NotInFrontError, StoppedError, WrongScreenError
 from mc_nested.live.devices import SWITCH_KEYS, Button, Devices
@@ -32,6 +32,8 @@ LONGEST_S = 3.0
 
 OVERDUE_S = 0.25
 """Seconds past its release time after which the watchdog releases a key."""
+
+BUTTONS: tuple[Button, ...] = get_args(Button)
 
 NEAR_PX = 3
 """How far the mouse may be from where it was moved to: a point of the desktop may be two pixels."""
@@ -168,6 +170,18 @@ class InputController:
         with self._lock, ExitStack() as releases:
             for release in self._pressed.values():
                 releases.callback(release)
+
+    @property
+    def pressed_before(self) -> tuple[str, ...]:
+        """What ``release_again`` releases, in this order: keys by their names, buttons as "right button"."""
+        return tuple(self._pressed)
+
+    def go_on_after(self, pressed: Iterable[str]) -> None:
+        """Release these, too, when ``release_again`` is called, as if they had been pressed here."""
+        releases = {f"{button} button": partial(self._pointer.release, button) for button in BUTTONS}
+        self._pressed = {
+            name: releases.get(name) or partial(self._keyboard.release, name.removeprefix("key ")) for name in pressed
+        }
 
     def release_overdue(self) -> None:
         """Release everything that is held OVERDUE_S longer than it should be; the watchdog calls this."""

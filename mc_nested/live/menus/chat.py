@@ -31,12 +31,14 @@ class Chat:
         self._controller = connection.controller
         self._screen = connection.screen
         self._clock = connection.devices.clock
+        self._journal = connection.journal
 
     def send(self, line: str) -> None:
         """Open the chat, type one line, send it, and wait until the game takes keys again.
 
         A chat that doesn't look as it should is closed before the error is raised.
         """
+        self._journal.note("types", line=line)
         try:
             self._send(line)
         except NotConfirmedError:

@@ -22,6 +22,8 @@ EFFECT_S = 0.3
 UNKNOWN_S = 1.5
 """How long a screen may be unknown before something is pressed: pictures freeze, worlds load."""
 
+FRONT = "the game's window to come to the front"
+
 NOT_ON_A_SERVER: frozenset[ScreenName] = frozenset({"title", "worlds", "servers", "disconnected"})
 """The screens that lead only into a world of one's own, never back to a server."""
 
@@ -41,6 +43,7 @@ class Recovery:
         self._screen = connection.screen
         self._display = connection.devices.display
         self._clock = connection.devices.clock
+        self._journal = connection.journal
         self._points = points or {}
         self._navigator = MenuNavigator(profile, connection, self._points)
         self._is_multiplayer = self._says_multiplayer()
@@ -71,6 +74,7 @@ class Recovery:
                 )
             if not passed or passed[-1] != name:
                 passed.append(name)
+                self._journal.note("recovers", screen=name)
             if name != "unknown":
                 unknown_since, tried_debug = None, False
                 self._navigator.leave(name)
@@ -119,6 +123,8 @@ class Recovery:
 
     def _wait_for_front(self) -> None:
         deadline = Deadline(self._clock, FRONT_PATIENCE_S)
+        if not self._display.is_in_front():
+            self._journal.note("waits", on=FRONT)
         while not self._display.is_in_front():
             if deadline.has_passed:
                 raise NotInFrontError(

@@ -32,6 +32,7 @@ def wait_until_standing_still(connection: GameConnection) -> Reading:
     deadline = Deadline(clock, PATIENCE_S)
     before: Reading | None = None
     problem: str | None = None
+    connection.journal.note("waits", on="the game in front, its debug screen on, and the player standing still")
     while not deadline.has_passed:
         reading = connection.screen.read() if display.is_in_front() else None
         if reading is not None and reading.problem is None and reading == before:

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from mc_nested.live.journal import Fact
+
 Block = tuple[int, int, int]
 
 
@@ -30,6 +32,14 @@ class Reading:
     pitch: float | None = None
     target: Target | None = None
     problem: str | None = None
+
+
+def facts_of(reading: Reading) -> dict[str, Fact]:
+    """A reading as the facts of a note: the problem alone if there is one."""
+    if reading.problem is not None:
+        return {"problem": reading.problem}
+    target = (reading.target.pos, reading.target.id) if reading.target else None
+    return {"xyz": reading.xyz, "yaw": reading.yaw, "pitch": reading.pitch, "target": target}
 
 
 @dataclass(frozen=True)

@@ -54,6 +54,7 @@ class Locomotion:
         self._observer = observer
         self._key_hold = KeyHold(connection, observer, profile.body.patience_s)
         self._clock = connection.devices.clock
+        self._journal = connection.journal
         self._tracker = self._tracker_at_rest(GroundVector(0.0, 0.0))
         self._walked: _Walked | None = None
         self._more_ticks = 0
@@ -90,6 +91,7 @@ class Locomotion:
         push = self._push * (walk.sneaking if sneak else 1.0)
         self._tracker = WalkTracker(state, Hold(axis, sign, ticks, push), walk.inertia)
         self._walked = _Walked(state.end, axis, sign, distance, is_short=ticks <= SHORT_TICKS)
+        self._journal.note("plans", key=key, ticks=ticks, sneak=sneak is not None)
         if sneak:
             self._key_hold.begin_sneaking(sneak)
         self._hold(ticks, key, sneak)

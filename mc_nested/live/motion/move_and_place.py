@@ -17,6 +17,7 @@ from mc_nested.live.motion.click_range import COASTING_CLICK, hits_floor, is_cli
 from mc_nested.live.motion.effort import Effort
 from mc_nested.live.motion.locomotion import Locomotion
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver, check_pose
+from mc_nested.live.motion.tick_phase import TickPhase
 from mc_nested.live.motion.walk_tracker import CoastingState
 from mc_nested.live.profile.tables import Profile
 
@@ -37,9 +38,19 @@ class Body:
         self._input_latency_s = profile.walk.input_latency_s
         self._controller = connection.controller
         self._clock = connection.devices.clock
+        self._journal = connection.journal
         self._observer = PoseObserver(profile, connection, PoseFrame.of_arena(profile))
         self._locomotion = Locomotion(profile, connection, self._observer)
         self.effort = Effort()
+
+    @property
+    def tick_phase(self) -> TickPhase:
+        """When the game's ticks come."""
+        return self._observer.tick_phase
+
+    def forget(self) -> None:
+        """Look anew before anything else: what comes depends on nothing that was seen before."""
+        self._observer.forget()
 
     def check_screen(self) -> None:
         """Check that the debug screen can be read and that the chat is closed; presses nothing."""
@@ -191,6 +202,7 @@ class Body:
 
     def _click(self, attempt: int, is_right: Callable[[PoseEstimate], bool]) -> None:
         self._observer.permit_press(is_right)
+        self._journal.note("clicks", attempt=attempt)
         self._controller.click("right")
         self.effort.clicks += attempt == 0
         self.effort.second_clicks += attempt > 0

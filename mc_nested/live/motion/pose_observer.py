@@ -90,6 +90,10 @@ class PoseObserver:
         self._capture_latency_s = profile.walk.capture_latency_s
         self.tick_phase = TickPhase(profile.walk.capture_latency_s)
 
+    def forget(self) -> None:
+        """Take no pose that was seen before for one that is seen now."""
+        self._last = None
+
     def look(self) -> PoseEstimate:
         """What is seen now, or as soon as the screen can be read."""
         if self._last is not None and self._clock.now() - self._last.at < SAME_FRAME_S:

@@ -3,7 +3,7 @@
 from mc_nested.errors import UnreadableError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
-from mc_nested.live.model.reading import Target, WorldPose
+from mc_nested.live.model.reading import Target, WorldPose, facts_of
 from mc_nested.live.model.timing import FRAME_S
 
 
@@ -17,6 +17,7 @@ class PoseReader:
         self._controller = connection.controller
         self._screen = connection.screen
         self._clock = connection.devices.clock
+        self._journal = connection.journal
         self._patience_s = patience_s
         self.is_delayed = False
         """Whether the last pose was read only after frames that couldn't be read."""
@@ -28,6 +29,7 @@ class PoseReader:
         while True:
             at = self._clock.now()
             reading = self._screen.read()
+            self._journal.note("reads", **facts_of(reading))
             if reading.xyz is not None and reading.yaw is not None and reading.pitch is not None:
                 return at, WorldPose(reading.xyz, reading.yaw, reading.pitch), reading.target
             self.is_delayed = True

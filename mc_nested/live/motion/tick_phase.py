@@ -33,6 +33,16 @@ class TickPhase:
         self._sum = 0j
         self._weight = 0.0
 
+    @property
+    def state(self) -> tuple[float, float, float]:
+        """What the estimate rests on, to go on from: the sum of directions, and their weight."""
+        return self._sum.real, self._sum.imag, self._weight
+
+    def go_on_from(self, state: tuple[float, float, float]) -> None:
+        """Take the estimate that had this state."""
+        real, imaginary, self._weight = state
+        self._sum = complex(real, imaginary)
+
     def saw_step(self, since: float, at: float) -> None:
         """Take in that a step was first seen by the look ``at``, and not yet by the one before, at ``since``."""
         tick = (since + at) / 2 - self._capture_latency_s

@@ -6,20 +6,15 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-import platformdirs
 import tomlkit
 from pydantic import BaseModel
 from tomlkit.items import Table
 
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import ProfileError
+from mc_nested.live.profile.folder import profile_folder
 from mc_nested.live.profile.tables import FORMAT, Profile
 from mc_nested.toml_file import parse_document, parse_toml, read_toml_text, table_of_key
-
-
-def profile_folder() -> Path:
-    """The folder of a user's named profiles, by the system's convention."""
-    return platformdirs.user_config_path("mc-nested", appauthor=False) / "profiles"
 
 
 def profile_path(name_or_file: str | Path) -> Path:

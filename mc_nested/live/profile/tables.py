@@ -70,12 +70,12 @@ class GameVersion(ProfileTable):
 class KeysTable(ProfileTable):
     """Which key does what in this game, named by what a US keyboard has at its place: w, /, f3, left.shift."""
 
-    forward: Key = "w"
-    back: Key = "s"
-    left: Key = "a"
-    right: Key = "d"
+    forward: Key = Field(default="w", description="walks forward")
+    back: Key = Field(default="s", description="walks backward")
+    left: Key = Field(default="a", description="walks to the left")
+    right: Key = Field(default="d", description="walks to the right")
     sneak: Key = Field(default="left.shift", description="slow steps")
-    chat: Key = "t"
+    chat: Key = Field(default="t", description="opens the chat")
     debug: Key = Field(default="f3", description="turns the debug screen on")
     panic: Key = Field(
         default="f12", description="stops the agent at once, whichever window is in front; on a Mac usually with Fn"

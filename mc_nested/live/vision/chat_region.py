@@ -7,6 +7,8 @@ buttons). Everything that any of these versions may use is blanked, whether the 
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.layout import LINE_PITCH
 
@@ -48,11 +50,25 @@ def without_chat(frame: Frame, scale: int | None, opaque: Sequence[Region] = ())
     """
     blanked: Frame = frame.copy()
     height, width = frame.shape[:2]
-    for region in chat_regions((width, height), scale):
-        blanked[_within(region)] = BLANK
+    blank_chat(blanked, (width, height), scale)
     for region in opaque:
         blanked[_within(region)] = frame[_within(region)]
     return blanked
+
+
+def blank_chat(frame: Frame, size: tuple[int, int], scale: int | None, left: int = 0, top: int = 0) -> None:
+    """Blank the chat on a picture of a part of a window of that size, whose corner is at ``left`` and ``top`` there."""
+    for region in chat_regions(size, scale):
+        frame[_within(Region(region.left - left, region.top - top, region.width, region.height))] = BLANK
+
+
+def blanked_share(size: tuple[int, int], scale: int | None) -> float:
+    """How much of a window (width, height) is blanked, 0 to 1."""
+    width, height = size
+    is_blank = np.zeros((height, width), dtype=np.bool_)
+    for region in chat_regions(size, scale):
+        is_blank[_within(region)] = True
+    return float(is_blank.mean())
 
 
 def _largest(size: tuple[int, int]) -> int:

@@ -9,7 +9,7 @@ from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
 from mc_nested.live.vision.layout import Overlay
 from mc_nested.live.vision.menu_labels import MenuButton, MenuLabels
 from mc_nested.live.vision.overlay import SCALES, find_overlay
-from mc_nested.live.vision.screen_reader import ScreenReader
+from mc_nested.live.vision.screen_reader import Look, ScreenReader
 from mc_nested.live.vision.text_colours import INK_SPREAD, WHITE
 from mc_nested.live.vision.typed_line import FIRST_COLUMNS, begins_a_line, reads_as, typed_line_dots, typed_line_region
 
@@ -63,9 +63,15 @@ class WindowScreen:
     """
 
     def __init__(self, display: Display, font: Font, overlay: Overlay | None = None) -> None:
+        self.font = font
         self._display, self._font, self._overlay = display, font, overlay
         self._reader = ScreenReader(display, font, overlay)
         self._measured: tuple[tuple[int, int], int] | None = None
+
+    @property
+    def last_look(self) -> Look | None:
+        """What the last reading was taken from."""
+        return self._reader.last_look
 
     def read(self) -> Reading:
         return self._reader.read()

@@ -74,7 +74,13 @@ class ScreenLines:
         self._font = font
         self._remembered = remembered
         self._lines: dict[GridPosition, Line] = {}
+        self._ended: list[Line] = []
         self._right_end = _right_end(dots, self.layout)
+
+    @property
+    def lines_read(self) -> list[Line]:
+        """Every line that was read so far."""
+        return [*self._lines.values(), *self._ended]
 
     def holds(self, text: str) -> bool:
         return bool(self._positions(text))
@@ -90,7 +96,10 @@ class ScreenLines:
 
     def ending(self, row: int, end: int) -> Line | None:
         self.rows_read.add(row)
-        return line_up_to(self.dots, self._font, self.overlay, (row, end))
+        line = line_up_to(self.dots, self._font, self.overlay, (row, end))
+        if line is not None:
+            self._ended.append(line)
+        return line
 
     def right_column(self) -> Sequence[Line]:
         if self._right_end is None:

@@ -7,7 +7,7 @@ reading is the same either way.
 
 from dataclasses import dataclass
 
-from mc_nested.live.devices import Display, Region
+from mc_nested.live.devices import Display, Frame, Region
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.vision.debug_screen import nothing_seen, read_lines, read_position
 from mc_nested.live.vision.font import Font
@@ -30,6 +30,15 @@ class _Stood:
     positions: dict[str, list[GridPosition]]
 
 
+@dataclass(frozen=True)
+class Look:
+    """What was read: the picture, which part of the window it shows, and the lines on it, if any were found."""
+
+    frame: Frame
+    region: Region | None
+    lines: ScreenLines | None
+
+
 class ScreenReader:
     """Reads the debug screen of a window.
 
@@ -44,6 +53,7 @@ class ScreenReader:
         self._font = font
         self._overlay = overlay
         self._stood: _Stood | None = None
+        self.last_look: Look | None = None
 
     def read(self) -> Reading:
         """Take a picture and read it: a Reading as ``read_debug_screen`` gives it."""
@@ -61,14 +71,18 @@ class ScreenReader:
         if frame.shape[:2] != (region.height, region.width):
             return None
         dots = GlyphGrid(frame, scale, min(stood.overlay.colour), 0, stood.pitch)
-        return read_position(ScreenLines(dots, self._font, stood.overlay, {POSITION: [(0, column)]}))
+        lines = ScreenLines(dots, self._font, stood.overlay, {POSITION: [(0, column)]})
+        self.last_look = Look(frame, region, lines)
+        return read_position(lines)
 
     def _read_again(self, stood: _Stood) -> Reading | None:
         frame = self._display.grab(stood.region)
         if frame.shape[:2] != (stood.region.height, stood.region.width):
             return None
         dots = GlyphGrid(frame, stood.overlay.scale, min(stood.overlay.colour), 0, stood.pitch)
-        reading = read_lines(ScreenLines(dots, self._font, stood.overlay, stood.positions))
+        lines = ScreenLines(dots, self._font, stood.overlay, stood.positions)
+        self.last_look = Look(frame, stood.region, lines)
+        reading = read_lines(lines)
         # Only the whole screen can show that no block is looked at: its lines may have moved elsewhere.
         return reading if reading.target else None
 
@@ -77,8 +91,10 @@ class ScreenReader:
         self._stood = None
         found = find_debug_screen(frame, self._font, self._overlay)
         if found is None:
+            self.last_look = Look(frame, None, None)
             return nothing_seen(self._overlay)
         lines = ScreenLines(found.dots, self._font, found.overlay)
+        self.last_look = Look(frame, None, lines)
         reading = read_lines(lines, found.label)
         if reading.target:
             self._stood = _stood(lines)

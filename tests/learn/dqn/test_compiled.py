@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mc_nested.learn.dqn.compiled import ROOT, _imported_by, compiled, fingerprint_of
+from mc_nested.learn.dqn.compiled import PACKAGE, ROOT, _imported_by, compiled, fingerprint_of
 
 STEP_BY_HALF = """
 import numpy as np
@@ -88,7 +88,7 @@ def test_an_update_is_computed_by_the_adam_that_stands_in_the_file(copy: Path) -
 def test_a_fingerprint_follows_every_file_that_is_imported(tmp_path: Path) -> None:
     def fingerprint() -> str:
         fingerprint_of.cache_clear()
-        return fingerprint_of(tmp_path / "made/a.py", tmp_path)
+        return fingerprint_of(tmp_path / "made/a.py", tmp_path, "made")
 
     (tmp_path / "made/inner").mkdir(parents=True)
     files = {
@@ -108,12 +108,21 @@ def test_a_fingerprint_follows_every_file_that_is_imported(tmp_path: Path) -> No
     assert fingerprint() in seen
 
 
+def test_packages_that_are_installed_beside_it_do_not_count(tmp_path: Path) -> None:
+    for package, text in (("made", "import numba\nfrom numba import njit\n"), ("numba", "njit = 1\n")):
+        (tmp_path / package).mkdir()
+        (tmp_path / package / "__init__.py").write_text(text)
+    source = tmp_path / "made/__init__.py"
+    assert _imported_by(source, tmp_path, "made") == set()
+    assert _imported_by(source, tmp_path, "numba") == {tmp_path / "numba/__init__.py"}
+
+
 def test_an_update_needs_adam_but_not_the_trainer() -> None:
     needed: set[Path] = set()
     new = {ROOT / "mc_nested/learn/dqn/ddqn.py"}
     while new:
         needed |= new
-        new = {path for source in new for path in _imported_by(source, ROOT)} - needed
+        new = {path for source in new for path in _imported_by(source, ROOT, PACKAGE)} - needed
     names = {path.name for path in needed}
     assert {"adam.py", "networks.py", "self_imitation.py"} < names
     assert "trainer.py" not in names

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.errors import RunError
-from mc_nested.learn.runs.folder_kind import FORMAT, check_config, check_free
+from mc_nested.learn.runs.folder_kind import FORMAT, VIEW, VIEW_FILES, check_config, check_free
 
 
 @pytest.mark.parametrize(
@@ -29,6 +29,25 @@ def test_an_empty_or_missing_folder_can_be_new_and_what_a_killed_process_left_do
     check_free(tmp_path)
     (tmp_path / "config.toml.0123abcd.unfinished").write_text("half")
     check_free(tmp_path)
+
+
+def test_what_a_run_that_never_began_published_does_not_count_but_anything_else_there_does(tmp_path: Path) -> None:
+    view = tmp_path / VIEW
+    view.mkdir()
+    check_free(tmp_path)
+    for name in VIEW_FILES:
+        (view / name).write_text("")
+    (view / "now.unfinished").write_text("half")
+    check_free(tmp_path)
+    (view / "mine.txt").write_text("mine")
+    with pytest.raises(RunError, match="exists and is not empty"):
+        check_free(tmp_path)
+
+
+def test_a_file_of_a_view_folders_name_is_not_overwritten(tmp_path: Path) -> None:
+    (tmp_path / VIEW).write_text("mine")
+    with pytest.raises(RunError, match="exists and is not empty"):
+        check_free(tmp_path)
 
 
 def test_a_folder_that_holds_something_or_a_file_is_not_overwritten(tmp_path: Path) -> None:

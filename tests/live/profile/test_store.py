@@ -9,11 +9,11 @@ import tomlkit
 from calibration.starting_profile import starting_profile
 from mc_nested.errors import ProfileError
 from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.folder import profile_folder
 from mc_nested.live.profile.store import (
     earlier_path,
     load_profile,
     parse_profile,
-    profile_folder,
     save_profile,
     undo_profile,
 )

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.vision.chat_region import BLANK, LINES, chat_regions, without_chat
+from mc_nested.live.vision.chat_region import BLANK, LINES, blanked_share, chat_regions, without_chat
 from sim.client.client import VirtualClient
 from sim.client.drawing.hud_layers import HudLayers
 from sim.client.drawing.layers import draw_all
@@ -21,6 +21,16 @@ from tests.sim.client.playing import FONT, tap
 def test_at_854_x_480_and_scale_2_it_is_the_lower_left_and_the_lowest_line() -> None:
     # 228 to 38 dots above the lower edge, 332 wide; all of the 38 below, where lines are typed.
     assert chat_regions((854, 480), 2) == (Region(0, 24, 664, 380), Region(0, 404, 854, 76))
+
+
+@pytest.mark.parametrize(("size", "scale"), [((854, 480), 2), ((854, 480), None), ((1280, 720), 1), ((200, 50), 3)])
+def test_the_share_that_is_blanked_is_what_is_blanked(size: tuple[int, int], scale: int | None) -> None:
+    blank = (without_chat(np.zeros((*size[::-1], 3), np.uint8), scale) == BLANK).all(axis=2)
+    assert blanked_share(size, scale) == blank.mean()
+
+
+def test_at_854_x_480_and_scale_2_four_fifths_are_blanked() -> None:
+    assert blanked_share((854, 480), 2) == pytest.approx((664 * 380 + 854 * 76) / (854 * 480))
 
 
 @given(st.integers(320, 4000), st.integers(240, 2400))

@@ -1,0 +1,77 @@
+"""A bug report: the doctor's table, the profile, the versions and a recording's end in one file, without names or chat.
+
+The chat was never recorded. Home folders and names of accounts are taken out as in the calibration report.
+"""
+
+import dataclasses
+import json
+import tempfile
+import zipfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from calibration.doctor.check import Check
+from calibration.report.privacy import Names
+from mc_nested.atomic_file import atomic_write
+from mc_nested.errors import RecordingError
+from mc_nested.live.recording.cut import cut
+from mc_nested.live.recording.overview import overview_of
+from mc_nested.live.recording.recording_file import facts_of
+
+DOCTOR, PROFILE, VERSIONS, RECORDING = "doctor.json", "profile.toml", "versions.json", "recording.mcap"
+
+_VERSIONS = ("what", "version", "python", "system", "size", "points", "title")
+
+
+def write_bug_report(
+    out: Path, checks: Sequence[Check], profile: str | None, recording: Path | None, seconds: float, names: Names
+) -> list[str]:
+    """Write the report, and say what is in it, a line for each part.
+
+    Args:
+        out: the zip file to write.
+        checks: the doctor's rows.
+        profile: the profile's text; None if there is none.
+        recording: the recording to take the end of; None if there is none.
+        seconds: how much of it.
+        names: what is taken out.
+
+    Raises:
+        RecordingError: the recording can't be used, or the file can't be written.
+    """
+    parts: dict[str, bytes] = {}
+    said = []
+    rows = [dataclasses.asdict(check) for check in checks]
+    parts[DOCTOR] = names.removed_from(json.dumps({"checks": rows}, indent=2, ensure_ascii=False)).encode()
+    said.append(f"{DOCTOR}: the {len(rows)} rows of mc-nested doctor")
+    if profile is not None:
+        parts[PROFILE] = names.removed_from(profile).encode()
+        said.append(f"{PROFILE}: the profile, {len(profile.splitlines())} lines")
+    if recording is not None:
+        facts = facts_of(recording)
+        known = {name: facts[name] for name in _VERSIONS if name in facts}
+        parts[VERSIONS] = names.removed_from(json.dumps(known, indent=2, ensure_ascii=False)).encode()
+        said.append(f"{VERSIONS}: versions, and the window's size and title")
+        parts[RECORDING], line = _end_of(recording, seconds, names)
+        said.append(line)
+    try:
+        with atomic_write(out) as unfinished, zipfile.ZipFile(unfinished, "w", zipfile.ZIP_DEFLATED) as file:
+            for name, content in parts.items():
+                file.writestr(name, content)
+    except OSError as error:
+        raise RecordingError(f"{out}: can't be written ({error.strerror or error}): name another file") from error
+    return said
+
+
+def _end_of(recording: Path, seconds: float, names: Names) -> tuple[bytes, str]:
+    ended = overview_of(recording).ended
+    if ended is None:
+        raise RecordingError(f"{recording}: holds nothing: name another recording, or --no-recording")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / RECORDING
+        cut(recording, path, ended - round(seconds * 1e9), ended, names.removed_from)
+        seen = overview_of(path)
+        return path.read_bytes(), (
+            f"{RECORDING}: the last {seen.seconds:.0f} s of {recording.name}: {seen.actions} actions, keys and clicks, "
+            f"{seen.pictures} pictures of the game's window, the chat blanked"
+        )

@@ -1,0 +1,99 @@
+"""``mc-nested build``: a known design, built by the scripted builder, in the simulator or in a running game."""
+
+from functools import partial
+from typing import Annotated
+
+import typer
+
+from calibration.arena.copy_note import undo_command
+from mc_nested.arena.builder import build as builders_actions
+from mc_nested.arena.design_scenario import is_buildable
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.game import Game
+from mc_nested.arena.scenario import Scenario
+from mc_nested.cli.options import (
+    DEFAULT_PROFILE,
+    Backend,
+    BackendOption,
+    ProfileOption,
+    ServerOption,
+    open_game,
+    where_words,
+)
+from mc_nested.cli.recording_options import RecordOption, live_recorder
+from mc_nested.cli.scenario_options import FILES, LayerOption, named_scenario
+from mc_nested.cli.video import VideoOption, filmed
+from mc_nested.cli.viewing import Viewed, ViewOption, viewed
+from mc_nested.cli.watching import started_over, watched
+from mc_nested.errors import ScenarioError
+from mc_nested.live.profile.store import load_profile, profile_path
+from mc_nested.report.film import check_film
+
+
+def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
+    design: Annotated[str, typer.Argument(metavar="NAME|FILE", help=f"the design: {FILES}")],
+    layer: LayerOption = None,
+    material: Annotated[str | None, typer.Option(help="what it is built of [the one worth most]")] = None,
+    backend: BackendOption = Backend.SIM,
+    profile: ProfileOption = None,
+    server_allowed: ServerOption = False,
+    record: RecordOption = None,
+    video: VideoOption = None,
+    view: ViewOption = False,
+) -> None:
+    """Build a design without learning, and show the arena as it is built; after a mishap it starts over.
+
+    One layer is built. Of a schematic with several, name it with --layer; mc-nested scenarios FILE lists them.
+    """
+    if video:
+        check_film(video)
+    scenario = named_scenario(design, layer, must_choose=True)
+    index = scenario.best_material if material is None else scenario.material_index(material)
+    steps = len(builders_actions(scenario))
+    if not is_buildable(scenario):
+        raise ScenarioError(
+            f"scenario {scenario.name}: the scripted builder takes {steps} steps, and its step_limit is "
+            f"{scenario.step_limit}: raise it"
+        )
+    afterwards = _how_to_put_back(profile or DEFAULT_PROFILE) if backend is Backend.LIVE else None
+    if afterwards:
+        typer.echo(f"  building clears the arena first; {afterwards}", err=True)
+    recorder = live_recorder(record, f"build-{scenario.name}", scenario, server_allowed=server_allowed)
+    with viewed(view, "build", f"{scenario.name}, {where_words(backend)}") as viewing:
+        opened = open_game(
+            backend,
+            profile,
+            scenario,
+            server_allowed=server_allowed,
+            open_recorder=recorder,
+            journal=viewing.publisher.board,
+        )
+        with opened as (played, display), filmed(played, display, scenario, video) as game:
+            built = started_over(partial(_built, game, scenario, index, viewing))
+    typer.echo(f"  built {built} of {scenario.blocks} blocks, of {scenario.materials[index].name}, in {steps} steps")
+    if video:
+        typer.echo(f"  film: {video}")
+    if afterwards:
+        typer.echo(f"  it stands until the arena is cleared for the next episode; {afterwards}")
+
+
+def _built(game: Game, scenario: Scenario, material: int, viewing: Viewed) -> int:
+    """Build the design from a reset on; how many of its blocks stand then."""
+    env = ArenaEnv(game, scenario)
+    with watched(env, scenario.name, viewing) as show:
+        env.reset(options={"material": scenario.materials[material].name})
+        show()
+        for action in builders_actions(scenario):
+            env.step(action)
+            show()
+    return len(env.placed & scenario.design)
+
+
+def _how_to_put_back(profile_name: str) -> str:
+    """How what stood in the arena before comes back; ProfileError if the profile can't be read."""
+    profile = load_profile(profile_name)
+    if profile.world is not None:
+        return f"the world comes back from {profile.world.template} with the next episode"
+    if profile.arena is None or profile.arena.copied_to is None:
+        return "the profile knows no copy of what stood there before the arena was made: that can't be put back"
+    return f"what stood there before the arena was made comes back with {undo_command(profile_path(profile_name))}"

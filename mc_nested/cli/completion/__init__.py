@@ -1,0 +1,1 @@
+"""Completing a command line in bash, zsh, fish and PowerShell, without loading any verb: verbs.json lists them all."""

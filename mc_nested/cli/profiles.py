@@ -1,0 +1,133 @@
+"""``mc-nested profiles``: list your profiles, look at one, rename it, delete it."""
+
+from collections.abc import Sequence
+from typing import Annotated, Any
+
+import typer
+from rich.text import Text
+
+from calibration.profile_facts import ProfileFacts, facts_of
+from calibration.profile_files import (
+    delete_profile,
+    files_of,
+    holds_a_copy,
+    named_profile,
+    named_profiles,
+    names_of,
+    rename_profile,
+)
+from mc_nested.cli.fitting_table import FittingTable, facts_table
+from mc_nested.cli.json_fields import epilog_of
+from mc_nested.cli.output import JsonOption, Output
+from mc_nested.errors import DesktopError, UserError
+from mc_nested.live.desktop.display import WindowDisplay
+from mc_nested.live.desktop.system import open_camera, this_system
+from mc_nested.live.profile.fingerprint import Fingerprint
+from mc_nested.live.profile.folder import profile_folder
+
+app = typer.Typer(help="List your profiles, look at one, rename it, delete it.")
+
+NameArgument = Annotated[str, typer.Argument(metavar="PROFILE", help="its name")]
+
+
+@app.callback(invoke_without_command=True)
+def profiles(context: typer.Context, as_json: JsonOption = False) -> None:
+    """List your profiles, look at one, rename it, delete it; alone it lists them."""
+    if context.invoked_subcommand is None:
+        list_profiles(as_json)
+    elif as_json:
+        raise UserError(f"write --json at the end: mc-nested profiles {context.invoked_subcommand} --json")
+
+
+@app.command("list", epilog=epilog_of("profiles list"))
+def list_profiles(as_json: JsonOption = False) -> None:
+    """List your profiles, with what each was calibrated on, and whether it fits the open window."""
+    found = [facts_of(file, window_of) for file in named_profiles()]
+    lines = [f"{each.name}: {each.why}" for each in found if each.is_damaged or each.fits is False]
+    folder = profile_folder()
+    shown = [_table(found), *lines] if found else [f"no profiles in {folder}: mc-nested calibrate all makes one"]
+    Output(as_json=as_json).result({"folder": folder, "profiles": [_fields(each) for each in found]}, *shown)
+
+
+@app.command(epilog=epilog_of("profiles show"))
+def show(profile: NameArgument, as_json: JsonOption = False) -> None:
+    """Show one profile: its file, what it was calibrated on, whether it fits the open window."""
+    file = named_profile(profile)
+    facts, files = facts_of(file, window_of), names_of(files_of(file))
+    rows = (*_facts(facts), ("why", facts.why), ("file", str(file)), ("all files", files))
+    Output(as_json=as_json).result({**_fields(facts), "files": files_of(file)}, facts_table(rows))
+
+
+@app.command()
+def rename(profile: NameArgument, name: Annotated[str, typer.Argument(metavar="NAME", help="its new name")]) -> None:
+    """Give a profile another name, with all its files."""
+    typer.echo(f"renamed to {rename_profile(named_profile(profile), name)}")
+    typer.echo(f"a run that was trained with {profile} goes on with --resume RUN --profile {name}")
+
+
+@app.command()
+def delete(
+    profiles: Annotated[list[str], typer.Argument(metavar="PROFILE...", help="their names")],
+    yes: Annotated[bool, typer.Option("--yes", help="delete without asking")] = False,
+) -> None:
+    """Delete profiles with all their files, after a question for each."""
+    for file in [named_profile(name) for name in profiles]:
+        if holds_a_copy(file):
+            typer.echo(
+                f"{file.stem} knows where the copy is of what stood where its arena is; "
+                f"mc-nested calibrate arena --undo --profile {file.stem} puts that back, and can't afterwards"
+            )
+        if yes or typer.confirm(f"Delete {file.stem} ({names_of(files_of(file))})?"):
+            delete_profile(file)
+            typer.echo(f"deleted {file.stem}")
+        else:
+            typer.echo(f"kept {file.stem}")
+
+
+def window_of(title: str) -> Fingerprint | None:
+    """The open window in whose title that regular expression is found; None if there is none, or no desktop."""
+    try:
+        with this_system().open_window(title) as window, open_camera(window) as camera:
+            display = WindowDisplay(window, camera)
+            return Fingerprint(display.title(), display.size())
+    except DesktopError:
+        return None
+
+
+def _table(found: Sequence[ProfileFacts]) -> FittingTable:
+    return FittingTable([{name: Text(value, _style(name, value)) for name, value in _facts(facts)} for facts in found])
+
+
+def _style(name: str, value: str) -> str:
+    return {"yes": "green", "unknown": "yellow"}.get(value, "bold red") if name == "fits" else ""
+
+
+def _facts(facts: ProfileFacts) -> list[tuple[str, str]]:
+    """The facts in words, by what they are."""
+    arena = facts.arena
+    fits = "damaged" if facts.is_damaged else {True: "yes", False: "no", None: "unknown"}[facts.fits]
+    return [
+        ("profile", facts.name),
+        ("version", facts.version or ""),
+        ("window", f"{facts.window[0]} x {facts.window[1]}" if facts.window else ""),
+        ("GUI scale", f"{facts.gui_scale}" if facts.gui_scale else ""),
+        ("arena", f"{arena.size} x {arena.size}" if arena else ""),
+        ("calibrated", facts.date or ""),
+        ("fits", fits),
+    ]
+
+
+def _fields(facts: ProfileFacts) -> dict[str, Any]:
+    """The facts for a program."""
+    return {
+        "name": facts.name,
+        "file": facts.file,
+        "is_damaged": facts.is_damaged,
+        "fits": facts.fits,
+        "why": facts.why or None,
+        "version": facts.version,
+        "window": facts.window,
+        "gui_scale": facts.gui_scale,
+        "arena_size": facts.arena.size if facts.arena else None,
+        "date": facts.date,
+    }

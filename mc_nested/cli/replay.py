@@ -1,0 +1,92 @@
+"""``mc-nested replay``: today's reader and body on a recording, and where they would do otherwise."""
+
+import json
+from pathlib import Path
+from typing import Annotated
+
+import cv2
+import typer
+from rich.console import Console
+from rich.table import Table
+
+from mc_nested.cli.output import JsonOption
+from mc_nested.cli.recording_options import RecordingArgument, recording_path
+from mc_nested.errors import RecordingError
+from mc_nested.live.recording.replay import Difference, Replayed
+from mc_nested.live.recording.replay import replay as replayed
+from mc_nested.live.vision.font import load_font
+
+DIFFERENT = 1
+"""The exit code if anything is read or decided otherwise."""
+
+MOST_ROWS, MOST_PICTURES = 40, 40
+LINE_WIDTH = 120
+
+
+def replay(
+    recording: RecordingArgument,
+    font: Annotated[
+        Path | None, typer.Option(metavar="JAR|PNG", help="the game's font [the one that its profile names]")
+    ] = None,
+    pictures: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="write what is read otherwise as pictures")
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Read and decide again what a recording holds: exit code 0 if all is as it was, 1 if anything differs."""
+    path = recording_path(recording)
+    seen = replayed(path, load_font(font) if font else None)
+    if pictures is not None:
+        _write_pictures(seen, pictures)
+    if as_json:
+        print(json.dumps(_plain(seen)))
+    else:
+        _print(seen, pictures)
+    if seen.differences:
+        raise typer.Exit(DIFFERENT)
+
+
+def _print(seen: Replayed, pictures: Path | None) -> None:
+    console = Console()
+    console = Console(width=console.width if console.is_terminal else LINE_WIDTH)
+    if seen.differences:
+        table = Table(show_edge=False, pad_edge=False)
+        for name in ("action", "what", "then", "now"):
+            table.add_column(name, overflow="fold")
+        for each in seen.differences[:MOST_ROWS]:
+            table.add_row(str(each.action), each.kind, each.then, each.now)
+        console.print(table)
+        if len(seen.differences) > MOST_ROWS:
+            console.print(f"and {len(seen.differences) - MOST_ROWS} more")
+    for line in seen.damaged:
+        console.print(line, soft_wrap=True)
+    not_kept = seen.readings - seen.read_anew
+    parts = [
+        f"{seen.followed} of {seen.actions} actions followed to their end",
+        f"{seen.read_anew} readings taken anew" + (f", {not_kept} of pictures that were not kept" if not_kept else ""),
+        f"{len(seen.differences)} differences",
+        *([f"pictures in {pictures}"] if pictures else []),
+    ]
+    console.print("; ".join(parts), soft_wrap=True)
+
+
+def _plain(seen: Replayed) -> dict[str, object]:
+    return {
+        "actions": seen.actions,
+        "followed": seen.followed,
+        "readings": seen.readings,
+        "read_anew": seen.read_anew,
+        "damaged": seen.damaged,
+        "differences": [
+            {"action": each.action, "what": each.kind, "then": each.then, "now": each.now} for each in seen.differences
+        ],
+    }
+
+
+def _write_pictures(seen: Replayed, folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    shown: list[Difference] = [each for each in seen.differences if each.picture is not None][:MOST_PICTURES]
+    for number, each in enumerate(shown, 1):
+        file = folder / f"{number:03d}-action-{each.action}.png"
+        if each.picture is None or not cv2.imwrite(str(file), each.picture):
+            raise RecordingError(f"{file}: can't be written: name another folder")

@@ -1,0 +1,76 @@
+"""What a training says at its end: its scores, its files, and what to do next."""
+
+import shlex
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from mc_nested.arena.scenario_file import ScenarioTable, load_scenario, shipped_scenarios, table_of
+from mc_nested.cli.options import DEFAULT_PROFILE
+from mc_nested.cli.output import Output
+from mc_nested.learn.preset import MOST
+from mc_nested.learn.runs.run_folder import RunConfig
+
+MAP = "map.png"
+"""What was learnt of the arena, in a run's folder."""
+
+
+def say_end(output: Output, path: Path, config: RunConfig, summary: Mapping[str, Any]) -> None:
+    """Print the outcome of a finished training, with its folder, and what to do next."""
+    lines = []
+    if config.stop_at_optimum:
+        reached = ", ".join("never" if done is None else f"{done}" for done in summary["episodes_to_optimum"])
+        played = ", ".join("never" if each is None else f"{each['episodes']}" for each in summary["played_to_optimum"])
+        lines.append(f"episodes to the optimum: {reached}; with the greedy ones: {played}")
+    scores = ", ".join(f"{score:g}" for score in summary["final_scores"])
+    lines += [f"final scores (optimum {summary['optimum']:g}): {scores}"]
+    lines += [f"run:        {path}", f"curve:      {path / 'curve.png'}"]
+    if config.preset.imagination:
+        lines.append(f"map:        {path / MAP}")
+    lines.append(f"checkpoint: {path / 'checkpoint'}")
+    output.result({"folder": path, **summary}, *lines)
+    for line in next_steps(path, config, max(summary["final_scores"]) >= summary["optimum"]):
+        output.hint(line)
+
+
+def next_steps(path: Path, config: RunConfig, is_at_optimum: bool) -> list[str]:
+    """What to do with a finished training, one line each."""
+    lines = [] if is_at_optimum else [f"below the optimum; for more: {command_line(words_for_more(path, config))}"]
+    play = command_line(["mc-nested", "play", str(path), *_live(config)])
+    if config.backend == "live":
+        return [*lines, f"next:       {play} builds it again"]
+    lines.append(f"next:       {play} shows what it builds; in your game: with --backend live")
+    if config.trials > 1:
+        lines.append(f"            {command_line(['mc-nested', 'evaluate', str(path)])} plays each of its trials")
+    return lines
+
+
+def words_for_more(path: Path, config: RunConfig) -> list[str]:
+    """The words that train twice as many episodes, beginning with the best policy of this training."""
+    words = ["mc-nested", "train", "--from", str(path), "--scenario", _named(config.scenario)]
+    if config.agent != "nested":
+        words += ["--agent", config.agent]
+    words += ["--preset", config.preset_name, "--episodes", str(min(2 * config.preset.episodes, MOST))]
+    if config.stop_at_optimum:
+        words.append("--stop-at-optimum")
+    return words + _live(config)
+
+
+def command_line(words: Sequence[str]) -> str:
+    """Words as they are typed into this system's shell."""
+    return subprocess.list2cmdline(words) if sys.platform == "win32" else shlex.join(words)
+
+
+def _live(config: RunConfig) -> list[str]:
+    if config.backend != "live":
+        return []
+    profile = [] if config.profile in (None, DEFAULT_PROFILE) else ["--profile", str(config.profile)]
+    return ["--backend", "live", *profile]
+
+
+def _named(table: ScenarioTable) -> str:
+    """A shipped design's name; FILE for one whose file isn't known any more."""
+    shipped = table.name in shipped_scenarios() and table_of(load_scenario(table.name)) == table
+    return table.name if shipped else "FILE"

@@ -1,0 +1,108 @@
+"""NBT from a file that nobody vouches for: bounded before anything is allocated, and typed where it is read.
+
+pynbt believes every length in the file. So it reads from a stream that hands out no byte which isn't there and no more
+than so many values, and the stream's bytes were unpacked up to a limit.
+"""
+
+import gzip
+import io
+import struct
+import zlib
+from typing import Any, TypeVar
+
+import pynbt
+
+from mc_nested.errors import ScenarioError
+
+MOST_BYTES = 32 * 1024 * 1024
+"""Bytes of a file, and of what it unpacks to."""
+
+MOST_READS = 1_500_000
+"""Reads of pynbt: it makes three for a number with a name, and twelve for a block of a structure, of which the game
+saves 48 x 48 x 48. All together they take at most some hundred megabytes."""
+
+GZIP, COMPOUND = b"\x1f\x8b", b"\x0a"
+"""How a file begins: compressed, or as plain NBT."""
+
+Compound = dict[str, Any]
+"""pynbt's tags by name. Read their values with ``value_of``: pynbt has no types."""
+
+Value = TypeVar("Value")
+
+KINDS: dict[type, str] = {
+    int: "a whole number",
+    str: "a text",
+    bytearray: "an array of bytes",
+    tuple: "an array of numbers",
+    list: "a list",
+    dict: "a compound",
+}
+"""The Python type of each tag's value, in words."""
+
+
+def read_nbt(data: bytes, most_reads: int = MOST_READS) -> Compound:
+    """The root compound of a file's bytes, compressed or not; ScenarioError, without the file's name, if it has none.
+
+    At most MOST_BYTES are unpacked, and pynbt may read at most ``most_reads`` times. What lies nested too deeply
+    is refused.
+    """
+    stream = _BoundedStream(unpacked(data), most_reads)
+    try:
+        root: Compound = pynbt.NBTFile(stream)
+    except RecursionError:
+        raise ScenarioError("its values lie nested too deeply: no design is saved like that") from None
+    except (struct.error, IndexError, OSError, ValueError) as error:
+        raise ScenarioError("its NBT can't be read: it is damaged, or not of Minecraft Java Edition") from error
+    return root
+
+
+def unpacked(data: bytes) -> bytes:
+    """The NBT in a file's bytes; ScenarioError if it is none, is damaged, or unpacks to more than MOST_BYTES."""
+    if data.startswith(COMPOUND):
+        return data
+    if not data.startswith(GZIP):
+        raise ScenarioError("it is no schematic, neither compressed with gzip nor plain NBT: name another file")
+    try:
+        with gzip.GzipFile(fileobj=io.BytesIO(data)) as file:
+            plain = file.read(MOST_BYTES + 1)
+    except EOFError:
+        raise ScenarioError("it ends in the middle: copy, or download, it again") from None
+    except (gzip.BadGzipFile, zlib.error) as error:
+        raise ScenarioError("it is damaged, gzip can't unpack it: copy, or download, it again") from error
+    if len(plain) > MOST_BYTES:
+        raise ScenarioError(f"it unpacks to more than {MOST_BYTES // 2**20} MB: save a smaller part of it")
+    return plain
+
+
+def value_of(compound: Compound, name: str, kind: type[Value]) -> Value:
+    """The value of a tag, of that Python type (KINDS); ScenarioError if it is missing, or something else."""
+    return checked(compound.get(name), kind, name)
+
+
+def checked(tag: Any, kind: type[Value], name: str) -> Value:
+    """The value of a tag of pynbt's, of that type; ScenarioError, which calls it ``name``, if it is something else."""
+    value = getattr(tag, "value", None)
+    if not isinstance(value, kind):
+        state = "is missing" if tag is None else f"is not {KINDS[kind]}"
+        raise ScenarioError(f"{name} {state}: the file is damaged, or of a kind that is not known here")
+    return value
+
+
+class _BoundedStream:
+    """What pynbt reads from: only bytes that are there, and only so many times."""
+
+    def __init__(self, data: bytes, most_reads: int) -> None:
+        self._data = data
+        self._at = 0
+        self._reads_left = most_reads
+
+    def read(self, size: int) -> bytes:
+        self._reads_left -= 1
+        if self._reads_left < 0:
+            raise ScenarioError("it holds more values than any design: save a smaller part of it")
+        if size < 0:
+            size += 1 << 16  # a text's length has no sign, and pynbt reads it with one
+        if size < 0 or size > len(self._data) - self._at:
+            raise ScenarioError("it ends in the middle of a value: copy, or download, it again")
+        self._at += size
+        return self._data[self._at - size : self._at]

@@ -1,0 +1,10 @@
+"""Where a user's named profiles are."""
+
+from pathlib import Path
+
+import platformdirs
+
+
+def profile_folder() -> Path:
+    """The folder of a user's named profiles, by the system's convention."""
+    return platformdirs.user_config_path("mc-nested", appauthor=False) / "profiles"

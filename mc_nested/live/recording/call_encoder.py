@@ -1,0 +1,132 @@
+"""From calls on a tape to what a recording writes: plain values, and pictures of the window where they are worth it.
+
+A reading comes with its lines' ink, if the same is read from that alone. The whole picture is kept, the chat blanked,
+where a frame could not be read, where no block is looked at, where the ink is not enough, and every few seconds; all
+that within a budget.
+"""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import cv2
+
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.model.reading import Reading
+from mc_nested.live.recording.byte_budget import ByteBudget
+from mc_nested.live.recording.plain_values import plain
+from mc_nested.live.recording.tape import Call
+from mc_nested.live.recording.text_pixels import TextPixels, paint, reads_the_same, text_pixels_of
+from mc_nested.live.vision.chat_region import blank_chat
+from mc_nested.live.vision.debug_screen import read_debug_screen, read_lines, read_position
+from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.glyph_grid import GlyphGrid
+from mc_nested.live.vision.screen_lines import ScreenLines
+from mc_nested.live.vision.screen_reader import Look
+
+PICTURE_EVERY_S = 5.0
+"""Seconds from one whole picture to the next while all goes well."""
+
+
+@dataclass(frozen=True)
+class KeptPicture:
+    """A picture of the window, or of the region [left, top, width, height] of it, as PNG, the chat blanked."""
+
+    index: int
+    region: list[int] | None
+    png: bytes
+
+
+class CallEncoder:
+    """Encodes calls one after the other.
+
+    Args:
+        size: gives the window's width and height.
+        font: the font that reads it; None while it isn't known.
+        now: seconds, for the budget.
+    """
+
+    def __init__(
+        self, size: tuple[int, int], font: Font | None = None, now: Callable[[], float] = time.monotonic
+    ) -> None:
+        self.size = size
+        self.font = font
+        self._now = now
+        self._budget = ByteBudget(now())
+        self._pictured_at = -PICTURE_EVERY_S
+        self._index = 0
+        self._scale: int | None = None
+
+    def encode(self, call: Call) -> tuple[list[Any], list[KeptPicture]]:
+        """A call as plain values, and the pictures that belong to it."""
+        if call[0] == "size":
+            self.size = call[1]
+        if call[0] == "grab":
+            return self._grab(*call[1:])
+        if call[0] == "screen" and isinstance(call[-1], Look):
+            return self._reading(call)
+        return plain(call), []
+
+    def _grab(self, region: Region | None, frame: Frame) -> tuple[list[Any], list[KeptPicture]]:
+        pictures = self._picture(self._without_chat(frame, region, None), region)
+        return ["grab", plain(region), pictures[0].index if pictures else None], pictures
+
+    def _reading(self, call: Call) -> tuple[list[Any], list[KeptPicture]]:
+        *said, answer, look = call
+        lines = look.lines
+        if lines is not None:
+            self._scale = lines.overlay.scale
+        text = text_pixels_of(look)
+        is_read = answer is not None and (not isinstance(answer, Reading) or answer.target is not None)
+        if text is not None and is_read and self.font and reads_the_same(text, look, answer, self.font):
+            kept: dict[str, Any] | None = {"text": text.to_json()}
+        else:
+            text, kept = (text if is_read else None), None
+        pictures: list[KeptPicture] = []
+        is_due = self._now() - self._pictured_at >= PICTURE_EVERY_S
+        if kept is None or is_due:
+            blanked = self._without_chat(look.frame, look.region, text_pixels_of(look))
+            pictures = self._picture(blanked, look.region)
+            if pictures and kept is None:
+                kept = {"picture": pictures[0].index, "is_enough": self._is_enough(blanked, look, answer)}
+        return [*(plain(each) for each in said), plain(answer), kept], pictures
+
+    def _without_chat(self, frame: Frame, region: Region | None, text: TextPixels | None) -> Frame:
+        """A copy without the chat. The lines that were read are drawn again where the chat would be."""
+        left, top = (region.left, region.top) if region else (0, 0)
+        blanked: Frame = frame.copy()
+        if region is None:
+            self.size = frame.shape[1], frame.shape[0]
+        blank_chat(blanked, self.size, self._scale, left, top)
+        if text is not None and region is None:
+            drawn = blanked.copy()
+            paint(drawn, text)
+            hidden = (blanked != frame).any(axis=2)
+            blanked[hidden] = drawn[hidden]
+        return blanked
+
+    def _picture(self, blanked: Frame, region: Region | None) -> list[KeptPicture]:
+        now = self._now()
+        if blanked.size == 0 or not self._budget.may_spend(now):
+            return []
+        done, png = cv2.imencode(".png", blanked, [cv2.IMWRITE_PNG_COMPRESSION, 1])
+        if not done:
+            return []
+        self._budget.spend(len(png))
+        self._pictured_at = now
+        self._index += 1
+        return [KeptPicture(self._index, plain(region), png.tobytes())]
+
+    def _is_enough(self, blanked: Frame, look: Look, answer: object) -> bool:
+        """Whether the picture without the chat gives the same answer."""
+        lines = look.lines
+        if self.font is None:
+            return False
+        if look.region is None:
+            return bool(read_debug_screen(blanked, self.font, lines.overlay if lines else None) == answer)
+        if lines is None:
+            return False
+        dots = GlyphGrid(blanked, lines.overlay.scale, lines.dots.least, lines.dots.first, lines.dots.pitch)
+        again = ScreenLines(dots, self.font, lines.overlay, lines.positions_seen)
+        return (read_lines(again) if isinstance(answer, Reading) else read_position(again)) == answer

@@ -1,0 +1,122 @@
+"""Cutting a recording: a part of it as one file, from a reset on, so that it can be replayed."""
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from mc_nested.atomic_file import atomic_write
+from mc_nested.errors import RecordingError
+from mc_nested.live.recording.call_encoder import KeptPicture
+from mc_nested.live.recording.events import event_of
+from mc_nested.live.recording.part_writer import PartWriter, Timed
+from mc_nested.live.recording.recording_file import PartEnd, TimedCall, facts_of, parts_of, read_recording
+
+_BATCH = 500
+"""Calls that are written at once."""
+
+_SAYS_NAMES = ("title", "error", "note")
+"""Calls that hold words, in which a name or a path can be."""
+
+
+def cut(
+    path: Path,
+    out: Path,
+    first: int,
+    last: int,
+    clean: Callable[[str], str] = lambda text: text,
+    *,
+    with_pictures: bool = True,
+) -> int:
+    """Write what was recorded between two times of day, in nanoseconds, as one file; how many calls that is.
+
+    It begins with the first reset at or behind ``first``, if there is one. Pictures that came shortly before are kept
+    with it, unless none are wanted. ``clean`` takes out of its texts what others mustn't read.
+
+    Raises:
+        RecordingError: nothing was recorded then, or the recording can't be used, or the file can't be written.
+    """
+    facts = {name: clean(text) for name, text in facts_of(path).items()}
+    begin = _first_reset(path, first, last)
+    written = 0
+    try:
+        with atomic_write(out) as unfinished:
+            unfinished.unlink(missing_ok=True)
+            writer = PartWriter(unfinished, facts)
+            try:
+                for calls, pictures in _batches(path, begin, last):
+                    cleaned = [(at, _cleaned(call, clean)) for at, call in calls]
+                    events = [(at, event) for at, call in cleaned if (event := event_of(call))]
+                    writer.write(cleaned, events, pictures if with_pictures else [])
+                    written += len(calls)
+            finally:
+                writer.close()
+            if not written:
+                raise RecordingError(f"{path}: nothing was recorded then: choose another time")
+    except OSError as error:
+        raise RecordingError(f"{out}: can't be written ({error.strerror or error}): name another file") from error
+    return written
+
+
+def trim(path: Path, seconds: float) -> None:
+    """Keep a recording's last seconds alone; RecordingError, and it stays as it was, where that can't be done."""
+    parts = parts_of(path)
+    ends = [each.at for each in read_recording(path) if isinstance(each, TimedCall)]
+    if not ends:
+        raise RecordingError(f"{path}: holds nothing that could be kept")
+    kept = parts[-1].with_name("trimmed.tmp")
+    try:
+        cut(path, kept, ends[-1] - round(seconds * 1e9), ends[-1])
+        for part in parts[:-1]:
+            part.unlink()
+        kept.replace(parts[-1])
+    except OSError as error:
+        raise RecordingError(f"{path}: can't be trimmed ({error.strerror or error})") from error
+    finally:
+        kept.unlink(missing_ok=True)
+
+
+def _first_reset(path: Path, first: int, last: int) -> int:
+    """The time of the first reset from ``first`` on; ``first`` itself if there is none."""
+    resets = (
+        each.at
+        for each in read_recording(path)
+        if isinstance(each, TimedCall) and each.call[:2] == ["note", "resets"] and first <= each.at <= last
+    )
+    return next(resets, first)
+
+
+def _batches(path: Path, first: int, last: int) -> Iterator[tuple[list[Timed], list[tuple[int, KeptPicture]]]]:
+    calls: list[Timed] = []
+    pictures: list[tuple[int, KeptPicture]] = []
+    before: KeptPicture | None = None
+    for each in read_recording(path):
+        if isinstance(each, PartEnd):
+            continue
+        if isinstance(each, KeptPicture):
+            if calls:
+                pictures.append((calls[-1][0], each))
+            before = each
+        elif first <= each.at <= last:
+            if not calls and before is not None:
+                pictures.append((each.at, before))
+            before = None
+            calls.append((each.at, each.call))
+            if len(calls) >= _BATCH:
+                yield calls, pictures
+                calls, pictures = [], []
+    if calls:
+        yield calls, pictures
+
+
+def _cleaned(call: list[Any], clean: Callable[[str], str]) -> list[Any]:
+    if call[0] not in _SAYS_NAMES:
+        return call
+    return [_cleaned_value(value, clean) for value in call]
+
+
+def _cleaned_value(value: Any, clean: Callable[[str], str]) -> Any:
+    if isinstance(value, str):
+        return clean(value)
+    if isinstance(value, dict):
+        return {name: _cleaned_value(each, clean) for name, each in value.items()}
+    return value

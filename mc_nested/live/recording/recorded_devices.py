@@ -1,0 +1,155 @@
+"""The devices of a window, each call of which is set down on a tape. What a clipboard holds is not."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from mc_nested.errors import McNestedError
+from mc_nested.live.devices import (
+    Button,
+    Clipboard,
+    Clock,
+    Devices,
+    Display,
+    Frame,
+    Keyboard,
+    Pointer,
+    Region,
+)
+from mc_nested.live.recording.tape import Tape
+
+
+def recorded(devices: Devices, tape: Tape) -> Devices:
+    """The same devices, on tape."""
+    return Devices(
+        RecordedDisplay(devices.display, tape),
+        RecordedKeyboard(devices.keyboard, tape),
+        RecordedPointer(devices.pointer, tape),
+        RecordedClock(devices.clock, tape),
+        RecordedClipboard(devices.clipboard, tape),
+        devices.points,
+    )
+
+
+@contextmanager
+def failures_on(tape: Tape, name: str) -> Iterator[None]:
+    """Sets down an error of a device, which then is raised as it is."""
+    try:
+        yield
+    except McNestedError as error:
+        tape.add("error", name, type(error).__name__, str(error))
+        raise
+
+
+class RecordedClock:
+    """A clock on tape."""
+
+    def __init__(self, clock: Clock, tape: Tape) -> None:
+        self._clock, self._tape = clock, tape
+
+    def now(self) -> float:
+        now = self._clock.now()
+        self._tape.add("now", now)
+        return now
+
+    def sleep_until(self, at: float) -> None:
+        self._tape.add("sleep", at)
+        self._clock.sleep_until(at)
+
+
+class RecordedDisplay:
+    """A display on tape."""
+
+    def __init__(self, display: Display, tape: Tape) -> None:
+        self._display, self._tape = display, tape
+
+    def size(self) -> tuple[int, int]:
+        with failures_on(self._tape, "size"):
+            size = self._display.size()
+        self._tape.add("size", size)
+        return size
+
+    def title(self) -> str:
+        with failures_on(self._tape, "title"):
+            title = self._display.title()
+        self._tape.add("title", title)
+        return title
+
+    def is_in_front(self) -> bool:
+        with failures_on(self._tape, "front"):
+            is_in_front = self._display.is_in_front()
+        self._tape.add("front", is_in_front)
+        return is_in_front
+
+    def grab(self, region: Region | None = None) -> Frame:
+        with failures_on(self._tape, "grab"):
+            frame = self._display.grab(region)
+        self._tape.add("grab", region, frame)
+        return frame
+
+
+class RecordedKeyboard:
+    """A keyboard on tape."""
+
+    def __init__(self, keyboard: Keyboard, tape: Tape) -> None:
+        self._keyboard, self._tape = keyboard, tape
+
+    def press(self, key: str) -> None:
+        self._tape.add("key", "press", key)
+        with failures_on(self._tape, "key"):
+            self._keyboard.press(key)
+
+    def release(self, key: str) -> None:
+        self._tape.add("key", "release", key)
+        with failures_on(self._tape, "key"):
+            self._keyboard.release(key)
+
+    def type(self, text: str) -> None:
+        self._tape.add("key", "type", text)
+        with failures_on(self._tape, "key"):
+            self._keyboard.type(text)
+
+
+class RecordedPointer:
+    """A pointer on tape."""
+
+    def __init__(self, pointer: Pointer, tape: Tape) -> None:
+        self._pointer, self._tape = pointer, tape
+
+    def position(self) -> tuple[int, int]:
+        with failures_on(self._tape, "position"):
+            position = self._pointer.position()
+        self._tape.add("position", position)
+        return position
+
+    def move(self, x: int, y: int) -> None:
+        self._tape.add("mouse", "move", x, y)
+        with failures_on(self._tape, "mouse"):
+            self._pointer.move(x, y)
+
+    def press(self, button: Button) -> None:
+        self._tape.add("mouse", "press", button)
+        with failures_on(self._tape, "mouse"):
+            self._pointer.press(button)
+
+    def release(self, button: Button) -> None:
+        self._tape.add("mouse", "release", button)
+        with failures_on(self._tape, "mouse"):
+            self._pointer.release(button)
+
+
+class RecordedClipboard:
+    """A clipboard of which only the calls are on tape: what it holds is the person's own."""
+
+    def __init__(self, clipboard: Clipboard, tape: Tape) -> None:
+        self._clipboard, self._tape = clipboard, tape
+
+    def read(self) -> str:
+        with failures_on(self._tape, "clipboard"):
+            text = self._clipboard.read()
+        self._tape.add("clipboard", "read")
+        return text
+
+    def write(self, text: str) -> None:
+        self._tape.add("clipboard", "write")
+        with failures_on(self._tape, "clipboard"):
+            self._clipboard.write(text)

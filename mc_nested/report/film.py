@@ -1,0 +1,150 @@
+"""A film as a file, .mp4 or .gif: pictures, each for some seconds. The file is there once it is whole, never before."""
+
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Protocol
+
+from mc_nested.arena.picture import Picture
+from mc_nested.atomic_file import atomic_write
+from mc_nested.errors import FilmError
+from mc_nested.report.gif import GifEncoder
+from mc_nested.report.mp4 import Mp4Encoder, check_ffmpeg
+
+FPS = 10
+"""Pictures a second in the file."""
+
+LAST_S = 2.0
+"""Seconds for which the last picture is shown."""
+
+ROOM = 10_000_000
+"""Bytes that have to be free for a film: ten times what an episode's takes."""
+
+
+class Encoder(Protocol):
+    """Writes one film. OSError or FilmError where it can't."""
+
+    def add(self, picture: Picture, count: int) -> None:
+        """Show a picture so many times, each for 1 / FPS seconds; all have one size."""
+
+    def finish(self) -> None:
+        """Write what is left: the file is whole."""
+
+    def stop(self) -> None:
+        """Write no more; does nothing after ``finish``."""
+
+
+ENCODERS: dict[str, Callable[[Path, int], Encoder]] = {".mp4": Mp4Encoder, ".gif": GifEncoder}
+
+
+class Film:
+    """Pictures with the times at which they begin to be shown, in seconds. FilmError, one line, if it can't be written.
+
+    Args:
+        path: the film, for messages.
+        new_encoder: writes the file, or writes it anew.
+    """
+
+    def __init__(self, path: Path, new_encoder: Callable[[], Encoder]) -> None:
+        self._path, self._new_encoder = path, new_encoder
+        self._encoder = new_encoder()
+        self._shown: tuple[Picture, float] | None = None
+        self._written = 0
+        self.is_whole = False
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether no picture was shown yet."""
+        return self._shown is None
+
+    def begin_anew(self) -> None:
+        """Forget all pictures."""
+        self.stop()
+        self._encoder, self._shown, self._written = self._new_encoder(), None, 0
+
+    def show(self, picture: Picture, at: float) -> None:
+        """Show a picture from that time on; the first one's is 0."""
+        with _one_line(self._path):
+            self._write_until(at)
+        self._shown = picture, at
+
+    def finish(self) -> None:
+        """Show the last picture for LAST_S, and end the film."""
+        with _one_line(self._path):
+            if self._shown:
+                self._write_until(self._shown[1] + LAST_S)
+            self._encoder.finish()
+        self.is_whole = True
+
+    def stop(self) -> None:
+        """Write no more."""
+        self._encoder.stop()
+
+    def _write_until(self, at: float) -> None:
+        count = round(at * FPS) - self._written
+        if self._shown and count > 0:
+            self._encoder.add(self._shown[0], count)
+            self._written += count
+
+
+def is_gif(path: Path) -> bool:
+    """Whether the film is a .gif: one takes ten times an .mp4's room, so its pictures are smaller."""
+    return path.suffix.lower() == ".gif"
+
+
+def check_film(path: Path) -> None:
+    """FilmError, one line, if no film can be written there: asked before anything is played."""
+    if path.suffix.lower() not in ENCODERS:
+        raise FilmError(f"{path}: a film is a file .mp4 or .gif: name one of these")
+    if not path.parent.is_dir():
+        raise FilmError(f"{path.parent} is no folder: name a film in a folder that exists")
+    if path.is_dir():
+        raise FilmError(f"{path} is a folder: name another film")
+    if path.suffix.lower() == ".mp4":
+        check_ffmpeg()
+    if shutil.disk_usage(path.parent).free < ROOM:
+        raise FilmError(f"{path}: less than {ROOM // 1_000_000} MB are free there: make room, or name another folder")
+    with _one_line(path), tempfile.TemporaryFile(dir=path.parent):
+        pass
+
+
+@contextmanager
+def open_film(path: Path) -> Iterator[Film]:
+    """A film to show pictures in. Whatever ends the block, what was shown until then is a whole film.
+
+    Where nothing was shown there is none. Raises FilmError, one line, where it can't be written. An earlier file of
+    that name is kept until the new film is whole.
+    """
+    check_film(path)
+    ended: BaseException | None = None
+    with suppress(_NothingShownError), _one_line(path), atomic_write(path) as unfinished:
+        film = Film(path, lambda: ENCODERS[path.suffix.lower()](unfinished, FPS))
+        try:
+            try:
+                yield film
+            except FilmError:
+                raise
+            except BaseException as error:
+                ended = error
+            if film.is_empty:
+                raise _NothingShownError
+            film.finish()
+        finally:
+            film.stop()
+    if ended:
+        raise ended
+
+
+class _NothingShownError(Exception):
+    """Leaves the writing of a film that shows nothing."""
+
+
+@contextmanager
+def _one_line(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        why = error.strerror or error
+        raise FilmError(f"{path}: the film can't be written ({why}): make room, or name another folder") from None

@@ -1,0 +1,115 @@
+"""An .mp4 film: pictures piped to the ffmpeg that imageio-ffmpeg brings, encoded as they come."""
+
+import contextlib
+import re
+import subprocess
+import tempfile
+from concurrent.futures import Future, ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+
+from mc_nested.arena.picture import Picture
+from mc_nested.errors import FilmError
+
+INSTALL = "pip install -c constraints.txt -e '.[video]'"
+
+H264 = ("-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv420p")
+"""What every player knows; quick, since a game is played beside it."""
+
+
+def check_ffmpeg() -> str:
+    """The path of ffmpeg; FilmError, one line that names the extra, where there is none."""
+    try:
+        import imageio_ffmpeg
+    except ImportError:
+        raise FilmError(f"an .mp4 film needs imageio-ffmpeg, a .gif doesn't: {INSTALL}") from None
+    try:
+        program: str = imageio_ffmpeg.get_ffmpeg_exe()
+    except RuntimeError:
+        raise FilmError("an .mp4 film needs ffmpeg, and there is none: install it, or name a .gif") from None
+    return program
+
+
+class Mp4Encoder:
+    """Writes an .mp4. A picture with an odd number of pixels gets another row or column.
+
+    A thread pipes the pictures: Ctrl+C, which the main thread gets, never leaves a part of one in the pipe.
+
+    Args:
+        path: the file.
+        fps: pictures a second.
+    """
+
+    def __init__(self, path: Path, fps: int) -> None:
+        self._path, self._fps = path, fps
+        self._ffmpeg: subprocess.Popen[bytes] | None = None
+        # Not a pipe: that could fill up while pictures are written, since nobody reads it then.
+        self._said = tempfile.TemporaryFile()  # noqa: SIM115 - closed by stop
+        self._thread = ThreadPoolExecutor(1, "film")
+        self._piping: Future[None] | None = None
+
+    def add(self, picture: Picture, count: int) -> None:
+        """Show a picture so many times; OSError where ffmpeg gave up on an earlier one."""
+        height, width = picture.shape[:2]
+        even = np.pad(picture, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
+        if self._ffmpeg is None:
+            self._ffmpeg = self._started(even.shape[1], even.shape[0])
+        self._wait()
+        self._piping = self._thread.submit(_pipe, self._ffmpeg, even.tobytes(), count)
+
+    def finish(self) -> None:
+        """End the film; OSError with ffmpeg's last line where it could not write all of it."""
+        self._wait()
+        if self._ffmpeg is not None and _end(self._ffmpeg):
+            raise OSError(self._last_line())
+
+    def stop(self) -> None:
+        """End ffmpeg, if it still runs, and leave its file as it is."""
+        if self._ffmpeg is not None and self._ffmpeg.poll() is None:
+            self._ffmpeg.kill()
+        self._thread.shutdown()
+        if self._ffmpeg is not None:
+            _end(self._ffmpeg)
+        self._said.close()
+
+    def _wait(self) -> None:
+        """Until the last picture is piped."""
+        try:
+            if self._piping is not None:
+                self._piping.result()
+        except OSError:
+            if self._ffmpeg is not None:
+                self._ffmpeg.wait()
+            raise OSError(self._last_line()) from None
+
+    def _started(self, width: int, height: int) -> "subprocess.Popen[bytes]":
+        pictures = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", f"{self._fps}", "-i", "-"]
+        return subprocess.Popen(  # noqa: S603 - imageio-ffmpeg's
+            [check_ffmpeg(), "-v", "error", *pictures, *H264, "-movflags", "+faststart", "-f", "mp4", "-y", self._path],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.DEVNULL,
+            stderr=self._said,
+            # Ctrl+C is this program's, which ends the film then.
+            start_new_session=True,
+            creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+        )
+
+    def _last_line(self) -> str:
+        self._said.seek(0)
+        lines = self._said.read().decode(errors="replace").splitlines()
+        return re.sub(r"^(\[[^\]]*\] *)+", "", lines[-1]) if lines else "ffmpeg ended without a word"
+
+
+def _pipe(ffmpeg: "subprocess.Popen[bytes]", picture: bytes, count: int) -> None:
+    if ffmpeg.stdin:
+        for _ in range(count):
+            ffmpeg.stdin.write(picture)
+
+
+def _end(ffmpeg: "subprocess.Popen[bytes]") -> int:
+    """Send no more pictures: ffmpeg's exit code."""
+    if ffmpeg.stdin:
+        with contextlib.suppress(OSError):
+            ffmpeg.stdin.close()
+    return ffmpeg.wait()

@@ -1,0 +1,254 @@
+"""The live view in a terminal (Textual): it reads what a run publishes, and passes on what a person asks of it."""
+
+import contextlib
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import ClassVar, NamedTuple
+
+from rich.text import Text
+from textual.app import App, ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Container
+from textual.events import Resize
+from textual.widgets import Footer
+
+from mc_nested.errors import RunError
+from mc_nested.view import panels
+from mc_nested.view.panel import Panel
+from mc_nested.view.requests import YesOrNo, ask_pause, ask_to_go_on, ask_to_stop, give_answer, renew_pause
+from mc_nested.view.scrubber import Scrubber
+from mc_nested.view.status_files import FOLDER, NOW, history_of, is_published, status_now
+from mc_nested.view.words import Life, StatusShown, life_of
+
+LOOK_EVERY_S = 0.3
+
+LIFE_EVERY_S = 2.0
+"""Seconds between two looks whether the run's process lives."""
+
+NARROW = 72
+"""Columns below which arena and side stand one below the other."""
+
+LEAST_STATUS = 2
+"""Lines of what the run does: more, where a question needs them."""
+
+CLOSES_AFTER_S = 0.5
+"""Seconds for which a view that closes at the end shows it."""
+
+
+class _Layout(NamedTuple):
+    """What the places of the parts depend on; a new one costs as much as twenty drawings."""
+
+    is_narrow: bool
+    status_lines: int
+    arena_size: int | None
+
+
+class ViewApp(App[None]):
+    """The view of a run.
+
+    Args:
+        folder: the run's folder.
+        closes_at_end: whether it closes by itself once the run has ended.
+        clock: seconds since 1970.
+    """
+
+    TITLE = "mc-nested"
+    ENABLE_COMMAND_PALETTE = False
+    CSS = """
+    #title, #moment { height: 1; }
+    #body { layout: horizontal; height: 1fr; }
+    #arena { width: 1fr; height: 100%; }
+    #side { width: 1fr; height: 100%; margin-left: 2; }
+    #body.narrow { layout: vertical; }
+    #body.narrow #arena { width: 100%; }
+    #body.narrow #side { width: 100%; height: 1fr; margin-left: 0; }
+    #body.bare #arena { display: none; }
+    """
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("p", "pause", "pause, go on"),
+        Binding("s", "stop", "stop"),
+        Binding("ctrl+c", "interrupt", "stop", show=False, priority=True),
+        Binding("q", "quit", "close"),
+        Binding("ctrl+q", "quit", "close", show=False, priority=True),
+        Binding("left", "earlier", "back"),
+        Binding("right", "later", "on"),
+        Binding("pageup,shift+left", "far_earlier", "far back", show=False),
+        Binding("pagedown,shift+right", "far_later", "far on", show=False),
+        Binding("home", "first", "first", show=False),
+        Binding("end", "now", "now"),
+        Binding("escape", "now", "now", show=False),
+        Binding("y", "answer(True)", "yes"),
+        Binding("n", "answer(False)", "no"),
+    ]
+
+    def __init__(self, folder: Path, *, closes_at_end: bool = False, clock: Callable[[], float] = time.time) -> None:
+        super().__init__()
+        self._folder = folder
+        self._closes_at_end = closes_at_end
+        self._clock = clock
+        self._status = status_now(folder)
+        self._changed_at = 0
+        self._lives = is_published(folder)
+        self._look_at_life = 0.0
+        self._past: Scrubber | None = None
+        self._pauses = False
+        self._layout: _Layout | None = None
+        self._offered: object = None
+
+    def compose(self) -> ComposeResult:
+        """The parts, from top to bottom."""
+        yield Panel(panels.title, id="title")
+        yield Panel(panels.status_line, id="status")
+        with Container(id="body"):
+            yield Panel(panels.arena, id="arena")
+            yield Panel(panels.side, id="side")
+        yield Panel(self._moment, id="moment")
+        yield Footer()
+
+    def on_mount(self) -> None:
+        """Begin to look."""
+        self._draw()
+        self.set_interval(LOOK_EVERY_S, self._look)
+
+    def on_resize(self, event: Resize) -> None:
+        """Lay it out anew."""
+        del event
+        self._draw()
+
+    @property
+    def shown(self) -> StatusShown:
+        """What is shown now: the status now, or one of the past."""
+        if self._past:
+            return StatusShown(self._past.status, self._past.status.at, "runs", is_past=True)
+        return StatusShown(self._status, self._clock(), self._life)
+
+    @property
+    def _life(self) -> Life:
+        return life_of(self._status, self._lives, self._clock())
+
+    def action_pause(self) -> None:
+        """Ask to pause, or to go on."""
+        status = self._status
+        self._pauses = not (self._pauses or status.paused or status.pausing)
+        self._ask(ask_pause if self._pauses else ask_to_go_on)
+
+    async def action_quit(self) -> None:
+        """Close; the pause that this view asked for ends."""
+        if self._pauses:
+            with contextlib.suppress(OSError):
+                ask_to_go_on(self._folder)
+        self.exit()
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """Keys that can't do anything now aren't offered."""
+        if action in ("pause", "stop"):
+            return self._life == "runs"
+        if action == "answer":
+            return self._life == "runs" and self._status.question is not None and self._past is None
+        return super().check_action(action, parameters)
+
+    async def action_interrupt(self) -> None:
+        """Ctrl+C: stop the run whose own view this is; close another one."""
+        if self._closes_at_end and self._life == "runs":
+            self.action_stop()
+        else:
+            await self.action_quit()
+
+    def action_stop(self) -> None:
+        """Ask to stop, as Ctrl+C does in the run's terminal."""
+        self._ask(ask_to_stop)
+
+    def action_answer(self, is_yes: bool) -> None:
+        """YesOrNo the run's question, if it has one and that is on the screen."""
+        answer = YesOrNo(number=self._status.question_number, is_yes=is_yes)
+        self._ask(lambda folder: give_answer(folder, answer))
+
+    def action_earlier(self) -> None:
+        """The moment before."""
+        self._scrub(lambda past: past.moved(-1))
+
+    def action_later(self) -> None:
+        """The moment after."""
+        self._scrub(lambda past: past.moved(1))
+
+    def action_far_earlier(self) -> None:
+        """A tenth of the run back."""
+        self._scrub(lambda past: past.jumped(-1))
+
+    def action_far_later(self) -> None:
+        """A tenth of the run on."""
+        self._scrub(lambda past: past.jumped(1))
+
+    def action_first(self) -> None:
+        """The first moment."""
+        self._scrub(lambda past: past.moved(-len(past.history)))
+
+    def action_now(self) -> None:
+        """What is now."""
+        self._past = None
+        self._draw()
+
+    def _scrub(self, move: Callable[[Scrubber], Scrubber]) -> None:
+        if self._past is None:
+            history = history_of(self._folder)
+            if not history:
+                return
+            self._past = Scrubber(history, len(history) - 1)
+        self._past = move(self._past)
+        self._draw()
+
+    def _ask(self, request: Callable[[Path], None]) -> None:
+        try:
+            request(self._folder)
+        except OSError as error:
+            self.notify(f"the run can't be asked: {error.strerror or error}", severity="error", markup=False)
+
+    def _look(self) -> None:
+        try:
+            changed_at = (self._folder / FOLDER / NOW).stat().st_mtime_ns
+            if changed_at != self._changed_at:
+                self._status, self._changed_at = status_now(self._folder), changed_at
+        except (OSError, RunError):  # it is being replaced, or its folder is gone: the next look tells
+            pass
+        now = self._clock()
+        if now >= self._look_at_life:
+            self._lives, self._look_at_life = is_published(self._folder), now + LIFE_EVERY_S
+        if self._pauses:
+            self._pauses = renew_pause(self._folder)
+        self._draw()
+        if self._closes_at_end and self._life != "runs":
+            self._closes_at_end = False
+            self.set_timer(CLOSES_AFTER_S, self.exit)
+
+    def _draw(self) -> None:
+        shown = self.shown
+        if (layout := self._layout_for(shown)) != self._layout:
+            self._layout = layout
+            self._lay_out(layout)
+        if (offered := (self._life, self._status.question, self._past is None)) != self._offered:
+            self._offered = offered
+            self.refresh_bindings()
+        for panel in self.query(Panel):
+            panel.show(shown)
+
+    def _layout_for(self, shown: StatusShown) -> _Layout:
+        width, height = self.size
+        lines = len(panels.status_lines(shown, width).split("\n"))
+        arena = shown.status.arena
+        return _Layout(
+            is_narrow=width < NARROW,
+            status_lines=min(max(LEAST_STATUS, lines), height // 2),
+            arena_size=arena.size if arena else None,
+        )
+
+    def _lay_out(self, layout: _Layout) -> None:
+        """Arena and side stand side by side where there is room; a status that is long gets its lines."""
+        body = self.query("#body")
+        body.set_class(layout.is_narrow, "narrow")
+        body.set_class(layout.arena_size is None, "bare")
+        self.query("#arena").set_styles(height=layout.arena_size if layout.is_narrow and layout.arena_size else "100%")
+        self.query("#status").set_styles(height=layout.status_lines)
+
+    def _moment(self, shown: StatusShown, width: int, height: int) -> Text:
+        return self._past.line(width) if self._past else panels.moment(shown, width, height)

@@ -1,0 +1,142 @@
+"""A run's status as files: now.json is its status now, history.jsonl how it came to be, coarser the longer it lasts.
+
+They lie in the folder ``view`` of a run. A reader sees either the old status or the new one, never a half.
+"""
+
+import contextlib
+from collections.abc import Sequence
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from mc_nested.errors import RunError
+from mc_nested.learn.runs.folder_kind import VIEW, VIEW_FILES
+from mc_nested.learn.runs.folder_lock import holder_of
+from mc_nested.view.status import FORMAT, Status
+
+FOLDER = VIEW
+NOW, HISTORY = "now.json", "history.jsonl"
+
+MOST_KEPT = 600
+"""Statuses in a history: with more, every second one is dropped, and from then on fewer are kept."""
+
+KEEP_EVERY_S = 0.3
+"""Seconds between two statuses of a history, while it is short."""
+
+
+class History:
+    """The statuses that are kept of a run: they begin with those of its folder, if it was begun before.
+
+    Args:
+        path: the file.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._kept = _lines(path)
+        self._every_s = KEEP_EVERY_S
+        self._next = 0.0
+        if self._kept:
+            self._thin()
+
+    def add(self, at: float, line: str, is_last: bool) -> None:
+        """Keep a status if it is time to, or if it is the last one. OSError if the disk refuses."""
+        if at < self._next and not is_last:
+            return
+        self._next = at + self._every_s
+        self._kept.append(line)
+        if len(self._kept) > MOST_KEPT:
+            self._every_s *= 2
+            self._thin()
+        else:
+            with self._path.open("a", encoding="utf-8") as file:
+                file.write(line + "\n")
+
+    def _thin(self) -> None:
+        while len(self._kept) > MOST_KEPT:
+            self._kept = [self._kept[0], *self._kept[2::2]]
+        _replace(self._path, "".join(line + "\n" for line in self._kept))
+
+
+class StatusFiles:
+    """Writes a run's status into its folder.
+
+    Args:
+        folder: a run's folder; its ``view`` is made where there is none.
+
+    OSError, here and at every writing, if the disk refuses.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.path = folder / FOLDER
+        self.path.mkdir(parents=True, exist_ok=True)
+        self._history = History(self.path / HISTORY)
+
+    def write(self, status: Status) -> None:
+        """Write what is now; keep it, if it is time to."""
+        line = status.model_dump_json(exclude_defaults=True)
+        with contextlib.suppress(PermissionError):  # Windows, while somebody reads it: the next one comes soon
+            _replace(self.path / NOW, line)
+        self._history.add(status.at, line, status.ended is not None)
+
+
+def is_published(folder: Path) -> bool:
+    """Whether a living process writes that run's status."""
+    return holder_of(folder / FOLDER) is not None
+
+
+def status_now(folder: Path) -> Status:
+    """The status of a run; RunError if there is none, or it can't be read."""
+    path = folder / FOLDER / NOW
+    try:
+        return _status_of(path.read_bytes(), path)
+    except (FileNotFoundError, NotADirectoryError) as error:
+        why = "name the folder of a training (its --out), mc-nested runs lists them"
+        if (folder / "config.toml").is_file():
+            why = "it is an experiment, or was made before there was a view: mc-nested runs show says what it holds"
+        raise RunError(f"{folder}: there is nothing to view: {why}") from error
+
+
+def history_of(folder: Path) -> Sequence[Status]:
+    """The statuses kept of a run, the oldest first; a line that a kill cut off is left out."""
+    path = folder / FOLDER / HISTORY
+    kept = []
+    for line in _lines(path):
+        with contextlib.suppress(RunError):
+            kept.append(_status_of(line, path))
+    return kept
+
+
+def remove_status(folder: Path) -> None:
+    """Remove what was published of a run, and nothing else that may lie there."""
+    path = folder / FOLDER
+    for name in VIEW_FILES:
+        with contextlib.suppress(OSError):
+            (path / name).unlink(missing_ok=True)
+    with contextlib.suppress(OSError):  # it isn't there, or holds something else
+        path.rmdir()
+
+
+def _lines(path: Path) -> list[str]:
+    try:
+        text = path.read_text(encoding="utf-8", errors="replace")
+    except OSError:  # there is none, or it is just being replaced
+        return []
+    return [line for line in text.split("\n") if line]
+
+
+def _status_of(text: str | bytes, path: Path) -> Status:
+    try:
+        status = Status.model_validate_json(text)
+    except ValidationError as error:
+        raise RunError(f"{path}: can't be read: it is damaged, or of another version of mc-nested") from error
+    if status.format > FORMAT:
+        raise RunError(f"{path}: was written by a newer mc-nested: view it with that version")
+    return status
+
+
+def _replace(path: Path, text: str) -> None:
+    """Write all of it at once. Without waiting for the disk: what a power cut costs is a view of the past."""
+    unfinished = path.with_suffix(".unfinished")
+    unfinished.write_text(text, encoding="utf-8")
+    unfinished.replace(path)

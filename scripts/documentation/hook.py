@@ -1,0 +1,110 @@
+"""What mkdocs.yml hooks into MkDocs: pages and pictures from outside of docs/, and the reference, made from the code.
+
+A page names what is to be made in a comment: ``<!-- made from the code: profile -->``.
+"""
+
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent))
+
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.exceptions import PluginError
+from mkdocs.plugins import get_plugin_logger
+from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
+
+from mc_nested.arena.scenario_file import ScenarioTable, shipped_scenarios
+from mc_nested.learn.preset import Preset, shipped_presets
+from mc_nested.live.profile.tables import Profile
+from scripts.documentation import command_reference, env_reference, error_reference, table_reference
+from scripts.documentation.places import PAGES, PICTURES, SUFFIXES, place_of, with_links_of_site
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+LOG = get_plugin_logger("documentation")
+
+_CELL = re.compile(r"<td.*?</td>", re.DOTALL)
+_CODE = re.compile(r"<code>([^<]*)</code>")
+
+MADE = re.compile(r"^<!-- made from the code: ([a-z ]+) -->$", re.MULTILINE)
+
+
+def program(file: str) -> str:
+    """The text of a Python program, named from the project's root."""
+    return f"```python\n{(ROOT / file).read_text('utf-8').rstrip()}\n```"
+
+
+def shipped_files(folder: str, names: list[str]) -> str:
+    """The text of shipped TOML files, each under its name."""
+    texts = ((name, (ROOT / folder / f"{name}.toml").read_text("utf-8").rstrip()) for name in names)
+    return "\n\n".join(f"### {name}\n\n```toml\n{text}\n```" for name, text in texts)
+
+
+MAKERS: dict[str, Callable[[], str]] = {
+    "command line": command_reference.markdown,
+    "profile": lambda: table_reference.markdown(Profile),
+    "preset": lambda: table_reference.markdown(Preset),
+    "scenario": lambda: table_reference.markdown(ScenarioTable),
+    "shipped presets": lambda: shipped_files("mc_nested/learn/presets", shipped_presets()),
+    "shipped designs": lambda: shipped_files("mc_nested/arena/designs", shipped_scenarios()),
+    "stable baselines example": lambda: program("scripts/examples/sb3_dqn.py"),
+    "single file example": lambda: program("scripts/examples/cleanrl_dqn.py"),
+    "env": env_reference.markdown,
+    "exit codes": error_reference.exit_codes,
+    "errors": error_reference.error_tree,
+}
+"""What makes each part of the reference."""
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """MkDocs' event: add what lies outside of docs/."""
+    pictures = [path for path in sorted((ROOT / PICTURES).iterdir()) if path.suffix in SUFFIXES]
+    for path in [*(ROOT / name for name in PAGES), *pictures]:
+        place = place_of(path.relative_to(ROOT).as_posix())
+        if place is not None:
+            files.append(File.generated(config, place, abs_src_path=str(path)))
+    return files
+
+
+def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Files) -> str:  # noqa: ARG001 - MkDocs' names
+    """MkDocs' event: make what the page asks for, and mend its links."""
+    place = page.file.src_uri
+    if place == "index.md":  # it has no pages beside it
+        page.meta["hide"] = ["navigation"]
+
+    def lost(link: str) -> None:
+        LOG.warning(f"{place} links to {link}, which isn't on the site")
+
+    return with_links_of_site(made(markdown), place, lost)
+
+
+def on_page_content(html: str, page: Page, config: MkDocsConfig, files: Files) -> str:  # noqa: ARG001 - MkDocs' names
+    """MkDocs' event: give a page without sections the room of their list, and keep words of code whole in tables."""
+    if not any(heading.children for heading in page.toc):
+        page.meta["hide"] = [*page.meta.get("hide", []), "toc"]
+    return with_whole_words(html)
+
+
+def with_whole_words(html: str) -> str:
+    """The page with each word of code in a table in a span: a browser would end a line behind each hyphen."""
+    return _CELL.sub(lambda cell: _CODE.sub(_spans, cell[0]), html)
+
+
+def _spans(code: re.Match[str]) -> str:
+    words = (f'<span class="word">{word}</span>' for word in code[1].split(" "))
+    return f"<code>{' '.join(words)}</code>"
+
+
+def made(markdown: str) -> str:
+    """A page with each part that it asks for; PluginError if nothing makes one."""
+    return MADE.sub(_made, markdown)
+
+
+def _made(asked: re.Match[str]) -> str:
+    maker = MAKERS.get(asked[1])
+    if maker is None:
+        raise PluginError(f"nothing makes {asked[1]!r}: there is {', '.join(MAKERS)}")
+    return maker()

@@ -1,0 +1,70 @@
+"""Random play on the virtual client, recorded: for tests, and for bench_replay.py."""
+
+import itertools
+from pathlib import Path
+
+import numpy as np
+import tomlkit
+
+from mc_nested.arena.action import Action
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import load_scenario, table_of
+from mc_nested.errors import LiveError
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.tables import GameVersion, InputTable, Profile
+from mc_nested.live.recording.opened import recorder_opener
+from mc_nested.live.vision.font import font_of
+from mc_nested.live.vision.game_screen import WindowScreen
+from sim.client.client import VirtualClient
+from sim.client.drawing.font import drawn_atlas
+
+STEPS_AN_EPISODE = 25
+FONT = font_of(drawn_atlas())
+
+
+def said_nothing(line: str) -> None:
+    """A recorder has nothing to say while the disk takes everything."""
+    raise AssertionError(line)
+
+
+def scenario_facts(scenario: Scenario) -> dict[str, str]:
+    """The scenario, as a recording says it."""
+    return {"scenario": tomlkit.dumps(table_of(scenario).model_dump(exclude_none=True))}
+
+
+def record_play(
+    folder: Path, actions: int, client: VirtualClient | None = None, seed: int = 0, scenario_name: str = "diamond"
+) -> list[LiveError]:
+    """Random actions, recorded into a folder; the errors of those that failed."""
+    client = client or VirtualClient(seed=seed)
+    scenario = load_scenario(scenario_name)
+    arena = Arena.around((-20, client.realm.world.floor, 31), "south")
+    profile = Profile(game=GameVersion(version=client.settings.version), arena=arena)
+    rng, failed = np.random.default_rng(seed), []
+    opened = recorder_opener(folder, "test", said_nothing, scenario_facts(scenario))
+    with opened(profile, client.devices) as recording:
+        devices = recording.devices(client.devices)
+        connection = GameConnection(
+            devices,
+            InputController(devices, InputTable()),
+            WindowScreen(devices.display, FONT),
+            journal=recording,
+            on_screen=recording.screen,
+        )
+        with LiveGame(scenario, profile, connection) as game:
+            done = 0
+            for episode in itertools.count():
+                game.reset(episode % len(scenario.materials))
+                for _ in range(STEPS_AN_EPISODE):
+                    try:
+                        game.act(Action(int(rng.integers(8))))
+                    except LiveError as error:
+                        failed.append(error)
+                        break
+                    done += 1
+                    if done == actions:
+                        return failed
+    return failed

@@ -1,0 +1,173 @@
+"""Completing as shells ask for it: through the environment, in a process that loads no verb."""
+
+import os
+import shutil
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import pytest
+import shellingham
+
+from mc_nested.cli import app
+from mc_nested.cli.completion.shell import check_shell
+from mc_nested.errors import UserError
+from tests.cli.running import run
+
+COMMAND = "import sys; sys.argv[0] = 'mc-nested'; from mc_nested.cli import main; main()"
+"""The command as its script runs it."""
+
+HEAVY = ("torch", "numba", "cv2", "matplotlib", "scipy", "tomlkit")
+"""What takes long to load."""
+
+
+def asked(folder: Path, **variables: str) -> subprocess.CompletedProcess[str]:
+    """What the command answers a shell that asks by these variables."""
+    env = {**os.environ, **variables, "HOME": str(folder), "XDG_CONFIG_HOME": str(folder)}
+    env["PYTHONPATH"] = os.pathsep.join(filter(None, (str(Path(__file__).parents[3]), os.environ.get("PYTHONPATH"))))
+    return subprocess.run(
+        [sys.executable, "-c", COMMAND], env=env, cwd=folder, capture_output=True, text=True, check=False
+    )
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "runs" / "line").mkdir(parents=True)
+    (tmp_path / "runs" / "line" / "config.toml").touch()
+    (tmp_path / "mc-nested" / "profiles").mkdir(parents=True)
+    (tmp_path / "mc-nested" / "profiles" / "laptop.toml").touch()
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("typed", "completed"),
+    [
+        ("re", ["reproduce", "read", "rehearse", "recordings", "replay"]),
+        ("train --pre", ["--preset"]),
+        ("train --preset t", ["tuned"]),
+        ("train --scenario zig", ["zigzag"]),
+        ("train --resume ", ["runs/line"]),
+        ("play ", ["runs/line"]),
+        ("play runs/line --backend l", ["live"]),
+        ("play --profile l", ["laptop"]),
+        ("runs de", ["delete"]),
+        ("profiles delete ", ["laptop"]),
+        ("calibrate arena --un", ["--undo"]),
+        ("scenarios line h", ["house"]),
+        ("benchmark --agents nested,s", ["nested,single", "nested,sb3"]),
+        ("read ", []),
+        ("train --out ", []),
+        ("nothing x", []),
+    ],
+)
+def test_bash_gets_a_word_a_line(typed: str, completed: list[str], folder: Path) -> None:
+    words = ["mc-nested", *typed.split(" ")]
+    variables = {"COMP_WORDS": " ".join(words), "COMP_CWORD": str(len(words) - 1)}
+    answer = asked(folder, **variables, _MC_NESTED_COMPLETE="complete_bash")
+    assert (answer.returncode, answer.stderr) == (0, "")
+    assert sorted(answer.stdout.split()) == sorted(completed)
+
+
+def test_zsh_gets_the_help_beside_each(folder: Path) -> None:
+    answer = asked(folder, _TYPER_COMPLETE_ARGS="mc-nested train --pres", _MC_NESTED_COMPLETE="complete_zsh")
+    assert answer.stdout == """_arguments '*: :(("--preset":"hyper-parameters [paper]"))'\n"""
+    answer = asked(folder, _TYPER_COMPLETE_ARGS="mc-nested train --out ", _MC_NESTED_COMPLETE="complete_zsh")
+    assert answer.stdout == "_files\n"
+
+
+def test_fish_gets_the_help_behind_a_tab_and_is_told_where_files_are_meant(folder: Path) -> None:
+    action = {"_MC_NESTED_COMPLETE": "complete_fish", "_TYPER_COMPLETE_FISH_ACTION": "get-args"}
+    answer = asked(folder, **action, _TYPER_COMPLETE_ARGS="mc-nested train --preset p")
+    assert answer.stdout == "paper\n"
+    answer = asked(folder, **action, _TYPER_COMPLETE_ARGS="mc-nested train --pres")
+    assert answer.stdout == "--preset\thyper-parameters [paper]\n"
+    action["_TYPER_COMPLETE_FISH_ACTION"] = "is-args"
+    assert asked(folder, **action, _TYPER_COMPLETE_ARGS="mc-nested train --preset p").returncode == 0
+    assert asked(folder, **action, _TYPER_COMPLETE_ARGS="mc-nested train --out ").returncode == 1
+
+
+def test_powershell_gets_the_help_behind_colons(folder: Path) -> None:
+    answer = asked(
+        folder,
+        _MC_NESTED_COMPLETE="complete_powershell",
+        _TYPER_COMPLETE_ARGS="mc-nested train --pres",
+        _TYPER_COMPLETE_WORD_TO_COMPLETE="--pres",
+    )
+    assert answer.stdout == "--preset:::hyper-parameters [paper]\n"
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash")
+def test_a_real_bash_completes_with_the_script_that_it_is_given(folder: Path) -> None:
+    command = f"""#!/bin/sh\nexec "{sys.executable}" -c "{COMMAND}" "$@"\n"""
+    (folder / "mc-nested").rename(folder / "config")
+    (folder / "bin").mkdir()
+    (folder / "bin" / "mc-nested").write_text(command)
+    (folder / "bin" / "mc-nested").chmod(0o755)
+    script = """
+        eval "$(mc-nested --show-completion)"
+        complete -p mc-nested
+        COMP_WORDS=(mc-nested play "") COMP_CWORD=2
+        _mc_nested_completion mc-nested
+        echo "${COMPREPLY[*]}"
+    """
+    env = {**os.environ, "PATH": f"{folder / 'bin'}{os.pathsep}{os.environ['PATH']}", "HOME": str(folder)}
+    env["PYTHONPATH"] = str(Path(__file__).parents[3])
+    bash = ["bash", "--norc", "-c", textwrap.dedent(script)]
+    done = subprocess.run(bash, env=env, cwd=folder, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["complete -o default -F _mc_nested_completion mc-nested", "runs/line"]
+
+
+def test_no_verb_is_loaded_and_nothing_heavy(folder: Path) -> None:
+    code = f"""
+        import atexit, sys
+        atexit.register(lambda: print([name for name in {HEAVY} if name in sys.modules], file=sys.stderr))
+        atexit.register(lambda: print("mc_nested.cli.train" in sys.modules, file=sys.stderr))
+        {COMMAND}
+    """
+    env = {
+        **os.environ,
+        "HOME": str(folder),
+        "XDG_CONFIG_HOME": str(folder),
+        "PYTHONPATH": str(Path(__file__).parents[3]),
+    }
+    env |= {"_MC_NESTED_COMPLETE": "complete_bash", "COMP_WORDS": "mc-nested play --profile ", "COMP_CWORD": "3"}
+    command = [sys.executable, "-c", textwrap.dedent(code)]
+    done = subprocess.run(command, env=env, cwd=folder, capture_output=True, text=True, check=True)
+    assert done.stdout == "laptop\n"
+    assert done.stderr.splitlines() == ["False", "[]"]
+
+
+@pytest.mark.parametrize("option", app.COMPLETION_OPTIONS)
+def test_a_shell_that_is_not_known_is_one_line(
+    option: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(shellingham, "detect_shell", lambda: ("tcsh", "/bin/tcsh"))
+    assert run(option) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    says = "there are no completions for tcsh: run this in bash, zsh, fish or PowerShell"
+    assert printed.err == f"mc-nested: {says}\n"
+
+
+def test_no_shell_at_all_is_one_line_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails() -> tuple[str, str]:
+        raise shellingham.ShellDetectionFailure
+
+    monkeypatch.setattr(shellingham, "detect_shell", fails)
+    with pytest.raises(UserError, match="whose name can't be told"):
+        check_shell()
+    monkeypatch.setattr(shellingham, "detect_shell", lambda: ("zsh", "/bin/zsh"))
+    check_shell()
+
+
+def test_the_script_is_shown_and_installed_for_the_shell_it_is_asked_from(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(shellingham, "detect_shell", lambda: ("zsh", "/bin/zsh"))
+    monkeypatch.setattr(Path, "home", lambda: tmp_path)
+    assert run("--show-completion") == 0
+    shown = capsys.readouterr().out
+    assert shown.startswith("#compdef mc-nested\n")
+    assert run("--install-completion") == 0
+    assert (tmp_path / ".zfunc" / "_mc-nested").read_text() == shown.strip()

@@ -1,0 +1,183 @@
+"""``mc-nested build``: a known design in the simulator, in a live game that fails, and on the virtual client."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.cli import options
+from mc_nested.errors import LiveError, NotInFrontError, StoppedError
+from mc_nested.live.devices import Display
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.store import save_profile
+from mc_nested.live.profile.tables import Profile, WorldTable
+from sim.client.client import VirtualClient
+from tests.cli.fragile_game import open_live
+from tests.cli.running import run
+from tests.design_files.written import HUT, picture, sponge
+from tests.sim.client.playing import arena_of, play
+
+COPIED = Arena.around((0, 64, 0), "south").model_copy(update={"copied_to": (-1, 100, -1)})
+
+
+@pytest.fixture
+def profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A user's profile ``mine``, whose arena has a copy of what stood there."""
+    monkeypatch.setattr("mc_nested.live.profile.store.profile_folder", lambda: tmp_path / "config")
+    path = tmp_path / "config" / "mine.toml"
+    save_profile(Profile(arena=COPIED), path)
+    return path
+
+
+def test_a_shipped_design_is_built_of_the_best_material_and_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("build", "diamond") == 0
+    printed = capsys.readouterr()
+    assert "diamond: 16 of 16 blocks on the design" in printed.out
+    assert printed.out.splitlines()[-1] == "  built 16 of 16 blocks, of stone, in 52 steps"
+    assert printed.err == ""
+
+
+def test_a_layer_of_a_schematic_is_built_of_the_material_that_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "hut.schem").write_bytes(sponge(HUT))
+    assert run("build", tmp_path / "hut.schem", "--layer", "2", "--material", "wood") == 0
+    assert "  built 2 of 2 blocks, of wood, in " in capsys.readouterr().out
+
+
+def test_a_drawing_is_built(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "hut.png").write_bytes(picture(HUT[0]))
+    assert run("build", tmp_path / "hut.png") == 0
+    assert "  built 11 of 11 blocks, of stone, in " in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (
+            ["hut.schem"],
+            "hut.schem: 3 of its layers have blocks, and only one can be built: name it with --layer, 0 to",
+        ),
+        (["hut.schem", "--layer", "3"], "hut.schem: layer 3 has no block: choose 0 to 2"),
+        (["line", "--material", "gold"], "scenario line has no material 'gold': choose one of wood, stone"),
+        (["line", "--layer", "0"], "line is a drawing of one layer: leave out --layer"),
+        (["castle"], "no scenario 'castle': name one of line, zigzag"),
+        (["short.toml"], "scenario short: the scripted builder takes 13 steps, and its step_limit is 11: raise it"),
+        (["line", "--backend", "live", "--profile", "none.toml"], "no profile 'none.toml'"),
+    ],
+)
+def test_what_can_not_be_built_is_one_line_and_exit_code_2(
+    words: list[str], says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "hut.schem").write_bytes(sponge(HUT))
+    grid = "\n".join(["." * 15] * 2 + ["." * 7 + "#" + "." * 7] * 11 + ["." * 15] * 2)
+    (tmp_path / "short.toml").write_text(
+        f'name = "short"\nstart = [7, 14]\nstep_limit = 11\ndesign = """\n{grid}\n"""\n'
+        '[[materials]]\nname = "stone"\np = 0\nblock = "stone"\n'
+    )
+    monkeypatch.chdir(tmp_path)
+    assert run("build", *words) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert printed.err.startswith(f"mc-nested: {says}")
+    assert printed.err.count("\n") == 1
+
+
+@pytest.mark.usefixtures("profile")
+def test_in_a_live_game_it_says_how_what_stood_there_comes_back(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    open_live(monkeypatch, float("inf"))
+    assert run("build", "line", "--backend", "live", "--profile", "mine") == 0
+    printed = capsys.readouterr()
+    undo = "what stood there before the arena was made comes back with mc-nested calibrate arena --undo --profile mine"
+    assert printed.err == f"  building clears the arena first; {undo}\n"
+    assert printed.out.splitlines()[-2:] == [
+        "  built 11 of 11 blocks, of stone, in 13 steps",
+        f"  it stands until the arena is cleared for the next episode; {undo}",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"arena": Arena.around((0, 64, 0), "south")}, "the profile knows no copy of what stood there"),
+        (
+            {"world": WorldTable(folder="~/saves/one", name="one", template="~/kept/one")},
+            "the world comes back from ~/kept/one with the next episode",
+        ),
+    ],
+)
+def test_where_nothing_was_copied_it_says_so_before_anything_is_changed(
+    changes: dict[str, object],
+    says: str,
+    profile: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    save_profile(Profile(arena=COPIED).model_copy(update=changes), profile)
+    open_live(monkeypatch, 0, LiveError("it lagged"))
+    assert run("build", "line", "--backend", "live", "--profile", "mine") == 2
+    assert says in capsys.readouterr().err.splitlines()[0]
+
+
+@pytest.mark.usefixtures("profile")
+@pytest.mark.parametrize(("failures", "code"), [(1, 0), (2, 0), (3, 2)])
+def test_it_starts_over_twice_where_mishaps_spoil_it(
+    failures: int, code: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    open_live(monkeypatch, 5, LiveError("it lagged"), failures)
+    assert run("build", "line", "--backend", "live", "--profile", "mine") == code
+    printed = capsys.readouterr()
+    assert printed.err.splitlines().count("  it lagged; the episode starts over") == min(failures, 2)
+    assert ("mc-nested: it lagged" in printed.err) is (code == 2)
+    assert ("built 11 of 11 blocks" in printed.out) is (code == 0)
+
+
+@pytest.mark.usefixtures("profile")
+@pytest.mark.parametrize("error", [StoppedError("stopped by f12"), NotInFrontError("another window")])
+def test_what_a_person_stops_does_not_start_over(
+    error: LiveError, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    open_live(monkeypatch, 5, error, 1)
+    assert run("build", "line", "--backend", "live", "--profile", "mine") == 2
+    assert capsys.readouterr().err.splitlines()[-1] == f"mc-nested: {error}"
+
+
+@pytest.mark.usefixtures("profile")
+@pytest.mark.parametrize("mishaps_a_second", [None, 0.15])
+def test_a_layer_is_built_block_for_block_on_the_virtual_client(
+    mishaps_a_second: float | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "hut.schem").write_bytes(sponge(HUT))
+    client = VirtualClient(seed=4)
+    if mishaps_a_second:
+        client.mishaps.every(mishaps_a_second)
+
+    @contextmanager
+    def opened(scenario: Scenario, *_: object, **__: object) -> Iterator[tuple[LiveGame, Display]]:
+        with play(client, scenario) as game:
+            yield game, client.display
+
+    monkeypatch.setattr(options, "open_live_game", opened)
+    words: list[str | Path] = ["--layer", "0", "--backend", "live", "--profile", "mine"]
+    assert run("build", tmp_path / "hut.schem", *words) == 0
+    printed = capsys.readouterr()
+    assert "built 11 of 11 blocks, of stone" in printed.out
+    assert bool(client.mishaps.happened) is bool(mishaps_a_second)
+    rows = {8: (5, 6, 7, 8), 7: (5, 7, 8), 6: (5, 6, 7, 8)}
+    assert client.placed(arena_of(client)) == {(x, y) for y, across in rows.items() for x in across}
+    assert set(client.built.values()) == {"stone"}
+    assert client.window.down == set()
+    assert client.window.strays == []
+
+
+def test_the_shipped_designs_are_all_built(capsys: pytest.CaptureFixture[str]) -> None:
+    for name in ("zigzag", "islands", "house", "square"):
+        assert run("build", name) == 0
+        blocks = load_scenario(name).blocks
+        assert f"built {blocks} of {blocks} blocks" in capsys.readouterr().out

@@ -1,0 +1,91 @@
+"""Where a verb writes: the folder that is named, or a new one with the date; an empty one isn't left behind."""
+
+import datetime
+import os
+from pathlib import Path
+
+import pytest
+
+from mc_nested.cli.output_folder import output_folder
+from mc_nested.cli.runs_folder import RUNS
+from mc_nested.errors import RunError
+
+NOW = datetime.datetime(2026, 11, 23, 9, 45, 1)
+
+
+@pytest.fixture(autouse=True)
+def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_without_a_name_it_is_what_is_trained_and_when() -> None:
+    with output_folder(None, "line-nested", NOW) as path:
+        assert path == Path("runs/line-nested-2026-11-23-094501")
+        (path / "config.toml").touch()
+    assert [entry.name for entry in path.iterdir()] == ["config.toml"]
+
+
+def test_those_that_begin_in_the_same_second_are_different() -> None:
+    with (
+        output_folder(None, "sweep", NOW) as first,
+        output_folder(None, "sweep", NOW) as second,
+        output_folder(None, "sweep", NOW) as third,
+    ):
+        dated = "sweep-2026-11-23-094501"
+        assert [path.name for path in (first, second, third)] == [dated, f"{dated}-2", f"{dated}-3"]
+
+
+@pytest.mark.parametrize(
+    ("name", "folder"),
+    [
+        ("my house/of: cards-single", "my-house-of-cards-single"),
+        ("../../up-nested", "up-nested"),
+        ("дом-nested", "дом-nested"),
+        ("???", "run"),
+        ("x" * 70, "x" * 50),
+    ],
+)
+def test_a_designs_name_makes_a_name_that_every_system_takes(name: str, folder: str) -> None:
+    with output_folder(None, name, NOW) as path:
+        assert path == RUNS / f"{folder}-2026-11-23-094501"
+
+
+def test_nothing_is_left_where_nothing_was_written(here: Path) -> None:
+    for out in (None, Path("deep/er/one")):
+        with pytest.raises(ValueError, match="no game"), output_folder(out, "line", NOW):
+            raise ValueError("no game")
+    assert list(here.iterdir()) == []
+
+
+def test_a_folder_that_was_there_stays(here: Path) -> None:
+    (here / "mine").mkdir()
+    with output_folder(Path("mine"), "line"):
+        pass
+    assert list((here / "mine").iterdir()) == []
+
+
+def test_what_holds_something_already_is_refused_and_left_alone(here: Path) -> None:
+    (here / "mine").mkdir()
+    (here / "mine" / "letter.txt").touch()
+    with pytest.raises(RunError, match="not empty"), output_folder(Path("mine"), "line"):
+        pytest.fail("it was let in")
+    assert [entry.name for entry in (here / "mine").iterdir()] == ["letter.txt"]
+
+
+def test_what_another_process_begins_just_now_is_refused_by_its_id() -> None:
+    with (
+        output_folder(Path("mine"), "line"),
+        pytest.raises(RunError, match=f"^mine: process {os.getpid()} is writing there"),
+        output_folder(Path("mine"), "line"),
+    ):
+        pytest.fail("it was let in")
+
+
+def test_a_file_named_runs_is_one_line(here: Path) -> None:
+    (here / RUNS).touch()
+    with (
+        pytest.raises(RunError, match=r"can't be made, .*: name a new folder with --out DIR"),
+        output_folder(None, "line"),
+    ):
+        pytest.fail("it was let in")

@@ -1,0 +1,132 @@
+import json
+import zipfile
+from pathlib import Path
+
+import cv2
+import pytest
+
+from calibration.bug_report import write_bug_report
+from calibration.doctor.check import Check, CheckName
+from calibration.report.privacy import Names
+from mc_nested.cli import main
+from mc_nested.live.recording.opened import MOST_RECORDINGS, kept_recordings, recordings_folder
+from mc_nested.live.recording.recording_file import facts_of
+from scripts.recorded_play import record_play
+from sim.client.drawing.font import drawn_atlas
+
+pytestmark = pytest.mark.skipif("sys.platform != 'linux'", reason="elsewhere the folder isn't named by a variable")
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("recorded") / "play"
+    record_play(folder, 30, seed=5)
+    return folder
+
+
+@pytest.fixture
+def kept(recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """One recording among those that are kept, named "play"."""
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    recordings_folder().mkdir(parents=True)
+    (recordings_folder() / "play").symlink_to(recorded)
+    return recordings_folder() / "play"
+
+
+def run(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str]:
+    with pytest.raises(SystemExit) as ended:
+        main(words)
+    said = capsys.readouterr()
+    return int(ended.value.code or 0), said.out + said.err
+
+
+def font(folder: Path) -> str:
+    path = folder / "font.png"
+    cv2.imwrite(str(path), drawn_atlas())
+    return str(path)
+
+
+def test_recordings_are_listed_with_what_they_hold(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (kept.parent / "broken").mkdir()
+    (kept.parent / "broken" / "00001.mcap").write_bytes(b"nothing")
+    code, said = run(capsys, "recordings")
+    assert code == 0
+    assert [word for word in ("play", "whole", "30", "is no recording") if word not in said] == []
+    assert "2 recordings in" in said
+
+
+def test_one_is_verified_by_its_name(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, said = run(capsys, "recordings", "verify", kept.name)
+    assert code == 0
+    assert "30 actions" in said
+    assert said.strip().endswith("whole")
+
+
+def test_a_name_that_is_none_is_one_line(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(capsys, "replay", "nope") == (
+        2,
+        f"mc-nested: no recording 'nope': the last ones kept are: {kept.name}\n",
+    )
+
+
+def test_a_part_that_is_cut_out_replays_alike(kept: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "part.mcap"
+    code, said = run(capsys, "recordings", "cut", kept.name, str(out), "--no-pictures")
+    assert (code, "0 pictures" in said) == (0, False)
+    code, said = run(capsys, "replay", str(out), "--font", font(tmp_path), "--json")
+    seen = json.loads(said)
+    assert code == 0
+    assert (seen["actions"], seen["followed"], seen["differences"]) == (30, 30, [])
+    code, said = run(capsys, "recordings", "cut", kept.name, str(out))
+    assert (code, "is there already" in said) == (2, True)
+
+
+def test_what_is_read_otherwise_is_told_and_pictured(
+    kept: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    atlas = drawn_atlas().copy()
+    atlas[24:32, 16:24] = atlas[24:32, 16:24][::-1]  # the glyph of 2
+    cv2.imwrite(str(tmp_path / "other.png"), atlas)
+    pictures = tmp_path / "pictures"
+    words = ("replay", kept.name, "--font", str(tmp_path / "other.png"), "--pictures", str(pictures))
+    code, said = run(capsys, *words)
+    assert code == 1
+    assert "reading" in said
+    assert "30 of 30 actions followed" in said
+    picture = cv2.imread(str(min(pictures.iterdir())))
+    assert picture is not None
+    assert picture.shape == (480, 854, 3)
+
+
+def test_a_folder_that_holds_something_is_no_place_for_a_recording(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "full").mkdir()
+    (tmp_path / "full" / "mine.txt").write_text("mine")
+    code, said = run(capsys, "calibrate", "walk", "--record", str(tmp_path / "full"))
+    assert (code, "holds something already" in said) == (2, True)
+
+
+def test_the_oldest_of_many_makes_room(kept: Path) -> None:
+    from mc_nested.live.recording import opened
+
+    for number in range(MOST_RECORDINGS + 2):
+        (kept.parent / f"old-{number:02d}").mkdir()
+        (kept.parent / f"old-{number:02d}" / "00001.mcap").write_bytes(b"")
+    opened.make_room()
+    assert len(kept_recordings()) == MOST_RECORDINGS - 1
+
+
+def test_a_bug_report_holds_what_it_says_and_no_names(recorded: Path, tmp_path: Path) -> None:
+    check = Check(CheckName.CLIPBOARD, "pass", "/home/ann/.minecraft is read", "")
+    out = tmp_path / "report.zip"
+    profile = '[screen]\nfont = "/home/ann/versions/1.20.1.jar"\n'
+    said = write_bug_report(out, [check], profile, recorded, 600.0, Names("/home/ann", ("ann",)))
+    with zipfile.ZipFile(out) as file:
+        assert [line.split(":")[0] for line in said] == file.namelist()
+        texts = [file.read(name) for name in file.namelist()]
+        file.extract("recording.mcap", tmp_path)
+    assert not any(b"/home/ann" in text for text in texts)
+    assert b"~/.minecraft is read" in texts[0]
+    assert "30 actions" in said[-1]
+    assert facts_of(tmp_path / "recording.mcap")["what"] == "test"

@@ -1,0 +1,63 @@
+"""What a training says at its end: lines that can be typed as they are."""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mc_nested.arena.scenario_file import load_scenario, table_of
+from mc_nested.cli.training_end import next_steps
+from mc_nested.learn.preset import load_preset
+from mc_nested.learn.runs.run_folder import RunConfig
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows quotes words otherwise")
+
+
+def config(**changes: Any) -> RunConfig:
+    made = {
+        "agent": "nested",
+        "backend": "sim",
+        "trials": 1,
+        "seed": 0,
+        "stop_at_optimum": False,
+        "preset_name": "paper",
+        "preset": load_preset("paper"),
+        "scenario": table_of(load_scenario("zigzag")),
+    }
+    return RunConfig(**{**made, **changes})
+
+
+def test_at_the_optimum_it_can_be_watched() -> None:
+    assert next_steps(Path("runs/x"), config(), is_at_optimum=True) == [
+        "next:       mc-nested play runs/x shows what it builds; in your game: with --backend live"
+    ]
+
+
+def test_several_trials_can_be_evaluated() -> None:
+    lines = next_steps(Path("my runs/x"), config(trials=3), is_at_optimum=True)
+    assert lines[1:] == ["            mc-nested evaluate 'my runs/x' plays each of its trials"]
+
+
+def test_below_the_optimum_it_can_go_on_for_twice_as_long() -> None:
+    lines = next_steps(Path("runs/x"), config(), is_at_optimum=False)
+    more = "mc-nested train --from runs/x --scenario zigzag --preset paper --episodes 6000"
+    assert lines[0] == f"below the optimum; for more: {more}"
+    assert lines[1].startswith("next:")
+
+
+def test_the_command_names_whatever_is_not_the_default() -> None:
+    design = table_of(load_scenario("line")).model_copy(update={"step_limit": 50})
+    changes = {"agent": "hierarchical", "preset_name": "my.toml", "stop_at_optimum": True, "scenario": design}
+    (line, *_) = next_steps(Path("x"), config(**changes), is_at_optimum=False)
+    more = "--scenario FILE --agent hierarchical --preset my.toml --episodes 6000 --stop-at-optimum"
+    assert line.endswith(f"mc-nested train --from x {more}"), "a design of that name, but another one"
+
+
+@pytest.mark.parametrize(("profile", "words"), [("default", ""), ("mine", " --profile mine")])
+def test_what_was_learnt_in_a_game_is_built_there_again(profile: str, words: str) -> None:
+    live = config(backend="live", profile=profile)
+    assert next_steps(Path("x"), live, is_at_optimum=True) == [
+        f"next:       mc-nested play x --backend live{words} builds it again"
+    ]
+    assert next_steps(Path("x"), live, is_at_optimum=False)[0].endswith(f"--episodes 6000 --backend live{words}")

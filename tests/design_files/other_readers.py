@@ -1,0 +1,54 @@
+"""Two other readers of schematics, fetched with npm when a test needs them, and the real files that come with one.
+
+What was fetched stays in .standin/readers (0.5 GB). A machine without npm, or without its registry, skips the tests;
+with CI set, that is a failure.
+"""
+
+import json
+import os
+import subprocess
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from scripts.standin import ROOT
+from scripts.standin_parts import NODE, MissingError, install_locked
+
+HERE = Path(__file__).resolve().parent / "node"
+
+
+@dataclass(frozen=True)
+class OtherReaders:
+    """The readers in a node_modules folder."""
+
+    modules: Path
+
+    @property
+    def real_files(self) -> list[Path]:
+        """The schematics of prismarine-schematic's own tests."""
+        return sorted((self.modules / "prismarine-schematic/test/schematics").iterdir())
+
+    def read(self, reader: str, files: Sequence[Path], out: Path) -> list[tuple[list[int], list[str]]]:
+        """Each file's size, width, height and length, and the names of its blocks, in the order y, z, x."""
+        command = [NODE.required(), str(HERE / "read_designs.cjs"), reader, str(out), *map(str, files)]
+        done = subprocess.run(
+            command, cwd=self.modules.parent, capture_output=True, text=True, timeout=300, check=False
+        )
+        assert done.returncode == 0, done.stderr
+        return [(each["size"], each["names"]) for each in json.loads(out.read_text())]
+
+
+@pytest.fixture(scope="session")
+def other_readers() -> OtherReaders:
+    """The readers, installed once."""
+    cache = ROOT / ".standin"
+    cache.mkdir(exist_ok=True)
+    try:
+        modules = install_locked("the readers", HERE, cache / "readers", print, cache / "readers.log")
+    except MissingError as error:
+        if os.environ.get("CI"):
+            pytest.fail(str(error))
+        pytest.skip(str(error))
+    return OtherReaders(modules)

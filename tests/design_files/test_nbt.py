@@ -1,0 +1,115 @@
+"""NBT that means harm: nothing is unpacked, allocated or nested beyond its limit, and every refusal is one line."""
+
+import gzip
+import struct
+import time
+import tracemalloc
+
+import pynbt
+import pytest
+
+from mc_nested.design_files.nbt import MOST_BYTES, checked, read_nbt, unpacked, value_of
+from mc_nested.errors import ScenarioError
+from tests.design_files.written import named, nbt_file
+
+ROOT = b"\x0a\0\0"
+"""How the root begins: a compound without a name."""
+
+
+def list_of(kind: int, length: int) -> bytes:
+    return b"\x09\0\1a" + struct.pack(">bi", kind, length)
+
+
+def test_compressed_and_plain_nbt_are_read_alike() -> None:
+    plain = named("", {"a": 7, "b": "hut"})
+    for data in (plain, gzip.compress(plain)):
+        root = read_nbt(data)
+        assert (value_of(root, "a", int), value_of(root, "b", str)) == (7, "hut")
+
+
+def test_a_text_longer_than_pynbts_signed_length_is_read() -> None:
+    assert len(value_of(read_nbt(nbt_file({"a": "x" * 40_000, "b": 1})), "a", str)) == 40_000
+
+
+@pytest.mark.parametrize(
+    ("data", "says"),
+    [
+        (b"", "it is no schematic, neither compressed with gzip nor plain NBT"),
+        (b"name = 'line'", "it is no schematic"),
+        (b"PK\3\4 a zip file", "it is no schematic"),
+        (b"\x1f\x8b", "it ends in the middle"),
+        (gzip.compress(named("", {"a": 7}), mtime=0)[:-9], "it ends in the middle"),
+        (b"\x1f\x8b\x08\0\0\0\0\0\0\3garbage that nobody packed", "gzip can't unpack it"),
+        (gzip.compress(named("", {"a": 7}), mtime=0)[:-8] + b"\0" * 8, "gzip can't unpack it"),
+        (named("", {"a": 7})[:-2], "it ends in the middle of a value"),
+        (b"\x0a", "it ends in the middle of a value"),
+        (ROOT + b"\x0d\0\1a\0", "its NBT can't be read"),
+        (ROOT + b"\x08\0\1a\0\1\xe0\0", "its NBT can't be read"),
+        (gzip.compress(b"an old text", mtime=0), "its NBT can't be read"),
+    ],
+)
+def test_what_is_no_nbt_or_damaged_is_refused(data: bytes, says: str) -> None:
+    with pytest.raises(ScenarioError, match=says):
+        read_nbt(data)
+
+
+@pytest.mark.parametrize("kind", [7, 11, 12])
+@pytest.mark.parametrize("length", [2**31 - 1, -1, -5, -(2**31), 10**6])
+def test_an_arrays_length_is_not_believed(kind: int, length: int) -> None:
+    data = ROOT + bytes([kind]) + b"\0\1a" + struct.pack(">i", length) + b"\0" * 200
+    tracemalloc.start()
+    try:
+        with pytest.raises(ScenarioError):
+            read_nbt(data)
+        assert tracemalloc.get_traced_memory()[1] < 2**20
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("kind", range(13))
+@pytest.mark.parametrize("length", [2**31 - 1, 10**6])
+def test_a_lists_length_is_not_believed(kind: int, length: int) -> None:
+    with pytest.raises(ScenarioError):
+        read_nbt(ROOT + list_of(kind, length) + b"\0" * 50)
+
+
+def test_a_list_of_a_negative_length_is_empty() -> None:
+    assert value_of(read_nbt(ROOT + list_of(10, -7) + b"\0"), "a", list) == []
+
+
+@pytest.mark.parametrize("data", [b"\x0a\0\0" * 100_000, ROOT + list_of(9, 1) + b"\x09\0\0\0\1" * 100_000])
+def test_what_lies_nested_too_deeply_is_refused_at_once(data: bytes) -> None:
+    began = time.process_time()
+    with pytest.raises(ScenarioError, match="its values lie nested too deeply"):
+        read_nbt(gzip.compress(data, 1))
+    assert time.process_time() - began < 1
+
+
+def test_a_file_that_unpacks_to_more_than_the_limit_is_not_unpacked_further() -> None:
+    bomb = gzip.compress(b"\0" * 2**20, 9) * 200  # parts of gzip's follow one another as one file
+    tracemalloc.start()
+    try:
+        with pytest.raises(ScenarioError, match="it unpacks to more than 32 MB"):
+            unpacked(bomb)
+        assert tracemalloc.get_traced_memory()[1] < 3 * MOST_BYTES
+    finally:
+        tracemalloc.stop()
+
+
+def test_more_values_than_any_design_has_are_not_read() -> None:
+    values = ROOT + list_of(10, 1000) + b"\0" * 1001
+    reads = 3 + 4 + 1000 + 1  # the root's type and name; the list's, with its length; each compound's end; the root's
+    assert len(value_of(read_nbt(values, reads), "a", list)) == 1000
+    with pytest.raises(ScenarioError, match="it holds more values than any design"):
+        read_nbt(values, reads - 1)
+
+
+def test_a_value_that_is_missing_or_of_another_type_is_named() -> None:
+    root = read_nbt(nbt_file({"Width": "wide", "Blocks": b"\0"}))
+    with pytest.raises(ScenarioError, match=r"^Width is not a whole number: the file is damaged"):
+        value_of(root, "Width", int)
+    with pytest.raises(ScenarioError, match=r"^Height is missing: the file is damaged"):
+        value_of(root, "Height", int)
+    assert value_of(root, "Blocks", bytearray) == b"\0"
+    with pytest.raises(ScenarioError, match=r"^pos is not a list"):
+        checked(pynbt.TAG_Int(3), list, "pos")

@@ -1,0 +1,96 @@
+"""How each command of the pages is run. One that no rule here knows fails its page's test, by name."""
+
+import re
+import shlex
+from collections.abc import Callable
+
+from tests.design_files import written
+
+SIZES = {
+    "mc-nested reproduce": "--trials 1 --episodes 4 --scenario line",
+    "mc-nested sweep --ablation": "--trials 1 --episodes 1 --scenario line",
+    "mc-nested sweep": "--trials 1 --episodes 2 --scenario line",
+    "mc-nested benchmark": "--designs 1 --agents nested --presets live",
+    "mc-nested train --backend live": "--episodes 1",
+    "mc-nested train --preset live --trials": "--trials 1",
+    "mc-nested train --scenario zigzag --trials 90": "--trials 2 --episodes 2",
+    "mc-nested train --preset tuned --trials": "--trials 1 --episodes 20",
+    "mc-nested train --trials 10": "--trials 1 --episodes 30",
+    "mc-nested train --scenario line --trials 10": "--episodes 1000",
+    "python scripts/examples/sb3_dqn.py": "--steps 100",
+    "python scripts/examples/cleanrl_dqn.py": "--steps 300",
+    "python scripts/bench_calibration.py": "--clients 1 --actions 2",
+    "python scripts/bench_learning.py": "--runs 1 --rounds 1 --slice-s 0.2",
+    "python scripts/bench_live.py": "--actions 20 --frames 20 --tesseract 0",
+    "python scripts/bench_live_training.py": "--seeds 1 --scenarios line",
+    "python scripts/bench_replay.py": "--actions 20",
+}
+"""What is appended to a command that begins so and takes long: its smallest sizes. The longest beginning counts."""
+
+AS_THEY_ARE = ("mc-nested benchmark --corpus",)
+"""Commands that begin like a long one, and are short."""
+
+BY_THE_SUITE = {
+    "python scripts/test.py": "it runs this test",
+    "python scripts/draw_film.py": "tests/cli/test_video.py",
+    "python scripts/draw_view.py": "tests/view/test_app.py",
+    "python scripts/bench_recording.py": "tests/test_rehearsal_end_to_end.py",
+    "python scripts/bench_view.py": "tests/cli/test_viewing.py",
+    "python scripts/bench_rehearsal.py": "tests/test_rehearsal_end_to_end.py",
+    "python scripts/bench_rehearsal_clients.py": "tests/test_rehearsal_end_to_end.py",
+    "python scripts/bench_standin.py": "tests/test_end_to_end.py",
+    "mc-nested train --preset live --scenario square": "tests/cli/test_train_live_large.py",
+}
+"""What takes minutes, and what the suite does without it: which test."""
+
+CALIBRATE = "mc-nested calibrate all --yes"
+
+NEEDS = {
+    "docs/how-to/own-design.md": (CALIBRATE,),
+    "docs/how-to/own-learner.md": (CALIBRATE,),
+    "docs/how-to/recordings.md": (CALIBRATE,),
+    "docs/how-to/train-live.md": (CALIBRATE,),
+    "docs/how-to/what-is-wrong.md": (CALIBRATE,),
+}
+"""What a reader of a page has done before."""
+
+FILES: dict[str, Callable[[], bytes]] = {
+    "hut.schem": lambda: written.sponge(written.HUT),
+    "plan.png": lambda: written.picture(written.HUT[0]),
+}
+"""Files that a reader has, as their own programs write them."""
+
+BEFORE = {"mc-nested calibrate arena": (CALIBRATE, "mc-nested calibrate arena --undo")}
+"""What comes before a command that stands in a text."""
+
+_OF_NO_MATTER = re.compile(r"--(?:trials|episodes|designs|seed) \d+|--out|runs/\w+")
+
+STANDS_FOR = {"--scenario …": "--scenario line"}
+"""What a reader puts in place of an ellipsis."""
+
+LIVE = ("bug-report", "calibrate", "doctor", "read", "recordings", "replay")
+"""Verbs that look at the game's window, or at what was written there."""
+
+LIVE_SNIPPET = 'backend="live"'
+"""What a program has in it that plays in the game's window."""
+
+
+def as_run(command: str) -> str:
+    """The command with its smallest sizes, where it takes long, and its ellipsis filled in."""
+    for ellipsis, meant in STANDS_FOR.items():
+        command = command.replace(ellipsis, meant)
+    if command.startswith(AS_THEY_ARE) or "--resume" in command:
+        return command
+    begins = max((begin for begin in SIZES if command.startswith(begin)), key=len, default="")
+    return f"{command} {SIZES[begins]}" if begins else command
+
+
+def what_it_does(command: str) -> frozenset[str]:
+    """A command's words without its sizes, its seed and its run's folder: two that have the same do the same."""
+    return frozenset(_OF_NO_MATTER.sub("", as_run(command)).split())
+
+
+def is_live(command: str) -> bool:
+    """Whether it plays in, or looks at, the game's window."""
+    words = shlex.split(command)
+    return "--backend live" in command or (words[0] == "mc-nested" and words[1] in LIVE)

@@ -1,0 +1,136 @@
+"""The built site: no warning, no broken link or anchor, nothing fetched, a page for everything."""
+
+import os
+import re
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from html.parser import HTMLParser
+from pathlib import Path
+from urllib.parse import unquote, urldefrag
+
+import pytest
+
+from scripts.documentation.command_reference import options_of, verbs
+from scripts.test import CHECKS, VARIABLES
+from tests.docs.pages import ROOT, pages
+
+pytestmark = pytest.mark.slow
+
+FETCHED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src"}
+"""What a browser loads by itself, by the attribute that says from where."""
+
+
+@dataclass
+class Page:
+    """What a page holds: the targets of its links and of what it loads, its anchors, and its text."""
+
+    links: list[str] = field(default_factory=list)
+    loaded: list[str] = field(default_factory=list)
+    anchors: set[str] = field(default_factory=set)
+    text: str = ""
+
+
+class PageReader(HTMLParser):
+    def __init__(self) -> None:
+        super().__init__()
+        self.page = Page()
+
+    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+        of = {name: value or "" for name, value in attributes}
+        if "id" in of:
+            self.page.anchors.add(of["id"])
+        if tag == "a" and "href" in of:
+            self.page.links.append(of["href"])
+        if FETCHED.get(tag, "") in of:
+            self.page.loaded.append(of[FETCHED[tag]])
+
+    def handle_data(self, data: str) -> None:
+        self.page.text += data
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The site as scripts/test.py builds it."""
+    folder = tmp_path_factory.mktemp("site")
+    program, *words = CHECKS["documentation"]
+    command = [sys.executable, "-m", program, *words, "--site-dir", str(folder)]
+    environment = {**os.environ, **VARIABLES["documentation"]}
+    built = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    assert built.returncode == 0, built.stderr
+    assert "WARNING" not in built.stderr
+    return folder
+
+
+@pytest.fixture(scope="module")
+def read(site: Path) -> dict[Path, Page]:
+    found = {}
+    for path in site.rglob("*.html"):
+        reader = PageReader()
+        reader.feed(path.read_text("utf-8"))
+        found[path] = reader.page
+    return found
+
+
+def is_elsewhere(target: str) -> bool:
+    return re.match(r"[a-z]+:|//", target) is not None
+
+
+def test_every_link_leads_to_a_page_and_to_an_anchor_that_is_there(read: dict[Path, Page]) -> None:
+    broken = []
+    for path, page in read.items():
+        if path.name == "404.html":  # its links are those of a server's root
+            continue
+        for link in (each for each in page.links if not is_elsewhere(each)):
+            target, anchor = urldefrag(unquote(link))
+            there = (path.parent / target).resolve() if target else path
+            if not there.is_file() or (anchor and there in read and anchor not in read[there].anchors):
+                broken.append(f"{path.name}: {link}")
+    assert broken == []
+
+
+def test_nothing_is_fetched_from_elsewhere(read: dict[Path, Page], site: Path) -> None:
+    elsewhere = [target for page in read.values() for target in page.loaded if is_elsewhere(target)]
+    assert elsewhere == []
+    own = [path for path in site.rglob("*.css") if "@import" in path.read_text("utf-8")]
+    assert own == []
+    assert not any(re.search(r"url\(['\"]?(https?:)?//", path.read_text("utf-8")) for path in site.rglob("*.css"))
+
+
+def test_the_search_can_be_used_without_a_server(site: Path) -> None:
+    assert (site / "search" / "search_index.js").is_file()
+    assert "iframe-worker" in (site / "reference" / "env.html").read_text("utf-8")
+    assert (site / "assets" / "iframe-worker.js").is_file()
+
+
+def test_every_page_of_the_documentation_is_in_the_navigation(site: Path) -> None:
+    listed = (ROOT / "mkdocs.yml").read_text("utf-8")
+    built = [path.relative_to(site).with_suffix(".md").as_posix() for path in site.rglob("*.html")]
+    assert [page for page in built if page != "404.md" and f": {page}\n" not in listed] == []
+
+
+def test_every_option_of_every_verb_is_in_the_reference(site: Path) -> None:
+    page = (site / "reference" / "command-line.html").read_text("utf-8")
+    sections = dict(re.findall(r'<h2 id="([^"]+)">.*?</h2>(.*?)(?=<h2|</article>)', page, re.DOTALL))
+    missing = []
+    for words, command in verbs():
+        section = sections[words.replace(" ", "-")]
+        missing += [f"{words} {name}" for each in options_of(command) for name in each.opts if name not in section]
+    assert missing == []
+    assert len(sections) >= 18
+
+
+def test_readme_is_one_page_that_says_how_to_stop() -> None:
+    readme = (ROOT / "README.md").read_text("utf-8")
+    assert len(readme.splitlines()) <= 140
+    assert "**To stop it: press F12" in readme
+
+
+def test_every_page_that_links_to_a_file_of_the_project_links_to_one_that_is_there() -> None:
+    others = ["ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "mc_nested/live/FACTS.md"]
+    broken = []
+    for page in [*pages(), *others]:
+        text = re.sub(r"```.*?```", "", (ROOT / page).read_text("utf-8"), flags=re.DOTALL)
+        targets = [target for target in re.findall(r"\]\(([^)\s#]+)[^)]*\)", text) if not is_elsewhere(target)]
+        broken += [f"{page}: {target}" for target in targets if not ((ROOT / page).parent / target).exists()]
+    assert broken == []

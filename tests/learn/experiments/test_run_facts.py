@@ -1,0 +1,190 @@
+"""What a list of runs says of each folder, whatever state it is in."""
+
+import json
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mc_nested.arena.scenario_file import table_of
+from mc_nested.errors import RunError
+from mc_nested.learn.experiments.ablation import AblationConfig, shipped_parts
+from mc_nested.learn.experiments.benchmark import BenchmarkConfig, Contestant, baseline
+from mc_nested.learn.experiments.experiment_folder import ExperimentConfig, ExperimentFolder
+from mc_nested.learn.experiments.job_training import JobOutcome, RunOutcome, write_outcome
+from mc_nested.learn.experiments.reproduction import ReproduceConfig
+from mc_nested.learn.experiments.run_facts import facts_of, runs_in
+from mc_nested.learn.experiments.sweep import SweepConfig, Variant
+from mc_nested.learn.runs.checkpoint import FILE as STATE
+from mc_nested.learn.runs.checkpoint import fingerprint
+from mc_nested.learn.runs.folder_lock import folder_lock
+from mc_nested.learn.runs.policies import FILE as POLICIES
+from tests.learn.made_experiments import BAR, DOT, small_preset
+from tests.learn.runs.test_run_folder import begun, trainer_in
+
+SMALL: dict[str, Any] = {"trials": 2, "seed": 7, "jobs": 1}
+SCENARIOS = [table_of(DOT), table_of(BAR)]
+ONE_PRESET: dict[str, Any] = {**SMALL, "preset_name": "my/small.toml", "preset": small_preset(), "scenarios": SCENARIOS}
+
+
+@pytest.fixture(scope="module")
+def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A finished training of two trials of ten episodes."""
+    folder = begun(tmp_path_factory.mktemp("runs") / "done")
+    trainer = trainer_in(folder)
+    while not trainer.finished:
+        trainer.tick()
+    folder.save(trainer, 1.0)
+    return folder.path
+
+
+def experiment(path: Path, config: ExperimentConfig, verb: str, finished: bool) -> Path:
+    """An experiment whose jobs, or all but the last one, are finished."""
+    folder = ExperimentFolder.new(path, config, verb)
+    folder.begin()
+    for job in folder.jobs if finished else folder.jobs[:-1]:
+        run = RunOutcome(evaluations=[], score=11.0, updates=1, env_steps=1)
+        runs = [run] * len(job.trials)
+        outcome = JobOutcome(identity=fingerprint(job.identity()), networks=1, parameters=1, seconds=1.0, runs=runs)
+        write_outcome(folder.folder_of(job), outcome)
+    return path
+
+
+def test_a_finished_training_has_the_mean_of_its_scores(trained: Path, tmp_path: Path) -> None:
+    shutil.copytree(trained, tmp_path / "run")
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    (tmp_path / "run" / "summary.json").write_text(json.dumps({**summary, "final_scores": [10.0, 11.0]}))
+    facts = facts_of(tmp_path / "run")
+    assert facts is not None
+    assert (facts.verb, facts.state, facts.why) == ("train", "finished", "")
+    assert (facts.designs, facts.agents, facts.presets) == (["dot"], ["nested"], ["small"])
+    assert (facts.trials, facts.episodes_done, facts.episodes) == (2, 20, 20)
+    assert (facts.score, facts.optimum) == (10.5, 11.0)
+
+
+def test_its_size_is_that_of_all_files_and_links_are_not_followed(tmp_path: Path) -> None:
+    folder = begun(tmp_path / "run")
+    (tmp_path / "large").write_bytes(bytes(10_000))
+    (folder.path / "inside").mkdir()
+    (folder.path / "inside" / "file").write_bytes(bytes(500))
+    before = facts_of(folder.path)
+    (folder.path / "link").symlink_to(tmp_path / "large")
+    after = facts_of(folder.path)
+    assert before is not None
+    assert after is not None
+    assert before.size == (folder.path / "config.toml").stat().st_size + 500
+    assert after.size - before.size < 1000
+
+
+def test_one_that_was_stopped_can_be_resumed(tmp_path: Path) -> None:
+    folder = begun(tmp_path / "run")
+    facts = facts_of(folder.path)
+    assert facts is not None
+    assert (facts.state, facts.episodes_done, facts.score) == ("can be resumed", 0, None)
+    trainer = trainer_in(folder)
+    while trainer.episodes_done.sum() < 6:
+        trainer.tick()
+    folder.save(trainer, 1.0)
+    facts = facts_of(folder.path)
+    assert facts is not None
+    assert facts.state == "can be resumed"
+    assert facts.episodes_done == trainer.episodes_done.sum()
+
+
+def test_one_where_a_process_writes_is_in_use(trained: Path) -> None:
+    with folder_lock(trained):
+        facts = facts_of(trained)
+    assert facts is not None
+    assert facts.state == "in use"
+    assert facts.why.startswith("process ")
+
+
+@pytest.mark.parametrize(
+    ("file", "content", "why"),
+    [
+        ("config.toml", "agent = [", "not TOML"),
+        ("config.toml", 'agent = "nested"', "missing: add it"),
+        ("config.toml", 'format = 9\nagent = "nested"', "written by a newer mc-nested"),
+        ("config.toml", "\0", "not TOML"),
+        ("summary.json", "{", "summary.json: can't be read: mc-nested train --resume"),
+        ("summary.json", None, "summary.json: can't be read"),
+        (f"checkpoint/{STATE}", "x", "damaged or cut short"),
+        (f"checkpoint/{STATE}", None, "the checkpoint is gone"),
+    ],
+)
+def test_a_damaged_one_says_why(trained: Path, tmp_path: Path, file: str, content: str | None, why: str) -> None:
+    run = tmp_path / "run"
+    shutil.copytree(trained, run)
+    (run / file).unlink()
+    if content is not None:
+        (run / file).write_text(content)
+    facts = facts_of(run)
+    assert facts is not None
+    assert facts.state == "damaged"
+    assert why in facts.why
+    assert "\n" not in facts.why
+
+
+def test_a_policies_file_that_is_gone_is_no_damage(trained: Path, tmp_path: Path) -> None:
+    shutil.copytree(trained, tmp_path / "run")
+    (tmp_path / "run" / "checkpoint" / POLICIES).unlink()
+    facts = facts_of(tmp_path / "run")
+    assert facts is not None
+    assert facts.state == "finished"
+
+
+BOTH = ["nested", "single"]
+SB3_TOO = ["nested", "sb3"]
+VARIANTS = [Variant(agent="nested"), Variant(agent="single")]
+CONTESTANTS = [Contestant(agent="nested", preset_name="s.toml", preset=small_preset()), baseline()]
+BENCHMARK = BenchmarkConfig(**SMALL, designs=SCENARIOS, contestants=CONTESTANTS)
+
+
+@pytest.mark.parametrize(
+    ("config", "verb", "agents", "presets", "episodes"),
+    [
+        (ReproduceConfig(**ONE_PRESET, agents=BOTH, longer=0), "reproduce", BOTH, ["small"], 160),
+        (SweepConfig(**ONE_PRESET, variants=VARIANTS), "sweep", BOTH, ["small"], 160),
+        (AblationConfig(**SMALL, scenarios=SCENARIOS, parts=shipped_parts(5)[:2]), "sweep", ["nested"], ["live"], 40),
+        (BENCHMARK, "benchmark", SB3_TOO, ["s", "dqn"], 2080),
+    ],
+    ids=["reproduce", "sweep", "ablation", "benchmark"],
+)
+def test_an_experiment_counts_the_episodes_of_finished_jobs(
+    config: ExperimentConfig, verb: str, agents: list[str], presets: list[str], episodes: int, tmp_path: Path
+) -> None:
+    facts = facts_of(experiment(tmp_path / "whole", config, verb, finished=True))
+    assert facts is not None
+    assert (facts.verb, facts.state, facts.designs) == (verb, "finished", ["dot", "bar"])
+    assert (facts.agents, facts.presets, facts.trials) == (agents, presets, 2)
+    assert (facts.episodes_done, facts.episodes) == (episodes, episodes)
+    part = facts_of(experiment(tmp_path / "part", config, verb, finished=False))
+    assert part is not None
+    assert part.state == "can be resumed"
+    assert part.episodes_done == episodes - config.cut()[-1].episodes
+    (outcome, *_) = (tmp_path / "whole" / "units").glob("*/outcome.json")
+    outcome.write_text("{")
+    broken = facts_of(tmp_path / "whole")
+    assert broken is not None
+    assert broken.state == "damaged"
+    assert "can't be read as the outcome of a training" in broken.why
+
+
+@pytest.mark.parametrize("text", [None, "[tool]\nname = 'another program'\n", "agent = ["])
+def test_what_is_no_run_of_ours_is_not_listed(text: str | None, tmp_path: Path) -> None:
+    if text is not None:
+        (tmp_path / "config.toml").write_text(text)
+    assert facts_of(tmp_path) is None
+
+
+def test_a_folder_lists_its_runs_by_name_and_a_run_itself_alone(trained: Path, tmp_path: Path) -> None:
+    for name in ("b", "a"):
+        shutil.copytree(trained, tmp_path / name)
+    (tmp_path / "other").mkdir()
+    (tmp_path / "file").touch()
+    assert [facts.folder.name for facts in runs_in(tmp_path)] == ["a", "b"]
+    assert [facts.folder for facts in runs_in(tmp_path / "a")] == [tmp_path / "a"]
+    assert runs_in(tmp_path / "nothing") == []
+    with pytest.raises(RunError, match="can't be listed, Not a directory"):
+        runs_in(tmp_path / "file")

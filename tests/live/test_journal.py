@@ -1,0 +1,47 @@
+from mc_nested.arena.action import Action
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.live.journal import Fact, Journals, NoJournal, NoteKind
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile.tables import GameVersion, Profile
+from sim.client.client import VirtualClient
+from tests.sim.client.playing import arena_of, connection_to
+
+
+class Notes:
+    def __init__(self) -> None:
+        self.taken: list[tuple[NoteKind, dict[str, Fact]]] = []
+
+    def note(self, kind: NoteKind, /, **facts: Fact) -> None:
+        self.taken.append((kind, facts))
+
+    def of(self, kind: NoteKind) -> list[dict[str, Fact]]:
+        return [facts for seen, facts in self.taken if seen == kind]
+
+
+def test_an_action_is_noted_from_its_beginning_to_what_was_seen() -> None:
+    client = VirtualClient(seed=3)
+    scenario, notes = load_scenario("line"), Notes()
+    connection = connection_to(client)
+    connection.journal = notes
+    profile = Profile(game=GameVersion(version=client.settings.version), arena=arena_of(client))
+    with LiveGame(scenario, profile, connection) as game:
+        game.reset(1)
+        outcome = game.act(Action.L)
+    assert notes.of("resets") == [{"material": 1, "placed": (), "pressed": (), "tick_phase": (0.0, 0.0, 0.0)}]
+    assert notes.of("stands") == [{"cell": scenario.start}]
+    assert str(notes.of("types")[0]["line"]).startswith("/")
+    assert notes.of("acts") == [{"action": Action.L, "cell": scenario.start}]
+    assert notes.of("plans")[0]["key"] == "a"
+    (done,) = notes.of("done")
+    assert (done["cell"], done["placed"]) == (outcome.cell, None)
+    assert isinstance(done["seconds"], float)
+    assert 0.1 < done["seconds"] < 1.0
+    kinds = [kind for kind, _ in notes.taken]
+    assert kinds.index("acts") < kinds.index("plans") < kinds.index("done")
+    assert all("problem" in facts or facts["xyz"] is not None for facts in notes.of("reads"))
+
+
+def test_several_journals_get_each_note() -> None:
+    first, second = Notes(), Notes()
+    Journals(first, NoJournal(), second).note("waits", on="the game")
+    assert first.taken == second.taken == [("waits", {"on": "the game"})]

@@ -1,0 +1,40 @@
+"""The benchmark of learning: a figure for each contestant, and nothing left in the temporary folder."""
+
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from scripts.bench_learning import flops_of_an_update, summary
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_the_arithmetic_of_an_update_is_that_of_its_products() -> None:
+    # 4 inputs, 32 and 32 nodes, 8 outputs; three passes forward, weights' gradients, and those of two layers' inputs.
+    first, *others = [inputs * outputs for inputs, outputs in pairwise((4, 32, 32, 8))]
+    assert flops_of_an_update() == 2 * 32 * (4 * first + 5 * sum(others))
+
+
+def test_ratios_are_medians_of_rounds_side_by_side() -> None:
+    rates = {"1": [10.0, 40.0, 30.0], "plain loop": [5.0, 10.0, 15.0], "plain loop, one": [5.0, 5.0, 5.0], "bmm": [1.0]}
+    found = summary(rates, [1], cores=2)
+    assert (found["ours"], found["plain_loop"]) == ({"1": 30}, 10)
+    assert (found["ratio_plain_loop"], found["ratio_one_run"], found["sb3"]) == (2.0, 6.0, None)
+
+
+@pytest.mark.slow
+def test_it_leaves_nothing_in_the_temporary_folder(tmp_path: Path) -> None:
+    env = {**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(tmp_path))}
+    words = ["--runs", "1", "2", "--rounds", "1", "--slice-s", "0.05", "--json"]
+    command = [sys.executable, "scripts/bench_learning.py", *words]
+    done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, check=False, timeout=600)
+    assert done.returncode == 0, done.stderr
+    assert set(json.loads(done.stdout)["ours"]) == {"1", "2"}
+    assert (json.loads(done.stdout)["sb3"] is not None) is (importlib.util.find_spec("stable_baselines3") is not None)
+    assert list(tmp_path.iterdir()) == []

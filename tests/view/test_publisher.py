@@ -1,0 +1,180 @@
+import shutil
+import signal
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from mc_nested.errors import LiveError
+from mc_nested.view.board import Board
+from mc_nested.view.publisher import Publisher, press_ctrl_c
+from mc_nested.view.requests import STOP, YesOrNo, ask_pause, ask_to_go_on, ask_to_stop, give_answer
+from mc_nested.view.status_files import FOLDER, is_published, status_now
+
+PATIENCE_S = 20.0
+
+
+def until(holds: Callable[[], bool]) -> None:
+    end = time.monotonic() + PATIENCE_S
+    while not holds():
+        assert time.monotonic() < end, "it never came"
+        time.sleep(0.01)
+
+
+def a_publisher(folder: Path, stop: Callable[[], None] | None = None) -> Publisher:
+    return Publisher(Board("train", "a title"), folder, lambda: ["it said this"], stop)
+
+
+def test_a_run_is_published_at_once_and_while_it_goes_on(tmp_path: Path) -> None:
+    with a_publisher(tmp_path) as publisher:
+        assert status_now(tmp_path).lines == ("it said this",)
+        assert is_published(tmp_path)
+        publisher.board.does("trains")
+        until(lambda: status_now(tmp_path).doing == "trains")
+
+    assert status_now(tmp_path).ended == "finished"
+    assert not is_published(tmp_path)
+
+
+def test_how_it_failed_is_published(tmp_path: Path) -> None:
+    def fail() -> None:
+        with a_publisher(tmp_path):
+            raise LiveError("the game\nis gone")
+
+    with pytest.raises(LiveError):
+        fail()
+
+    assert status_now(tmp_path).ended == "the game is gone"
+
+
+def test_a_run_waits_while_a_person_wants_a_pause(tmp_path: Path) -> None:
+    with a_publisher(tmp_path) as publisher:
+        publisher.wait_while_paused()
+        assert not publisher.was_paused_lately
+        ask_pause(tmp_path)
+        until(lambda: publisher.is_paused)
+        until(lambda: status_now(tmp_path).pausing)
+        waits = threading.Thread(target=publisher.wait_while_paused)
+        waits.start()
+        until(lambda: status_now(tmp_path).paused)
+        assert waits.is_alive()
+        ask_to_go_on(tmp_path)
+        waits.join(PATIENCE_S)
+
+        assert not waits.is_alive()
+        assert publisher.was_paused_lately
+        assert 0.05 < publisher.paused_s < PATIENCE_S
+        until(lambda: not status_now(tmp_path).paused)
+
+
+def test_a_pause_ends_with_the_run(tmp_path: Path) -> None:
+    with a_publisher(tmp_path) as publisher:
+        ask_pause(tmp_path)
+        until(lambda: publisher.is_paused)
+        publisher.wait_while_paused(lambda: True)
+
+
+def test_a_stop_ends_a_pause_and_is_done_once(tmp_path: Path) -> None:
+    stops: list[str] = []
+    with a_publisher(tmp_path, lambda: stops.append("stop")) as publisher:
+        ask_pause(tmp_path)
+        until(lambda: publisher.is_paused)
+        ask_to_stop(tmp_path)
+        until(lambda: status_now(tmp_path).stopping)
+        publisher.wait_while_paused()
+        (tmp_path / FOLDER / STOP).unlink()
+        time.sleep(0.7)
+        ask_to_stop(tmp_path)
+        time.sleep(0.7)
+
+    assert stops == ["stop"]
+
+
+def asked(publisher: Publisher, answers: list[bool | None]) -> threading.Thread:
+    asking = threading.Thread(target=lambda: answers.append(publisher.answer("Clear it?")))
+    asking.start()
+    return asking
+
+
+def test_a_question_waits_for_its_own_answer(tmp_path: Path) -> None:
+    answers: list[bool | None] = []
+    with a_publisher(tmp_path) as publisher:
+        for is_yes in (False, True):  # the same words twice are two questions
+            asking = asked(publisher, answers)
+            until(lambda: status_now(tmp_path).question == "Clear it?")
+            number = status_now(tmp_path).question_number
+            give_answer(tmp_path, YesOrNo(number=number - 1, is_yes=not is_yes))
+            time.sleep(0.7)
+            assert asking.is_alive()
+            give_answer(tmp_path, YesOrNo(number=number, is_yes=is_yes))
+            asking.join(PATIENCE_S)
+            until(lambda: status_now(tmp_path).question is None)
+
+    assert answers == [False, True]
+
+
+def test_a_question_that_nobody_sees_any_more_has_no_answer(tmp_path: Path) -> None:
+    with a_publisher(tmp_path) as publisher:
+        assert publisher.answer("Clear it?", lambda: False) is None
+
+
+def test_a_folder_that_is_gone_costs_the_view_and_not_the_run(tmp_path: Path) -> None:
+    with a_publisher(tmp_path / "run") as publisher:
+        shutil.rmtree(tmp_path / "run", ignore_errors=True)  # Windows keeps the lock, which is open
+        publisher.board.does("trains")
+        time.sleep(0.7)
+        assert publisher._thread.is_alive()
+
+
+def test_a_status_that_can_not_be_written_costs_the_view_and_not_the_run(tmp_path: Path) -> None:
+    stops: list[str] = []
+    with a_publisher(tmp_path, lambda: stops.append("stop")) as publisher:
+        publisher.board.show(arena="no arena")
+        time.sleep(0.7)
+        ask_to_stop(tmp_path)
+        until(lambda: bool(stops))
+        publisher.board.show(arena=None)
+
+    assert status_now(tmp_path).ended == "finished"
+
+
+def test_a_path_that_is_no_text_is_published_with_question_marks(tmp_path: Path) -> None:
+    def fail() -> None:
+        with a_publisher(tmp_path):
+            raise LiveError("go on with r\udce9")
+
+    with pytest.raises(LiveError):
+        fail()
+
+    assert status_now(tmp_path).ended == "go on with r?"
+
+
+def test_a_folder_that_can_not_be_made_costs_the_view_and_not_the_run(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+
+    with a_publisher(tmp_path / "file") as publisher:
+        publisher.wait_while_paused()
+
+
+def test_a_publisher_that_was_never_entered_publishes_nothing(tmp_path: Path) -> None:
+    publisher = a_publisher(tmp_path)
+    publisher.board.does("trains")
+    publisher.wait_while_paused()
+
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_stopping_is_what_ctrl_c_does() -> None:
+    heard: list[int] = []
+    before = signal.signal(signal.SIGINT, lambda number, _: heard.append(number))
+    try:
+        thread = threading.Thread(target=press_ctrl_c)
+        thread.start()
+        thread.join()
+        until(lambda: bool(heard))
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+    assert heard == [signal.SIGINT]

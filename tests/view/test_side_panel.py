@@ -1,0 +1,48 @@
+import pytest
+
+from mc_nested.view.side_panel import side_panel
+from mc_nested.view.status import ReadingSeen
+from tests.view.shown import LIVE
+
+
+def test_all_of_it_is_there_where_there_is_room() -> None:
+    assert [line.rstrip() for line in side_panel(LIVE, 60, 21).plain.split("\n")] == [
+        "12 of at most 41 episodes",
+        "last score 18, best 24, of 26",
+        "probing, 9 of 16 cells known",
+        "game time left: about 5 min 30 s",
+        "score by episode, from 0 to 26",
+        "",
+        "",
+        "            ▄▄▄",
+        "            ███",
+        "      ▁▁▁██████",
+        "      █████████",
+        "   ▇▇▇█████████",
+        "▅▅▅████████████",
+        "the debug screen",
+        "at 10.500 64.000 -7.500  0.0 / 45.0",
+        "looks at minecraft:stone at 10 64 -6",
+        "last actions: time, where to, block",
+        "412 ms R+D (2, 1), block (2, 2)",
+        "298 ms F   (1, 1)",
+        "it said",
+        "Switch to the game now with Alt+Tab.",
+    ]
+
+
+@pytest.mark.parametrize("height", range(1, 30))
+def test_it_never_has_more_lines_than_there_are(height: int) -> None:
+    assert len(side_panel(LIVE, 30, height).split("\n")) <= height
+
+
+def test_an_instruction_is_wrapped_and_not_cut_off() -> None:
+    narrow = side_panel(LIVE, 20, 40).plain.split("\n")
+
+    assert narrow[-2:] == ["Switch to the game", "now with Alt+Tab."]
+
+
+def test_why_the_screen_can_not_be_read_is_said() -> None:
+    blind = LIVE.model_copy(update={"reading": ReadingSeen(problem="the chat covers the line XYZ")})
+
+    assert "the chat covers the line XYZ" in side_panel(blind, 60, 30).plain

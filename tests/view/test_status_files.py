@@ -1,0 +1,150 @@
+import json
+import tempfile
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.errors import RunError
+from mc_nested.view.status import FORMAT, Learning, Status
+from mc_nested.view.status_files import (
+    FOLDER,
+    HISTORY,
+    KEEP_EVERY_S,
+    MOST_KEPT,
+    NOW,
+    StatusFiles,
+    history_of,
+    remove_status,
+    status_now,
+)
+from tests.view.shown import LIVE
+
+
+def at(seconds: float, **fields: object) -> Status:
+    return LIVE.model_copy(update={"at": seconds, **fields})
+
+
+def test_what_is_written_is_read_again(tmp_path: Path) -> None:
+    StatusFiles(tmp_path).write(LIVE)
+
+    assert status_now(tmp_path) == LIVE
+    assert list(history_of(tmp_path)) == [LIVE]
+
+
+def test_the_status_now_is_the_last_one_and_the_history_has_every_one(tmp_path: Path) -> None:
+    files = StatusFiles(tmp_path)
+    for number in range(5):
+        files.write(at(number))
+
+    assert status_now(tmp_path).at == 4
+    assert [status.at for status in history_of(tmp_path)] == [0, 1, 2, 3, 4]
+
+
+def test_no_more_is_kept_than_three_a_second(tmp_path: Path) -> None:
+    files = StatusFiles(tmp_path)
+    for number in range(10):
+        files.write(at(number * KEEP_EVERY_S / 10))
+
+    assert len(history_of(tmp_path)) == 1
+
+
+def test_the_end_is_kept_however_soon_it_comes(tmp_path: Path) -> None:
+    files = StatusFiles(tmp_path)
+    files.write(at(1.0))
+    files.write(at(1.01, ended="finished"))
+
+    assert [status.ended for status in history_of(tmp_path)] == [None, "finished"]
+
+
+def test_a_long_run_is_kept_from_its_first_moment_to_its_last_and_coarser(tmp_path: Path) -> None:
+    files = StatusFiles(tmp_path)
+    for number in range(3 * MOST_KEPT):
+        files.write(at(float(number)))
+
+    times = [status.at for status in history_of(tmp_path)]
+
+    assert times[0] == 0
+    assert times[-1] >= 3 * MOST_KEPT - 8
+    assert MOST_KEPT // 2 <= len(times) <= MOST_KEPT
+    assert times == sorted(times)
+
+
+def test_a_resumed_run_goes_on_with_its_history(tmp_path: Path) -> None:
+    StatusFiles(tmp_path).write(at(1.0))
+    StatusFiles(tmp_path).write(at(50.0))
+
+    assert [status.at for status in history_of(tmp_path)] == [1.0, 50.0]
+
+
+def test_a_line_that_a_kill_cut_off_is_left_out(tmp_path: Path) -> None:
+    StatusFiles(tmp_path).write(at(1.0))
+    path = tmp_path / FOLDER / HISTORY
+    path.write_text(path.read_text("utf-8") + '{"at": 2.0, "wha', "utf-8")
+    assert [status.at for status in history_of(tmp_path)] == [1.0]
+
+    StatusFiles(tmp_path).write(at(3.0))
+    assert [status.at for status in history_of(tmp_path)] == [1.0, 3.0]
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", '{"what": 3}', '{"what": "train"}', '{"format": 1, "what": "train"}'])
+def test_a_damaged_status_is_refused_in_a_line(tmp_path: Path, text: str) -> None:
+    (tmp_path / FOLDER).mkdir()
+    (tmp_path / FOLDER / NOW).write_text(text, "utf-8")
+
+    with pytest.raises(RunError, match=r"now\.json: can't be read: it is damaged, or of another version"):
+        status_now(tmp_path)
+
+
+def test_what_is_no_text_is_refused_in_a_line(tmp_path: Path) -> None:
+    (tmp_path / FOLDER).mkdir()
+    (tmp_path / FOLDER / NOW).write_bytes(b"\xff\xfe\x00")
+
+    with pytest.raises(RunError, match="can't be read"):
+        status_now(tmp_path)
+
+
+def test_a_newer_status_is_refused_in_a_line(tmp_path: Path) -> None:
+    StatusFiles(tmp_path).write(at(1.0, format=FORMAT + 1))
+
+    with pytest.raises(RunError, match="newer mc-nested"):
+        status_now(tmp_path)
+
+
+def test_a_folder_without_one_says_so(tmp_path: Path) -> None:
+    with pytest.raises(RunError, match="there is nothing to view"):
+        status_now(tmp_path)
+    assert history_of(tmp_path) == []
+
+
+def test_the_format_is_written(tmp_path: Path) -> None:
+    StatusFiles(tmp_path).write(LIVE)
+
+    assert json.loads((tmp_path / FOLDER / NOW).read_text("utf-8"))["format"] == FORMAT
+
+
+def test_only_what_was_published_is_removed(tmp_path: Path) -> None:
+    StatusFiles(tmp_path).write(LIVE)
+    remove_status(tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+    StatusFiles(tmp_path).write(LIVE)
+    (tmp_path / FOLDER / "mine.txt").write_text("mine")
+    remove_status(tmp_path)
+    assert [path.name for path in (tmp_path / FOLDER).iterdir()] == ["mine.txt"]
+
+
+@given(st.text(), st.text(), st.floats(allow_nan=False), st.floats(allow_nan=False))
+def test_any_words_and_numbers_come_back(doing: str, title: str, since: float, score: float) -> None:
+    learning = Learning(score=score, best=-score, scores=(score,))
+    status = Status(format=FORMAT, what="train", title=title, doing=doing, since=since, learning=learning)
+
+    with tempfile.TemporaryDirectory() as folder:
+        StatusFiles(Path(folder)).write(status)
+        assert status_now(Path(folder)) == status
+        assert list(history_of(Path(folder))) == [status]
+
+
+def test_bytes_that_are_no_text_are_written_as_question_marks() -> None:
+    assert Status(format=FORMAT, what="train", title="r\udce9").title == "r?"
