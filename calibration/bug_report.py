@@ -20,7 +20,7 @@ from mc_nested.live.recording.recording_file import facts_of
 
 DOCTOR, PROFILE, VERSIONS, RECORDING = "doctor.json", "profile.toml", "versions.json", "recording.mcap"
 
-_VERSIONS = ("what", "version", "python", "system", "size", "points", "title")
+_VERSIONS = ("what", "version", "python", "system", "size", "window", "monitors", "title")
 
 
 def write_bug_report(
@@ -51,7 +51,7 @@ def write_bug_report(
         facts = facts_of(recording)
         known = {name: facts[name] for name in _VERSIONS if name in facts}
         parts[VERSIONS] = names.removed_from(json.dumps(known, indent=2, ensure_ascii=False)).encode()
-        said.append(f"{VERSIONS}: versions, and the window's size and title")
+        said.append(f"{VERSIONS}: versions, the window's size, place and title, and the monitors")
         parts[RECORDING], line = _end_of(recording, seconds, names)
         said.append(line)
     try:

@@ -15,7 +15,8 @@ from scripts.standin_parts import XVFB, Program, Say, apt_install, is_installed
 
 OPENBOX = Program(("openbox",), "openbox")
 SETXKBMAP = Program(("setxkbmap",), "x11-xkb-utils")
-PROGRAMS = (XVFB, OPENBOX, SETXKBMAP)
+XRANDR = Program(("xrandr",), "x11-xserver-utils")
+PROGRAMS = (XVFB, OPENBOX, SETXKBMAP, XRANDR)
 LIBRARIES = ("libgl1", "libgl1-mesa-dri", "libxcursor1", "libxi6", "libxinerama1", "libxrandr2")
 """Debian's packages of what GLFW and OpenGL load."""
 

@@ -2,6 +2,7 @@
 
 import os
 import signal
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import settings
@@ -19,6 +20,15 @@ settings.load_profile("any machine")
 
 # A shell that starts the tests in the background has SIGINT ignored, in every process that they start, too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+@pytest.fixture(autouse=True)
+def handlers() -> Iterator[None]:
+    """A test that leaves other handlers of signals behind is named, since a later one would fail for it."""
+    before = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
+    yield
+    after = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
+    assert after == before, "the handlers of signals are not as they were"
 
 
 def pytest_report_header() -> str:

@@ -26,6 +26,7 @@ from mc_nested.arena.scenario_file import draw_grid, load_scenario
 from mc_nested.design_files.load import load_any_scenario
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.store import load_profile
+from mc_nested.live.recording.recording_file import facts_of
 from scripts.bench_rehearsal import CONDITIONS, USUAL, Condition, play
 from scripts.rehearsal_window import ROOT, RehearsalWindow, mc_nested, open_rehearsal
 from scripts.window_display import open_display
@@ -102,6 +103,8 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design(
         block = scenario.materials[scenario.material_index(material)].block
         replayed = json.loads(mc_nested("replay", recording, "--json", env=rehearsal.env))
         assert (replayed["actions"] > 0, replayed["differences"]) == (True, [])
+        facts = facts_of(recording)
+        assert (facts["monitors"], facts["window"].split(" at ")[0]) == ("1400x1000 at 0 0", facts["size"])
         assert replayed["followed"] == replayed["actions"]
         assert rehearsal.truth.standing(arena) == {arena.block_of(cell): block for cell in scenario.design}
         assert rehearsal.truth.now()["keys_down"] == []

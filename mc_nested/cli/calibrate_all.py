@@ -12,16 +12,16 @@ from calibration.context import StepResult
 from calibration.doctor.check import Check
 from calibration.doctor.examination import examine
 from calibration.installation.folders import System
-from calibration.open_context import context_opener
 from calibration.registry import registered_steps
 from calibration.report.page import TITLES
 from mc_nested.cli.arena_options import ForScenarioOption, SizeOption, StandingOption, arena_size
 from mc_nested.cli.calibrate_report import report_path, write_report
+from mc_nested.cli.calibrating import calibrating
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite, ServerOption
 from mc_nested.cli.output import JsonOption, Output, QuietOption
-from mc_nested.cli.recording_options import RecordOption, live_recorder
+from mc_nested.cli.recording_options import RecordOption
 from mc_nested.cli.scenario_options import LayerOption
-from mc_nested.cli.viewing import ViewOption, viewed
+from mc_nested.cli.viewing import ViewOption
 from mc_nested.errors import ProfileError
 from mc_nested.live.desktop import open_clipboard
 from mc_nested.live.profile.store import profile_path
@@ -49,17 +49,18 @@ def calibrate(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     steps = registered_steps(
         font, size=arena_size(size, scenario, layer), standing=standing, path=profile_path(profile)
     )
-    with viewed(view, "calibrate all", f"profile {profile}") as viewing:
-        ask = partial(viewing.ask, otherwise=partial(typer.confirm, err=as_json))
-        context_of = context_opener(
-            output.instruction,
-            (lambda _: True) if yes else ask,
-            is_server_allowed=server_allowed,
-            open_recorder=live_recorder(record, "calibrate-all", server_allowed=server_allowed),
-            journal=viewing.publisher.board,
-        )
-        shown = Lines(output.note, viewing.publisher)
-        whole = calibrate_all(profile, context_of, partial(_examined, font), steps, shown)
+    with calibrating(
+        "all",
+        profile,
+        is_viewed=view,
+        record=record,
+        server_allowed=server_allowed,
+        say=output.instruction,
+        ask=partial(typer.confirm, err=as_json),
+        yes=yes,
+    ) as opened:
+        shown = Lines(output.note, opened.publisher)
+        whole = calibrate_all(profile, opened.context_of, partial(_examined, font), steps, shown)
     left_out = [TITLES.get(name, name) for name in whole.run.skipped]
     without = f", without: {', '.join(left_out)}" if left_out else ""
     said: list[str] = []

@@ -8,11 +8,12 @@ import typer
 from calibration.arena.build import calibrate_built_arena
 from calibration.arena.mark import mark_arena
 from calibration.arena.undo import undo_built_arena
-from calibration.open_context import context_opener
 from mc_nested.cli.arena_options import ForScenarioOption, SizeOption, StandingOption, arena_size
+from mc_nested.cli.calibrating import calibrating
 from mc_nested.cli.options import DEFAULT_PROFILE, ServerOption
-from mc_nested.cli.recording_options import RecordOption, live_recorder
+from mc_nested.cli.recording_options import RecordOption
 from mc_nested.cli.scenario_options import LayerOption
+from mc_nested.cli.viewing import ViewOption
 from mc_nested.errors import UserError
 
 
@@ -32,22 +33,25 @@ def arena(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     undo: Annotated[bool, typer.Option("--undo", help="put back what stood there before it was built")] = False,
     server_allowed: ServerOption = False,
     record: RecordOption = None,
+    view: ViewOption = False,
 ) -> None:
     """Build the arena where you stand and look, with commands; what stood there is shown, asked about and copied."""
     if mark_only and undo:
         raise UserError("--mark-only and --undo do different things: choose one of them")
     cells = arena_size(size, scenario, layer)
-    if mark_only:
-        path = mark_arena(profile, ask=typer.confirm, say=typer.echo, size=cells, standing=standing, font=font, yes=yes)
-        typer.echo(f"arena written to {path}" if path else "nothing was written")
-        return
-    recorder = live_recorder(record, "calibrate-arena", server_allowed=server_allowed)
-    context_of = context_opener(typer.echo, typer.confirm, is_server_allowed=server_allowed, open_recorder=recorder)
-    if undo:
-        found, file = undo_built_arena(profile, context_of)
-    else:
-        found, file = calibrate_built_arena(profile, context_of, size=cells, standing=standing, font=font, yes=yes)
-    for line in found.lines:
+    with calibrating("arena", profile, is_viewed=view, record=record, server_allowed=server_allowed) as opened:
+        if mark_only:
+            path = mark_arena(
+                profile, ask=opened.ask, say=typer.echo, size=cells, standing=standing, font=font, yes=yes
+            )
+            lines = [f"arena written to {path}" if path else "nothing was written"]
+        else:
+            if undo:
+                found, file = undo_built_arena(profile, opened.context_of)
+            else:
+                found, file = calibrate_built_arena(
+                    profile, opened.context_of, size=cells, standing=standing, font=font, yes=yes
+                )
+            lines = [*found.lines, *([f"written to {file}"] if file.is_file() else [])]
+    for line in lines:
         typer.echo(line)
-    if file.is_file():
-        typer.echo(f"written to {file}")

@@ -6,13 +6,14 @@ import typer
 
 from calibration.clicks.find import calibrate_clicks
 from calibration.clicks.show import show_clicks, try_clicks
-from calibration.open_context import context_opener
+from mc_nested.cli.calibrating import calibrating
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
-from mc_nested.cli.recording_options import RecordOption, live_recorder
+from mc_nested.cli.recording_options import RecordOption
+from mc_nested.cli.viewing import ViewOption
 from mc_nested.errors import UserError
 
 
-def clicks(
+def clicks(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     points: Annotated[
         list[str] | None, typer.Argument(metavar="[POINT]...", help="record these by hand (default: find the menus')")
     ] = None,
@@ -23,21 +24,20 @@ def clicks(
     show: Annotated[bool, typer.Option("--show", help="only mark the points on a picture of the screen")] = False,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="only move the mouse there, and press nothing")] = False,
     record: RecordOption = None,
+    view: ViewOption = False,
 ) -> None:
     """Find the places to click in the menus; name points to record those by hand: hover and press the hotkey."""
-    ask = (lambda _: True) if yes else typer.confirm
-    context_of = context_opener(typer.echo, ask, open_recorder=live_recorder(record, "calibrate-clicks"))
     if show and dry_run:
         raise UserError("--show and --dry-run do different things: choose one of them")
-    if show:
-        typer.echo(f"look at the points in {show_clicks(profile, context_of)}")
-    elif dry_run:
-        for line in try_clicks(profile, context_of):
-            typer.echo(line)
-    else:
-        names = points or ()
-        written = calibrate_clicks(profile, context_of, names=names, is_by_hand=not yes, hotkey=hotkey, skip=skip)
-        for line in written[0].lines if written else ("nothing was written",):
-            typer.echo(line)
-        if written:
-            typer.echo(f"look at the points in {written[1]}")
+    with calibrating("clicks", profile, is_viewed=view, record=record, yes=yes) as opened:
+        if show:
+            lines = [f"look at the points in {show_clicks(profile, opened.context_of)}"]
+        elif dry_run:
+            lines = try_clicks(profile, opened.context_of)
+        else:
+            written = calibrate_clicks(
+                profile, opened.context_of, names=points or (), is_by_hand=not yes, hotkey=hotkey, skip=skip
+            )
+            lines = [*written[0].lines, f"look at the points in {written[1]}"] if written else ["nothing was written"]
+    for line in lines:
+        typer.echo(line)

@@ -6,9 +6,10 @@ from typing import Annotated
 import typer
 
 from calibration.font.find import calibrate_font
-from calibration.open_context import context_opener
+from mc_nested.cli.calibrating import calibrating
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
-from mc_nested.cli.recording_options import RecordOption, live_recorder
+from mc_nested.cli.recording_options import RecordOption
+from mc_nested.cli.viewing import ViewOption
 
 
 def font(
@@ -17,10 +18,11 @@ def font(
         Path | None, typer.Option(metavar="JAR|PNG", help="take this client jar, resource pack or ascii.png")
     ] = None,
     record: RecordOption = None,
+    view: ViewOption = False,
 ) -> None:
     """Find the font that your game is written in, and see what is read with it."""
-    context_of = context_opener(typer.echo, typer.confirm, open_recorder=live_recorder(record, "calibrate-font"))
-    found, picture = calibrate_font(profile, context_of, font)
+    with calibrating("font", profile, is_viewed=view, record=record) as opened:
+        found, picture = calibrate_font(profile, opened.context_of, font)
     for line in found.lines:
         typer.echo(line)
     typer.echo(f"compare what is seen with what is read: {picture}")

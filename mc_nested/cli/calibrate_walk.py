@@ -4,10 +4,11 @@ from typing import Annotated
 
 import typer
 
-from calibration.open_context import context_opener
 from calibration.walk.measure import calibrate_walk
+from mc_nested.cli.calibrating import calibrating
 from mc_nested.cli.options import DEFAULT_PROFILE, ServerOption
-from mc_nested.cli.recording_options import RecordOption, live_recorder
+from mc_nested.cli.recording_options import RecordOption
+from mc_nested.cli.viewing import ViewOption
 
 
 def walk(
@@ -16,17 +17,11 @@ def walk(
     ] = DEFAULT_PROFILE,
     server_allowed: ServerOption = False,
     record: RecordOption = None,
+    view: ViewOption = False,
 ) -> None:
     """Measure how you walk, for a minute, in the marked arena or around where you stand."""
-    found, picture = calibrate_walk(
-        profile,
-        context_opener(
-            typer.echo,
-            typer.confirm,
-            is_server_allowed=server_allowed,
-            open_recorder=live_recorder(record, "calibrate-walk", server_allowed=server_allowed),
-        ),
-    )
+    with calibrating("walk", profile, is_viewed=view, record=record, server_allowed=server_allowed) as opened:
+        found, picture = calibrate_walk(profile, opened.context_of)
     for line in found.lines:
         typer.echo(line)
     typer.echo(f"written to {profile}; look at the curve in {picture}")

@@ -31,6 +31,24 @@ class Region:
     height: int
 
 
+@dataclass(frozen=True)
+class DesktopArea:
+    """A rectangle of the desktop, in the desktop's points: not always pixels (FACTS: Input and windows)."""
+
+    left: int
+    top: int
+    width: int
+    height: int
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Where on the desktop the window's client area and the monitors are; no monitors where the system names none."""
+
+    window: DesktopArea
+    monitors: tuple[DesktopArea, ...] = ()
+
+
 class Clock(Protocol):
     """Monotonic time in seconds, from an arbitrary zero."""
 
@@ -94,7 +112,7 @@ class Clipboard(Protocol):
 class Devices:
     """The devices of one game window.
 
-    ``points`` gives the client area's width and height in points of the desktop; None if they can't be known.
+    ``placement`` says where on the desktop the window and the monitors are; None if that can't be known.
     """
 
     display: Display
@@ -102,4 +120,4 @@ class Devices:
     pointer: Pointer
     clock: Clock
     clipboard: Clipboard
-    points: Callable[[], tuple[int, int]] | None = None
+    placement: Callable[[], Placement] | None = None

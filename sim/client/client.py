@@ -94,7 +94,9 @@ class VirtualClient:
         )
         self.keyboard = VirtualKeyboard(self.window, self.controls)
         self.pointer = VirtualPointer(self.clock, self.window, self.game, self.controls, lambda: self.scale)
-        self.devices = Devices(self.display, self.keyboard, self.pointer, self.clock, self.clipboard, self.display.size)
+        self.devices = Devices(
+            self.display, self.keyboard, self.pointer, self.clock, self.clipboard, self.display.placement
+        )
 
         self._missed: int | None = None
         self._unfocused_since = math.inf

@@ -10,7 +10,7 @@ from calibration.context import CalibrationContext, StepResult
 from calibration.doctor.check import Check, CheckName
 from calibration.open_context import OpenContext
 from calibration.runner import CalibrationStep
-from mc_nested.cli import calibrate_all
+from mc_nested.cli import calibrate_all, calibrating
 from mc_nested.cli.app import main
 from mc_nested.cli.json_fields import JSON_FIELDS
 from mc_nested.errors import LiveError
@@ -40,7 +40,7 @@ def set_up(
         Check(name, "fail", "it is wrong", "mend it") if name == failing else Check(name, "pass", "")
         for name in CheckName
     ]
-    monkeypatch.setattr(calibrate_all, "context_opener", lambda *_, **__: context_opener_for(client))
+    monkeypatch.setattr(calibrating, "context_opener", lambda *_, **__: context_opener_for(client))
     monkeypatch.setattr(calibrate_all, "registered_steps", lambda *_, **__: list(steps))
     monkeypatch.setattr(calibrate_all, "_examined", lambda _font, _name: rows)
 
@@ -126,7 +126,7 @@ def test_what_the_player_has_to_do_is_said_in_any_case(
         return context_opener_for(client)
 
     set_up(monkeypatch, client, with_font(tmp_path))
-    monkeypatch.setattr(calibrate_all, "context_opener", opener)
+    monkeypatch.setattr(calibrating, "context_opener", opener)
     assert code_of(tmp_path / "mine.toml", *words) in (0, None)
     printed = capsys.readouterr()
     assert "Switch to the game.\n" in (printed.err if words else printed.out)
@@ -163,7 +163,7 @@ def test_a_row_of_the_doctors_that_all_needs_ends_it_with_its_remedy(
 def test_a_cell_outside_the_arena_is_one_line_before_anything(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(calibrate_all, "context_opener", lambda *_, **__: context_opener_for(client))
+    monkeypatch.setattr(calibrating, "context_opener", lambda *_, **__: context_opener_for(client))
     with pytest.raises(SystemExit) as ended:
         main(["calibrate", "all", "--yes", "--profile", str(tmp_path / "mine.toml"), "--standing", "-1", "0"])
     assert ended.value.code == 2
@@ -184,7 +184,7 @@ def test_the_steps_know_the_profiles_file_and_the_game_whether_a_server_is_allow
         return context_opener_for(client)
 
     set_up(monkeypatch, client)
-    monkeypatch.setattr(calibrate_all, "context_opener", opener)
+    monkeypatch.setattr(calibrating, "context_opener", opener)
 
     def steps(*_: object, **options: object) -> list[CalibrationStep]:
         given.update(options)

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from calibration.open_context import OpenContext
-from mc_nested.cli import calibrate_arena
+from mc_nested.cli import calibrating
 from mc_nested.cli.app import main
 from mc_nested.live.profile.store import load_profile, save_profile
 from sim.client.client import VirtualClient
@@ -19,7 +19,7 @@ def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
     """The game on this desktop, shared with others."""
     client = VirtualClient()
     monkeypatch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
-    monkeypatch.setattr(calibrate_arena, "context_opener", partial(context_of, client))
+    monkeypatch.setattr(calibrating, "context_opener", partial(context_of, client))
     return client
 
 

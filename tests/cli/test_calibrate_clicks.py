@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mc_nested.cli import calibrate_clicks, calibrate_font
+from mc_nested.cli import calibrating
 from mc_nested.cli.app import main
 from mc_nested.live.profile.store import load_profile
 from sim.client.client import VirtualClient
@@ -15,8 +15,7 @@ from tests.calibration.contexts import context_of, font_file_in, started
 def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
     """The game on this desktop."""
     client = started(VirtualClient())
-    for verb in (calibrate_font, calibrate_clicks):
-        monkeypatch.setattr(verb, "context_opener", lambda _say, ask, **_: context_of(client, ask))
+    monkeypatch.setattr(calibrating, "context_opener", lambda _say, ask, **_: context_of(client, ask))
     return client
 
 

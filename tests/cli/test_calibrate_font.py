@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from mc_nested.cli import calibrate_font
+from mc_nested.cli import calibrating
 from mc_nested.live.profile.store import load_profile
 from sim.client.client import VirtualClient
 from tests.calibration.contexts import context_of, font_file_in, started
@@ -15,7 +15,7 @@ from tests.cli.running import run
 def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
     """The game on this desktop."""
     client = started(VirtualClient(pitch=65.0))
-    monkeypatch.setattr(calibrate_font, "context_opener", lambda _say, ask, **_: context_of(client, ask))
+    monkeypatch.setattr(calibrating, "context_opener", lambda _say, ask, **_: context_of(client, ask))
     return client
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from calibration.context import StepResult
 from calibration.open_context import OpenContext
-from mc_nested.cli import calibrate_walk
+from mc_nested.cli import calibrate_walk, calibrating
 from mc_nested.live.profile.store import load_profile, save_profile
 from mc_nested.live.profile.tables import Profile
 from sim.client.client import VirtualClient
@@ -25,7 +25,7 @@ def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
     ) -> OpenContext:
         return context_on(client, say, is_server_allowed=is_server_allowed)
 
-    monkeypatch.setattr(calibrate_walk, "context_opener", opener)
+    monkeypatch.setattr(calibrating, "context_opener", opener)
     return client
 
 

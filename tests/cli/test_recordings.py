@@ -8,7 +8,7 @@ import pytest
 from calibration.bug_report import write_bug_report
 from calibration.doctor.check import Check, CheckName
 from calibration.report.privacy import Names
-from mc_nested.cli import main
+from mc_nested.cli.app import main
 from mc_nested.live.recording.opened import MOST_RECORDINGS, kept_recordings, recordings_folder
 from mc_nested.live.recording.recording_file import facts_of
 from scripts.recorded_play import record_play

@@ -20,8 +20,8 @@ OPTIONS = {"lang": "en_us", "guiScale": "2", "autoJump": "false", "pauseOnLostFo
 
 VERSION = "1.20.1"
 
-OF_THIS_MACHINE = ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME", "COLUMNS")
-"""Variables that would lead out of the home, or change what is printed."""
+OF_THIS_MACHINE = ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME", "WAYLAND_DISPLAY", "COLUMNS")
+"""Variables that would lead out of the home or to another display, or change what is printed."""
 
 
 class StepError(AssertionError):

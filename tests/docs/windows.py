@@ -71,7 +71,8 @@ class RehearsalWindows:
         if self._open_display is None:
             raise StepError(step, "opens a window: mark the test of its page so")
         self.close()
-        env = {**self._shell.env, **self._open_display(), "HOME": str(self._shell.home)}
+        display = self._open_display()
+        env = {**self._shell.env, **{name: display[name] for name in ("DISPLAY", "XDG_SESSION_TYPE")}}
         log = self._shell.home / "rehearsal.log"
         with log.open("w") as output:
             words = shlex.split(step.text)

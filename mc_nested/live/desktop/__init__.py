@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from mc_nested.live.desktop.clock import MonotonicClock
 from mc_nested.live.desktop.display import WindowDisplay
 from mc_nested.live.desktop.system import open_camera, this_system
-from mc_nested.live.devices import Clipboard, Devices
+from mc_nested.live.devices import Clipboard, Devices, Placement
 
 
 @contextmanager
@@ -26,13 +26,18 @@ def open_desktop(title: str) -> Iterator[Devices]:
     with system.open_window(title) as window:
         # Without a display these imports fail, so the window comes first: it says what is missing.
         from mc_nested.live.desktop.keyboard import open_keyboard
+        from mc_nested.live.desktop.monitors import monitors
         from mc_nested.live.desktop.pointer import DesktopPointer
 
         with open_camera(window) as camera, open_keyboard() as keyboard:
             display = WindowDisplay(window, camera)
             pointer = DesktopPointer(window, display.ratio)
             clipboard = system.open_clipboard()
-            yield Devices(display, keyboard, pointer, MonotonicClock(), clipboard, display.points)
+
+            def placement() -> Placement:
+                return Placement(display.area(), monitors())
+
+            yield Devices(display, keyboard, pointer, MonotonicClock(), clipboard, placement)
 
 
 def open_clipboard() -> Clipboard:

@@ -13,12 +13,12 @@ from mss.exception import ScreenShotError
 
 from mc_nested.errors import DesktopError
 from mc_nested.live.desktop.display import Camera
-from mc_nested.live.desktop.window import ClientArea, is_within
-from mc_nested.live.devices import Frame
+from mc_nested.live.desktop.window import is_within
+from mc_nested.live.devices import DesktopArea, Frame
 
 
 @contextmanager
-def open_camera(screen: Callable[[], ClientArea] | None = None) -> Iterator[Camera]:
+def open_camera(screen: Callable[[], DesktopArea] | None = None) -> Iterator[Camera]:
     """A camera over all screens; a picture raises DesktopError where a part of its area is on no screen.
 
     Args:
@@ -33,7 +33,7 @@ def open_camera(screen: Callable[[], ClientArea] | None = None) -> Iterator[Came
         screen = screen or virtual_screen
     with mss.MSS() as shots:
 
-        def picture(area: ClientArea) -> Frame:
+        def picture(area: DesktopArea) -> Frame:
             if screen is not None and not is_within(area, screen()):
                 raise _off_the_screen()
             bounds = {"left": area.left, "top": area.top, "width": area.width, "height": area.height}

@@ -3,10 +3,10 @@
 from collections.abc import Callable
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.desktop.window import ClientArea, GameWindow
-from mc_nested.live.devices import Frame, Region
+from mc_nested.live.desktop.window import GameWindow
+from mc_nested.live.devices import DesktopArea, Frame, Region
 
-Camera = Callable[[ClientArea], Frame]
+Camera = Callable[[DesktopArea], Frame]
 """Takes a picture of an area of the desktop, at as many pixels to a point as the screen there has."""
 
 
@@ -23,10 +23,9 @@ class WindowDisplay:
         """Framebuffer pixels to a point of the desktop, as the last whole picture measured it."""
         return self._ratio
 
-    def points(self) -> tuple[int, int]:
-        """Width and height of the client area in points of the desktop."""
-        area = self._window.client_area()
-        return area.width, area.height
+    def area(self) -> DesktopArea:
+        """Where on the desktop the client area is now."""
+        return self._window.client_area()
 
     def size(self) -> tuple[int, int]:
         area = self._window.client_area()
@@ -49,14 +48,14 @@ class WindowDisplay:
         self._ratio = picture.shape[1] / area.width
         if region is None:
             return picture
-        inside = _part_of(ClientArea(0, 0, picture.shape[1], picture.shape[0]), region)
+        inside = _part_of(DesktopArea(0, 0, picture.shape[1], picture.shape[0]), region)
         return picture[inside.top : inside.top + inside.height, inside.left : inside.left + inside.width]
 
 
-def _part_of(area: ClientArea, region: Region) -> ClientArea:
+def _part_of(area: DesktopArea, region: Region) -> DesktopArea:
     """The part of the client area that the region covers: nothing outside the window is ever pictured."""
     left, top = max(region.left, 0), max(region.top, 0)
     right, bottom = min(region.left + region.width, area.width), min(region.top + region.height, area.height)
     if right <= left or bottom <= top:
         raise DesktopError(f"the game's window has shrunk to {area.width} x {area.height}: make it as large as it was")
-    return ClientArea(area.left + left, area.top + top, right - left, bottom - top)
+    return DesktopArea(area.left + left, area.top + top, right - left, bottom - top)

@@ -7,7 +7,8 @@ from typing import Any
 
 from mc_nested.errors import ClipboardError, DesktopError
 from mc_nested.live.desktop.clipboard import not_text_error
-from mc_nested.live.desktop.window import ClientArea, check_shown, closed_error, matching_title
+from mc_nested.live.desktop.window import check_shown, closed_error, matching_title
+from mc_nested.live.devices import DesktopArea
 
 if sys.platform == "darwin":
     import AppKit
@@ -58,12 +59,12 @@ class QuartzWindow:
         self._title = str(self._described().get(Quartz.kCGWindowName) or self._title)
         return self._title
 
-    def client_area(self) -> ClientArea:
+    def client_area(self) -> DesktopArea:
         bounds = self._described()[Quartz.kCGWindowBounds]
         left, top = round(bounds["X"]), round(bounds["Y"])
         width, height = round(bounds["Width"]), round(bounds["Height"])
         bar = 0 if _fills_a_screen(left, top, width, height) else _title_bar_height()
-        area = ClientArea(left, top + bar, width, height - bar)
+        area = DesktopArea(left, top + bar, width, height - bar)
         check_shown(area, self._title)
         return area
 

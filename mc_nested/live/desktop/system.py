@@ -6,8 +6,8 @@ from contextlib import AbstractContextManager, contextmanager
 from typing import Protocol, runtime_checkable
 
 from mc_nested.live.desktop.display import Camera
-from mc_nested.live.desktop.window import ClientArea, GameWindow
-from mc_nested.live.devices import Clipboard, Frame
+from mc_nested.live.desktop.window import GameWindow
+from mc_nested.live.devices import Clipboard, DesktopArea, Frame
 
 
 class DesktopSystem(Protocol):
@@ -36,7 +36,7 @@ class DesktopSystem(Protocol):
 class PicturesItself(Protocol):
     """A window whose picture is taken of itself, on a desktop whose screen can't be pictured."""
 
-    def picture(self, area: ClientArea) -> Frame: ...
+    def picture(self, area: DesktopArea) -> Frame: ...
 
 
 @contextmanager

@@ -9,12 +9,12 @@ from ctypes import wintypes
 from mc_nested.errors import ClipboardError
 from mc_nested.live.desktop.clipboard import not_text_error
 from mc_nested.live.desktop.window import (
-    ClientArea,
     check_shown,
     closed_error,
     matching_title,
     minimised_error,
 )
+from mc_nested.live.devices import DesktopArea
 
 if sys.platform == "win32":
     import pyperclip
@@ -51,10 +51,10 @@ def open_window(title: str) -> Iterator["Win32Window"]:
     yield window
 
 
-def virtual_screen() -> ClientArea:
+def virtual_screen() -> DesktopArea:
     """The area of all monitors together, as it is now."""
     left, top, width, height = (int(_user32.GetSystemMetrics(each)) for each in _VIRTUAL_SCREEN)
-    return ClientArea(left, top, width, height)
+    return DesktopArea(left, top, width, height)
 
 
 def session_kind() -> str:
@@ -78,7 +78,7 @@ class Win32Window:
         self._title = _title_of(self._handle) or self._title
         return self._title
 
-    def client_area(self) -> ClientArea:
+    def client_area(self) -> DesktopArea:
         handle = wintypes.HWND(self._handle)
         if not _user32.IsWindow(handle):
             raise closed_error(self._title)
@@ -88,7 +88,7 @@ class Win32Window:
         if not _user32.GetClientRect(handle, ctypes.byref(inside)):
             raise closed_error(self._title)
         _user32.ClientToScreen(handle, ctypes.byref(corner))
-        area = ClientArea(corner.x, corner.y, inside.right, inside.bottom)
+        area = DesktopArea(corner.x, corner.y, inside.right, inside.bottom)
         check_shown(area, self._title)
         return area
 

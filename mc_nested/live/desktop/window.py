@@ -2,23 +2,13 @@
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
 from mc_nested.errors import DesktopError, NoWindowError, SeveralWindowsError
+from mc_nested.live.devices import DesktopArea
 
 SHOWN_TITLES = 8
 """Titles that an error names at most: enough to find a misspelling, and still one line."""
-
-
-@dataclass(frozen=True)
-class ClientArea:
-    """A window's client area on the desktop, in the desktop's points: not always pixels (FACTS: Input and windows)."""
-
-    left: int
-    top: int
-    width: int
-    height: int
 
 
 class GameWindow(Protocol):
@@ -26,7 +16,7 @@ class GameWindow(Protocol):
 
     def title(self) -> str: ...
 
-    def client_area(self) -> ClientArea:
+    def client_area(self) -> DesktopArea:
         """Where the client area is now; DesktopError where the window has closed or is minimised."""
 
     def is_in_front(self) -> bool:
@@ -53,7 +43,7 @@ def matching_title(title: str, titles: Sequence[str]) -> int:
     )
 
 
-def is_within(area: ClientArea, outer: ClientArea) -> bool:
+def is_within(area: DesktopArea, outer: DesktopArea) -> bool:
     """Whether all of an area lies in another one."""
     return (
         outer.left <= area.left
@@ -63,7 +53,7 @@ def is_within(area: ClientArea, outer: ClientArea) -> bool:
     )
 
 
-def check_shown(area: ClientArea, title: str) -> None:
+def check_shown(area: DesktopArea, title: str) -> None:
     """DesktopError where the client area is empty, as a minimised window's is."""
     if area.width < 1 or area.height < 1:
         raise minimised_error(title)

@@ -11,7 +11,6 @@ from Xlib.xobject.drawable import Window
 
 from mc_nested.errors import DesktopError, NoWindowError
 from mc_nested.live.desktop.window import (
-    ClientArea,
     check_shown,
     closed_error,
     matching_title,
@@ -28,7 +27,7 @@ from mc_nested.live.desktop.xwayland import (
     no_x11_window_error,
     no_x_server_error,
 )
-from mc_nested.live.devices import Frame
+from mc_nested.live.devices import DesktopArea, Frame
 
 
 @contextmanager
@@ -87,13 +86,13 @@ class X11Window:
             self._title = _title_of(self._display, self._window)
         return self._title
 
-    def client_area(self) -> ClientArea:
+    def client_area(self) -> DesktopArea:
         with self._if_open():
             if self._window.get_attributes().map_state != X.IsViewable or self._is_minimised():
                 raise minimised_error(self._title)
             size = self._window.get_geometry()
             corner = self._root.translate_coords(self._window, 0, 0)
-        area = ClientArea(corner.x, corner.y, size.width, size.height)
+        area = DesktopArea(corner.x, corner.y, size.width, size.height)
         check_shown(area, self._title)
         return area
 
@@ -130,7 +129,7 @@ class RootlessWindow(X11Window):
         super().__init__(display, window, title)
         self._camera = WindowCamera(display, window)
 
-    def picture(self, area: ClientArea) -> Frame:
+    def picture(self, area: DesktopArea) -> Frame:
         """This window's pixels in that area of the desktop, whatever covers them; DesktopError where it has closed."""
         with self._if_open():
             return self._camera(area)

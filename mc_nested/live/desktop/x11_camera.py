@@ -8,9 +8,8 @@ from Xlib.error import BadMatch, CatchError
 from Xlib.xobject.drawable import Drawable, Window
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.desktop.window import ClientArea
 from mc_nested.live.desktop.xwayland import ALL_PLANES
-from mc_nested.live.devices import Frame
+from mc_nested.live.devices import DesktopArea, Frame
 
 BAND_BYTES = 2_000_000
 """python-xlib's time for an answer grows with the square of its length: a longer picture comes in such bands."""
@@ -31,7 +30,7 @@ class WindowCamera:
         self._root = display.screen().root
         self._window = window
 
-    def __call__(self, area: ClientArea) -> Frame:
+    def __call__(self, area: DesktopArea) -> Frame:
         inside = self._inside(area)
         depth = self._checked_depth(inside)
         try:
@@ -41,11 +40,11 @@ class WindowCamera:
         pixels = np.frombuffer(data, np.uint8).reshape(area.height, area.width, 4)
         return np.asarray(cv2.cvtColor(pixels, cv2.COLOR_BGRA2BGR), np.uint8)
 
-    def _inside(self, area: ClientArea) -> ClientArea:
+    def _inside(self, area: DesktopArea) -> DesktopArea:
         corner = self._root.translate_coords(self._window, 0, 0)
-        return ClientArea(area.left - corner.x, area.top - corner.y, area.width, area.height)
+        return DesktopArea(area.left - corner.x, area.top - corner.y, area.width, area.height)
 
-    def _checked_depth(self, inside: ClientArea) -> int:
+    def _checked_depth(self, inside: DesktopArea) -> int:
         found = self._window.get_geometry()
         if found.depth not in _BGRX:
             raise DesktopError(f"the game's window has colours of {found.depth} bits: set the desktop to 24 bits")
@@ -54,7 +53,7 @@ class WindowCamera:
             raise _cannot_be_pictured()
         return int(found.depth)
 
-    def _pixels(self, inside: ClientArea, depth: int) -> bytes:
+    def _pixels(self, inside: DesktopArea, depth: int) -> bytes:
         rows = max(1, BAND_BYTES // (4 * inside.width))
         if inside.height <= rows:
             return _image(self._window, inside)
@@ -66,7 +65,7 @@ class WindowCamera:
                 context, self._window, inside.left, inside.top, inside.width, inside.height, 0, 0, onerror=failed
             )
             bands = [
-                _image(copy, ClientArea(0, top, inside.width, min(rows, inside.height - top)))
+                _image(copy, DesktopArea(0, top, inside.width, min(rows, inside.height - top)))
                 for top in range(0, inside.height, rows)
             ]
         finally:
@@ -77,7 +76,7 @@ class WindowCamera:
         return b"".join(bands)
 
 
-def _image(drawable: Drawable, part: ClientArea) -> bytes:
+def _image(drawable: Drawable, part: DesktopArea) -> bytes:
     data = drawable.get_image(part.left, part.top, part.width, part.height, X.ZPixmap, ALL_PLANES).data
     return data if isinstance(data, bytes) else str(data).encode("latin-1")
 

@@ -14,7 +14,7 @@ import tomlkit
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.errors import RecordingError
-from mc_nested.live.devices import Devices
+from mc_nested.live.devices import DesktopArea, Devices, Placement
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.format import FORMAT, SUFFIX
 from mc_nested.live.recording.recorder import Recorder
@@ -25,6 +25,9 @@ MOST_RECORDINGS = 10
 
 OFF = "off"
 """Instead of a folder: nothing is recorded."""
+
+UNKNOWN = "unknown"
+"""What a fact is where the system doesn't say."""
 
 OpenRecorder = Callable[[Profile, Devices], AbstractContextManager[Recording]]
 """Opens the recorder of a window that is played in with a profile."""
@@ -134,7 +137,6 @@ def _new_folder(what: str) -> Path:
 
 def _facts(what: str, profile: Profile, devices: Devices) -> dict[str, str]:
     width, height = devices.display.size()
-    points = devices.points() if devices.points else None
     document = tomlkit.document()
     document.update(profile.model_dump(mode="json", exclude_none=True, exclude_defaults=True))
     return {
@@ -144,7 +146,21 @@ def _facts(what: str, profile: Profile, devices: Devices) -> dict[str, str]:
         "python": platform.python_version(),
         "system": platform.platform(),
         "size": f"{width}x{height}",
-        "points": "unknown" if points is None else f"{points[0]}x{points[1]}",
         "title": devices.display.title(),
         "profile": tomlkit.dumps(document),
+        **_placement_facts(devices.placement() if devices.placement else None),
     }
+
+
+def _placement_facts(placement: Placement | None) -> dict[str, str]:
+    """Where the window and the monitors are, in points of the desktop: "854x480 at 100 50"."""
+    if placement is None:
+        return {"window": UNKNOWN, "monitors": UNKNOWN}
+    return {
+        "window": _area_words(placement.window),
+        "monitors": ", ".join(map(_area_words, placement.monitors)) or UNKNOWN,
+    }
+
+
+def _area_words(area: DesktopArea) -> str:
+    return f"{area.width}x{area.height} at {area.left} {area.top}"

@@ -8,9 +8,7 @@ from mc_nested.live.recording.replayed_tape import ReplayedTape
 
 def replayed(tape: ReplayedTape, size: tuple[int, int], title: str) -> Devices:
     """The devices of a window that had this size and title when the recording began."""
-    return Devices(
-        _Display(tape, size, title), _Keyboard(tape), _Pointer(tape), _Clock(tape), _Clipboard(tape), lambda: size
-    )
+    return Devices(_Display(tape, size, title), _Keyboard(tape), _Pointer(tape), _Clock(tape), _Clipboard(tape))
 
 
 class _Clock:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mc_nested.live.devices import Frame, Region
+from mc_nested.live.devices import DesktopArea, Frame, Placement, Region
 from sim.client.desktop.clock import VirtualClock
 from sim.client.desktop.frames import Frames
 from sim.client.desktop.window import VirtualWindow
@@ -59,6 +59,11 @@ class VirtualDisplay:
 
     def is_in_front(self) -> bool:
         return self._window.is_in_front
+
+    def placement(self) -> Placement:
+        """A window that fills its desktop's only monitor."""
+        screen = DesktopArea(0, 0, *self.size())
+        return Placement(screen, (screen,))
 
     def grab(self, region: Region | None = None) -> Frame:
         frame = self.painter.grab(self.seen(), region)

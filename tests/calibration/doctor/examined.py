@@ -95,8 +95,7 @@ def opened(client: VirtualClient) -> Callable[[str], AbstractContextManager[Devi
 
     @contextmanager
     def open_devices(_title: str) -> Iterator[Devices]:
-        size = client.display.size
-        yield Devices(client.display, client.keyboard, client.pointer, client.clock, client.clipboard, size)
+        yield client.devices
 
     return open_devices
 

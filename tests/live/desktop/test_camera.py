@@ -12,7 +12,7 @@ from mss.exception import ScreenShotError
 from mc_nested.errors import DesktopError
 from mc_nested.live.desktop import camera
 from mc_nested.live.desktop.camera import open_camera, picture_every_pixel
-from mc_nested.live.desktop.window import ClientArea
+from mc_nested.live.devices import DesktopArea
 from tests.live.desktop.probed import probed
 
 
@@ -49,7 +49,7 @@ def shots(monkeypatch: pytest.MonkeyPatch) -> Shots:
 
 def test_a_picture_is_blue_green_red_without_the_fourth_channel(shots: Shots) -> None:
     with open_camera() as picture:
-        frame = picture(ClientArea(20, 50, 4, 3))
+        frame = picture(DesktopArea(20, 50, 4, 3))
     assert frame.shape == (3, 4, 3)
     assert frame.dtype == np.uint8
     assert frame[0, 0].tolist() == [20, 50, 7]
@@ -59,27 +59,27 @@ def test_a_picture_is_blue_green_red_without_the_fourth_channel(shots: Shots) ->
 
 def test_an_area_that_is_not_all_on_the_screen_is_an_error(shots: Shots) -> None:
     with open_camera() as picture, pytest.raises(DesktopError, match="all of it is on the screen"):
-        picture(ClientArea(-1, 0, 4, 3))
+        picture(DesktopArea(-1, 0, 4, 3))
     assert not shots.is_open
 
 
-@pytest.mark.parametrize("area", [ClientArea(-1, 0, 4, 3), ClientArea(97, 0, 4, 3), ClientArea(0, 58, 4, 3)])
+@pytest.mark.parametrize("area", [DesktopArea(-1, 0, 4, 3), DesktopArea(97, 0, 4, 3), DesktopArea(0, 58, 4, 3)])
 def test_where_no_error_comes_by_itself_the_area_is_compared_with_all_screens_together(
-    area: ClientArea, shots: Shots
+    area: DesktopArea, shots: Shots
 ) -> None:
-    with open_camera(lambda: ClientArea(0, 0, 100, 60)) as picture:
+    with open_camera(lambda: DesktopArea(0, 0, 100, 60)) as picture:
         with pytest.raises(DesktopError, match="all of it is on the screen"):
             picture(area)
-        assert picture(ClientArea(96, 57, 4, 3)).shape == (3, 4, 3)
+        assert picture(DesktopArea(96, 57, 4, 3)).shape == (3, 4, 3)
     assert shots.grabbed == 1
 
 
 def test_screens_that_have_moved_are_asked_for_at_each_picture(shots: Shots) -> None:
-    screens = [ClientArea(0, 0, 100, 60), ClientArea(20, 0, 100, 60)]
+    screens = [DesktopArea(0, 0, 100, 60), DesktopArea(20, 0, 100, 60)]
     with open_camera(lambda: screens.pop(0)) as picture:
-        picture(ClientArea(0, 0, 4, 3))
+        picture(DesktopArea(0, 0, 4, 3))
         with pytest.raises(DesktopError, match="all of it is on the screen"):
-            picture(ClientArea(0, 0, 4, 3))
+            picture(DesktopArea(0, 0, 4, 3))
     assert shots.grabbed == 1
 
 

@@ -7,7 +7,7 @@ import pytest
 from mc_nested.errors import DesktopError, LiveError
 from mc_nested.live.desktop.lost_display import LOST
 from mc_nested.live.desktop.pointer import DesktopPointer, load_pyautogui
-from mc_nested.live.desktop.window import ClientArea
+from mc_nested.live.devices import DesktopArea
 from tests.live.desktop.fake_devices import Buttons, Mouse, install_mouse, install_pynput
 from tests.live.desktop.moving_window import MovingWindow
 from tests.live.desktop.probed import glfw_probed, probed
@@ -25,13 +25,13 @@ def buttons(monkeypatch: pytest.MonkeyPatch) -> Buttons:
     return buttons
 
 
-def pointer_over(area: ClientArea, ratio: float = 1.0) -> DesktopPointer:
+def pointer_over(area: DesktopArea, ratio: float = 1.0) -> DesktopPointer:
     return DesktopPointer(MovingWindow(area), lambda: ratio)
 
 
 @pytest.mark.usefixtures("buttons")
 def test_positions_are_the_client_areas_pixels(mouse: Mouse) -> None:
-    pointer = pointer_over(ClientArea(60, 40, 320, 240))
+    pointer = pointer_over(DesktopArea(60, 40, 320, 240))
     pointer.move(200, 50)
     assert mouse.at == (260, 90)
     assert pointer.position() == (200, 50)
@@ -39,7 +39,7 @@ def test_positions_are_the_client_areas_pixels(mouse: Mouse) -> None:
 
 @pytest.mark.usefixtures("buttons")
 def test_where_a_point_is_two_pixels_positions_are_still_pixels(mouse: Mouse) -> None:
-    pointer = pointer_over(ClientArea(60, 40, 320, 240), ratio=2.0)
+    pointer = pointer_over(DesktopArea(60, 40, 320, 240), ratio=2.0)
     pointer.move(201, 50)
     assert mouse.at == (160.5, 65)
     assert pointer.position() == (201, 50)
@@ -47,7 +47,7 @@ def test_where_a_point_is_two_pixels_positions_are_still_pixels(mouse: Mouse) ->
 
 @pytest.mark.usefixtures("mouse")
 def test_a_button_is_pressed_and_released_by_pynput_which_moves_nothing(buttons: Buttons) -> None:
-    pointer = pointer_over(ClientArea(60, 40, 320, 240))
+    pointer = pointer_over(DesktopArea(60, 40, 320, 240))
     pointer.press("right")
     pointer.release("right")
     assert buttons.sent == [("down", "right"), ("up", "right")]
@@ -58,7 +58,7 @@ def test_in_a_corner_of_the_screen_nothing_is_pressed_and_all_is_released(
     corner: tuple[int, int], mouse: Mouse, buttons: Buttons
 ) -> None:
     mouse.at = corner
-    pointer = pointer_over(ClientArea(60, 40, 320, 240))
+    pointer = pointer_over(DesktopArea(60, 40, 320, 240))
     with pytest.raises(LiveError, match="means stop: nothing was clicked"):
         pointer.press("left")
     pointer.release("left")
@@ -69,7 +69,7 @@ def test_in_a_corner_of_the_screen_nothing_is_pressed_and_all_is_released(
 @pytest.mark.usefixtures("mouse")
 def test_without_a_display_a_press_is_an_error_and_a_release_is_none(buttons: Buttons) -> None:
     buttons.has_display = False
-    pointer = pointer_over(ClientArea(60, 40, 320, 240))
+    pointer = pointer_over(DesktopArea(60, 40, 320, 240))
     with pytest.raises(DesktopError, match="display has closed"):
         pointer.press("left")
     pointer.release("left")

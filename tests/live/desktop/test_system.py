@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from mc_nested.live.desktop.system import open_camera
-from mc_nested.live.desktop.window import ClientArea
+from mc_nested.live.devices import DesktopArea
 from tests.live.desktop.moving_window import MovingWindow
 
 
@@ -24,7 +24,7 @@ def test_on_linux_it_is_x11s() -> None:
 
 
 def test_a_window_that_pictures_itself_is_not_looked_for_on_the_screen() -> None:
-    window = MovingWindow(ClientArea(10, 5, 40, 30))
+    window = MovingWindow(DesktopArea(10, 5, 40, 30))
     with open_camera(window) as camera:
         assert camera(window.client_area()).shape == (30, 40, 3)
     assert window.asked == [window.client_area()]

@@ -3,7 +3,8 @@
 import pytest
 
 from mc_nested.errors import DesktopError, NoWindowError
-from mc_nested.live.desktop.window import ClientArea, check_shown, closed_error, is_within, matching_title
+from mc_nested.live.desktop.window import check_shown, closed_error, is_within, matching_title
+from mc_nested.live.devices import DesktopArea
 
 MINECRAFT = r"^Minecraft\*? \d"
 
@@ -34,11 +35,11 @@ def test_two_windows_of_the_title_are_an_error_that_names_both() -> None:
 @pytest.mark.parametrize("size", [(0, 480), (854, 0)])
 def test_a_window_without_area_counts_as_minimised(size: tuple[int, int]) -> None:
     with pytest.raises(DesktopError, match="minimised"):
-        check_shown(ClientArea(0, 0, *size), "Minecraft 1.21")
+        check_shown(DesktopArea(0, 0, *size), "Minecraft 1.21")
 
 
 def test_the_smallest_window_with_an_area_is_shown() -> None:
-    check_shown(ClientArea(0, 0, 1, 1), "Minecraft 1.21")
+    check_shown(DesktopArea(0, 0, 1, 1), "Minecraft 1.21")
 
 
 def test_a_desktop_without_titles_names_none() -> None:
@@ -59,13 +60,13 @@ def test_a_closed_window_is_named() -> None:
 @pytest.mark.parametrize(
     ("area", "is_inside"),
     [
-        (ClientArea(-5, 0, 10, 20), True),
-        (ClientArea(0, 5, 2, 3), True),
-        (ClientArea(-6, 0, 2, 3), False),
-        (ClientArea(0, -1, 2, 3), False),
-        (ClientArea(4, 0, 2, 3), False),
-        (ClientArea(0, 18, 2, 3), False),
+        (DesktopArea(-5, 0, 10, 20), True),
+        (DesktopArea(0, 5, 2, 3), True),
+        (DesktopArea(-6, 0, 2, 3), False),
+        (DesktopArea(0, -1, 2, 3), False),
+        (DesktopArea(4, 0, 2, 3), False),
+        (DesktopArea(0, 18, 2, 3), False),
     ],
 )
-def test_an_area_is_within_another_where_none_of_its_edges_is_beyond_it(area: ClientArea, is_inside: bool) -> None:
-    assert is_within(area, ClientArea(-5, 0, 10, 20)) == is_inside
+def test_an_area_is_within_another_where_none_of_its_edges_is_beyond_it(area: DesktopArea, is_inside: bool) -> None:
+    assert is_within(area, DesktopArea(-5, 0, 10, 20)) == is_inside

@@ -15,8 +15,8 @@ from Xlib import X
 from Xlib.error import ConnectionClosedError
 from Xlib.xobject.drawable import Window
 
-from mc_nested.live.desktop.window import ClientArea
 from mc_nested.live.desktop.x11 import RootlessWindow, X11Window
+from mc_nested.live.devices import DesktopArea
 
 if TYPE_CHECKING:
     from Xlib.display import Display
@@ -119,7 +119,7 @@ def test_with_the_focus_around_it_keys_go_to_the_window_under_the_pointer(holder
 
 
 def test_the_client_area_is_where_the_window_is_on_the_root() -> None:
-    assert Server().window.client_area() == ClientArea(60, 40, 320, 240)
+    assert Server().window.client_area() == DesktopArea(60, 40, 320, 240)
 
 
 def test_a_window_that_is_not_shown_or_has_no_area_is_minimised() -> None:
@@ -144,7 +144,7 @@ def test_a_rootless_window_that_is_gone_can_not_be_pictured_but_has_closed() -> 
     window = RootlessWindow(cast("Display", server), server.game, TITLE)
     server.game.is_gone = True
     with pytest.raises(DesktopError, match=f"'{TITLE}' has closed"):
-        window.picture(ClientArea(60, 40, 320, 240))
+        window.picture(DesktopArea(60, 40, 320, 240))
 
 
 def test_a_window_that_is_gone_has_closed() -> None:

@@ -14,8 +14,8 @@ if not sys.platform.startswith("linux"):
 
 from Xlib.error import BadDrawable, BadMatch
 
-from mc_nested.live.desktop.window import ClientArea
 from mc_nested.live.desktop.x11_camera import BAND_BYTES, WindowCamera
+from mc_nested.live.devices import DesktopArea
 
 if TYPE_CHECKING:
     from Xlib.display import Display
@@ -85,7 +85,7 @@ class Server:
 
 def test_a_part_of_the_desktop_is_that_part_of_the_window() -> None:
     server = Server()
-    frame = server.camera()(ClientArea(60 + 20, 40 + 50, 4, 3))
+    frame = server.camera()(DesktopArea(60 + 20, 40 + 50, 4, 3))
     assert frame.shape == (3, 4, 3)
     assert frame.dtype == np.uint8
     assert frame[0, 0].tolist() == [20, 50, 7]
@@ -95,7 +95,7 @@ def test_a_part_of_the_desktop_is_that_part_of_the_window() -> None:
 
 def test_a_large_picture_is_copied_once_and_fetched_in_bands() -> None:
     server = Server(1280, 720)
-    frame = server.camera()(ClientArea(60, 40, 1280, 720))
+    frame = server.camera()(DesktopArea(60, 40, 1280, 720))
     assert np.array_equal(frame, server.window.pixels[:, :, :3])
     (copy,) = server.copies
     assert not server.window.asked  # what it shows may change between two bands
@@ -107,21 +107,21 @@ def test_a_large_picture_is_copied_once_and_fetched_in_bands() -> None:
 @pytest.mark.parametrize("area", [(59, 40, 9, 9), (60, 39, 9, 9), (372, 40, 9, 9), (60, 272, 9, 9)])
 def test_nothing_outside_the_window_is_pictured(area: Part) -> None:
     with pytest.raises(DesktopError, match="hidden or resized"):
-        Server().camera()(ClientArea(*area))
+        Server().camera()(DesktopArea(*area))
 
 
 def test_a_window_that_is_hidden_meanwhile_is_an_error() -> None:
     server = Server()
     server.window.error = BadMatch(cast("Any", None), b"\0" * 32)
     with pytest.raises(DesktopError, match="hidden or resized"):
-        server.camera()(ClientArea(60, 40, 4, 3))
+        server.camera()(DesktopArea(60, 40, 4, 3))
 
 
 def test_a_window_that_closes_before_it_is_copied_is_the_x_servers_error() -> None:
     server = Server(1280, 720)
     server.window.error = BadDrawable(cast("Any", SimpleNamespace(get_resource_class=lambda _: None)), b"\0" * 32)
     with pytest.raises(BadDrawable):
-        server.camera()(ClientArea(60, 40, 1280, 720))
+        server.camera()(DesktopArea(60, 40, 1280, 720))
     assert server.copies[0].is_free
 
 
@@ -129,4 +129,4 @@ def test_other_colours_than_eight_bits_each_are_refused() -> None:
     server = Server()
     server.window.depth = 16
     with pytest.raises(DesktopError, match="colours of 16 bits"):
-        server.camera()(ClientArea(60, 40, 4, 3))
+        server.camera()(DesktopArea(60, 40, 4, 3))
