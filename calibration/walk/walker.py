@@ -72,7 +72,7 @@ class Walker:
 
     def __init__(self, connection: GameConnection, profile: Profile) -> None:
         _, begin, _ = PoseReader(connection, profile.body.patience_s).read()
-        self._controller = connection.controller
+        self._controller, self._journal = connection.controller, connection.journal
         self._clock = connection.devices.clock
         self._observer = PoseObserver(profile, connection, PoseFrame.around(begin))
         self._key_hold = KeyHold(connection, self._observer, profile.body.patience_s)
@@ -109,6 +109,7 @@ class Walker:
             max_distance: blocks from the beginning at which the keys go up early.
         """
         begin = self.stand()
+        self._journal.note("plans", key=key, ticks=max(1, round(seconds / TICK_S)), sneak=sneak is not None)
         self._observer.permit_press()
         if sneak:
             self._key_hold.begin_sneaking(sneak)

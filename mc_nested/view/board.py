@@ -34,9 +34,10 @@ class Board:
         """Take a note of the journal."""
         if kind == "reads":
             self._reading = facts
-            if self._fields.get("mood") == "waits" and "problem" not in facts:
-                self._begin(Doing(self._own))
+            if "problem" not in facts:
+                self._wait_no_longer()
         elif kind in DETAIL:
+            self._wait_no_longer()
             self._fields["detail"] = detail_of(kind, facts)
         elif kind == "done":
             with self._lock:
@@ -69,6 +70,10 @@ class Board:
         if (reading := self._reading) is not None:
             fields["reading"] = reading_seen(reading)
         return Status(at=self._clock(), **fields)
+
+    def _wait_no_longer(self) -> None:
+        if self._fields.get("mood") == "waits":
+            self._begin(Doing(self._own))
 
     def _begin(self, doing: Doing) -> None:
         with self._lock:

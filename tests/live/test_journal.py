@@ -1,21 +1,11 @@
 from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.live.journal import Fact, Journals, NoJournal, NoteKind
+from mc_nested.live.journal import Journals, NoJournal
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.tables import GameVersion, Profile
 from sim.client.client import VirtualClient
+from tests.live.notes import Notes
 from tests.sim.client.playing import arena_of, connection_to
-
-
-class Notes:
-    def __init__(self) -> None:
-        self.taken: list[tuple[NoteKind, dict[str, Fact]]] = []
-
-    def note(self, kind: NoteKind, /, **facts: Fact) -> None:
-        self.taken.append((kind, facts))
-
-    def of(self, kind: NoteKind) -> list[dict[str, Fact]]:
-        return [facts for seen, facts in self.taken if seen == kind]
 
 
 def test_an_action_is_noted_from_its_beginning_to_what_was_seen() -> None:

@@ -43,6 +43,25 @@ def test_it_says_since_when_something_is_done() -> None:
     assert (status.doing, status.mood, status.since) == ("waits for the game", "waits", 105.0)
 
 
+def test_who_types_or_walks_or_clicks_waits_no_longer() -> None:
+    board, clock = a_board()
+    board.does("Arena")
+    board.note("waits", on="the game")
+    clock.now = 105.0
+    board.note("types", line="/time set 6000")
+    clock.now = 109.0
+    board.note("plans", key="w", ticks=9, sneak=True)
+
+    status = board.status()
+
+    assert (status.doing, status.detail, status.mood, status.since) == (
+        "Arena",
+        "holds w for 9 ticks, sneaking",
+        "works",
+        105.0,
+    )
+
+
 def test_what_is_said_again_goes_on_as_before() -> None:
     board, clock = a_board()
     board.does("trains")

@@ -9,6 +9,7 @@ from mc_nested.live.model.kinematics import displacement
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.profile.tables import Profile
 from tests.live.fake_game import FakeGame, FakeScreen, connection_to
+from tests.live.notes import Notes
 
 PROFILE = Profile()
 
@@ -44,6 +45,20 @@ def test_a_hold_is_recorded_step_by_step_until_standstill(keys: str, axis: int, 
     assert recorded.offsets[0][axis] == pytest.approx(sign * 0.098, abs=0.001)
     assert recorded.end == walker.stand()
     assert game.down == set()
+
+
+def test_its_journal_is_told_of_each_hold_in_ticks() -> None:
+    notes = Notes()
+    game = _game()
+    connection = connection_to(game)
+    connection.journal = notes
+    walker = Walker(connection, PROFILE)
+    walker.hold(0.2, "w")
+    walker.hold(0.27, "s", sneak="left.shift")
+    assert notes.of("plans") == [
+        {"key": "w", "ticks": 4, "sneak": False},
+        {"key": "s", "ticks": 5, "sneak": True},
+    ]
 
 
 def test_each_sighting_says_between_which_two_looks_a_step_came() -> None:
