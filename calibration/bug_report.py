@@ -11,16 +11,19 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from calibration.doctor.check import Check
+from calibration.report.page import SEEN
 from calibration.report.privacy import Names
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.cut import cut
+from mc_nested.live.recording.opened import versions_here
 from mc_nested.live.recording.overview import overview_of
 from mc_nested.live.recording.recording_file import facts_of
 
 DOCTOR, PROFILE, VERSIONS, RECORDING = "doctor.json", "profile.toml", "versions.json", "recording.mcap"
 
-_VERSIONS = ("what", "version", "python", "system", "size", "window", "monitors", "title")
+_OF_RECORDING = ("what", "version", "python", "system", "size", "window", "monitors", "title")
+"""What a recording says of itself that goes into the versions."""
 
 
 def write_bug_report(
@@ -47,13 +50,15 @@ def write_bug_report(
     if profile is not None:
         parts[PROFILE] = names.removed_from(profile).encode()
         said.append(f"{PROFILE}: the profile, {len(profile.splitlines())} lines")
+    versions: dict[str, object] = {**versions_here()}
+    said.append(f"{VERSIONS}: of mc-nested, Python and the system")
     if recording is not None:
         facts = facts_of(recording)
-        known = {name: facts[name] for name in _VERSIONS if name in facts}
-        parts[VERSIONS] = names.removed_from(json.dumps(known, indent=2, ensure_ascii=False)).encode()
-        said.append(f"{VERSIONS}: versions, the window's size, place and title, and the monitors")
-        parts[RECORDING], line = _end_of(recording, seconds, names)
-        said.append(line)
+        versions["recording"] = known = {name: facts[name] for name in _OF_RECORDING if name in facts}
+        said[-1] += f"; of the recording: {', '.join(known)}"
+        parts[RECORDING], lines = _end_of(recording, seconds, names)
+        said += lines
+    parts[VERSIONS] = names.removed_from(json.dumps(versions, indent=2, ensure_ascii=False)).encode()
     try:
         with atomic_write(out) as unfinished, zipfile.ZipFile(unfinished, "w", zipfile.ZIP_DEFLATED) as file:
             for name, content in parts.items():
@@ -63,7 +68,8 @@ def write_bug_report(
     return said
 
 
-def _end_of(recording: Path, seconds: float, names: Names) -> tuple[bytes, str]:
+def _end_of(recording: Path, seconds: float, names: Names) -> tuple[bytes, list[str]]:
+    """The end of a recording, and what is in it, in lines."""
     ended = overview_of(recording).ended
     if ended is None:
         raise RecordingError(f"{recording}: holds nothing: name another recording, or --no-recording")
@@ -71,7 +77,8 @@ def _end_of(recording: Path, seconds: float, names: Names) -> tuple[bytes, str]:
         path = Path(folder) / RECORDING
         cut(recording, path, ended - round(seconds * 1e9), ended, names.removed_from)
         seen = overview_of(path)
-        return path.read_bytes(), (
-            f"{RECORDING}: the last {seen.seconds:.0f} s of {recording.name}: {seen.actions} actions, keys and clicks, "
-            f"{seen.pictures} pictures of the game's window, the chat blanked"
-        )
+        return path.read_bytes(), [
+            f"{RECORDING}: the last {seen.seconds:.0f} s of {recording.name}: {seen.actions} actions, keys and clicks",
+            f"{RECORDING}: {seen.pictures} pictures of the game's window, the chat blanked",
+            f"what may be seen on its pictures: {SEEN}",
+        ]

@@ -3,8 +3,8 @@
     python scripts/bench_recording.py [--rounds 6] [--actions 40] [--keep DIR] [--json]
 
 Seconds are of wall-clock time, an action's from its call to its confirmation on the screen. Linux, on a display of its
-own; the same computer draws without a graphics card. Run nothing beside it. Exit code 1 if a target was missed, or the
-replay differs.
+own; the same computer draws without a graphics card. Run nothing beside it. Exit code 1 if a cell or a block was
+wrong, a target was missed, or the replay differs.
 """
 
 import argparse
@@ -128,7 +128,8 @@ def _say(line: str) -> None:
 
 def _is_right(figures: dict[str, Any]) -> bool:
     return bool(
-        figures["cost_s"] <= MOST_COST_S
+        not figures["wrong"]
+        and figures["cost_s"] <= MOST_COST_S
         and figures["mb_a_minute"] <= MOST_MB_A_MINUTE
         and not any(each["differences"] for each in figures["replay"])
     )

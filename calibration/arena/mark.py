@@ -7,17 +7,15 @@ near edge . . . P . . .     and stands, by default, in the middle of the near ed
 
 import math
 from collections.abc import Callable
-from contextlib import AbstractContextManager
 from pathlib import Path
 
+from calibration.open_context import OpenContext
 from calibration.starting_profile import starting_profile
 from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import is_inside
 from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE
 from mc_nested.errors import ProfileError, UserError
-from mc_nested.live.connection import connect
-from mc_nested.live.desktop import open_desktop
-from mc_nested.live.devices import SWITCH_KEYS, Devices
+from mc_nested.live.devices import SWITCH_KEYS
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.coordinates import block_of, facing_of, turn_between, yaw_of
 from mc_nested.live.model.reading import Reading
@@ -36,6 +34,7 @@ HEIGHT_TOLERANCE = 0.001
 
 def mark_arena(
     profile_name: str | Path,
+    context_of: OpenContext,
     *,
     ask: Callable[[str], bool],
     say: Callable[[str], None],
@@ -43,7 +42,6 @@ def mark_arena(
     standing: Cell | None = None,
     font: Path | None = None,
     yes: bool = False,
-    open_devices: Callable[[str], AbstractContextManager[Devices]] = open_desktop,
 ) -> Path | None:
     """Write the arena that the player stands in into a profile. Returns the profile's file, or None if declined.
 
@@ -51,13 +49,13 @@ def mark_arena(
 
     Args:
         profile_name: a name or a file; a new profile is made if there is none.
+        context_of: opens the window.
         ask: asks the player a yes-or-no question.
         say: tells the player what to do.
         size: cells along each side of the arena.
         standing: the cell that the player stands on; default: the middle of the near edge.
         font: the client jar or font picture to read with, recorded in the profile; default: the profile's own.
         yes: mark without asking.
-        open_devices: opens the window of a title.
 
     Raises:
         UserError: the profile, font or desktop can't be used, or no arena can be where the player stands.
@@ -65,13 +63,13 @@ def mark_arena(
     """
     standing = near_middle(size) if standing is None else standing
     path, profile = load_profile_with_font(profile_name, standing, size, font)
-    with open_devices(profile.window.title) as devices:
+    with context_of(profile) as context:
         say(
             f"Switch to the game with {SWITCH_KEYS}, stand on {_cell_text(standing, size)}, look across it "
             f"along an axis of the world, and turn the debug screen on (F3). Stand still."
         )
-        reading = wait_until_standing_still(connect(profile, devices))
-        title_version = version_in(devices.display.title())
+        reading = wait_until_standing_still(context.connection.for_profile(profile))
+        title_version = version_in(context.devices.display.title())
     game = GameVersion(version=title_version) if title_version else profile.game
     arena = arena_from_reading(reading, standing, size)
     if not yes and not ask(mark_question(arena)):

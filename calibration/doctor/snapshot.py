@@ -63,7 +63,7 @@ def take_snapshot(devices: Devices, font: Font | None, overlay: Overlay | None =
     if is_in_front and font is not None:
         contents = contents_of(frame, font, overlay, WindowScreen(display, font, overlay).is_chat_open)
     window = Fingerprint(display.title(), display.size(), contents.scale if contents else None)
-    area = devices.placement().window if devices.placement else None
+    area = devices.area() if devices.area else None
     points = (area.width, area.height) if area else None
     return WindowSnapshot(window, (frame.shape[1], frame.shape[0]), points, is_in_front, contents)
 

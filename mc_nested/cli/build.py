@@ -20,12 +20,13 @@ from mc_nested.cli.options import (
     open_game,
     where_words,
 )
+from mc_nested.cli.output import JsonOption, Output, QuietOption
 from mc_nested.cli.recording_options import RecordOption, live_recorder
 from mc_nested.cli.scenario_options import FILES, LayerOption, named_scenario
 from mc_nested.cli.video import VideoOption, filmed
 from mc_nested.cli.viewing import Viewed, ViewOption, viewed
 from mc_nested.cli.watching import started_over, watched
-from mc_nested.errors import ScenarioError
+from mc_nested.errors import ScenarioError, UserError
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.report.film import check_film
 
@@ -37,9 +38,14 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     backend: BackendOption = Backend.SIM,
     profile: ProfileOption = None,
     server_allowed: ServerOption = False,
+    yes: Annotated[
+        bool, typer.Option("--yes", help="build even where what stands in the game's arena can't be put back")
+    ] = False,
     record: RecordOption = None,
     video: VideoOption = None,
     view: ViewOption = False,
+    quiet: QuietOption = False,
+    as_json: JsonOption = False,
 ) -> None:
     """Build a design without learning, and show the arena as it is built; after a mishap it starts over.
 
@@ -55,7 +61,8 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             f"scenario {scenario.name}: the scripted builder takes {steps} steps, and its step_limit is "
             f"{scenario.step_limit}: raise it"
         )
-    afterwards = _how_to_put_back(profile or DEFAULT_PROFILE) if backend is Backend.LIVE else None
+    afterwards = _how_to_put_back(profile or DEFAULT_PROFILE, yes=yes) if backend is Backend.LIVE else None
+    output = Output(quiet, as_json)
     if afterwards:
         typer.echo(f"  building clears the arena first; {afterwards}", err=True)
     recorder = live_recorder(record, f"build-{scenario.name}", scenario, server_allowed=server_allowed)
@@ -69,18 +76,29 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             journal=viewing.publisher.board,
         )
         with opened as (played, display), filmed(played, display, scenario, video) as game:
-            built = started_over(partial(_built, game, scenario, index, viewing))
-    typer.echo(f"  built {built} of {scenario.blocks} blocks, of {scenario.materials[index].name}, in {steps} steps")
-    if video:
-        typer.echo(f"  film: {video}")
+            built = started_over(partial(_built, game, scenario, index, viewing, quiet=quiet or as_json))
+    name = scenario.materials[index].name
+    found = {
+        "scenario": scenario.name,
+        "blocks": scenario.blocks,
+        "built": built,
+        "material": name,
+        "steps": steps,
+        "film": video,
+    }
+    output.result(
+        found,
+        f"  built {built} of {scenario.blocks} blocks, of {name}, in {steps} steps",
+        *([f"  film: {video}"] if video else []),
+    )
     if afterwards:
-        typer.echo(f"  it stands until the arena is cleared for the next episode; {afterwards}")
+        output.hint(f"  it stands until the arena is cleared for the next episode; {afterwards}")
 
 
-def _built(game: Game, scenario: Scenario, material: int, viewing: Viewed) -> int:
+def _built(game: Game, scenario: Scenario, material: int, viewing: Viewed, *, quiet: bool) -> int:
     """Build the design from a reset on; how many of its blocks stand then."""
     env = ArenaEnv(game, scenario)
-    with watched(env, scenario.name, viewing) as show:
+    with watched(env, scenario.name, viewing, quiet=quiet) as show:
         env.reset(options={"material": scenario.materials[material].name})
         show()
         for action in builders_actions(scenario):
@@ -89,11 +107,19 @@ def _built(game: Game, scenario: Scenario, material: int, viewing: Viewed) -> in
     return len(env.placed & scenario.design)
 
 
-def _how_to_put_back(profile_name: str) -> str:
-    """How what stood in the arena before comes back; ProfileError if the profile can't be read."""
+def _how_to_put_back(profile_name: str, *, yes: bool) -> str:
+    """How what stood in the arena before comes back.
+
+    ProfileError if the profile can't be read; UserError if it can't come back, and nobody agreed to that.
+    """
     profile = load_profile(profile_name)
     if profile.world is not None:
         return f"the world comes back from {profile.world.template} with the next episode"
     if profile.arena is None or profile.arena.copied_to is None:
+        if not yes:
+            raise UserError(
+                "building clears the arena, and the profile knows no copy of what stood there before: make one with "
+                "mc-nested calibrate arena, or build anyway with --yes"
+            )
         return "the profile knows no copy of what stood there before the arena was made: that can't be put back"
     return f"what stood there before the arena was made comes back with {undo_command(profile_path(profile_name))}"

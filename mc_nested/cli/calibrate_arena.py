@@ -42,7 +42,14 @@ def arena(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     with calibrating("arena", profile, is_viewed=view, record=record, server_allowed=server_allowed) as opened:
         if mark_only:
             path = mark_arena(
-                profile, ask=opened.ask, say=typer.echo, size=cells, standing=standing, font=font, yes=yes
+                profile,
+                opened.context_of,
+                ask=opened.ask,
+                say=typer.echo,
+                size=cells,
+                standing=standing,
+                font=font,
+                yes=yes,
             )
             lines = [f"arena written to {path}" if path else "nothing was written"]
         else:

@@ -13,6 +13,9 @@ from mc_nested.cli.recording_options import live_recorder
 from mc_nested.cli.viewing import viewed
 from mc_nested.view.publisher import Publisher
 
+DOCTOR = "looks at this computer and at the game, as mc-nested doctor does"
+"""What the guided run does first; its steps have titles. A step can't be paused, since its times are measured."""
+
 
 @dataclass(frozen=True)
 class Calibrating:
@@ -53,7 +56,8 @@ def calibrating(
     recorder = live_recorder(record, f"calibrate-{step}", server_allowed=server_allowed)
     with viewed(is_viewed, f"calibrate {step}", f"profile {profile}") as viewing:
         board, asks = viewing.publisher.board, partial(viewing.ask, otherwise=ask)
-        board.does(TITLES.get(step, step))
+        board.does(TITLES.get(step, DOCTOR))
+        board.show(can_pause=step not in TITLES)
         context_of = context_opener(
             say,
             (lambda _: True) if yes else asks,

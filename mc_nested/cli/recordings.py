@@ -2,47 +2,68 @@
 
 import datetime
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
-from rich.console import Console
 from rich.table import Table
 
 from calibration.report.privacy import names_here
+from mc_nested.cli.json_fields import epilog_of
+from mc_nested.cli.output import JsonOption, Output
 from mc_nested.cli.recording_options import RecordingArgument, recording_path
-from mc_nested.errors import RecordingError
+from mc_nested.errors import RecordingError, UserError
 from mc_nested.live.recording.cut import cut, trim
 from mc_nested.live.recording.opened import kept_recordings, recordings_folder
 from mc_nested.live.recording.overview import Overview, overview_of
 
 app = typer.Typer(help="The recordings of live runs: list, verify, trim and cut them.")
 
-LINE_WIDTH = 120
+WHOLE = "whole"
+"""The state of a recording of which nothing is lost."""
+
+DAMAGED = 1
+"""The exit code of verify where something of it is lost."""
 
 
 @app.callback(invoke_without_command=True)
-def listed(context: typer.Context) -> None:
+def recordings(context: typer.Context, as_json: JsonOption = False) -> None:
+    """List the recordings that are kept; verify, trim and cut them."""
+    if context.invoked_subcommand is None:
+        list_recordings(as_json)
+    elif as_json:
+        raise UserError(f"write --json at the end: mc-nested recordings {context.invoked_subcommand} --json")
+
+
+@app.command("list", epilog=epilog_of("recordings list"))
+def list_recordings(as_json: JsonOption = False) -> None:
     """List the recordings that are kept, the newest last."""
-    if context.invoked_subcommand is not None:
-        return
+    found = [(path, *_seen(path)) for path in kept_recordings()]
     table = Table(show_edge=False, pad_edge=False)
     for name in ("recording", "of", "began", "lasts", "actions", "size", "state"):
         table.add_column(name, overflow="fold")
-    for path in kept_recordings():
-        table.add_row(path.name, *_row(path))
-    console = Console()
-    console = Console(width=console.width if console.is_terminal else LINE_WIDTH)
-    if table.row_count:
-        console.print(table)
-    console.print(f"{table.row_count} recordings in {recordings_folder()}", soft_wrap=True)
+    for path, seen, damage in found:
+        table.add_row(path.name, *_row(seen), "; ".join(damage) or WHOLE)
+    Output(as_json=as_json).result(
+        {
+            "folder": recordings_folder(),
+            "recordings": [{"recording": path, **_fields(seen), "damage": damage} for path, seen, damage in found],
+        },
+        *([table] if found else []),
+        f"{len(found)} recordings in {recordings_folder()}",
+    )
 
 
-@app.command()
-def verify(recording: RecordingArgument) -> None:
-    """Read a recording as a whole, and say whether anything of it is lost."""
+@app.command(epilog=epilog_of("recordings verify"))
+def verify(recording: RecordingArgument, as_json: JsonOption = False) -> None:
+    """Read a recording as a whole, and say whether anything of it is lost: exit code 0 if all is there, 1 if not."""
     path = recording_path(recording)
     seen = overview_of(path)
-    typer.echo(f"{path}: {seen.calls:,} calls, {seen.actions:,} actions, {seen.pictures:,} pictures, {_state(seen)}")
+    Output(as_json=as_json).result(
+        {"recording": path, **_fields(seen), "damage": seen.damage},
+        f"{path}: {seen.calls:,} calls, {seen.actions:,} actions, {seen.pictures:,} pictures, {_state(seen)}",
+    )
+    if seen.damage:
+        raise typer.Exit(DAMAGED)
 
 
 @app.command("trim")
@@ -77,22 +98,40 @@ def cut_out(
     typer.echo(f"{out}: {calls:,} calls, {_state(overview_of(out))}")
 
 
-def _row(path: Path) -> tuple[str, ...]:
+def _seen(path: Path) -> tuple[Overview | None, tuple[str, ...]]:
+    """A recording at a glance, and what is wrong with it; None where it can't be read."""
     try:
         seen = overview_of(path)
     except RecordingError as error:
-        return "", "", "", "", "", str(error).split(": ", 1)[-1]
-    began = "" if seen.began is None else f"{datetime.datetime.fromtimestamp(seen.began / 1e9):%Y-%m-%d %H:%M:%S}"
-    return (
-        seen.what,
-        began,
-        f"{seen.seconds:.0f} s",
-        str(seen.actions),
-        f"{seen.size / 1e6:.1f} MB",
-        "; ".join(seen.damage) or "whole",
-    )
+        return None, (str(error).split(": ", 1)[-1],)
+    return seen, seen.damage
+
+
+def _row(seen: Overview | None) -> tuple[str, ...]:
+    if seen is None:
+        return "", "", "", "", ""
+    began = "" if seen.began is None else f"{_local(seen.began):%Y-%m-%d %H:%M:%S}"
+    return seen.what, began, f"{seen.seconds:.0f} s", str(seen.actions), f"{seen.size / 1e6:.1f} MB"
+
+
+def _fields(seen: Overview | None) -> dict[str, Any]:
+    if seen is None:
+        return dict.fromkeys(("what", "version", "began", "seconds", "calls", "actions", "pictures", "size"))
+    return {
+        "what": seen.what,
+        "version": seen.version,
+        "began": None if seen.began is None else _local(seen.began).isoformat(timespec="seconds"),
+        "seconds": seen.seconds,
+        "calls": seen.calls,
+        "actions": seen.actions,
+        "pictures": seen.pictures,
+        "size": seen.size,
+    }
+
+
+def _local(time_ns: int) -> datetime.datetime:
+    return datetime.datetime.fromtimestamp(time_ns / 1e9)
 
 
 def _state(seen: Overview) -> str:
-    whole = "; ".join(seen.damage) or "whole"
-    return f"{seen.seconds:.0f} s, {seen.size / 1e6:.1f} MB, {whole}"
+    return f"{seen.seconds:.0f} s, {seen.size / 1e6:.1f} MB, {'; '.join(seen.damage) or WHOLE}"

@@ -9,6 +9,8 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from calibration.font.of_recording import font_of_recording
+from calibration.installation.folders import System
 from mc_nested.cli.output import JsonOption
 from mc_nested.cli.recording_options import RecordingArgument, recording_path
 from mc_nested.errors import RecordingError
@@ -26,7 +28,11 @@ LINE_WIDTH = 120
 def replay(
     recording: RecordingArgument,
     font: Annotated[
-        Path | None, typer.Option(metavar="JAR|PNG", help="the game's font [the one that its profile names]")
+        Path | None,
+        typer.Option(
+            metavar="JAR|PNG",
+            help="the game's font [its profile's, or that of a game on this computer]",
+        ),
     ] = None,
     pictures: Annotated[
         Path | None, typer.Option(metavar="DIR", help="write what is read otherwise as pictures")
@@ -35,7 +41,7 @@ def replay(
 ) -> None:
     """Read and decide again what a recording holds: exit code 0 if all is as it was, 1 if anything differs."""
     path = recording_path(recording)
-    seen = replayed(path, load_font(font) if font else None)
+    seen = replayed(path, load_font(font) if font else font_of_recording(path, System.here()))
     if pictures is not None:
         _write_pictures(seen, pictures)
     if as_json:

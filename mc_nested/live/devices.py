@@ -41,14 +41,6 @@ class DesktopArea:
     height: int
 
 
-@dataclass(frozen=True)
-class Placement:
-    """Where on the desktop the window's client area and the monitors are; no monitors where the system names none."""
-
-    window: DesktopArea
-    monitors: tuple[DesktopArea, ...] = ()
-
-
 class Clock(Protocol):
     """Monotonic time in seconds, from an arbitrary zero."""
 
@@ -112,7 +104,8 @@ class Clipboard(Protocol):
 class Devices:
     """The devices of one game window.
 
-    ``placement`` says where on the desktop the window and the monitors are; None if that can't be known.
+    ``area`` says where on the desktop the window's client area is, ``monitors`` where the monitors are, none where the
+    system names none; None if that can't be known.
     """
 
     display: Display
@@ -120,4 +113,5 @@ class Devices:
     pointer: Pointer
     clock: Clock
     clipboard: Clipboard
-    placement: Callable[[], Placement] | None = None
+    area: Callable[[], DesktopArea] | None = None
+    monitors: Callable[[], tuple[DesktopArea, ...]] | None = None

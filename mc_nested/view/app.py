@@ -142,7 +142,9 @@ class ViewApp(App[None]):
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Keys that can't do anything now aren't offered."""
-        if action in ("pause", "stop"):
+        if action == "pause":
+            return self._life == "runs" and self._status.can_pause
+        if action == "stop":
             return self._life == "runs"
         if action == "answer":
             return self._life == "runs" and self._status.question is not None and self._past is None

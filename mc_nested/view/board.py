@@ -28,6 +28,7 @@ class Board:
         self._action = Action.F
         self._reading: dict[str, Fact] | None = None
         self._own = "begins"
+        self._before_waiting = Doing(self._own)
         self._lock = threading.Lock()
 
     def note(self, kind: NoteKind, /, **facts: Fact) -> None:
@@ -73,8 +74,10 @@ class Board:
 
     def _wait_no_longer(self) -> None:
         if self._fields.get("mood") == "waits":
-            self._begin(Doing(self._own))
+            self._begin(self._before_waiting)
 
     def _begin(self, doing: Doing) -> None:
+        if doing.mood != "waits":
+            self._before_waiting = doing
         with self._lock:
             self._fields.update(doing=doing.text, mood=doing.mood, detail="", since=self._clock())

@@ -105,8 +105,8 @@ class Learning(BaseModel):
 class Status(BaseModel):
     """A run at one moment. Times are seconds since 1970; ``since`` is when it began what it does now.
 
-    ``question`` waits for an answer of a person, by its number; ``pausing``: it pauses after what is under way;
-    ``ended`` says how the run ended.
+    ``question`` waits for an answer of a person, by its number; ``can_pause``: it pauses when it is asked to;
+    ``pausing``: it does so after what is under way; ``ended`` says how the run ended.
     """
 
     model_config = ConfigDict(frozen=True, ser_json_inf_nan="constants")
@@ -119,6 +119,7 @@ class Status(BaseModel):
     detail: Words = ""
     mood: Mood = "works"
     since: float = 0.0
+    can_pause: bool = True
     pausing: bool = False
     paused: bool = False
     stopping: bool = False

@@ -95,7 +95,13 @@ class VirtualClient:
         self.keyboard = VirtualKeyboard(self.window, self.controls)
         self.pointer = VirtualPointer(self.clock, self.window, self.game, self.controls, lambda: self.scale)
         self.devices = Devices(
-            self.display, self.keyboard, self.pointer, self.clock, self.clipboard, self.display.placement
+            self.display,
+            self.keyboard,
+            self.pointer,
+            self.clock,
+            self.clipboard,
+            self.display.area,
+            lambda: (self.display.area(),),
         )
 
         self._missed: int | None = None

@@ -1,5 +1,6 @@
 """``mc-nested build``: a known design in the simulator, in a live game that fails, and on the virtual client."""
 
+import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -9,6 +10,7 @@ import pytest
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.cli import options
+from mc_nested.cli.json_fields import JSON_FIELDS
 from mc_nested.errors import LiveError, NotInFrontError, StoppedError
 from mc_nested.live.devices import Display
 from mc_nested.live.live_game import LiveGame
@@ -22,6 +24,7 @@ from tests.design_files.written import HUT, picture, sponge
 from tests.sim.client.playing import arena_of, play
 
 COPIED = Arena.around((0, 64, 0), "south").model_copy(update={"copied_to": (-1, 100, -1)})
+UNCOPIED = {"arena": Arena.around((0, 64, 0), "south")}
 
 
 @pytest.fixture
@@ -87,6 +90,20 @@ def test_what_can_not_be_built_is_one_line_and_exit_code_2(
     assert printed.err.count("\n") == 1
 
 
+def test_for_a_program_it_prints_what_was_built(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("build", "line", "--json") == 0
+    printed = capsys.readouterr()
+    found = json.loads(printed.out)
+    assert found.keys() == JSON_FIELDS["build"].keys()
+    assert found == {"scenario": "line", "blocks": 11, "built": 11, "material": "stone", "steps": 13, "film": None}
+    assert printed.err == ""
+
+
+def test_quietly_it_says_only_what_was_built(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("build", "line", "--quiet") == 0
+    assert capsys.readouterr() == ("  built 11 of 11 blocks, of stone, in 13 steps\n", "")
+
+
 @pytest.mark.usefixtures("profile")
 def test_in_a_live_game_it_says_how_what_stood_there_comes_back(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
@@ -103,17 +120,19 @@ def test_in_a_live_game_it_says_how_what_stood_there_comes_back(
 
 
 @pytest.mark.parametrize(
-    ("changes", "says"),
+    ("changes", "words", "says"),
     [
-        ({"arena": Arena.around((0, 64, 0), "south")}, "the profile knows no copy of what stood there"),
+        (UNCOPIED, ["--yes"], "the profile knows no copy of what stood there"),
         (
             {"world": WorldTable(folder="~/saves/one", name="one", template="~/kept/one")},
+            [],
             "the world comes back from ~/kept/one with the next episode",
         ),
     ],
 )
 def test_where_nothing_was_copied_it_says_so_before_anything_is_changed(
     changes: dict[str, object],
+    words: list[str],
     says: str,
     profile: Path,
     monkeypatch: pytest.MonkeyPatch,
@@ -121,8 +140,21 @@ def test_where_nothing_was_copied_it_says_so_before_anything_is_changed(
 ) -> None:
     save_profile(Profile(arena=COPIED).model_copy(update=changes), profile)
     open_live(monkeypatch, 0, LiveError("it lagged"))
-    assert run("build", "line", "--backend", "live", "--profile", "mine") == 2
+    assert run("build", "line", "--backend", "live", "--profile", "mine", *words) == 2
     assert says in capsys.readouterr().err.splitlines()[0]
+
+
+def test_what_can_not_be_put_back_is_not_cleared_unless_that_is_said(
+    profile: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    save_profile(Profile(arena=COPIED).model_copy(update=UNCOPIED), profile)
+    open_live(monkeypatch, float("inf"))
+    assert run("build", "line", "--backend", "live", "--profile", "mine") == 2
+    assert capsys.readouterr().err == (
+        "mc-nested: building clears the arena, and the profile knows no copy of what stood there before: make one with "
+        "mc-nested calibrate arena, or build anyway with --yes\n"
+    )
+    assert run("build", "line", "--backend", "live", "--profile", "mine", "--yes") == 0
 
 
 @pytest.mark.usefixtures("profile")

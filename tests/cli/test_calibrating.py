@@ -9,7 +9,7 @@ import pytest
 
 from calibration.context import CalibrationContext
 from calibration.open_context import OpenContext
-from mc_nested.cli import calibrating
+from mc_nested.cli import calibrate_all, calibrating
 from mc_nested.cli.viewing import Viewed
 from mc_nested.errors import UserError
 from mc_nested.live.journal import Journal
@@ -84,6 +84,7 @@ def test_its_questions_and_its_journal_go_to_the_view(asked: OnlyQuestion, is_vi
     [
         (("font",), "Font and screen"),
         (("arena",), "Arena"),
+        (("arena", "--mark-only"), "Arena"),
         (("walk",), "Walk"),
         (("clicks",), "Click points"),
         (("clicks", "one"), "Click points"),
@@ -96,5 +97,17 @@ def test_every_step_has_a_view(
     save_profile(profile_in(tmp_path), file)
     assert run("calibrate", *words, "--profile", file, "--record", "off", "--view") == 2
     assert capsys.readouterr().err == "mc-nested: that is all\n"
-    assert asked.is_viewed
-    assert asked.board.status().doing == doing
+    status = asked.board.status()
+    assert (asked.is_viewed, status.doing, status.can_pause) == (True, doing, False)
+
+
+def test_the_guided_run_has_a_view_that_can_pause_it(
+    asked: OnlyQuestion, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(calibrate_all, "_examined", lambda *_: [])
+    words = ("--profile", tmp_path / "mine.toml", "--record", "off", "--view")
+    assert run("calibrate", "all", *words) == 2
+    assert capsys.readouterr().err == "mc-nested: that is all\n"
+    status = asked.board.status()
+    assert (asked.is_viewed, status.can_pause) == (True, True)
+    assert status.doing == "looks at this computer and at the game, as mc-nested doctor does"

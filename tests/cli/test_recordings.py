@@ -1,3 +1,4 @@
+import importlib.metadata
 import json
 import zipfile
 from pathlib import Path
@@ -9,6 +10,7 @@ from calibration.bug_report import write_bug_report
 from calibration.doctor.check import Check, CheckName
 from calibration.report.privacy import Names
 from mc_nested.cli.app import main
+from mc_nested.cli.json_fields import JSON_FIELDS
 from mc_nested.live.recording.opened import MOST_RECORDINGS, kept_recordings, recordings_folder
 from mc_nested.live.recording.recording_file import facts_of
 from scripts.recorded_play import record_play
@@ -60,6 +62,33 @@ def test_one_is_verified_by_its_name(kept: Path, capsys: pytest.CaptureFixture[s
     assert code == 0
     assert "30 actions" in said
     assert said.strip().endswith("whole")
+
+
+def test_for_a_program_they_are_listed_as_json(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (kept.parent / "broken").mkdir()
+    (kept.parent / "broken" / "00001.mcap").write_bytes(b"nothing")
+    code, said = run(capsys, "recordings", "list", "--json")
+    found = json.loads(said)
+    assert (code, found.keys()) == (0, JSON_FIELDS["recordings list"].keys())
+    assert {frozenset(each) for each in found["recordings"]} == {frozenset(JSON_FIELDS["recordings verify"])}
+    by_name = {Path(each["recording"]).name: each for each in found["recordings"]}
+    assert (by_name["play"]["actions"], by_name["play"]["damage"]) == (30, [])
+    assert (by_name["broken"]["actions"], len(by_name["broken"]["damage"])) == (None, 1)
+    assert json.loads(run(capsys, "recordings", "verify", "play", "--json")[1]) == by_name["play"]
+    assert run(capsys, "recordings", "--json", "verify", "play") == (
+        2,
+        "mc-nested: write --json at the end: mc-nested recordings verify --json\n",
+    )
+
+
+def test_one_of_which_something_is_lost_has_an_exit_code_of_its_own(
+    kept: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    whole = next(kept.glob("*.mcap")).read_bytes()
+    (tmp_path / "cut.mcap").write_bytes(whole[: len(whole) // 2])
+    code, said = run(capsys, "recordings", "verify", str(tmp_path / "cut.mcap"))
+    assert code == 1
+    assert "whole" not in said
 
 
 def test_a_name_that_is_none_is_one_line(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -117,16 +146,35 @@ def test_the_oldest_of_many_makes_room(kept: Path) -> None:
     assert len(kept_recordings()) == MOST_RECORDINGS - 1
 
 
+def test_a_bug_report_without_a_recording_holds_the_versions(tmp_path: Path) -> None:
+    out = tmp_path / "report.zip"
+    said = write_bug_report(out, [], None, None, 600.0, Names("/home/ann", ("ann",)))
+    assert said == [
+        "doctor.json: the 0 rows of mc-nested doctor",
+        "versions.json: of mc-nested, Python and the system",
+    ]
+    with zipfile.ZipFile(out) as file:
+        assert json.loads(file.read("versions.json")).keys() == {"version", "python", "system"}
+
+
 def test_a_bug_report_holds_what_it_says_and_no_names(recorded: Path, tmp_path: Path) -> None:
     check = Check(CheckName.CLIPBOARD, "pass", "/home/ann/.minecraft is read", "")
     out = tmp_path / "report.zip"
     profile = '[screen]\nfont = "/home/ann/versions/1.20.1.jar"\n'
     said = write_bug_report(out, [check], profile, recorded, 600.0, Names("/home/ann", ("ann",)))
     with zipfile.ZipFile(out) as file:
-        assert [line.split(":")[0] for line in said] == file.namelist()
+        about = [line.split(":")[0] for line in said]
+        assert about[-1] == "what may be seen on its pictures"
+        assert set(file.namelist()) == set(about[:-1])
+        versions = json.loads(file.read("versions.json"))
         texts = [file.read(name) for name in file.namelist()]
         file.extract("recording.mcap", tmp_path)
     assert not any(b"/home/ann" in text for text in texts)
     assert b"~/.minecraft is read" in texts[0]
-    assert "30 actions" in said[-1]
+    assert "30 actions" in said[3]
+    assert versions["version"] == versions["recording"]["version"] == importlib.metadata.version("mc-nested")
+    assert said[2] == (
+        "versions.json: of mc-nested, Python and the system; of the recording: what, version, python, system, size, "
+        "window, monitors, title"
+    )
     assert facts_of(tmp_path / "recording.mcap")["what"] == "test"

@@ -14,13 +14,16 @@ from pathlib import Path
 from scripts import environment
 from scripts.test import OTHERS
 from tests.docs.pages import ROOT, Step
-from tests.docs.rules import BY_THE_SUITE, LIVE_SNIPPET, as_run, is_live
+from tests.docs.rules import BY_THE_SUITE, IN_A_WINDOW, IN_THE_STANDIN, LIVE_SNIPPET, MEASURES, as_run, is_live
 from tests.docs.shell import Shell, StepError
 from tests.docs.windows import RehearsalWindows, VirtualDesktop
 
 DRY_RUN = ("-m", "pip", "install", "--dry-run", "--quiet", "--disable-pip-version-check")
 """pip finds out what it would install, and leaves the environment as it is."""
 
+
+IN_A_WINDOW_S = 600.0
+"""A program that calibrates in a window, and then plays there, takes two minutes where nothing else runs."""
 
 STRICT = ("-W", "error", "-W", "ignore:invalid escape sequence")
 """A warning is an error, but for moviepy's own, once, where an old pip has left it uncompiled."""
@@ -94,7 +97,15 @@ class Reader:
         words = shlex.split(command)[1:]
         if is_live(command):
             return self._desktop.ask(step, {"script": words})
+        if command.startswith((*IN_A_WINDOW, *IN_THE_STANDIN)):
+            return self._run_in_a_window(step, words)
         return self._shell.run(step, [sys.executable, *words], ROOT)
+
+    def _run_in_a_window(self, step: Step, words: list[str]) -> str:
+        """A program that plays in a real window, or draws one; what it draws goes into the reader's folder."""
+        command = [sys.executable, str(ROOT / words[0]), *words[1:]]
+        measures = step.text.startswith(MEASURES)
+        return self._shell.run(step, command, limit_s=IN_A_WINDOW_S, may_end_with=(0, 1) if measures else (0,))
 
     def _run_snippet(self, step: Step) -> str:
         if LIVE_SNIPPET in step.text:

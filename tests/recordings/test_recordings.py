@@ -1,18 +1,44 @@
 """Every recording in this folder reads and decides as it did: drop one in, and it is a test.
 
-``NAME.mcap`` is read with the font ``NAME.png`` beside it, or with the virtual client's own. Cut a part out of a longer
-one with ``mc-nested recordings cut REC tests/recordings/NAME.mcap --no-pictures``.
+``NAME.mcap`` is read with the font ``NAME.png`` beside it, else with its profile's, else with that of a game on this
+computer. Recordings of the virtual client and of the rehearsal window are in ``virtual/``: they are written in the
+project's own font. Cut a part out of a longer one with
+``mc-nested recordings cut REC tests/recordings/NAME.mcap --no-pictures``.
+
+There is none of a real game or of the stand-in here, since their letters are Mojang's.
 """
 
+import zipfile
 from pathlib import Path
 
 import pytest
 
+from calibration.font.of_recording import font_of_recording
+from calibration.installation.folders import System
+from mc_nested.errors import FontError
 from mc_nested.live.recording.replay import replay
-from mc_nested.live.vision.font import load_font
+from mc_nested.live.vision.font import ENTRY, Font, load_font
+from tests.calibration.contexts import font_file_in
 from tests.sim.client.playing import FONT
 
-RECORDINGS = sorted(Path(__file__).parent.glob("*.mcap"))
+FOLDER = Path(__file__).parent
+VIRTUAL = FOLDER / "virtual"
+RECORDINGS = sorted(FOLDER.rglob("*.mcap"))
+
+
+def check(path: Path, system: System) -> None:
+    seen = replay(path, font_for(path, system))
+    assert seen.differences == []
+    assert seen.damaged == []
+    assert seen.read_anew > 0
+    assert seen.followed == seen.actions
+
+
+def font_for(path: Path, system: System) -> Font:
+    if path.parent == VIRTUAL:
+        return FONT
+    beside = path.with_suffix(".png")
+    return load_font(beside) if beside.is_file() else font_of_recording(path, system)
 
 
 def test_there_are_some() -> None:
@@ -21,9 +47,20 @@ def test_there_are_some() -> None:
 
 @pytest.mark.parametrize("path", RECORDINGS, ids=lambda path: path.stem)
 def test_it_is_read_and_decided_as_it_was(path: Path) -> None:
-    font = path.with_suffix(".png")
-    seen = replay(path, load_font(font) if font.is_file() else FONT)
-    assert seen.differences == []
-    assert seen.damaged == []
-    assert seen.read_anew > 0
-    assert seen.followed == seen.actions
+    check(path, System.here())
+
+
+def test_one_that_is_dropped_in_finds_its_font(tmp_path: Path) -> None:
+    system = System("linux", tmp_path, {})
+    dropped = tmp_path / "line.mcap"
+    dropped.write_bytes((VIRTUAL / "virtual-client-1.20.1.mcap").read_bytes())
+    with pytest.raises(FontError, match="isn't on this computer: name its client jar with --font"):
+        check(dropped, system)
+    jar = tmp_path / ".minecraft" / "versions" / "1.20.1" / "1.20.1.jar"
+    jar.parent.mkdir(parents=True)
+    with zipfile.ZipFile(jar, "w") as packed:
+        packed.write(font_file_in(tmp_path), ENTRY)
+    check(dropped, system)
+    jar.unlink()
+    font_file_in(tmp_path).rename(dropped.with_suffix(".png"))
+    check(dropped, system)

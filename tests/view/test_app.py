@@ -171,6 +171,14 @@ def test_keys_ask_the_run(live: Path, keys: list[str], wanted: Heard) -> None:
     assert pressed(live, *keys)[1] == wanted
 
 
+def test_a_run_that_can_not_pause_is_not_asked_to_and_p_is_not_offered(live: Path) -> None:
+    screen, heard = pressed(live, "p", status=LIVE.model_copy(update={"can_pause": False}))
+
+    assert not heard.pause
+    assert "pause" not in screen
+    assert " s stop" in screen
+
+
 def test_ctrl_c_stops_the_run_whose_own_view_it_is(live: Path) -> None:
     assert pressed(live, "ctrl+c", closes_at_end=True)[1].stop
 

@@ -62,6 +62,19 @@ def test_who_types_or_walks_or_clicks_waits_no_longer() -> None:
     )
 
 
+def test_a_reset_that_waited_goes_on_as_a_reset() -> None:
+    board, _ = a_board()
+    board.note("resets", material=0, placed=(), pressed=(), tick_phase=(0.0, 0.0, 0.0))
+    resetting = board.status().doing
+    board.note("waits", on="the game")
+    board.note("recovers", screen="pause")
+    board.note("types", line="/time set 6000")
+
+    status = board.status()
+
+    assert (status.doing, status.detail, status.mood) == (resetting, "types /time set 6000", "plays")
+
+
 def test_what_is_said_again_goes_on_as_before() -> None:
     board, clock = a_board()
     board.does("trains")

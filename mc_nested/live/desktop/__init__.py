@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from mc_nested.live.desktop.clock import MonotonicClock
 from mc_nested.live.desktop.display import WindowDisplay
 from mc_nested.live.desktop.system import open_camera, this_system
-from mc_nested.live.devices import Clipboard, Devices, Placement
+from mc_nested.live.devices import Clipboard, Devices
 
 
 @contextmanager
@@ -33,11 +33,7 @@ def open_desktop(title: str) -> Iterator[Devices]:
             display = WindowDisplay(window, camera)
             pointer = DesktopPointer(window, display.ratio)
             clipboard = system.open_clipboard()
-
-            def placement() -> Placement:
-                return Placement(display.area(), monitors())
-
-            yield Devices(display, keyboard, pointer, MonotonicClock(), clipboard, placement)
+            yield Devices(display, keyboard, pointer, MonotonicClock(), clipboard, display.area, monitors)
 
 
 def open_clipboard() -> Clipboard:

@@ -14,8 +14,8 @@ from mc_nested.live.recording.recording_file import PartEnd, TimedCall, facts_of
 _BATCH = 500
 """Calls that are written at once."""
 
-_SAYS_NAMES = ("title", "error", "note")
-"""Calls that hold words, in which a name or a path can be."""
+_WORDS_FROM = {"title": 1, "stop": 1, "note": 2, "error": 3}
+"""Calls that hold words, in which a name or a path can be, and where in the call they begin."""
 
 
 def cut(
@@ -109,14 +109,23 @@ def _batches(path: Path, first: int, last: int) -> Iterator[tuple[list[Timed], l
 
 
 def _cleaned(call: list[Any], clean: Callable[[str], str]) -> list[Any]:
-    if call[0] not in _SAYS_NAMES:
-        return call
-    return [_cleaned_value(value, clean) for value in call]
+    """The call without what others mustn't read. Names of keys, of methods and pixels stay as they are."""
+    if call[0] == "elsewhere":
+        return ["elsewhere", *_cleaned(call[1:], clean)]
+    if call[:2] == ["key", "type"]:
+        begin, end = 2, 3
+    elif call[0] == "screen":
+        begin, end = 2, 3  # what was asked, as a line that should be typed; behind it is the answer, with its pixels
+    else:
+        begin, end = _WORDS_FROM.get(call[0], len(call)), len(call)
+    return [*call[:begin], *(_cleaned_value(value, clean) for value in call[begin:end]), *call[end:]]
 
 
 def _cleaned_value(value: Any, clean: Callable[[str], str]) -> Any:
     if isinstance(value, str):
         return clean(value)
+    if isinstance(value, list):
+        return [_cleaned_value(each, clean) for each in value]
     if isinstance(value, dict):
         return {name: _cleaned_value(each, clean) for name, each in value.items()}
     return value

@@ -14,7 +14,7 @@ import tomlkit
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.errors import RecordingError
-from mc_nested.live.devices import DesktopArea, Devices, Placement
+from mc_nested.live.devices import DesktopArea, Devices
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.format import FORMAT, SUFFIX
 from mc_nested.live.recording.recorder import Recorder
@@ -120,6 +120,15 @@ def run_recorder(
     return recorder_opener(where, what, say, facts)
 
 
+def versions_here() -> dict[str, str]:
+    """The versions of this program, of Python and of the system."""
+    return {
+        "version": importlib.metadata.version("mc-nested"),
+        "python": platform.python_version(),
+        "system": platform.platform(),
+    }
+
+
 def make_room() -> None:
     """Delete the oldest recordings where they lie by default, so that there is room for one more."""
     for old in kept_recordings()[: 1 - MOST_RECORDINGS]:
@@ -142,25 +151,15 @@ def _facts(what: str, profile: Profile, devices: Devices) -> dict[str, str]:
     return {
         "format": str(FORMAT),
         "what": what,
-        "version": importlib.metadata.version("mc-nested"),
-        "python": platform.python_version(),
-        "system": platform.platform(),
+        **versions_here(),
         "size": f"{width}x{height}",
         "title": devices.display.title(),
         "profile": tomlkit.dumps(document),
-        **_placement_facts(devices.placement() if devices.placement else None),
-    }
-
-
-def _placement_facts(placement: Placement | None) -> dict[str, str]:
-    """Where the window and the monitors are, in points of the desktop: "854x480 at 100 50"."""
-    if placement is None:
-        return {"window": UNKNOWN, "monitors": UNKNOWN}
-    return {
-        "window": _area_words(placement.window),
-        "monitors": ", ".join(map(_area_words, placement.monitors)) or UNKNOWN,
+        "window": _area_words(devices.area()) if devices.area else UNKNOWN,
+        "monitors": ", ".join(map(_area_words, devices.monitors() if devices.monitors else ())) or UNKNOWN,
     }
 
 
 def _area_words(area: DesktopArea) -> str:
+    """As "854x480 at 100 50", in points of the desktop."""
     return f"{area.width}x{area.height} at {area.left} {area.top}"

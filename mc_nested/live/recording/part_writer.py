@@ -38,11 +38,6 @@ class PartWriter:
             self._channels[topic] = self._writer.register_channel(topic, "json", schema_id)
         self._writer.add_metadata(FACTS, dict(facts))
 
-    @property
-    def size(self) -> int:
-        """Bytes so far."""
-        return self._file.tell()
-
     def write(
         self, calls: Sequence[Timed], events: Sequence[Timed], pictures: Sequence[tuple[int, KeptPicture]]
     ) -> None:

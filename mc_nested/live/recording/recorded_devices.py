@@ -26,7 +26,8 @@ def recorded(devices: Devices, tape: Tape) -> Devices:
         RecordedPointer(devices.pointer, tape),
         RecordedClock(devices.clock, tape),
         RecordedClipboard(devices.clipboard, tape),
-        devices.placement,
+        devices.area,
+        devices.monitors,
     )
 
 

@@ -62,6 +62,14 @@ class Replayed:
     differences: list[Difference] = field(default_factory=list)
 
 
+def profile_of(path: Path, facts: Mapping[str, str]) -> Profile:
+    """The profile of a recording that says these facts of itself; RecordingError if it says nothing of it."""
+    try:
+        return parse_profile(facts["profile"], f"{path}: its profile")
+    except KeyError:
+        raise RecordingError(f"{path}: says nothing of its profile: it can't be replayed") from None
+
+
 def replay(path: Path, font: Font | None = None, on_progress: Callable[[Replayed], None] = lambda _: None) -> Replayed:
     """Replay a recording's file or folder.
 
@@ -75,7 +83,7 @@ def replay(path: Path, font: Font | None = None, on_progress: Callable[[Replayed
         FontError: its profile's font isn't on this computer.
     """
     facts = facts_of(path)
-    profile = _profile_of(path, facts)
+    profile = profile_of(path, facts)
     player = _Player(path, facts, profile, font or load_font(profile.screen.font_path()), on_progress)
     return player.play()
 
@@ -179,13 +187,6 @@ class _Player:
                     self.seen.damaged.append(f"{each.path.name}: {each.problem}")
             else:
                 yield each.call
-
-
-def _profile_of(path: Path, facts: Mapping[str, str]) -> Profile:
-    try:
-        return parse_profile(facts["profile"], f"{path}: its profile")
-    except KeyError:
-        raise RecordingError(f"{path}: says nothing of its profile: it can't be replayed") from None
 
 
 def _words(call: list[Any] | None) -> str:

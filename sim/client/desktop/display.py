@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from mc_nested.live.devices import DesktopArea, Frame, Placement, Region
+from mc_nested.live.devices import DesktopArea, Frame, Region
 from sim.client.desktop.clock import VirtualClock
 from sim.client.desktop.frames import Frames
 from sim.client.desktop.window import VirtualWindow
@@ -60,10 +60,9 @@ class VirtualDisplay:
     def is_in_front(self) -> bool:
         return self._window.is_in_front
 
-    def placement(self) -> Placement:
-        """A window that fills its desktop's only monitor."""
-        screen = DesktopArea(0, 0, *self.size())
-        return Placement(screen, (screen,))
+    def area(self) -> DesktopArea:
+        """All of its desktop, whose only monitor it fills."""
+        return DesktopArea(0, 0, *self.size())
 
     def grab(self, region: Region | None = None) -> Frame:
         frame = self.painter.grab(self.seen(), region)

@@ -3,7 +3,7 @@
 The debug screen's own reading is tested in tests/live; here one is drawn with a made-up font, as a game would show it.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
@@ -14,19 +14,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibration.arena.mark import arena_from_reading, mark_arena, mark_question
+from calibration.context import CalibrationContext
+from calibration.open_context import OpenContext
 from mc_nested.arena.action import Cell
 from mc_nested.errors import DesktopError, ProfileError, UserError
+from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Devices, Frame, Region
+from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.coordinates import Facing, centre_of, yaw_of
 from mc_nested.live.model.reading import Block, Reading
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import load_profile
+from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import load_font
 from sim.client.desktop.clipboard import VirtualClipboard
 from sim.client.drawing.f3_layers import paint
 from sim.client.game.f3_text import F3Screen
-
-Open = Callable[[str], AbstractContextManager[Devices]]
 
 FACINGS: list[Facing] = ["north", "south", "west", "east"]
 CELLS = st.tuples(st.integers(0, 14), st.integers(0, 14))
@@ -151,23 +154,24 @@ def font_file(tmp_path: Path) -> Path:
 SCREEN = F3Screen("1.19.3-1.21.8", 2, (-3.412, 64.0, 118.633), 97.3, 12.0, version="1.20.1")
 
 
-def window_titled(name: str, font_file: Path) -> Open:
+def window_titled(name: str, font_file: Path) -> OpenContext:
     @contextmanager
-    def open_devices(title: str) -> Iterator[Devices]:
-        assert title
+    def open_context(profile: Profile) -> Iterator[CalibrationContext]:
         frame = paint(np.full((480, 854, 3), 120, np.uint8), SCREEN, load_font(font_file))
-        yield Devices(DrawnDisplay(frame, title=name), NoInput(), NoInput(), SkippingClock(), VirtualClipboard())
+        devices = Devices(DrawnDisplay(frame, title=name), NoInput(), NoInput(), SkippingClock(), VirtualClipboard())
+        connection = GameConnection(devices, InputController(devices, profile.input))
+        yield CalibrationContext(connection, lambda _: None, lambda _: False)
 
-    return open_devices
+    return open_context
 
 
 @pytest.fixture
-def opened(font_file: Path) -> Open:
+def opened(font_file: Path) -> OpenContext:
     return window_titled("Minecraft 1.20.1 - Singleplayer", font_file)
 
 
 def test_the_arena_that_the_screen_shows_is_written_into_a_new_profile(
-    tmp_path: Path, font_file: Path, opened: Open
+    tmp_path: Path, font_file: Path, opened: OpenContext
 ) -> None:
     file = tmp_path / "mine.toml"
     questions: list[str] = []
@@ -177,7 +181,7 @@ def test_the_arena_that_the_screen_shows_is_written_into_a_new_profile(
         questions.append(question)
         return True
 
-    assert mark_arena(file, ask=agree, say=told.append, font=font_file, open_devices=opened) == file
+    assert mark_arena(file, opened, ask=agree, say=told.append, font=font_file) == file
     profile = load_profile(file)
     # Facing west from block (-4, 64, 118): the right hand is north, so cell (0, 0) is 7 to the south.
     assert profile.marked_arena() == Arena.around((-4, 64, 125), "west")
@@ -205,15 +209,15 @@ def old_profile(tmp_path: Path, font_file: Path) -> Path:
     return file
 
 
-def test_an_old_profile_keeps_what_else_it_says(old_profile: Path, opened: Open) -> None:
-    mark_arena(old_profile, ask=lambda _: True, say=lambda _: None, open_devices=opened)
+def test_an_old_profile_keeps_what_else_it_says(old_profile: Path, opened: OpenContext) -> None:
+    mark_arena(old_profile, opened, ask=lambda _: True, say=lambda _: None)
     profile = load_profile(old_profile)
     assert (profile.marked_arena().facing, profile.keys.forward) == ("west", "z")
     assert old_profile.read_text("utf-8").startswith("# my own notes")
 
 
-def test_the_cell_that_the_player_stands_on_may_be_another(old_profile: Path, opened: Open) -> None:
-    mark_arena(old_profile, ask=lambda _: True, say=lambda _: None, standing=(7, 14), open_devices=opened)
+def test_the_cell_that_the_player_stands_on_may_be_another(old_profile: Path, opened: OpenContext) -> None:
+    mark_arena(old_profile, opened, ask=lambda _: True, say=lambda _: None, standing=(7, 14))
     assert load_profile(old_profile).marked_arena().block_of((7, 14)) == (-4, 64, 118)
 
 
@@ -231,25 +235,25 @@ def test_the_cell_that_the_player_stands_on_may_be_another(old_profile: Path, op
 def test_the_version_is_the_titles_or_stays(title: str, version: str, old_profile: Path, font_file: Path) -> None:
     old_profile.write_text(old_profile.read_text("utf-8") + '[game]\nversion = "1.16.5"\n', "utf-8")
     window = window_titled(title, font_file)
-    mark_arena(old_profile, ask=lambda _: True, say=lambda _: None, open_devices=window)
+    mark_arena(old_profile, window, ask=lambda _: True, say=lambda _: None)
     assert load_profile(old_profile).game.version == version
 
 
-def test_with_yes_nothing_is_asked(old_profile: Path, opened: Open) -> None:
+def test_with_yes_nothing_is_asked(old_profile: Path, opened: OpenContext) -> None:
     def ask(question: str) -> bool:
         raise AssertionError(question)
 
-    assert mark_arena(old_profile, ask=ask, say=lambda _: None, yes=True, open_devices=opened) == old_profile
+    assert mark_arena(old_profile, opened, ask=ask, say=lambda _: None, yes=True) == old_profile
 
 
-def test_a_no_leaves_the_profile_as_it_was(old_profile: Path, opened: Open) -> None:
+def test_a_no_leaves_the_profile_as_it_was(old_profile: Path, opened: OpenContext) -> None:
     before = old_profile.read_bytes()
-    assert mark_arena(old_profile, ask=lambda _: False, say=lambda _: None, open_devices=opened) is None
+    assert mark_arena(old_profile, opened, ask=lambda _: False, say=lambda _: None) is None
     assert old_profile.read_bytes() == before
 
 
 @pytest.mark.parametrize("stage", ["say", "ask"])
-def test_ctrl_c_leaves_the_profile_as_it_was(stage: str, old_profile: Path, opened: Open) -> None:
+def test_ctrl_c_leaves_the_profile_as_it_was(stage: str, old_profile: Path, opened: OpenContext) -> None:
     before = old_profile.read_bytes()
 
     def reached(at: str) -> bool:
@@ -261,13 +265,13 @@ def test_ctrl_c_leaves_the_profile_as_it_was(stage: str, old_profile: Path, open
         reached("say")
 
     with pytest.raises(KeyboardInterrupt):
-        mark_arena(old_profile, ask=lambda _: reached("ask"), say=say, open_devices=opened)
+        mark_arena(old_profile, opened, ask=lambda _: reached("ask"), say=say)
     assert old_profile.read_bytes() == before
     assert list(old_profile.parent.glob("old.toml?*")) == []
 
 
-def refused(title: str) -> AbstractContextManager[Devices]:
-    raise DesktopError(f"no window's title matches {title!r}")
+def refused(profile: Profile) -> AbstractContextManager[CalibrationContext]:
+    raise DesktopError(f"no window's title matches {profile.window.title!r}")
 
 
 def test_mistakes_are_reported_before_a_window_is_looked_for(tmp_path: Path, font_file: Path) -> None:
@@ -280,7 +284,7 @@ def test_mistakes_are_reported_before_a_window_is_looked_for(tmp_path: Path, fon
         (tmp_path / "new.toml", (7, 0), font_file, DesktopError, "no window"),
     ):
         with pytest.raises(error, match=message):
-            mark_arena(file, ask=lambda _: True, say=lambda _: None, standing=standing, font=font, open_devices=refused)
+            mark_arena(file, refused, ask=lambda _: True, say=lambda _: None, standing=standing, font=font)
     assert broken.read_text("utf-8") == "[arena\n"
     assert not (tmp_path / "new.toml").exists()
 
@@ -292,16 +296,16 @@ def test_a_size_that_no_arena_has_is_one_line_before_a_window_is_looked_for(
     with pytest.raises(UserError, match=f"{size} x {size} cells: choose 15 to 32 cells along each side"):
         mark_arena(
             tmp_path / "new.toml",
+            refused,
             ask=lambda _: True,
             say=lambda _: None,
             size=size,
             font=font_file,
-            open_devices=refused,
         )
 
 
 def test_a_larger_arena_is_marked_around_the_middle_of_its_near_edge(
-    tmp_path: Path, font_file: Path, opened: Open
+    tmp_path: Path, font_file: Path, opened: OpenContext
 ) -> None:
     file, questions, told = tmp_path / "mine.toml", list[str](), list[str]()
 
@@ -309,7 +313,7 @@ def test_a_larger_arena_is_marked_around_the_middle_of_its_near_edge(
         questions.append(question)
         return True
 
-    mark_arena(file, ask=agree, say=told.append, size=20, font=font_file, open_devices=opened)
+    mark_arena(file, opened, ask=agree, say=told.append, size=20, font=font_file)
     # Facing west from block (-4, 64, 118): cell (0, 0) is 10 to the south.
     assert load_profile(file).marked_arena() == Arena.around((-4, 64, 128), "west", size=20)
     assert "size = 20" in file.read_text("utf-8")

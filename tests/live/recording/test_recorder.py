@@ -22,12 +22,19 @@ from sim.client.client import VirtualClient
 WRITES = """
 import sys, time
 from pathlib import Path
+import numpy as np
+from mc_nested.live.recording import recorder
 from mc_nested.live.recording.recorder import Recorder
-with Recorder(Path(sys.argv[1]), {"format": "1"}, (854, 480), print) as recording:
+recorder.PART_S = 0.25
+rng = np.random.default_rng(0)
+with Recorder(Path(sys.argv[1]), {"format": "1"}, (320, 240), print) as recording:
     while True:
         recording.tape.add("now", time.time())
+        if rng.random() < 0.02:
+            recording.tape.add("grab", None, rng.integers(0, 256, (240, 320, 3), np.uint8))
         time.sleep(0.002)
 """
+"""A run that never ends, with pictures of noise, four new files a second."""
 
 
 def killed(folder: Path, after_s: float) -> float:
@@ -42,7 +49,10 @@ def killed(folder: Path, after_s: float) -> float:
         process.send_signal(signal.SIGKILL if os.name == "posix" else signal.SIGTERM)
         killed_at = time.time()
         process.wait()
-    return killed_at - [each for each in read_recording(folder) if isinstance(each, TimedCall)][-1].at / 1e9
+    read = list(read_recording(folder))
+    assert any(isinstance(each, KeptPicture) for each in read)
+    assert len(list(folder.glob("*.mcap"))) > 1
+    return killed_at - [each for each in read if isinstance(each, TimedCall)][-1].at / 1e9
 
 
 def test_a_kill_loses_less_than_the_last_second(tmp_path: Path) -> None:
