@@ -13,7 +13,10 @@ from scripts import environment
 EXTRAS = ["dev", "bench"]
 """What is installed beside the project: bench brings stable-baselines3, which an example and the benchmark train."""
 
-OTHERS = "slow or standin or realtime or window or wine"
+REAL = "standin or realtime or window or wine"
+"""The markers of the tests that play in real time: never two of them at once."""
+
+OTHERS = f"slow or {REAL}"
 """The markers of the tests that the unit suite leaves out."""
 
 KERNELS = [
@@ -36,7 +39,8 @@ CHECKS = {
     "compiled code in plain Python": ["pytest", *KERNELS, "--cov", "--cov-report=", "--cov-fail-under=0"],
     "unit tests": ["pytest", "-n", "2", "-m", f"not ({OTHERS})", "--cov", "--cov-append", "--cov-report="],
     "branch coverage": ["coverage", "report", "--skip-covered"],
-    "other tests": ["pytest", "-m", OTHERS],
+    "slow tests": ["pytest", "-n", "2", "-m", f"slow and not ({REAL})"],
+    "real-time tests": ["pytest", "-m", REAL],
 }
 
 

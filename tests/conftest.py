@@ -5,7 +5,7 @@ import signal
 from collections.abc import Iterator
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 from tests.live.vision.real_pictures import VARIABLE
 from tests.standin_fixture import standin
@@ -15,7 +15,7 @@ from tests.windows_fixture import windows
 __all__ = ["display", "standin", "window_programs", "windows"]
 
 # How long an example takes says something of the machine, not of the code.
-settings.register_profile("any machine", deadline=None)
+settings.register_profile("any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("any machine")
 
 # A shell that starts the tests in the background has SIGINT ignored, in every process that they start, too.
