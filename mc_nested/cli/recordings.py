@@ -49,7 +49,7 @@ def list_recordings(as_json: JsonOption = False) -> None:
             "recordings": [{"recording": path, **_fields(seen), "damage": damage} for path, seen, damage in found],
         },
         *([table] if found else []),
-        f"{len(found)} recordings in {recordings_folder()}",
+        f"{'1 recording' if len(found) == 1 else f'{len(found)} recordings'} in {recordings_folder()}",
     )
 
 
