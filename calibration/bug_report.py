@@ -78,7 +78,7 @@ def _end_of(recording: Path, seconds: float, names: Names) -> tuple[bytes, list[
         cut(recording, path, ended - round(seconds * 1e9), ended, names.removed_from)
         seen = overview_of(path)
         return path.read_bytes(), [
-            f"{RECORDING}: the last {seen.seconds:.0f} s of {recording.name}: {seen.actions} actions, keys and clicks",
-            f"{RECORDING}: {seen.pictures} pictures of the game's window, the chat blanked",
+            f"{RECORDING}: the last {seen.seconds:.0f} s of {recording.name}: {seen.actions} actions",
+            f"{RECORDING}: every key and click; {seen.pictures} pictures of the game's window, the chat blanked",
             f"what may be seen on its pictures: {SEEN}",
         ]

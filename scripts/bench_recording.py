@@ -24,6 +24,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from mc_nested.cli.recording_options import live_recorder
 from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.recording.opened import OFF
+from scripts.bench_rehearsal import prepare
 from scripts.rehearsal_window import ROOT, mc_nested, open_rehearsal
 from scripts.window_display import open_display
 
@@ -45,6 +46,8 @@ def main() -> int:
     if options.profile:
         print(json.dumps(_in_turns(options.profile, options.truth, options.folder, options.rounds, options.actions)))
         return 0
+    if not prepare("bench_recording", _say):
+        return 2
     figures = _in_a_window(options.rounds, options.actions, options.keep)
     if options.json:
         print(json.dumps(figures))

@@ -33,6 +33,7 @@ from rich.console import Console
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from mc_nested.live.input.signals import signals_as_exit
+from scripts.bench_rehearsal import prepare
 from scripts.rehearsal_window import ROOT, mc_nested, open_rehearsal
 from scripts.window_display import open_display
 
@@ -55,6 +56,8 @@ def main() -> int:
     if options.profile:
         print(json.dumps(_in_turns(options.profile, options.truth, options.rounds, options.actions)))
         return 0
+    if not prepare("bench_view", _say):
+        return 2
     figures = _in_a_window(options.rounds, options.actions)
     if options.json:
         print(json.dumps(figures))

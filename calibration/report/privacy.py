@@ -18,6 +18,9 @@ from pathlib import Path
 
 HOME, USER = "~", "<user>"
 
+GAME = "minecraft"
+"""An account of this name says nothing of anybody, and stands in every title, path and block."""
+
 _VARIABLES = ("USER", "USERNAME", "LOGNAME", "SUDO_USER")
 """Environment variables that name the user."""
 
@@ -69,4 +72,5 @@ def names_here(environment: Mapping[str, str] = os.environ) -> Names:
     # A container's account may have no name.
     with contextlib.suppress(KeyError, OSError, ImportError):
         users.append(getpass.getuser())
-    return Names(str(home), tuple(dict.fromkeys([*users, *([home.name] if home.name else [])])))
+    names = dict.fromkeys([*users, *([home.name] if home.name else [])])
+    return Names(str(home), tuple(name for name in names if name.lower() != GAME))

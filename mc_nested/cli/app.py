@@ -86,7 +86,10 @@ MISTAKE = 2
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run the command and exit: 0, or 2 with one line on standard error, or 130 after Ctrl+C."""
+    """Run the command and exit: 0, or 1 where what was looked at isn't right, or 2 with one line on standard error.
+
+    130 after Ctrl+C.
+    """
     words = list(sys.argv[1:] if arguments is None else arguments)
     if words in ([], ["calibrate"]):
         words.append("--help")

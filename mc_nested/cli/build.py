@@ -63,7 +63,7 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         )
     afterwards = _how_to_put_back(profile or DEFAULT_PROFILE, yes=yes) if backend is Backend.LIVE else None
     output = Output(quiet, as_json)
-    if afterwards:
+    if afterwards and not quiet:
         typer.echo(f"  building clears the arena first; {afterwards}", err=True)
     recorder = live_recorder(record, f"build-{scenario.name}", scenario, server_allowed=server_allowed)
     with viewed(view, "build", f"{scenario.name}, {where_words(backend)}") as viewing:
@@ -110,16 +110,17 @@ def _built(game: Game, scenario: Scenario, material: int, viewing: Viewed, *, qu
 def _how_to_put_back(profile_name: str, *, yes: bool) -> str:
     """How what stood in the arena before comes back.
 
-    ProfileError if the profile can't be read; UserError if it can't come back, and nobody agreed to that.
+    ProfileError if the profile can't be read, or has no arena; UserError if it can't come back, and nobody agreed to
+    that.
     """
     profile = load_profile(profile_name)
     if profile.world is not None:
         return f"the world comes back from {profile.world.template} with the next episode"
-    if profile.arena is None or profile.arena.copied_to is None:
+    if profile.marked_arena().copied_to is None:
         if not yes:
             raise UserError(
                 "building clears the arena, and the profile knows no copy of what stood there before: make one with "
-                "mc-nested calibrate arena, or build anyway with --yes"
+                f"mc-nested calibrate arena --profile {profile_name}, or build anyway with --yes"
             )
         return "the profile knows no copy of what stood there before the arena was made: that can't be put back"
     return f"what stood there before the arena was made comes back with {undo_command(profile_path(profile_name))}"

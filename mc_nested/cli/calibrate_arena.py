@@ -13,7 +13,7 @@ from mc_nested.cli.calibrating import calibrating
 from mc_nested.cli.options import DEFAULT_PROFILE, ServerOption
 from mc_nested.cli.recording_options import RecordOption
 from mc_nested.cli.scenario_options import LayerOption
-from mc_nested.cli.viewing import ViewOption
+from mc_nested.cli.viewing import StepViewOption
 from mc_nested.errors import UserError
 
 
@@ -33,7 +33,7 @@ def arena(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     undo: Annotated[bool, typer.Option("--undo", help="put back what stood there before it was built")] = False,
     server_allowed: ServerOption = False,
     record: RecordOption = None,
-    view: ViewOption = False,
+    view: StepViewOption = False,
 ) -> None:
     """Build the arena where you stand and look, with commands; what stood there is shown, asked about and copied."""
     if mark_only and undo:

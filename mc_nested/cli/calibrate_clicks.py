@@ -9,7 +9,7 @@ from calibration.clicks.show import show_clicks, try_clicks
 from mc_nested.cli.calibrating import calibrating
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 from mc_nested.cli.recording_options import RecordOption
-from mc_nested.cli.viewing import ViewOption
+from mc_nested.cli.viewing import StepViewOption
 from mc_nested.errors import UserError
 
 
@@ -24,7 +24,7 @@ def clicks(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     show: Annotated[bool, typer.Option("--show", help="only mark the points on a picture of the screen")] = False,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="only move the mouse there, and press nothing")] = False,
     record: RecordOption = None,
-    view: ViewOption = False,
+    view: StepViewOption = False,
 ) -> None:
     """Find the places to click in the menus; name points to record those by hand: hover and press the hotkey."""
     if show and dry_run:

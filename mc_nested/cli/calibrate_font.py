@@ -9,7 +9,7 @@ from calibration.font.find import calibrate_font
 from mc_nested.cli.calibrating import calibrating
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 from mc_nested.cli.recording_options import RecordOption
-from mc_nested.cli.viewing import ViewOption
+from mc_nested.cli.viewing import StepViewOption
 
 
 def font(
@@ -18,7 +18,7 @@ def font(
         Path | None, typer.Option(metavar="JAR|PNG", help="take this client jar, resource pack or ascii.png")
     ] = None,
     record: RecordOption = None,
-    view: ViewOption = False,
+    view: StepViewOption = False,
 ) -> None:
     """Find the font that your game is written in, and see what is read with it."""
     with calibrating("font", profile, is_viewed=view, record=record) as opened:

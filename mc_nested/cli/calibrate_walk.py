@@ -8,7 +8,7 @@ from calibration.walk.measure import calibrate_walk
 from mc_nested.cli.calibrating import calibrating
 from mc_nested.cli.options import DEFAULT_PROFILE, ServerOption
 from mc_nested.cli.recording_options import RecordOption
-from mc_nested.cli.viewing import ViewOption
+from mc_nested.cli.viewing import StepViewOption
 
 
 def walk(
@@ -17,7 +17,7 @@ def walk(
     ] = DEFAULT_PROFILE,
     server_allowed: ServerOption = False,
     record: RecordOption = None,
-    view: ViewOption = False,
+    view: StepViewOption = False,
 ) -> None:
     """Measure how you walk, for a minute, in the marked arena or around where you stand."""
     with calibrating("walk", profile, is_viewed=view, record=record, server_allowed=server_allowed) as opened:

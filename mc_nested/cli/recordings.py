@@ -31,7 +31,7 @@ def recordings(context: typer.Context, as_json: JsonOption = False) -> None:
     if context.invoked_subcommand is None:
         list_recordings(as_json)
     elif as_json:
-        raise UserError(f"write --json at the end: mc-nested recordings {context.invoked_subcommand} --json")
+        raise UserError("write --json at the end, behind list or verify: the others have none")
 
 
 @app.command("list", epilog=epilog_of("recordings list"))

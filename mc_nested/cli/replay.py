@@ -41,18 +41,19 @@ def replay(
 ) -> None:
     """Read and decide again what a recording holds: exit code 0 if all is as it was, 1 if anything differs."""
     path = recording_path(recording)
-    seen = replayed(path, load_font(font) if font else font_of_recording(path, System.here()))
+    used = font or font_of_recording(path, System.here())
+    seen = replayed(path, load_font(used))
     if pictures is not None:
         _write_pictures(seen, pictures)
     if as_json:
-        print(json.dumps(_plain(seen)))
+        print(json.dumps({**_plain(seen), "font": str(used)}))
     else:
-        _print(seen, pictures)
+        _print(seen, used, pictures)
     if seen.differences:
         raise typer.Exit(DIFFERENT)
 
 
-def _print(seen: Replayed, pictures: Path | None) -> None:
+def _print(seen: Replayed, font: Path, pictures: Path | None) -> None:
     console = Console()
     console = Console(width=console.width if console.is_terminal else LINE_WIDTH)
     if seen.differences:
@@ -74,6 +75,7 @@ def _print(seen: Replayed, pictures: Path | None) -> None:
         *([f"pictures in {pictures}"] if pictures else []),
     ]
     console.print("; ".join(parts), soft_wrap=True)
+    console.print(f"read with the font {font}", soft_wrap=True)
 
 
 def _plain(seen: Replayed) -> dict[str, object]:

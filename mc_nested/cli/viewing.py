@@ -18,6 +18,11 @@ ViewOption = Annotated[
     typer.Option("--view", help="show it in the terminal as it goes on: keys to pause, to go on, to stop"),
 ]
 
+StepViewOption = Annotated[
+    bool, typer.Option("--view", help="show it in the terminal as it goes on: keys to stop, and to answer")
+]
+"""Of what can't be paused."""
+
 
 @dataclass(frozen=True)
 class Viewed:

@@ -104,8 +104,8 @@ class Clipboard(Protocol):
 class Devices:
     """The devices of one game window.
 
-    ``area`` says where on the desktop the window's client area is, ``monitors`` where the monitors are, none where the
-    system names none; None if that can't be known.
+    ``area`` gives where on the desktop the window's client area is, ``monitors`` where the monitors are: an empty tuple
+    where the system lists none. Each is None where it can't be known.
     """
 
     display: Display

@@ -228,7 +228,9 @@ class ViewApp(App[None]):
         if (layout := self._layout_for(shown)) != self._layout:
             self._layout = layout
             self._lay_out(layout)
-        if (offered := (self._life, self._status.question, self._past is None)) != self._offered:
+        if (
+            offered := (self._life, self._status.can_pause, self._status.question, self._past is None)
+        ) != self._offered:
             self._offered = offered
             self.refresh_bindings()
         for panel in self.query(Panel):

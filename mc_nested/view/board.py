@@ -77,7 +77,7 @@ class Board:
             self._begin(self._before_waiting)
 
     def _begin(self, doing: Doing) -> None:
-        if doing.mood != "waits":
+        if doing.mood in ("works", "plays"):
             self._before_waiting = doing
         with self._lock:
             self._fields.update(doing=doing.text, mood=doing.mood, detail="", since=self._clock())

@@ -3,7 +3,7 @@
 import inspect
 
 from mc_nested import errors
-from mc_nested.cli import app, doctor, interrupt, replay
+from mc_nested.cli import app, doctor, interrupt, recordings, replay
 from mc_nested.live.input import signals
 from scripts.documentation.attribute_docs import attribute_docs
 from scripts.documentation.markdown_text import code, of_docstring, sentence, table
@@ -12,6 +12,7 @@ CODES = (
     ("0", "It is done."),
     (str(doctor.FAILED), "`mc-nested doctor`: " + attribute_docs(doctor)["FAILED"]),
     (str(replay.DIFFERENT), "`mc-nested replay`: " + attribute_docs(replay)["DIFFERENT"]),
+    (str(recordings.DAMAGED), "`mc-nested recordings`: " + attribute_docs(recordings)["DAMAGED"]),
     (str(app.MISTAKE), attribute_docs(app)["MISTAKE"]),
     (str(interrupt.INTERRUPTED), attribute_docs(interrupt)["INTERRUPTED"]),
     ("128 + n", inspect.getdoc(signals.EndedBySignal) or ""),

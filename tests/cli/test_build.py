@@ -152,7 +152,7 @@ def test_what_can_not_be_put_back_is_not_cleared_unless_that_is_said(
     assert run("build", "line", "--backend", "live", "--profile", "mine") == 2
     assert capsys.readouterr().err == (
         "mc-nested: building clears the arena, and the profile knows no copy of what stood there before: make one with "
-        "mc-nested calibrate arena, or build anyway with --yes\n"
+        "mc-nested calibrate arena --profile mine, or build anyway with --yes\n"
     )
     assert run("build", "line", "--backend", "live", "--profile", "mine", "--yes") == 0
 

@@ -4,12 +4,14 @@ Live commands play on the virtual desktop, whose clock doesn't wait; tests/test_
 the rehearsal window, in real time.
 """
 
+import json
 import re
 import shlex
 import sys
 from collections.abc import Callable, Mapping
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 from scripts import environment
 from scripts.test import OTHERS
@@ -104,8 +106,13 @@ class Reader:
     def _run_in_a_window(self, step: Step, words: list[str]) -> str:
         """A program that plays in a real window, or draws one; what it draws goes into the reader's folder."""
         command = [sys.executable, str(ROOT / words[0]), *words[1:]]
-        measures = step.text.startswith(MEASURES)
-        return self._shell.run(step, command, limit_s=IN_A_WINDOW_S, may_end_with=(0, 1) if measures else (0,))
+        if not step.text.startswith(MEASURES):
+            return self._shell.run(step, command, limit_s=IN_A_WINDOW_S)
+        printed = self._shell.run(step, command, limit_s=IN_A_WINDOW_S, may_end_with=(0, 1))
+        figures = re.search(r"^\{.*\}$", printed, re.MULTILINE)
+        if figures is None or what_is_wrong(json.loads(figures[0])):
+            raise StepError(step, f"it measured nothing, or something was wrong:\n{printed}")
+        return printed
 
     def _run_snippet(self, step: Step) -> str:
         if LIVE_SNIPPET in step.text:
@@ -150,6 +157,16 @@ class Reader:
         if not all(named.search(file.read_text("utf-8")) for file in files) or options.get("-m", OTHERS) not in OTHERS:
             raise StepError(step, "the suite has no such tests")
         return ""
+
+
+def what_is_wrong(figures: Any) -> list[str]:
+    """The names of a benchmark's figures, at any depth, that say that something was wrong or failed."""
+    if isinstance(figures, list):
+        return [name for each in figures for name in what_is_wrong(each)]
+    if not isinstance(figures, dict):
+        return []
+    wrong = [name for name in ("wrong", "wrong_cells", "wrong_blocks", "problem", "differences") if figures.get(name)]
+    return [*wrong, *what_is_wrong(list(figures.values()))]
 
 
 def not_shown(shown: str, printed: str) -> str | None:

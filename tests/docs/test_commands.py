@@ -12,7 +12,7 @@ import pytest
 
 from scripts.window_display import open_display
 from tests.docs.pages import Step, inline_commands, pages, steps_of
-from tests.docs.reader import Reader, not_shown
+from tests.docs.reader import Reader, not_shown, what_is_wrong
 from tests.docs.rules import BEFORE, IN_A_WINDOW, IN_THE_STANDIN, LIVE_SNIPPET, NEEDS, what_it_does
 from tests.docs.shell import StepError
 
@@ -27,6 +27,19 @@ def test_a_line_that_is_not_printed_is_found() -> None:
     assert not_shown("final   scores (optimum 21): …", printed) is None
     assert not_shown("last\nfinal scores …", printed) == "final scores …"  # in another order
     assert not_shown("final scores", printed) == "final scores"
+
+
+@pytest.mark.parametrize(
+    ("figures", "wrong"),
+    [
+        ({"60 fps": {"actions": 4, "wrong_cells": 0, "wrong_blocks": 0}}, []),
+        ({"60 fps": {"actions": 4, "wrong_cells": 1, "wrong_blocks": 0}}, ["wrong_cells"]),
+        ({"60 fps": {"problem": "no window"}}, ["problem"]),
+        ({"wrong": 0, "replay": [{"differences": []}, {"differences": [{"action": 1}]}]}, ["differences"]),
+    ],
+)
+def test_a_benchmark_that_found_something_wrong_is_found(figures: object, wrong: list[str]) -> None:
+    assert what_is_wrong(figures) == wrong
 
 
 def test_a_command_without_a_rule_is_named(tmp_path: Path) -> None:
@@ -87,6 +100,8 @@ def mark_of(step: Step) -> pytest.MarkDecorator:
 def test_a_command_in_a_text_or_table_can_be_run(step: Step, tmp_path: Path, request: pytest.FixtureRequest) -> None:
     if step.text.startswith(IN_THE_STANDIN):
         request.getfixturevalue("standin")
+    if step.text.startswith(IN_A_WINDOW):
+        request.getfixturevalue("window_programs")
     with Reader(tmp_path) as reader:
         for command in BEFORE.get(step.text, ()):
             reader.follow(Step(step.page, step.line, "command", command))

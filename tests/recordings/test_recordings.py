@@ -38,7 +38,7 @@ def font_for(path: Path, system: System) -> Font:
     if path.parent == VIRTUAL:
         return FONT
     beside = path.with_suffix(".png")
-    return load_font(beside) if beside.is_file() else font_of_recording(path, system)
+    return load_font(beside if beside.is_file() else font_of_recording(path, system))
 
 
 def test_there_are_some() -> None:

@@ -171,6 +171,14 @@ def test_keys_ask_the_run(live: Path, keys: list[str], wanted: Heard) -> None:
     assert pressed(live, *keys)[1] == wanted
 
 
+def test_p_is_no_longer_offered_once_the_run_says_that_it_can_not_pause(live: Path) -> None:
+    async def learn(_app: ViewApp, pilot: Pilot[None]) -> None:
+        StatusFiles(live).write(LIVE.model_copy(update={"can_pause": False}))
+        await pilot.pause(1.0)
+
+    assert "pause" not in shown(live, LIVE, SIZES["80x24"], learn)
+
+
 def test_a_run_that_can_not_pause_is_not_asked_to_and_p_is_not_offered(live: Path) -> None:
     screen, heard = pressed(live, "p", status=LIVE.model_copy(update={"can_pause": False}))
 

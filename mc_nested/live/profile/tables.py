@@ -4,7 +4,7 @@ A key that is left out takes its default, or is found on the screen.
 """
 
 import re
-from pathlib import Path
+from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Annotated, Literal
 
 from pydantic import AliasChoices, Field, field_validator, model_validator
@@ -27,6 +27,16 @@ Latency = Annotated[float, Field(ge=0, le=0.5)]
 Fraction = Annotated[float, Field(ge=0, le=1)]
 Shade = Annotated[int, Field(ge=0, le=255)]
 Key = Annotated[str, Field(min_length=1)]
+
+
+def _whole(path: str) -> str:
+    """The path, if it is a whole one on any system: a recording's profile may come from another one. ValueError if not.
+
+    ``~`` stands for the home folder.
+    """
+    if path.startswith("~") or PurePosixPath(path).is_absolute() or PureWindowsPath(path).is_absolute():
+        return path
+    raise ValueError(f"{path!r} depends on where you are: write the whole path, or one from ~")
 
 
 class WindowTable(ProfileTable):
@@ -133,15 +143,16 @@ class ScreenTable(ProfileTable):
     @field_validator("font")
     @classmethod
     def _is_a_whole_path(cls, font: str | None) -> str | None:
-        if font is not None and not Path(font).expanduser().is_absolute():
-            raise ValueError(f"{font!r} depends on where you are: write the whole path, or one from ~")
-        return font
+        return None if font is None else _whole(font)
 
     def font_path(self) -> Path:
-        """Where the font is read from; ProfileError if the profile doesn't say."""
+        """Where the font is read from; ProfileError if the profile doesn't say, or names a home that isn't here."""
         if self.font is None:
             raise ProfileError("screen.font is missing: write the path of your game's client jar into the profile")
-        return Path(self.font).expanduser()
+        try:
+            return Path(self.font).expanduser()
+        except RuntimeError as error:
+            raise ProfileError(f"screen.font: there is no such home folder here: {self.font}") from error
 
 
 class WorldTable(ProfileTable):
@@ -157,9 +168,7 @@ class WorldTable(ProfileTable):
     @field_validator("folder", "template")
     @classmethod
     def _is_a_whole_path(cls, path: str) -> str:
-        if not Path(path).expanduser().is_absolute():
-            raise ValueError(f"{path!r} depends on where you are: write the whole path, or one from ~")
-        return path
+        return _whole(path)
 
 
 class BlocksTable(ProfileTable):

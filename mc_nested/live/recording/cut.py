@@ -14,8 +14,11 @@ from mc_nested.live.recording.recording_file import PartEnd, TimedCall, facts_of
 _BATCH = 500
 """Calls that are written at once."""
 
-_WORDS_FROM = {"title": 1, "stop": 1, "note": 2, "error": 3}
-"""Calls that hold words, in which a name or a path can be, and where in the call they begin."""
+_WORDS_AT = {"title": 1, "stop": 1, "error": 3}
+"""Calls that hold words of others, in which a name or a path can be, and where in the call those are."""
+
+_WORDS_OF_NOTE = "problem"
+"""What of a note they can be in. Typed lines are this program's own commands, which hold neither."""
 
 
 def cut(
@@ -109,23 +112,11 @@ def _batches(path: Path, first: int, last: int) -> Iterator[tuple[list[Timed], l
 
 
 def _cleaned(call: list[Any], clean: Callable[[str], str]) -> list[Any]:
-    """The call without what others mustn't read. Names of keys, of methods and pixels stay as they are."""
+    """The call without what others mustn't read. Keys, commands, readings and pixels stay as they are."""
     if call[0] == "elsewhere":
         return ["elsewhere", *_cleaned(call[1:], clean)]
-    if call[:2] == ["key", "type"]:
-        begin, end = 2, 3
-    elif call[0] == "screen":
-        begin, end = 2, 3  # what was asked, as a line that should be typed; behind it is the answer, with its pixels
-    else:
-        begin, end = _WORDS_FROM.get(call[0], len(call)), len(call)
-    return [*call[:begin], *(_cleaned_value(value, clean) for value in call[begin:end]), *call[end:]]
-
-
-def _cleaned_value(value: Any, clean: Callable[[str], str]) -> Any:
-    if isinstance(value, str):
-        return clean(value)
-    if isinstance(value, list):
-        return [_cleaned_value(each, clean) for each in value]
-    if isinstance(value, dict):
-        return {name: _cleaned_value(each, clean) for name, each in value.items()}
-    return value
+    if call[0] == "note":
+        facts = {name: clean(value) if name == _WORDS_OF_NOTE and value else value for name, value in call[2].items()}
+        return [*call[:2], facts, *call[3:]]
+    at = _WORDS_AT.get(call[0])
+    return call if at is None else [*call[:at], clean(call[at]), *call[at + 1 :]]

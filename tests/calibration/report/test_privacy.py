@@ -99,3 +99,7 @@ def test_the_names_of_here_are_those_of_the_environment_and_of_the_home_folder()
     assert {"ann", "Ann Lee", Path.home().name} <= set(names.users)
     assert names.home == str(Path.home())
     assert names.removed_from(str(Path.home() / "x")) == f"~{Path('/x')}"
+
+
+def test_an_account_with_the_games_name_is_left_or_no_title_could_be_read() -> None:
+    assert "minecraft" not in {name.lower() for name in names_here({"USER": "Minecraft", "LOGNAME": "minecraft"}).users}

@@ -60,7 +60,7 @@ def test_a_kill_loses_less_than_the_last_second(tmp_path: Path) -> None:
         assert killed(tmp_path / str(trial), after_s) < 1.0
 
 
-@pytest.mark.slow
+@pytest.mark.realtime
 def test_two_hundred_kills_lose_less_than_a_second_each(tmp_path: Path) -> None:
     waits = np.random.default_rng(7).uniform(0.6, 1.1, 200)
     assert max(killed(tmp_path / str(trial), float(wait)) for trial, wait in enumerate(waits)) < 1.0
