@@ -11,7 +11,7 @@ from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.replay import ReplayMark
 
 
-class Recorder(Protocol):
+class EpisodeMemory(Protocol):
     """What remembers past episodes beside the replays: an explorer, an imagination."""
 
     def state(self) -> Arrays:
@@ -30,11 +30,11 @@ class EpisodeRollback:
     marks: Mapping[str, ReplayMark]
 
     @classmethod
-    def of(cls, agent: Agent, recorders: Mapping[str, Recorder]) -> "EpisodeRollback":
+    def of(cls, agent: Agent, recorders: Mapping[str, EpisodeMemory]) -> "EpisodeRollback":
         """A copy of their state now."""
         return cls(_copied(agent.state()), {k: _copied(part.state()) for k, part in recorders.items()}, agent.mark())
 
-    def restore(self, agent: Agent, recorders: Mapping[str, Recorder]) -> None:
+    def restore(self, agent: Agent, recorders: Mapping[str, EpisodeMemory]) -> None:
         """Put them back into that state."""
         agent.load(self.agent)
         agent.take_back(self.marks)

@@ -23,7 +23,7 @@ from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.agents import Agent, chosen_materials
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
-from mc_nested.learn.episode_rollback import EpisodeRollback, Recorder
+from mc_nested.learn.episode_rollback import EpisodeMemory, EpisodeRollback
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
 from mc_nested.learn.exploration.schedules import LinearDecay
 from mc_nested.learn.imagination.background_practice import Background, BackgroundPractice, BackgroundThread
@@ -118,7 +118,7 @@ class Trainer:
         )
 
     @property
-    def _recorders(self) -> dict[str, Recorder]:
+    def _recorders(self) -> dict[str, EpisodeMemory]:
         """What remembers past episodes beside the replays, by its name in a checkpoint."""
         parts = {"scouts": self._explorer, "imagination": self._imagination}
         return {name: part for name, part in parts.items() if part is not None}
