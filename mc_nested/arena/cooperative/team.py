@@ -1,6 +1,6 @@
 """Team: one scenario, built by k builders at once, each from a start cell of its own."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import is_inside
@@ -37,6 +37,10 @@ class Team:
     def builders(self) -> int:
         """How many builders there are."""
         return len(self.starts)
+
+    def scenario_of(self, builder: int) -> Scenario:
+        """The scenario with that builder's start cell."""
+        return replace(self.scenario, start=self.starts[builder])
 
 
 def team_of(scenario: Scenario, builders: int) -> Team:
