@@ -1,6 +1,7 @@
 """Double deep Q-learning (paper, section 2.4) for rows of torch networks."""
 
-from collections.abc import Callable, Iterator, Mapping
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -15,6 +16,7 @@ from mc_nested.learn.dqn.engine import Batch, LastBatches, NetworkForm, UpdateRu
 from mc_nested.learn.dqn.states import States
 from mc_nested.learn.dqn.torch_engine.adam import adam_step
 from mc_nested.learn.dqn.torch_engine.inputs import inputs_of
+from mc_nested.learn.dqn.torch_engine.networks import MLP
 from mc_nested.learn.dqn.torch_engine.rows import NetworkRows
 
 
@@ -71,21 +73,21 @@ class TorchEngine:
         if not len(named):
             return np.empty((0, self.form.numbers[-1]), np.float32)
         with _enough_memory(self._device), torch.no_grad():
-            inputs = self._inputs(states[:, None], named)
+            inputs = self._inputs(states[None, :, None], named)[0]
             return _array(self._values.values(named, inputs).values[:, 0])
 
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         self.updates[rows] += 1
         with _enough_memory(self._device):
-            states, following = (self._inputs(part, rows) for part in batch.states)
+            states, following = self._inputs(batch.states, rows)
             actions, rewards, discounts = (
                 self._tensor(part) for part in (batch.actions, batch.rewards, batch.discounts)
             )
+            values, following_values, leaves = self._both_values(rows, states, following)
             with torch.no_grad():
-                best = self._values.values(rows, following).values.argmax(-1, keepdim=True)
+                best = following_values.argmax(-1, keepdim=True)
                 bootstrap = self._target_values.values(rows, following).values.gather(-1, best)[..., 0]
                 goal = torch.addcmul(rewards, discounts, bootstrap)
-            values, leaves = self._values.values(rows, states)
             chosen = values.gather(-1, actions[..., None])[..., 0]
             huber = nn.functional.huber_loss(chosen, goal, reduction="none", delta=self.rule.huber_delta)
             loss = torch.mul(huber, self._tensor(batch.weights)).sum() / self.rule.batch
@@ -100,6 +102,17 @@ class TorchEngine:
         errors: Float32s = self._last.errors[rows]
         return errors
 
+    def _both_values(self, rows: Int64s, states: Tensor, following: Tensor) -> tuple[Tensor, Tensor, Sequence[Tensor]]:
+        """The online networks' values of s and of s', (k, batch, actions), and the leaves that those of s depend on."""
+        if self.form.network == MLP:  # a second pass takes longer than a slope of zero through twice the batch
+            both, leaves = self._values.values(rows, torch.cat((states, following), dim=1))
+            values, following_values = both.chunk(2, dim=1)
+            return values, following_values.detach(), leaves
+        with torch.no_grad():
+            following_values = self._values.values(rows, following).values
+        values, leaves = self._values.values(rows, states)
+        return values, following_values, leaves
+
     def _imitation(self, values: Tensor, chosen: Tensor, actions: Tensor, imitated: Tensor) -> Tensor:
         """The mean large-margin loss of what is imitated, summed over the rows (self_imitation.py)."""
         margin = torch.full_like(values, self.rule.margin).scatter_(-1, actions[..., None], 0.0)
@@ -107,19 +120,19 @@ class TorchEngine:
 
     def _step(self, rows: Int64s, gradient: Tensor) -> None:
         """One step of Adam in the named rows; DivergedError if a parameter is no number afterwards."""
-        steps = self._tensor(self.updates[rows, None].astype(np.float32))
-        rate = self.rule.learning_rate
+        steps, rate = self.updates[rows], self.rule.learning_rate
         if len(rows) == len(self._every_row):
             adam_step(self._online, self._first, self._second, gradient, steps, rate)
-            finite = torch.isfinite(self._online).all()
+            after = self._online
         else:
             named = torch.from_numpy(rows).to(self._device)
             own = self._online[named], self._first[named], self._second[named]
             adam_step(*own, gradient, steps, rate)
             for whole, part in zip((self._online, self._first, self._second), own, strict=True):
                 whole[named] = part
-            finite = torch.isfinite(own[0]).all()
-        if not finite:
+            after = own[0]
+        # A sum is no number if any part of it is none.
+        if not math.isfinite(float(after.sum())):
             raise diverged(self.rule, self.updates[rows])
 
     def load_online(self, online: Float32s) -> None:

@@ -12,7 +12,7 @@ from mc_nested.learn.dqn.state_space import StateSpace
 from mc_nested.learn.dqn.states import States
 
 Inputs = Callable[[NDArray[Any], Int64s], Tensor]
-"""From states as a replay keeps them (k, batch, …), of the named rows (k,), to 32-bit floats (k, batch, *shape)."""
+"""From states of the named rows (k,) as a replay keeps them, (…, k, batch, *kept), to floats (…, k, batch, *shape)."""
 
 
 def input_shape(states: States) -> tuple[int, ...]:

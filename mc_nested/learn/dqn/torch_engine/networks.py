@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 import torch
-from torch import Tensor, nn
+from torch import nn
 
 from mc_nested.arrays import Float32s
 from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, initial_parameters
 from mc_nested.learn.dqn.engine import NetworkForm
+from mc_nested.learn.dqn.torch_engine.layout import flat_of
 
 MLP, CNN = "mlp", "cnn"
 
@@ -28,23 +29,11 @@ Make = Callable[[tuple[int, ...], int], nn.Module]
 """Makes a network for states of that shape and so many actions."""
 
 
-class Dense(nn.Module):
-    """A dense layer whose parameters lie as the compiled engine's: a row of weights a node, its bias last."""
-
-    def __init__(self, inputs: int, outputs: int) -> None:
-        super().__init__()
-        self.weight = nn.Parameter(torch.empty(outputs, inputs + 1))
-
-    def forward(self, below: Tensor) -> Tensor:
-        """The nodes (batch, outputs) of inputs (batch, inputs)."""
-        return nn.functional.linear(below, self.weight[:, :-1], self.weight[:, -1])
-
-
 def mlp(sizes: Sequence[int]) -> nn.Module:
     """Dense layers of those widths: hidden ones with tanh, a linear output (paper, appendix: hyper-parameters)."""
     layers: list[nn.Module] = [nn.Flatten()]
     for inputs, outputs in pairwise(sizes):
-        layers += [Dense(inputs, outputs), nn.Tanh()]
+        layers += [nn.Linear(inputs, outputs), nn.Tanh()]
     return nn.Sequential(*layers[:-1])
 
 
@@ -121,14 +110,9 @@ def initial_rows(form: NetworkForm, make: Callable[[], nn.Module], streams: Sequ
         sizes: Sizes = form.numbers
         return np.stack([initial_parameters(sizes, stream) for stream in streams])
     with torch.random.fork_rng():
-        return np.stack([_flat(_made_from(int(stream.integers(2**63)), make)) for stream in streams])
+        return np.stack([flat_of(_made_from(int(stream.integers(2**63)), make)) for stream in streams])
 
 
 def _made_from(seed: int, make: Callable[[], nn.Module]) -> nn.Module:
     torch.manual_seed(seed)
     return make()
-
-
-def _flat(module: nn.Module) -> Float32s:
-    flat: Float32s = nn.utils.parameters_to_vector(module.parameters()).detach().numpy().astype(np.float32)
-    return flat

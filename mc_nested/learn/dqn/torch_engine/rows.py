@@ -8,10 +8,14 @@ from torch import Tensor, nn
 from torch.func import functional_call, vmap
 
 from mc_nested.arrays import Int64s
+from mc_nested.learn.dqn.torch_engine.layout import bind, laid_out, parts_of, slots_of
 
 
 class Values(NamedTuple):
-    """Values (k, batch, actions), and the parameters that they depend on: leaves for autograd, (k, …) or one row's."""
+    """Values (k, batch, actions), and the parameters that they depend on, for autograd.
+
+    ``leaves`` are each parameter of all k rows (k, …), or those of one row after the other.
+    """
 
     values: Tensor
     leaves: Sequence[Tensor]
@@ -29,45 +33,31 @@ class NetworkRows:
     def __init__(self, make: Callable[[], nn.Module], flat: Tensor, stacks: bool = True) -> None:
         self._flat = flat
         self._stacks = stacks
-        self._modules = [_bound(make(), row) for row in flat]
-        self._shapes = {name: part.shape for name, part in self._modules[0].named_parameters()}
-        self._every = len(flat)
+        self._modules = [make() for _ in flat]
+        for module, row in zip(self._modules, flat, strict=True):
+            bind(module, row)
+        self._slots = slots_of(self._modules[0])
+        names = [name for slot in self._slots for name in slot.names]
+        self._leaves = [[dict(module.named_parameters())[name] for name in names] for module in self._modules]
         first = self._modules[0]
         self._stacked = vmap(lambda parameters, inputs: functional_call(first, parameters, (inputs,)))
 
     def values(self, rows: Int64s, inputs: Tensor) -> Values:
         """The values of inputs (k, batch, …) in the named rows (k,)."""
-        if len(rows) == 1 or not self._stacks:
-            modules = [self._modules[row] for row in rows]
-            values = [module(own) for module, own in zip(modules, inputs, strict=True)]
-            leaves = [part for module in modules for part in module.parameters()]
-            return Values(values[0][None] if len(rows) == 1 else torch.stack(values), leaves)
-        named = self._flat if len(rows) == self._every else self._flat[torch.from_numpy(rows)]
-        parameters = self._parts_of(named)
-        return Values(self._stacked(parameters, inputs), list(parameters.values()))
+        if len(rows) == 1:
+            return Values(self._modules[rows[0]](inputs[0])[None], self._leaves[rows[0]])
+        if not self._stacks:
+            values = [self._modules[row](own) for row, own in zip(rows, inputs, strict=True)]
+            return Values(torch.stack(values), [leaf for row in rows for leaf in self._leaves[row]])
+        named = self._flat if len(rows) == len(self._flat) else self._flat[torch.from_numpy(rows)]
+        leaves = {name: part.detach().requires_grad_() for name, part in parts_of(named, self._slots).items()}
+        return Values(self._stacked(leaves, inputs), list(leaves.values()))
 
     def gradient(self, loss: Tensor, leaves: Sequence[Tensor], rows: int) -> Tensor:
         """The gradient of the loss in so many rows, (rows, parameters), from the leaves that ``values`` gave."""
         slopes = torch.autograd.grad(loss, leaves)
-        if len(slopes) == len(self._shapes):
-            return torch.cat([slope.reshape(rows, -1) for slope in slopes], dim=1)
-        return torch.cat([slope.reshape(-1) for slope in slopes]).reshape(rows, -1)
-
-    def _parts_of(self, flat: Tensor) -> dict[str, Tensor]:
-        """Each parameter of the rows (k, parameters), (k, *its shape), as a leaf of its own."""
-        parts, start = {}, 0
-        for name, shape in self._shapes.items():
-            end = start + shape.numel()
-            parts[name] = flat[:, start:end].view(-1, *shape).detach().requires_grad_()
-            start = end
-        return parts
-
-
-def _bound(module: nn.Module, row: Tensor) -> nn.Module:
-    """The module, its parameters being parts of the row (parameters,)."""
-    start = 0
-    for part in module.parameters():
-        end = start + part.numel()
-        part.data = row[start:end].view(part.shape)
-        start = end
-    return module
+        a_row = len(self._leaves[0])
+        if len(slopes) == a_row:
+            return laid_out(slopes, self._slots, rows)
+        one_by_one = [slopes[start : start + a_row] for start in range(0, len(slopes), a_row)]
+        return torch.cat([laid_out(own, self._slots, 1) for own in one_by_one])
