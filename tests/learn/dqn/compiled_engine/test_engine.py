@@ -11,10 +11,8 @@ from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
 from mc_nested.learn.dqn.engine import Batch, UpdateRule
 from mc_nested.learn.dqn.state_space import StateSpace
 from tests.learn.dqn.compiled_engine.test_networks import reference
+from tests.learn.dqn.made_engines import RULE, batch_of, part, space_of
 
-RULE = UpdateRule(batch=32, learning_rate=1e-3, target_period=3, huber_delta=1.0, margin=0.5)
-GAMMA = 0.95
-STATES = 15 * 15 * 12 * 2
 SIZES = (4, 32, 32, 8)
 
 
@@ -32,27 +30,8 @@ def test_a_terminated_transition_is_worth_its_reward_alone() -> None:
 
 
 def learners(rows: int, rule: UpdateRule = RULE) -> CompiledEngine:
-    space = StateSpace(np.array([[14, 14, 11, 1]] * rows), actions=8)
     online = np.stack([initial_parameters(SIZES, np.random.default_rng(row)) for row in range(rows)])
-    return CompiledEngine(space, SIZES, rule, online)
-
-
-def batch_of(rows: int, seed: int) -> Batch:
-    random = np.random.default_rng(seed)
-    return Batch(
-        states=random.integers(0, STATES, (2, rows, 32)),
-        actions=random.integers(0, 8, (rows, 32)),
-        # Some rewards far beyond δ, so that both branches of the Huber loss are taken.
-        rewards=(random.standard_normal((rows, 32)) * 3).astype(np.float32),
-        discounts=np.where(random.random((rows, 32)) < 0.2, 0.0, GAMMA).astype(np.float32),
-        imitated=random.random((rows, 32)) < 0.3,
-        weights=random.random((rows, 32)).astype(np.float32),
-    )
-
-
-def part(batch: Batch, rows: list[int]) -> Batch:
-    rest = {name: getattr(batch, name)[rows] for name in ("actions", "rewards", "discounts", "imitated", "weights")}
-    return Batch(states=batch.states[:, rows], **rest)
+    return CompiledEngine(space_of(rows), SIZES, rule, online)
 
 
 @pytest.mark.parametrize("rows", [1, 4])
@@ -112,27 +91,6 @@ def test_values_of_a_batch_alone_are_those_of_the_table_of_all_states() -> None:
         tabulated.online[:] = by_batch.online  # so that rounding in one update isn't the next one's
 
 
-def test_the_target_network_follows_every_period_and_stands_still_between() -> None:
-    engine = learners(1)
-    first = engine.target.copy()
-    for update in range(1, 3):
-        engine.update(np.array([0]), batch_of(1, update))
-        np.testing.assert_array_equal(engine.target, first)
-    engine.update(np.array([0]), batch_of(1, 3))
-    np.testing.assert_array_equal(engine.target, engine.online)
-    assert not np.array_equal(engine.target, first)
-
-
-def test_rows_that_are_not_named_stay_as_they_are() -> None:
-    engine = learners(4)
-    engine.update(np.arange(4), batch_of(4, 1))
-    before = {name: kept.copy() for name, kept in engine.state().items()}
-    engine.update(np.array([2, 0]), batch_of(2, 2))
-    for name, kept in engine.state().items():
-        np.testing.assert_array_equal(kept[[1, 3]], before[name][[1, 3]])
-    assert engine.updates.tolist() == [2, 1, 2, 1]
-
-
 def test_a_row_learns_the_same_to_the_bit_beside_others_and_alone() -> None:
     every, some, alone = learners(4), learners(4), learners(1)
     alone.load_online(every.online[[3]].copy())
@@ -182,21 +140,6 @@ def test_loss_and_value_are_those_of_each_rows_last_update() -> None:
     assert engine._last.values[1, 0] == pytest.approx(own, rel=1e-4, abs=1e-6)
 
 
-def test_a_loaded_learner_goes_on_to_the_bit() -> None:
-    one, other = learners(2), learners(2)
-    one.update(np.arange(2), batch_of(2, 1))
-    other.load({name: kept.copy() for name, kept in one.state().items()})
-    for engine in (one, other):
-        engine.update(np.arange(2), batch_of(2, 2))
-    for name, kept in one.state().items():
-        np.testing.assert_array_equal(kept, other.state()[name])
-
-
-def test_networks_of_another_shape_are_refused() -> None:
-    with pytest.raises(ValueError, match="networks of"):
-        learners(2).load_online(np.zeros((2, 5), np.float32))
-
-
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("place", [0, 500, -1])
 def test_what_is_no_number_is_noticed_wherever_it_is(value: float, place: int) -> None:
@@ -205,20 +148,6 @@ def test_what_is_no_number_is_noticed_wherever_it_is(value: float, place: int) -
     assert all_finite(values)
     values[place] = value
     assert not all_finite(values)
-
-
-def test_networks_that_diverge_are_an_error_that_names_the_learning_rate_at_once() -> None:
-    engine = learners(2)
-    engine.rule = RULE._replace(learning_rate=1e38)
-    with pytest.raises(DivergedError, match=r"learning_rate 1e\+38 is too high: after \d updates") as caught:
-        _update_while_finite(engine)
-    assert "\n" not in str(caught.value)
-
-
-def _update_while_finite(engine: CompiledEngine) -> None:
-    for update in range(10):
-        assert np.isfinite(engine.online).all(), "no update may pass that leaves what is no number"
-        engine.update(np.arange(2), batch_of(2, update))
 
 
 def test_a_row_is_handed_out_without_a_copy() -> None:
