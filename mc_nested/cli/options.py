@@ -40,6 +40,16 @@ ProfileOption = Annotated[
     str | None, typer.Option(metavar="NAME|FILE", help="the profile of your game and screen (default: 'default')")
 ]
 
+EngineOption = Annotated[
+    str | None, typer.Option(metavar="NAME", help="what computes: compiled, or torch [the preset's]")
+]
+DeviceOption = Annotated[
+    str | None, typer.Option(metavar="NAME", help="where torch computes: cpu, cuda or mps [the preset's]")
+]
+StatesOption = Annotated[
+    str | None, typer.Option(metavar="NAME", help="what the agent sees: numbers, or an image [the preset's]")
+]
+
 ServerOption = Annotated[
     bool, typer.Option("--server-allowed", help="play even where the window's title says Multiplayer")
 ]

@@ -23,6 +23,7 @@ from mc_nested.cli.experiment import (
     train_all,
 )
 from mc_nested.cli.experiment_end import say_end
+from mc_nested.cli.options import DeviceOption, EngineOption
 from mc_nested.cli.output import JsonOption, Output, QuietOption
 from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
@@ -57,6 +58,8 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         list[str] | None, typer.Option(help=f"an agent, as often as you like [{', '.join(AGENT_SPECS)}]")
     ] = None,
     preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=f"hyper-parameters [{PRESET}]")] = None,
+    engine: EngineOption = None,
+    device: DeviceOption = None,
     longer: Annotated[
         int | None,
         typer.Option(
@@ -85,7 +88,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     for name in agent or ():
         if name not in AGENT_SPECS:
             raise UserError(f"no agent {name!r}: choose one of {', '.join(AGENT_SPECS)}")
-    chosen = load_preset(preset or PRESET)
+    chosen = load_preset(preset or PRESET).changed(engine=engine, device=device)
     for name in agent or AGENT_SPECS:
         check_exploration(AGENT_SPECS[name], chosen)
     config = ReproduceConfig(

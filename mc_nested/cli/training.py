@@ -18,7 +18,6 @@ from mc_nested.cli.training_end import MAP, say_end
 from mc_nested.cli.training_view import TrainingView
 from mc_nested.cli.viewing import Viewed, viewed
 from mc_nested.errors import DesktopError, LiveError, NotInFrontError
-from mc_nested.learn.agents import view_of
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.live.failure_budget import FailureBudget
@@ -77,7 +76,7 @@ def run_training(
             journal=board,
         ) as (env, log):
             agent = folder.new_agent(config.trials)
-            arenas = view_of(agent.spec, env, folder.scenarios)
+            arenas = agent.view_of(env, folder.scenarios)
             trainer = Trainer(arenas, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
             if resumed:
                 folder.checkpoint.load_into(trainer)

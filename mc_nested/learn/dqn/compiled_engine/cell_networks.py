@@ -11,7 +11,7 @@ import numpy as np
 
 from mc_nested.arrays import Float32s, Int64s
 from mc_nested.learn.dqn.compiled import compiled
-from mc_nested.learn.dqn.networks import Sizes, backward, forward, hidden_for, tanh_in_place
+from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for, tanh_in_place
 
 
 class CellPasses(NamedTuple):

@@ -4,7 +4,7 @@ import numpy as np
 import torch
 from torch import nn
 
-from mc_nested.learn.dqn.adam import adam_step
+from mc_nested.learn.dqn.compiled_engine.adam import adam_step
 
 
 def test_steps_are_those_of_torchs_adam() -> None:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from torch import Tensor, nn
 
 from mc_nested.arrays import Float32s
-from mc_nested.learn.dqn.networks import (
+from mc_nested.learn.dqn.compiled_engine.networks import (
     Sizes,
     backward,
     forward,

@@ -6,14 +6,13 @@ import torch
 from torch import Tensor, nn
 
 from mc_nested.errors import DivergedError
-from mc_nested.learn.dqn.ddqn import DDQN, Batch, UpdateRule, all_finite, td_target
-from mc_nested.learn.dqn.networks import initial_parameters
+from mc_nested.learn.dqn.compiled_engine.engine import CompiledEngine, all_finite, td_target
+from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
+from mc_nested.learn.dqn.engine import Batch, UpdateRule
 from mc_nested.learn.dqn.state_space import StateSpace
-from tests.learn.dqn.test_networks import reference
+from tests.learn.dqn.compiled_engine.test_networks import reference
+from tests.learn.dqn.made_engines import RULE, batch_of, part, space_of
 
-RULE = UpdateRule(batch=32, learning_rate=1e-3, target_period=3, huber_delta=1.0, margin=0.5)
-GAMMA = 0.95
-STATES = 15 * 15 * 12 * 2
 SIZES = (4, 32, 32, 8)
 
 
@@ -30,28 +29,9 @@ def test_a_terminated_transition_is_worth_its_reward_alone() -> None:
     assert found == pytest.approx(-1.9)
 
 
-def learners(rows: int, rule: UpdateRule = RULE) -> DDQN:
-    space = StateSpace(np.array([[14, 14, 11, 1]] * rows), actions=8)
+def learners(rows: int, rule: UpdateRule = RULE) -> CompiledEngine:
     online = np.stack([initial_parameters(SIZES, np.random.default_rng(row)) for row in range(rows)])
-    return DDQN(space, SIZES, rule, online)
-
-
-def batch_of(rows: int, seed: int) -> Batch:
-    random = np.random.default_rng(seed)
-    return Batch(
-        states=random.integers(0, STATES, (2, rows, 32)),
-        actions=random.integers(0, 8, (rows, 32)),
-        # Some rewards far beyond δ, so that both branches of the Huber loss are taken.
-        rewards=(random.standard_normal((rows, 32)) * 3).astype(np.float32),
-        discounts=np.where(random.random((rows, 32)) < 0.2, 0.0, GAMMA).astype(np.float32),
-        imitated=random.random((rows, 32)) < 0.3,
-        weights=random.random((rows, 32)).astype(np.float32),
-    )
-
-
-def part(batch: Batch, rows: list[int]) -> Batch:
-    rest = {name: getattr(batch, name)[rows] for name in ("actions", "rewards", "discounts", "imitated", "weights")}
-    return Batch(states=batch.states[:, rows], **rest)
+    return CompiledEngine(space_of(rows), SIZES, rule, online)
 
 
 @pytest.mark.parametrize("rows", [1, 4])
@@ -103,33 +83,12 @@ def test_values_of_a_batch_alone_are_those_of_the_table_of_all_states() -> None:
     assert tabulated._target_values.values.size
     assert not by_batch._target_values.values.size
     by_batch.rule = tabulated.rule
-    for ddqn in (tabulated, by_batch):
-        ddqn.load_online(ddqn.online[::-1].copy())
+    for engine in (tabulated, by_batch):
+        engine.load_online(engine.online[::-1].copy())
     for update in range(5):
-        errors = [ddqn.update(np.arange(2), batch_of(2, update)) for ddqn in (tabulated, by_batch)]
+        errors = [engine.update(np.arange(2), batch_of(2, update)) for engine in (tabulated, by_batch)]
         np.testing.assert_allclose(errors[0], errors[1], rtol=1e-5, atol=1e-6)
         tabulated.online[:] = by_batch.online  # so that rounding in one update isn't the next one's
-
-
-def test_the_target_network_follows_every_period_and_stands_still_between() -> None:
-    ddqn = learners(1)
-    first = ddqn.target.copy()
-    for update in range(1, 3):
-        ddqn.update(np.array([0]), batch_of(1, update))
-        np.testing.assert_array_equal(ddqn.target, first)
-    ddqn.update(np.array([0]), batch_of(1, 3))
-    np.testing.assert_array_equal(ddqn.target, ddqn.online)
-    assert not np.array_equal(ddqn.target, first)
-
-
-def test_rows_that_are_not_named_stay_as_they_are() -> None:
-    ddqn = learners(4)
-    ddqn.update(np.arange(4), batch_of(4, 1))
-    before = {name: kept.copy() for name, kept in ddqn.state().items()}
-    ddqn.update(np.array([2, 0]), batch_of(2, 2))
-    for name, kept in ddqn.state().items():
-        np.testing.assert_array_equal(kept[[1, 3]], before[name][[1, 3]])
-    assert ddqn.updates.tolist() == [2, 1, 2, 1]
 
 
 def test_a_row_learns_the_same_to_the_bit_beside_others_and_alone() -> None:
@@ -149,7 +108,7 @@ def test_a_row_learns_the_same_to_the_bit_beside_others_and_alone() -> None:
 def test_rows_of_other_scenarios_take_their_own_features() -> None:
     space = StateSpace(np.array([[14, 14, 11, 1], [14, 14, 16, 1]]), actions=8)
     same = initial_parameters(SIZES, np.random.default_rng(0))
-    both = DDQN(space, SIZES, RULE, np.stack([same, same]))
+    both = CompiledEngine(space, SIZES, RULE, np.stack([same, same]))
     state = space.index(np.array([[7, 14, 11, 1]] * 2))
     values = both.q_values(state)
     assert not np.array_equal(values[0], values[1])
@@ -159,41 +118,26 @@ def test_rows_of_other_scenarios_take_their_own_features() -> None:
 
 
 def test_q_values_are_the_online_networks() -> None:
-    ddqn = learners(3)
+    engine = learners(3)
     states = np.array([5, 77, 1234])
-    features = torch.from_numpy(ddqn.space.features_of(0)[states, :-1])
-    expected = [reference(torch.from_numpy(ddqn.online[row]), SIZES, features[row]).numpy() for row in range(3)]
-    np.testing.assert_allclose(ddqn.q_values(states), np.stack(expected), rtol=1e-5, atol=1e-6)
-    some = ddqn.q_values(states[[2, 0]], np.array([2, 0]))
+    features = torch.from_numpy(engine.space.features_of(0)[states, :-1])
+    expected = [reference(torch.from_numpy(engine.online[row]), SIZES, features[row]).numpy() for row in range(3)]
+    np.testing.assert_allclose(engine.q_values(states), np.stack(expected), rtol=1e-5, atol=1e-6)
+    some = engine.q_values(states[[2, 0]], np.array([2, 0]))
     np.testing.assert_allclose(some, np.stack([expected[2], expected[0]]), rtol=1e-5, atol=1e-6)
 
 
 def test_loss_and_value_are_those_of_each_rows_last_update() -> None:
-    ddqn = learners(2)
+    engine = learners(2)
     batch = batch_of(1, 3)._replace(weights=np.ones((1, 32), np.float32))
     states, actions = batch.states[0], batch.actions
-    own = ddqn.q_values(np.tile(states[0], 2)[:2] * 0 + states[0, 0])[1, actions[0, 0]]
-    errors = ddqn.update(np.array([1]), batch)
-    assert np.isnan(ddqn.last_loss()[0])
-    assert np.isnan(ddqn.last_q()[0])
+    own = engine.q_values(np.tile(states[0], 2)[:2] * 0 + states[0, 0])[1, actions[0, 0]]
+    errors = engine.update(np.array([1]), batch)
+    assert np.isnan(engine.last_loss()[0])
+    assert np.isnan(engine.last_q()[0])
     size = np.abs(errors[0])
-    assert ddqn.last_loss()[1] == pytest.approx(np.where(size <= 1, size**2 / 2, size - 0.5).mean(), rel=1e-5)
-    assert ddqn._last_values[1, 0] == pytest.approx(own, rel=1e-4, abs=1e-6)
-
-
-def test_a_loaded_learner_goes_on_to_the_bit() -> None:
-    one, other = learners(2), learners(2)
-    one.update(np.arange(2), batch_of(2, 1))
-    other.load({name: kept.copy() for name, kept in one.state().items()})
-    for ddqn in (one, other):
-        ddqn.update(np.arange(2), batch_of(2, 2))
-    for name, kept in one.state().items():
-        np.testing.assert_array_equal(kept, other.state()[name])
-
-
-def test_networks_of_another_shape_are_refused() -> None:
-    with pytest.raises(ValueError, match="networks of"):
-        learners(2).load_online(np.zeros((2, 5), np.float32))
+    assert engine.last_loss()[1] == pytest.approx(np.where(size <= 1, size**2 / 2, size - 0.5).mean(), rel=1e-5)
+    assert engine._last.values[1, 0] == pytest.approx(own, rel=1e-4, abs=1e-6)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
@@ -206,39 +150,25 @@ def test_what_is_no_number_is_noticed_wherever_it_is(value: float, place: int) -
     assert not all_finite(values)
 
 
-def test_networks_that_diverge_are_an_error_that_names_the_learning_rate_at_once() -> None:
-    ddqn = learners(2)
-    ddqn.rule = RULE._replace(learning_rate=1e38)
-    with pytest.raises(DivergedError, match=r"learning_rate 1e\+38 is too high: after \d updates") as caught:
-        _update_while_finite(ddqn)
-    assert "\n" not in str(caught.value)
-
-
-def _update_while_finite(ddqn: DDQN) -> None:
-    for update in range(10):
-        assert np.isfinite(ddqn.online).all(), "no update may pass that leaves what is no number"
-        ddqn.update(np.arange(2), batch_of(2, update))
-
-
 def test_a_row_is_handed_out_without_a_copy() -> None:
-    ddqn, same = learners(3), learners(3)
-    for each in (ddqn, same):
+    engine, same = learners(3), learners(3)
+    for each in (engine, same):
         each.update(np.arange(3), batch_of(3, 1))
-    online, target, first, second, updates = ddqn.row(1)
+    online, target, first, second, updates = engine.row(1)
     for part_, name in ((online, "online"), (target, "target"), (first, "first_moment"), (second, "second_moment")):
         np.testing.assert_array_equal(part_, same.state()[name][1])
         part_[:] = 7.0
     updates[0] = 42
-    for name, kept in ddqn.state().items():
+    for name, kept in engine.state().items():
         assert (kept[1] == (42 if name == "updates" else 7.0)).all(), name
         np.testing.assert_array_equal(kept[[0, 2]], same.state()[name][[0, 2]], err_msg=name)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf])
 def test_a_row_that_something_else_updated_is_checked_by_itself(value: float) -> None:
-    ddqn = learners(3)
-    ddqn.row(1)[0][5] = value
-    ddqn.check_finite(0)
-    ddqn.check_finite(2)
+    engine = learners(3)
+    engine.row(1)[0][5] = value
+    engine.check_finite(0)
+    engine.check_finite(2)
     with pytest.raises(DivergedError, match="lower it in the preset"):
-        ddqn.check_finite(1)
+        engine.check_finite(1)

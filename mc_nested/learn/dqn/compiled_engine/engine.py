@@ -11,47 +11,18 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arrays import Bools, Float32s, Int64s, Integers
-from mc_nested.errors import DivergedError
-from mc_nested.learn.dqn.adam import adam_step
+from mc_nested.arrays import Float32s, Int64s
 from mc_nested.learn.dqn.compiled import compiled
-from mc_nested.learn.dqn.networks import Sizes, backward, forward, hidden_for, parameter_count
+from mc_nested.learn.dqn.compiled_engine.adam import adam_step
+from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for, parameter_count
+from mc_nested.learn.dqn.compiled_engine.target_values import TargetValues, table_pays
+from mc_nested.learn.dqn.engine import Batch, Engine, LastBatches, NetworkForm, UpdateRule, diverged
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.dqn.self_imitation import rival
 from mc_nested.learn.dqn.state_space import StateParts, StateSpace
-from mc_nested.learn.dqn.target_values import TargetValues, table_pays
 
 EXPONENT = np.int32(0x7F800000)
 """The bits of a 32-bit float's exponent: all are set in what is infinite or no number."""
-
-
-class UpdateRule(NamedTuple):
-    """What an update does (docs/explanation/task.md): batch size, Adam's rate, the target's period and Huber's δ.
-
-    ``margin`` is that of imitated actions (self_imitation.py).
-    """
-
-    batch: int
-    learning_rate: float
-    target_period: int
-    huber_delta: float
-    margin: float = 0.0
-
-
-class Batch(NamedTuple):
-    """Transitions for k rows: states (2, k, batch), actions, rewards and discounts (k, batch).
-
-    ``states`` holds the index of every s, and of every s'; ``discounts`` is the factor of the value of s': γ, or 0
-    where the episode terminated. ``imitated`` (k, batch) marks the actions that should become greedy;
-    ``weights`` (k, batch) scale the errors.
-    """
-
-    states: Integers
-    actions: Integers
-    rewards: Float32s
-    discounts: Float32s
-    imitated: Bools
-    weights: Float32s
 
 
 class _Networks(NamedTuple):
@@ -94,8 +65,8 @@ class _Estimates(NamedTuple):
     errors: Float32s
 
 
-class DDQN:
-    """Rows of Q-networks with their targets and optimisers.
+class CompiledEngine:
+    """The Engine of small dense networks over numbered states.
 
     Args:
         space: the states and actions.
@@ -115,16 +86,18 @@ class DDQN:
         self._first_moment, self._second_moment = np.zeros_like(online), np.zeros_like(online)
         tabulated = table_pays(space.count, rule.batch, rule.target_period)
         self._target_values = TargetValues(space, sizes, self.target, tabulated)
-        self._last_values = np.full((len(online), rule.batch), np.nan, np.float32)
-        self._last_errors = np.full((len(online), rule.batch), np.nan, np.float32)
+        self._last = LastBatches(len(online), rule)
         self._every_row = np.arange(len(online))
         self._widths = np.array(sizes, dtype=np.int64)
         self._acting = _workspace(sizes, 1)
         self._learning = _workspace(sizes, rule.batch)
 
+    @property
+    def form(self) -> NetworkForm:
+        return NetworkForm("mlp", self.sizes)
+
     @on_one_blas_thread
     def load_online(self, online: Float32s) -> None:
-        """Continue with other networks (rows, parameters), the targets too; ValueError if their shape differs."""
         if online.shape != self.online.shape:
             raise ValueError(f"networks of {online.shape}, not {self.online.shape}")
         self.online[:] = self.target[:] = online
@@ -132,7 +105,6 @@ class DDQN:
 
     @on_one_blas_thread
     def q_values(self, states: Int64s, rows: Int64s | None = None) -> Float32s:
-        """The online networks' values (k, actions) of one state index per row (k,); of all rows unless named."""
         named = self._every_row if rows is None else rows
         values = np.empty((len(named), self.space.actions), np.float32)
         work = self._acting
@@ -142,11 +114,6 @@ class DDQN:
 
     @on_one_blas_thread
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
-        """One update of each of the named rows (k,), each on its own part of the batch; the TD errors, (k, batch).
-
-        By the gradient of the mean Huber loss, and of the mean large-margin loss of what is imitated.
-        DivergedError if a parameter is no number afterwards, before anything can be saved.
-        """
         self.updates[rows] += 1
         estimates = _Estimates(np.empty_like(batch.rewards), np.empty_like(batch.rewards))
         finite = _update(
@@ -160,8 +127,8 @@ class DDQN:
             estimates,
         )
         if not finite:
-            raise self._diverged(rows)
-        self._last_values[rows], self._last_errors[rows] = estimates
+            raise diverged(self.rule, self.updates[rows])
+        self._last.values[rows], self._last.errors[rows] = estimates
         due = rows[self.updates[rows] % self.rule.target_period == 0]
         if len(due):
             self.target[due] = self.online[due]
@@ -179,28 +146,15 @@ class DDQN:
     def check_finite(self, row: int, online: Float32s | None = None) -> None:
         """DivergedError if a parameter of that row's online network, or of what it is to become, is no number."""
         if not np.isfinite(self.online[row] if online is None else online).all():
-            raise self._diverged(np.array([row]))
+            raise diverged(self.rule, self.updates[row : row + 1])
 
     def last_loss(self) -> Float32s:
-        """The mean Huber loss of each row's last update, (rows,); nan before the first."""
-        size, delta = np.abs(self._last_errors), np.float32(self.rule.huber_delta)
-        losses = np.where(size <= delta, size**2 / 2, delta * (size - delta / 2))
-        mean: Float32s = losses.mean(axis=1)
-        return mean
+        return self._last.loss()
 
     def last_q(self) -> Float32s:
-        """The mean value, Q(s, a), of the transitions of each row's last update, (rows,); nan before the first."""
-        mean: Float32s = self._last_values.mean(axis=1)
-        return mean
-
-    def _diverged(self, rows: Int64s) -> DivergedError:
-        return DivergedError(
-            f"learning_rate {self.rule.learning_rate:g} is too high: after {self.updates[rows].max()} updates the "
-            f"networks hold what is no number: lower it in the preset's [update], and train again"
-        )
+        return self._last.q()
 
     def state(self) -> dict[str, NDArray[Any]]:
-        """What the next update depends on, by name."""
         return {
             "online": self.online,
             "target": self.target,
@@ -211,10 +165,16 @@ class DDQN:
 
     @on_one_blas_thread
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Continue from what ``state`` returned; KeyError or ValueError if the shape differs."""
         for name, own in self.state().items():
             own[:] = state[name]
         self._target_values.renew(self._every_row, self.target)
+
+
+def compiled_engine(engine: Engine) -> CompiledEngine:
+    """That engine, whose parameters something else is to update; TypeError if it isn't the compiled one."""
+    if not isinstance(engine, CompiledEngine):
+        raise TypeError("the networks' parameters are only handed out by the compiled engine")
+    return engine
 
 
 def _workspace(sizes: Sizes, batch: int) -> _Workspace:
@@ -280,7 +240,7 @@ def _update(
     work: _Workspace,
     estimates: _Estimates,
 ) -> bool:
-    """``DDQN.update``, row by row; returns whether all parameters are numbers afterwards."""
+    """``CompiledEngine.update``, row by row; returns whether all parameters are numbers afterwards."""
     finite = True
     count = batch.actions.shape[1]
     slope = work.slope

@@ -11,7 +11,7 @@ import numpy as np
 
 from mc_nested.arrays import Float32s, Int64s
 from mc_nested.learn.dqn.compiled import compiled
-from mc_nested.learn.dqn.networks import Sizes, forward, hidden_for
+from mc_nested.learn.dqn.compiled_engine.networks import Sizes, forward, hidden_for
 from mc_nested.learn.dqn.state_space import StateSpace
 
 AT_ONCE = 256

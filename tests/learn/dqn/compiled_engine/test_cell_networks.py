@@ -5,10 +5,17 @@ import pytest
 import torch
 
 from mc_nested.arrays import Float32s, Int64s
-from mc_nested.learn.dqn.cell_networks import CellPasses, backward_cells, by_input, by_node, forward_cells, passes_for
-from mc_nested.learn.dqn.networks import Sizes, backward, forward, hidden_for, parameter_count
+from mc_nested.learn.dqn.compiled_engine.cell_networks import (
+    CellPasses,
+    backward_cells,
+    by_input,
+    by_node,
+    forward_cells,
+    passes_for,
+)
+from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for, parameter_count
 from mc_nested.learn.dqn.state_space import StateSpace
-from tests.learn.dqn.test_networks import reference
+from tests.learn.dqn.compiled_engine.test_networks import reference
 
 BATCH = 9
 

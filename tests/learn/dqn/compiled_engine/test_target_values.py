@@ -3,10 +3,10 @@
 import numpy as np
 import torch
 
-from mc_nested.learn.dqn.networks import initial_parameters
+from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
+from mc_nested.learn.dqn.compiled_engine.target_values import AT_ONCE, TargetValues, table_pays
 from mc_nested.learn.dqn.state_space import StateSpace
-from mc_nested.learn.dqn.target_values import AT_ONCE, TargetValues, table_pays
-from tests.learn.dqn.test_networks import reference
+from tests.learn.dqn.compiled_engine.test_networks import reference
 
 SIZES = (3, 4, 8)
 
