@@ -19,8 +19,8 @@ from mc_nested.arena.cooperative.team import Team
 from mc_nested.arena.env import highest_observation
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.errors import PresetError
-from mc_nested.learn.dqn.networks import parameter_count
 from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.engine_fit import NUMBERS
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.state_dict import named_for, part_of
@@ -34,6 +34,8 @@ KINDS: tuple[Kind, ...] = ("shared", "own", "single")
 
 def check_team_preset(preset: Preset) -> None:
     """PresetError if the preset explores in a way that builders in one arena can't."""
+    if preset.states != NUMBERS:
+        raise PresetError(f"builders in one arena see numbers, not states {preset.states!r}: take the preset paper")
     for name, table in (("[excursions]", preset.excursions), ("[imagination]", preset.imagination)):
         if table:  # both replay a path, or imagine a game, in which nobody else acts
             raise PresetError(f"{name} is for a builder alone: take the preset paper, or one with [explore_nested]")
@@ -97,6 +99,10 @@ class TeamAgent:
         """The rows of ``builders`` that play that builder in the named runs (n,)."""
         return runs if self._rows_a_run == 1 else runs * self._rows_a_run + builder
 
+    def chosen_materials(self, observations: Int64s) -> Int64s:
+        """The materials that single agents' observations (runs, k, 4) show as chosen, (runs,); -1 before the choice."""
+        return observations[:, 0, -1] - 1
+
     def choose(self, runs: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:
         """The main agent's ε-greedy materials in the named runs (n,); 0 where there is no main agent."""
         if self.main is None:
@@ -139,17 +145,22 @@ class TeamAgent:
     @property
     def parameters(self) -> int:
         """Parameters of one run's networks, target networks not counted."""
-        main = parameter_count(self.main.ddqn.sizes) if self.main else 0
-        return main + self._rows_a_run * parameter_count(self.builders.ddqn.sizes)
+        main = self.main.parameters if self.main else 0
+        return main + self._rows_a_run * self.builders.parameters
 
     @property
     def updates(self) -> int:
         """Updates done, over all runs and agents."""
-        return sum(int(learner.ddqn.updates.sum()) for learner in self._learners().values())
+        return sum(int(learner.engine.updates.sum()) for learner in self._learners().values())
 
     def online(self) -> Arrays:
         """The online networks' parameters, by role: what acting needs."""
-        return {role: learner.ddqn.online for role, learner in self._learners().items()}
+        return {role: learner.engine.online for role, learner in self._learners().items()}
+
+    def load_online(self, online: Mapping[str, NDArray[Any]]) -> None:
+        """Load online networks, by role, a row for each of the learner's; ValueError if their shape differs."""
+        for role, learner in self._learners().items():
+            learner.engine.load_online(online[role])
 
     def rows_of(self, run: int) -> dict[str, slice]:
         """A run's rows, by role."""

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mc_nested.learn.agents import chosen_materials
 from mc_nested.learn.cooperation.team_agent import TeamAgent
 from mc_nested.learn.cooperation.team_trainer import TeamArena
 from mc_nested.learn.learner import CHOICE_NUMBERS
@@ -30,6 +29,6 @@ def play_team_greedily(arena: TeamArena, agent: TeamAgent) -> TeamEpisode:
         step = arena.step(agent.act(states, never, unused)[0])
         observations, ticks = step.observations, ticks + 1
         if agent.main is None:
-            materials = chosen_materials(observations[:1])
+            materials = agent.chosen_materials(observations[None])
         if step.terminated or step.truncated:
             return TeamEpisode(int(materials[0]), ticks, step.score)

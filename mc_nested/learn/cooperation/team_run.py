@@ -128,8 +128,7 @@ class TeamRun:
         config = self.config
         agent = TeamAgent(config.networks, self.team, config.preset, config.seed, [trial])
         kept, rows = part_of(self.checkpoint.state(), "kept"), agent.rows_of(trial)
-        for role, online in agent.online().items():
-            online[:] = kept[role][rows[role]]
+        agent.load_online({role: kept[role][rows[role]] for role in agent.online()})
         return agent
 
     @property

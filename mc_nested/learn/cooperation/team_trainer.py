@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from mc_nested.arena.cooperative.team_env import TeamStep
 from mc_nested.arena.game import Resumable
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
-from mc_nested.learn.agents import chosen_materials
 from mc_nested.learn.cooperation.team_agent import TeamAgent
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
@@ -132,7 +131,7 @@ class TeamTrainer:
         actions = self.agent.act(states, np.where(training, self.epsilon[1], 0.0), choice)
         rewards, terminated, truncated, scores = self._step(actions)
         if self.agent.main is None:
-            runs.materials = chosen_materials(runs.observations[:, 0])
+            runs.materials = self.agent.chosen_materials(runs.observations)
         rows = np.flatnonzero(training)
         next_states = self.agent.states(runs.observations, runs.materials)
         self.agent.store(rows, states[rows], actions[rows], rewards[rows], next_states[rows], terminated[rows])

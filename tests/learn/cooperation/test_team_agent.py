@@ -76,8 +76,8 @@ def test_each_builder_has_an_update_a_tick() -> None:
         for _ in range(32):
             store_a_tick(agent)
         agent.learn(np.array([0, 1]), np.random.default_rng(0).random((2, 2, 1, 32)))
-    assert shared.builders.ddqn.updates.tolist() == [2, 2]
-    assert own.builders.ddqn.updates.tolist() == [1, 1, 1, 1]
+    assert shared.builders.engine.updates.tolist() == [2, 2]
+    assert own.builders.engine.updates.tolist() == [1, 1, 1, 1]
 
 
 @pytest.mark.parametrize(("preset", "table"), [("tuned", "excursions"), ("live", "imagination")])
@@ -85,3 +85,8 @@ def test_each_builder_has_an_update_a_tick() -> None:
 def test_ways_to_explore_that_are_for_one_builder_are_refused(kind: Kind, preset: str, table: str) -> None:
     with pytest.raises(PresetError, match=rf"^\[{table}\] is for a builder alone: take the preset paper"):
         TeamAgent(kind, team_of(LINE, 2), load_preset(preset), 0, [0])
+
+
+def test_images_are_refused() -> None:
+    with pytest.raises(PresetError, match=r"^builders in one arena see numbers, not states 'image': take the preset"):
+        TeamAgent("shared", team_of(LINE, 2), load_preset("image"), 0, [0])

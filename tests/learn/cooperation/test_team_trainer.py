@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mc_nested.learn.agents import AGENT_SPECS, Agent, view_of
+from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.cooperation.team_agent import KINDS, Kind
 from mc_nested.learn.cooperation.team_trainer import TeamTrainer
 from mc_nested.learn.preset import MainUpdates, Preset, Prioritized
@@ -24,9 +24,8 @@ MORE = SHORT.model_copy(
 
 def papers(agent: str, preset: Preset) -> Trainer:
     spec, scenarios = AGENT_SPECS[agent], [LINE, LINE]
-    trainer = Trainer(
-        view_of(spec, GridVectorEnv(scenarios), scenarios), scenarios, Agent(spec, scenarios, preset, 3), preset, 3
-    )
+    theirs = Agent(spec, scenarios, preset, 3)
+    trainer = Trainer(theirs.view_of(GridVectorEnv(scenarios), scenarios), scenarios, theirs, preset, 3)
     while not trainer.finished:
         trainer.tick()
     return trainer
@@ -43,7 +42,7 @@ def test_a_builder_alone_learns_what_the_papers_agent_learns_to_the_bit(kind: Ki
     ours, theirs = finish(trainer_of(kind, 1, preset=preset, seed=3)), papers(agent, preset)
     assert ours.episode_rows == theirs.episode_rows
     assert ours.evaluation_rows == theirs.evaluation_rows
-    np.testing.assert_array_equal(ours.agent.builders.ddqn.online, theirs.agent.low_level.ddqn.online)
+    np.testing.assert_array_equal(ours.agent.builders.engine.online, theirs.agent.low_level.engine.online)
     np.testing.assert_array_equal(ours.kept_scores, theirs.kept_scores)
     assert ours.env_ticks == theirs.env_steps
 
@@ -55,7 +54,7 @@ def test_a_run_learns_the_same_alone_and_beside_others(kind: Kind, builders: int
     alone = finish(trainer_of(kind, builders, runs=(1,)))
     assert rows_of(together, 1) == rows_of(alone, 0)
     rows = together.agent.rows_of(1)["builders"]
-    np.testing.assert_array_equal(together.agent.builders.ddqn.online[rows], alone.agent.builders.ddqn.online)
+    np.testing.assert_array_equal(together.agent.builders.engine.online[rows], alone.agent.builders.engine.online)
 
 
 @pytest.mark.parametrize("preset", [SHORT, MORE], ids=["paper", "more"])
