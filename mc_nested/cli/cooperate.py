@@ -82,10 +82,7 @@ def cooperate(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     """Train several builders in one simulated arena; Ctrl+C saves, and --resume goes on from there."""
     output = Output(quiet, as_json)
     if resume is not None:
-        given = [name for name, value in context.params.items() if value is not None and value is not False]
-        beside = [name for name in given if name not in BESIDE_RESUME]
-        if beside:
-            raise UserError(f"--resume goes on with the run's own config.toml: leave out --{beside[0]}")
+        _check_alone(context)
         run = TeamRun.open(resume)
         with folder_lock(resume):
             _run(run, output, resumed=not run.only_begun)
@@ -105,6 +102,14 @@ def cooperate(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     )
     with output_folder(out, f"{team.scenario.name}-{team.builders}-builders") as path:
         _run(TeamRun.new(path, config), output, resumed=False)
+
+
+def _check_alone(context: typer.Context) -> None:
+    """UserError, one line, if an option is given that a run can't be resumed with."""
+    given = [name for name, value in context.params.items() if value not in (None, ()) and value is not False]
+    beside = [name for name in given if name not in BESIDE_RESUME]
+    if beside:
+        raise UserError(f"--resume goes on with the run's own config.toml: leave out --{beside[0]}")
 
 
 def _team(scenario: Scenario, builders: int | None, starts: list[str] | None) -> Team:
