@@ -246,7 +246,9 @@ class Preset(_Table):
         try:
             return Preset.model_validate({**self.model_dump(), **wanted})
         except ValidationError as error:
-            reason = error.errors()[0].get("ctx", {}).get("error", error.errors()[0]["msg"])
+            mistake = error.errors()[0]
+            expected = str(mistake.get("ctx", {}).get("expected", "")).replace("'", "")
+            reason = f"must be {expected}" if expected else mistake["ctx"]["error"]
             raise PresetError(
                 f"with {', '.join(f'--{key} {value}' for key, value in wanted.items())}: {reason}"
             ) from error

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from mc_nested.arena.planes import start_planes
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import AGENT_SPECS, Agent, check_exploration
 from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
@@ -97,3 +98,31 @@ def test_a_main_agent_remembers_which_of_300_materials_it_chose() -> None:
     start = np.array([many.start_state])
     main.store(np.array([0]), start, np.array([290]), np.ones(1), start, np.array([True]))
     assert main.replay.added_since(None)["actions"].tolist() == [290]
+
+
+IMAGE = load_preset("image")
+PLANES = start_planes([DOT, DOT])
+
+
+def test_an_image_has_the_main_agents_action_as_one_plane_more() -> None:
+    agent = Agent(NESTED, [DOT, DOT], IMAGE, 0)
+    assert agent.start_states([DOT, DOT]).tolist() == PLANES.tolist()
+    states = agent.low_level_states(PLANES, np.array([0, 1]))
+    assert states.shape == (2, 5, 15, 15)
+    np.testing.assert_array_equal(states[:, :4], PLANES)
+    assert [np.unique(plane).tolist() for plane in states[:, 4]] == [[128], [255]], "a_M + 1 of two materials"
+    assert agent.low_level.states.shape == (5, 15, 15)
+
+
+def test_the_hierarchys_agents_see_an_image_without_a_material() -> None:
+    agent = Agent(HIERARCHICAL, [DOT, DOT], IMAGE, 0)
+    np.testing.assert_array_equal(agent.low_level_states(PLANES, np.array([0, 1])), PLANES)
+    assert (agent.low_level.states.shape, agent.low_level.states.rows) == ((4, 15, 15), 4)
+
+
+def test_the_single_agents_choice_is_read_from_its_last_plane() -> None:
+    agent = Agent(SINGLE, [DOT], IMAGE, 0)
+    env = agent.view_of(GridVectorEnv([DOT]), [DOT])
+    seen = [env.reset()[0], env.step(np.array([1]))[0]]
+    assert [agent.chosen_materials(each).tolist() for each in seen] == [[-1], [1]]
+    assert agent.low_level_states(seen[1], np.zeros(1, np.int64)).shape == (1, 5, 15, 15)
