@@ -24,7 +24,7 @@ def test_an_option_is_listed_with_what_its_value_can_be() -> None:
     assert by_name["--quiet"] is by_name["-q"]
     assert by_name["--resume"].ones_own == "runs"
     assert by_name["--profile"].ones_own == "profiles"
-    assert by_name["--preset"].choices == ["live", "paper", "tuned"]
+    assert by_name["--preset"].choices == ["image", "live", "paper", "tuned"]
     assert "--install-completion" not in by_name
 
 
