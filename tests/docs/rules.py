@@ -7,6 +7,7 @@ from collections.abc import Callable
 from tests.design_files import written
 
 SIZES = {
+    "mc-nested cooperate": "--trials 1 --episodes 20",
     "mc-nested reproduce": "--trials 1 --episodes 4 --scenario line",
     "mc-nested sweep --ablation": "--trials 1 --episodes 1 --scenario line",
     "mc-nested sweep": "--trials 1 --episodes 2 --scenario line",
