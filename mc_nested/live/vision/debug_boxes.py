@@ -16,10 +16,10 @@ from mc_nested.live.vision.layout import VANILLA
 from mc_nested.live.vision.text_colours import GREEN, INK_SPREAD, PLAIN, RED, Colour
 
 ALPHA = 0x90 / 255
-"""How much of the box's grey is over the world (FACTS: The F3 debug screen: 0x90505050)."""
+"""How much of a box's grey is over the world: 0x90 of 0xFF (FACTS: The F3 debug screen)."""
 
 GREY = 80
-"""Of a box, before the world shines through: the last six digits of that colour."""
+"""Of a box, before the world shines through: 0x50."""
 
 BRIGHTEST = 175
 """No ground under a box is as bright: it is 157 at most; no ink is as dark in all its channels."""
