@@ -13,7 +13,6 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game, PlayLog
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ArenaVectorEnv
-from mc_nested.cli.virtual_games import VirtualPlay, open_virtual_games
 from mc_nested.errors import RunError
 from mc_nested.live.devices import Display
 from mc_nested.live.failure_budget import FailureBudget
@@ -75,6 +74,9 @@ def open_game(
         yield GridGame(scenario), None
         return
     if backend is Backend.VIRTUAL:
+        # Imported here: no other backend needs it, and every verb would wait for it.
+        from mc_nested.cli.virtual_games import open_virtual_games
+
         with open_virtual_games([scenario], journal=journal) as (game,):
             yield game, game.connection.devices.display
         return
@@ -112,6 +114,8 @@ def open_arenas(
         yield GridVectorEnv(scenarios), None
         return
     if backend is Backend.VIRTUAL:
+        from mc_nested.cli.virtual_games import VirtualPlay, open_virtual_games
+
         with open_virtual_games(scenarios, seed, journal) as games:
             envs = [ArenaEnv(game, scenario) for game, scenario in zip(games, scenarios, strict=True)]
             yield ArenaVectorEnv(envs), VirtualPlay(games)
