@@ -43,7 +43,7 @@ JSON_FIELDS: Mapping[str, Mapping[str, str]] = {
         "scenario": "the design's name",
         "agent": "who learnt",
         "preset": "the hyper-parameters' name or file",
-        "backend": "sim or live",
+        "backend": "sim, virtual or live",
         "trials": "independent trainings",
         "seed": "of all random numbers",
         "episodes": "a trial's, at most",
@@ -58,7 +58,7 @@ JSON_FIELDS: Mapping[str, Mapping[str, str]] = {
         "wall_s": "seconds that it took",
         "networks": "of a trial",
         "parameters": "of a trial's networks",
-        "live": "of a live game: what playing took",
+        "live": "of a live game, or of virtual ones: what playing took",
     },
     "cooperate": {
         "folder": "the run's folder",

@@ -30,7 +30,7 @@ from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from mc_nested.view.publisher import Publisher
 from mc_nested.view.status_files import remove_status
 
-SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.LIVE: 15.0}
+SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.VIRTUAL: 60.0, Backend.LIVE: 15.0}
 """Seconds between checkpoints, which is what a kill can cost: in the simulator, or in a game of a block per second."""
 
 
@@ -74,6 +74,7 @@ def run_training(
             evidence=folder.path / "evidence",
             open_recorder=live_recorder(how.record, what, folder.scenario, server_allowed=how.server_allowed),
             journal=board,
+            seed=config.seed,
         ) as (env, log):
             agent = folder.new_agent(config.trials)
             arenas = agent.view_of(env, folder.scenarios)

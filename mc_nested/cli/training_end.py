@@ -25,6 +25,11 @@ def say_end(output: Output, path: Path, config: RunConfig, summary: Mapping[str,
         played = ", ".join("never" if each is None else f"{each['episodes']}" for each in summary["played_to_optimum"])
         lines.append(f"episodes to the optimum: {reached}; with the greedy ones: {played}")
     scores = ", ".join(f"{score:g}" for score in summary["final_scores"])
+    if config.backend == "virtual":
+        minutes = sum(summary["live"]["game_s"]) / 60
+        lines.append(
+            f"game time:  {minutes:.1f} minutes on the virtual client since the training was last begun or resumed"
+        )
     lines += [f"final scores (optimum {summary['optimum']:g}): {scores}"]
     lines += [f"run:        {path}", f"curve:      {path / 'curve.png'}"]
     if config.preset.imagination:

@@ -26,6 +26,7 @@ from sim.client.desktop.pointer import VirtualPointer
 from sim.client.desktop.window import VirtualWindow
 from sim.client.drawing.font import drawn_atlas
 from sim.client.drawing.painter import Painter
+from sim.client.drawing.scenery import SEEN
 from sim.client.drawing.view_layers import ViewLayers
 from sim.client.game.controls import Controls
 from sim.client.game.edition import Edition
@@ -225,6 +226,8 @@ class VirtualClient:
     def _view(self) -> View:
         """What the game shows, in this window."""
         view, settings = self.game.view(), self.settings
+        if settings.world == SEEN and self.game.is_in_world:
+            view = dataclasses.replace(view, sight=self.game.sight())
         if view.f3 is None:
             return view
         fps = round(settings.fps if settings.shown_fps is None else settings.shown_fps)

@@ -34,7 +34,7 @@ class RunConfig(BaseModel):
 
     format: Annotated[int, Field(ge=1)] = FORMAT
     agent: AgentName
-    backend: Literal["sim", "live"]
+    backend: Literal["sim", "virtual", "live"]
     profile: str | None = None
     trials: Annotated[int, Field(ge=1)]
     seed: Annotated[int, Field(ge=0)]

@@ -14,7 +14,7 @@ from sim.client.game.gaits import Gaits
 from sim.client.game.keys import GameKeys
 from sim.client.game.realm import SLOTS, Realm
 from sim.client.game.screens import DEATH_WAIT, IN_WORLD, Effect, MenuState, ScreenName
-from sim.client.game.view import View
+from sim.client.game.view import Eye, Sight, View
 from sim.client.game.world import AIR, block_of
 
 REPEAT_TICKS = 4
@@ -196,6 +196,20 @@ class VirtualGame:
             player.mode == "creative",
             pointer,
             self.notices,
+        )
+
+    def sight(self) -> Sight:
+        """The world as the player sees it now."""
+        player, world = self.realm.player, self.realm.world
+        hit = self.target_block(self.reach())
+        stack = player.hotbar[player.slot]
+        return Sight(
+            Eye(self.realm.eye(), player.yaw, player.pitch),
+            world.seen(),
+            world.floor,
+            world.floor_block,
+            hit.block if hit else None,
+            stack.block if stack else None,
         )
 
     def target_block(self, reach: float) -> ray.Hit | None:

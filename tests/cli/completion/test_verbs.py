@@ -19,7 +19,7 @@ def test_what_is_written_is_read_back() -> None:
 def test_an_option_is_listed_with_what_its_value_can_be() -> None:
     train = shipped().verbs["train"].parameters
     by_name = {name: parameter for parameter in train for name in parameter.names}
-    assert by_name["--backend"] == Parameter(["--backend"], "where [sim]", choices=["sim", "live"])
+    assert by_name["--backend"] == Parameter(["--backend"], "where [sim]", choices=["sim", "virtual", "live"])
     assert by_name["-q"].words == 0
     assert by_name["--quiet"] is by_name["-q"]
     assert by_name["--resume"].ones_own == "runs"

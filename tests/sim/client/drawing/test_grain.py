@@ -1,6 +1,6 @@
 import numpy as np
 
-from sim.window.grain import GRAIN_BLOCKS, grain
+from sim.client.drawing.grain import GRAIN_BLOCKS, grain
 
 
 def test_each_face_has_sixteen_dots_a_side_and_a_darker_rim() -> None:

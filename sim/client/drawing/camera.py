@@ -10,7 +10,7 @@ from sim.client.game.ray import direction
 Matrix = NDArray[np.float32]
 
 FIELD_OF_VIEW_DEG = 70.0
-_NEAR, _FAR = 0.05, 256.0
+NEAR, _FAR = 0.05, 256.0
 _HELD_AT, _HELD_SIZE = (0.72, -0.52, -1.0), 0.4
 """The middle of the block in the hand, in blocks to the right, up and back from the eye, and its size."""
 
@@ -18,12 +18,12 @@ _HELD_AT, _HELD_SIZE = (0.72, -0.52, -1.0), 0.4
 def projection(width: int, height: int) -> Matrix:
     """The perspective of the game's own field of view, from top to bottom."""
     scale = 1 / math.tan(math.radians(FIELD_OF_VIEW_DEG) / 2)
-    depth = _NEAR - _FAR
+    depth = NEAR - _FAR
     return np.array(
         [
             [scale * height / width, 0, 0, 0],
             [0, scale, 0, 0],
-            [0, 0, (_FAR + _NEAR) / depth, 2 * _FAR * _NEAR / depth],
+            [0, 0, (_FAR + NEAR) / depth, 2 * _FAR * NEAR / depth],
             [0, 0, -1, 0],
         ],
         np.float32,

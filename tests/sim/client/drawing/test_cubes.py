@@ -1,7 +1,7 @@
 import numpy as np
 
 from sim.client.drawing.block_colours import block_colour
-from sim.window.cubes import FAR, cubes, floor_square, outline, row_of, unit_cube
+from sim.client.drawing.cubes import FAR, cubes, floor_square, outline, row_of, unit_cube
 
 
 def test_each_face_of_the_cube_is_two_triangles_seen_from_outside() -> None:

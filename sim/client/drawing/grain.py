@@ -2,21 +2,21 @@
 
 import numpy as np
 
-from sim.window.cubes import Floats
+from sim.client.drawing.cubes import Floats
 
 GRAIN_BLOCKS = 4
 """Blocks in each direction after which the grain repeats."""
 
-_DOTS = 16
-_RIM = 0.84
+DOTS = 16
+RIM = 0.84
 
 
 def grain() -> Floats:
     """Brightness from 0 to 1, an array (64, 64): GRAIN_BLOCKS faces in each direction."""
-    side = GRAIN_BLOCKS * _DOTS
+    side = GRAIN_BLOCKS * DOTS
     dots = np.random.default_rng(0).uniform(0.84, 1.0, (side, side)).astype(np.float32)
-    place = np.arange(side) % _DOTS
-    is_rim = (place == 0) | (place == _DOTS - 1)
-    dots[is_rim, :] *= _RIM
-    dots[:, is_rim] *= _RIM
+    place = np.arange(side) % DOTS
+    is_rim = (place == 0) | (place == DOTS - 1)
+    dots[is_rim, :] *= RIM
+    dots[:, is_rim] *= RIM
     return dots

@@ -21,11 +21,11 @@ Floats = NDArray[np.float32]
 FAR = 96
 """Blocks from the player within which anything is drawn; the fog hides the rest."""
 
-_HOLE: Colour = (5, 5, 5)
+HOLE: Colour = (5, 5, 5)
 _STANDS_OFF = 0.002
 """Blocks between a block and its outline."""
 
-_FACES = (((0, 1, 2), 1), ((0, 2, 1), 0), ((1, 2, 0), 1), ((2, 1, 0), 0), ((2, 0, 1), 1), ((1, 0, 2), 0))
+FACES = (((0, 1, 2), 1), ((0, 2, 1), 0), ((1, 2, 0), 1), ((2, 1, 0), 0), ((2, 0, 1), 1), ((1, 0, 2), 0))
 """The axes of each face, the last one its normal's, and the side it is on: counter-clockwise from outside."""
 
 
@@ -33,7 +33,7 @@ _FACES = (((0, 1, 2), 1), ((0, 2, 1), 0), ((1, 2, 0), 1), ((2, 1, 0), 0), ((2, 0
 def unit_cube() -> Floats:
     """The 36 corners of the triangles of a cube between 0 and 1."""
     corners = []
-    for (one, other, axis), side in _FACES:
+    for (one, other, axis), side in FACES:
         normal = [0.0, 0.0, 0.0]
         normal[axis] = 1.0 if side else -1.0
         for u, v in ((0, 0), (1, 0), (1, 1), (0, 0), (1, 1), (0, 1)):
@@ -78,5 +78,5 @@ def cubes(built: Mapping[Block, str], origin: Block) -> Floats:
     for block, name in built.items():
         x, y, z = (part - own for part, own in zip(block, origin, strict=True))
         if max(abs(x), abs(y), abs(z)) <= FAR:
-            rows.append(row_of((x, y, z), _HOLE if name == AIR else block_colour(name)))
+            rows.append(row_of((x, y, z), HOLE if name == AIR else block_colour(name)))
     return np.concatenate(rows) if rows else np.empty((0, 6), np.float32)

@@ -4,8 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from sim.client.drawing.camera import held_block, projection, view
 from sim.client.game.ray import direction
-from sim.window.camera import held_block, projection, view
 
 ANGLES = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
 
