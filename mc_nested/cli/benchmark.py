@@ -28,6 +28,7 @@ from mc_nested.cli.experiment import (
 from mc_nested.cli.experiment_end import say_end
 from mc_nested.cli.output import JsonOption, Output, QuietOption
 from mc_nested.cli.output_folder import output_folder
+from mc_nested.cli.screen_states import check_window
 from mc_nested.errors import UserError
 from mc_nested.learn.experiments.benchmark import (
     AGENTS,
@@ -93,6 +94,8 @@ def benchmark(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     if corpus is not None and designs is not None:
         raise UserError("--designs is how many are drawn at random: leave it out, or leave out --corpus")
     chosen = [(name, load_preset(name)) for name in _listed(presets) or DEFAULT_PRESETS]
+    for _, preset in chosen:
+        check_window(preset.states, has_window=False)
     contestants, left_out = contestants_of(_agents(_listed(agents), bool(presets)), chosen)
     for line in left_out:
         typer.echo(line, err=True)

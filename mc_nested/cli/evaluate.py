@@ -5,6 +5,7 @@ from rich.text import Text
 
 from mc_nested.cli.options import RunArgument
 from mc_nested.cli.output import JsonOption, Output
+from mc_nested.cli.screen_states import check_window
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
@@ -37,12 +38,12 @@ def load_agent(folder: RunFolder) -> Agent:
     """The agent of a training's last checkpoint, every trial, able to act."""
     agent = folder.new_agent(folder.config.trials)
     kept = folder.kept()
-    for role, online in agent.online().items():
-        online[:] = kept[role]
+    agent.load_every_online(kept)
     return agent
 
 
 def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:
-    """One greedy episode of every trial in the simulator."""
+    """One greedy episode of every trial in the simulator; UserError if it sees what the simulator can't show."""
+    check_window(folder.config.preset.states, has_window=False)
     env = agent.view_of(GridVectorEnv(folder.scenarios), folder.scenarios)
     return play_greedily(env, folder.scenarios, agent)

@@ -8,7 +8,6 @@ import typer
 
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
-from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.evaluate import greedy_episodes, load_agent
 from mc_nested.cli.options import (
@@ -22,11 +21,13 @@ from mc_nested.cli.options import (
 )
 from mc_nested.cli.output import JsonOption, Output, QuietOption
 from mc_nested.cli.recording_options import RecordOption, live_recorder
+from mc_nested.cli.screen_states import as_shown, check_window
 from mc_nested.cli.video import VideoOption, filmed
 from mc_nested.cli.viewing import Viewed, ViewOption, viewed
 from mc_nested.cli.watching import started_over, watched
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import Agent
+from mc_nested.learn.engine_fit import SCREEN
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.devices import Display
@@ -56,6 +57,8 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     scenario = folder.scenario
     if screenshots and backend is Backend.SIM:
         raise UserError("the simulator has no window to picture: leave out --screenshots, or play --backend live")
+    states = folder.config.preset.states
+    check_window(states, backend is not Backend.SIM)
     agent, which = _choose(folder, trial)
     evidence = folder.path / "evidence"
     recorder = live_recorder(record, f"play-{scenario.name}", scenario, server_allowed=server_allowed)
@@ -72,7 +75,7 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         with window as (opened, display), filmed(opened, display, scenario, video) as game:
             pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
             is_quiet = output.quiet or output.as_json
-            episode = started_over(lambda: _watch(game, scenario, agent, which, pictures, viewing, is_quiet=is_quiet))
+            episode = started_over(lambda: _watch(game, folder, agent, which, pictures, viewing, is_quiet=is_quiet))
     material = episode.material_name(scenario)
     found = {
         "folder": folder.path,
@@ -95,7 +98,7 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 
 def _watch(
     game: Game,
-    scenario: Scenario,
+    folder: RunFolder,
     agent: Agent,
     which: int,
     pictures: "_Screenshots | None",
@@ -104,6 +107,7 @@ def _watch(
     is_quiet: bool,
 ) -> GreedyEpisode:
     """One greedy episode, shown as it is built."""
+    scenario = folder.scenario
     env = ArenaEnv(game, scenario)
     if pictures:
         pictures.begin()
@@ -114,15 +118,21 @@ def _watch(
             if pictures:
                 pictures.take()
 
-        arenas = agent.view_of(ArenaVectorEnv([env]), [scenario])
+        arenas = agent.view_of(as_shown(ArenaVectorEnv([env]), folder.config.preset.states), [scenario])
         return play_greedily(arenas, [scenario], agent, after_step)[0]
 
 
 def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
-    """The agent of one trial, and which trial: the one asked for, or the best in the simulator."""
+    """The agent of one trial, and which trial: the one asked for, or the best in the simulator.
+
+    One that sees a window is the best by the scores that it was kept for: the simulator has no window.
+    """
     agent = load_agent(folder)
     if trial is None:
-        scores = [episode.score for episode in greedy_episodes(folder, agent)]
+        if folder.config.preset.states == SCREEN:
+            scores = folder.kept()["scores"].tolist()
+        else:
+            scores = [episode.score for episode in greedy_episodes(folder, agent)]
         trial = scores.index(max(scores))
     if trial >= folder.config.trials:
         raise RunError(f"{folder.path}: has no trial {trial}: choose 0 to {folder.config.trials - 1}")

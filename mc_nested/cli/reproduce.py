@@ -27,6 +27,7 @@ from mc_nested.cli.options import DeviceOption, EngineOption
 from mc_nested.cli.output import JsonOption, Output, QuietOption
 from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
+from mc_nested.cli.screen_states import check_window
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS, check_exploration
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
@@ -89,6 +90,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         if name not in AGENT_SPECS:
             raise UserError(f"no agent {name!r}: choose one of {', '.join(AGENT_SPECS)}")
     chosen = load_preset(preset or PRESET).changed(engine=engine, device=device)
+    check_window(chosen.states, has_window=False)
     for name in agent or AGENT_SPECS:
         check_exploration(AGENT_SPECS[name], chosen)
     config = ReproduceConfig(

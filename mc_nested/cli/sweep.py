@@ -24,6 +24,7 @@ from mc_nested.cli.experiment_end import say_end
 from mc_nested.cli.output import JsonOption, Output, QuietOption
 from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
+from mc_nested.cli.screen_states import check_window
 from mc_nested.errors import UserError
 from mc_nested.learn.experiments.ablation import AblationConfig, shipped_parts
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
@@ -88,7 +89,9 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         with output_folder(out, "ablation") as path:
             run_ablation(ExperimentFolder.new(path, ablation_config, VERB), output)
         return
-    base = load_preset(preset or PRESET).model_copy(update={"episodes": episodes or EPISODES})
+    chosen = load_preset(preset or PRESET)
+    check_window(chosen.states, has_window=False)
+    base = chosen.model_copy(update={"episodes": episodes or EPISODES})
     config = SweepConfig(
         trials=trials or TRIALS,
         seed=seed or 0,

@@ -19,6 +19,7 @@ from mc_nested.cli.output import JsonOption, Output, QuietOption
 from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.recording_options import RecordOption
 from mc_nested.cli.scenario_options import FILES, NAME_OR_FILE, LayerOption, named_scenario
+from mc_nested.cli.screen_states import check_window
 from mc_nested.cli.training import HowToRun, run_training
 from mc_nested.cli.viewing import ViewOption
 from mc_nested.errors import UserError
@@ -98,6 +99,7 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     chosen = load_preset(DEFAULTS["preset"] if preset is None else preset)
     chosen = chosen.changed(engine=engine, device=device, states=states)
     where = backend or DEFAULTS["backend"]
+    check_window(chosen.states, where is not Backend.SIM)
     config = RunConfig(
         agent=agent or DEFAULTS["agent"],
         backend=where.value,

@@ -14,6 +14,7 @@ from mc_nested.cli.options import Backend, open_arenas, played_live, where_words
 from mc_nested.cli.output import Output
 from mc_nested.cli.progress import STOPPING, TrainingProgress
 from mc_nested.cli.recording_options import live_recorder
+from mc_nested.cli.screen_states import as_shown
 from mc_nested.cli.training_end import MAP, say_end
 from mc_nested.cli.training_view import TrainingView
 from mc_nested.cli.viewing import Viewed, viewed
@@ -77,7 +78,7 @@ def run_training(
             seed=config.seed,
         ) as (env, log):
             agent = folder.new_agent(config.trials)
-            arenas = agent.view_of(env, folder.scenarios)
+            arenas = agent.view_of(as_shown(env, config.preset.states), folder.scenarios)
             trainer = Trainer(arenas, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
             if resumed:
                 folder.checkpoint.load_into(trainer)

@@ -78,6 +78,8 @@ def command_line(words: Sequence[str]) -> str:
 
 
 def _live(config: RunConfig) -> list[str]:
+    if config.backend == "virtual":
+        return ["--backend", "virtual"]
     if config.backend != "live":
         return []
     profile = [] if config.profile in (None, DEFAULT_PROFILE) else ["--profile", str(config.profile)]

@@ -26,12 +26,18 @@ from mc_nested.learn.dqn.engine import NetworkForm
 from mc_nested.learn.dqn.replay import ReplayMark
 from mc_nested.learn.dqn.state_space import StateSpace
 from mc_nested.learn.dqn.states import PlaneStates, States
-from mc_nested.learn.engine_fit import NUMBERS
+from mc_nested.learn.engine_fit import NUMBERS, SCREEN
 from mc_nested.learn.imagination.imagination import Imagination, Surroundings
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import initial_stream
+
+IMAGE = "image"
+"""The states that are the arena from above."""
+
+SCREEN_SHAPE = (4, 84, 84)
+"""The window's last four pictures, small and grey (live/screen_arenas.py)."""
 
 
 @dataclass(frozen=True)
@@ -58,9 +64,11 @@ AGENT_SPECS: Mapping[str, AgentSpec] = {
 
 
 def check_exploration(spec: AgentSpec, preset: Preset) -> None:
-    """PresetError if the preset explores in a way that the spec can't."""
+    """PresetError if the preset explores in a way, or sees what, the spec can't."""
     if spec.has_main:
         return
+    if preset.states == SCREEN:  # it chooses a material in the game, where no window shows which
+        raise PresetError('states "screen" are not for the single agent: take nested or hierarchical')
     for name, table in (("[excursions]", preset.excursions), ("[imagination]", preset.imagination)):
         if table:  # its choice of a material is a step like any other
             raise PresetError(f"{name} is not for the single agent: take nested or hierarchical, or the preset paper")
@@ -107,9 +115,12 @@ class Agent:
         self._materials = len(scenarios[0].materials)
         self.size = max(scenario.size for scenario in scenarios)
         self.spec = spec
-        self._sees_planes = preset.states != NUMBERS
-        states_of = _planes if self._sees_planes else _numbers
-        chooses, builds = states_of(spec, scenarios, preset.encoding)
+        self._sees = preset.states
+        if self._sees == NUMBERS:
+            chooses, builds = _numbers(spec, scenarios, preset.encoding)
+        else:
+            shape = SCREEN_SHAPE if self._sees == SCREEN else (PLANES, *(common_size(scenarios),) * 2)
+            chooses, builds = _planes(spec, scenarios, shape)
         self.main = Learner(chooses, preset.for_main(), streams) if spec.has_main else None
         self._low_levels = self._materials if spec.low_level_per_material else 1
         self._longest = max(scenario.step_limit for scenario in scenarios)
@@ -125,7 +136,7 @@ class Agent:
 
         To numbers, a_M is one number more. To planes, it is one plane more: "one extra dimension".
         """
-        if self._sees_planes:
+        if self._sees != NUMBERS:
             return self._with_material(observations, materials)
         if not self.spec.appends_material:
             return observations[:, : BLOCKS_LEFT + 1 + self.spec.sees_choice]
@@ -136,20 +147,25 @@ class Agent:
             return planes[:, : PLANES + self.spec.sees_choice]
         return with_material(planes, shares(materials + 1, self._materials))
 
-    def view_of(
-        self, env: VectorEnv[Int64s, Int64s, Any], scenarios: Sequence[Scenario]
-    ) -> VectorEnv[Any, Int64s, Any]:
-        """The arenas as the agent sees them: in its states; for the single agent, choosing a material is an action."""
+    def view_of(self, env: VectorEnv[Any, Int64s, Any], scenarios: Sequence[Scenario]) -> VectorEnv[Any, Int64s, Any]:
+        """The arenas as the agent sees them: in its states; for the single agent, choosing a material is an action.
+
+        For states "screen" the arenas have to show their windows already (live/screen_arenas.py).
+        """
         view = env if self.spec.has_main else SingleAgentVectorEnv(env, scenarios)
-        return PlanesVectorEnv(view, scenarios) if self._sees_planes else view
+        return PlanesVectorEnv(view, scenarios) if self._sees == IMAGE else view
 
     def start_states(self, scenarios: Sequence[Scenario]) -> NDArray[Any]:
         """What the main agent sees of each scenario before the first move, (runs, …)."""
-        return start_planes(scenarios) if self._sees_planes else np.array([each.start_state for each in scenarios])
+        if self._sees == IMAGE:
+            return start_planes(scenarios)
+        if self._sees == SCREEN:  # it chooses before there is a window to look at
+            return np.zeros((len(scenarios), *SCREEN_SHAPE), np.uint8)
+        return np.array([each.start_state for each in scenarios])
 
     def chosen_materials(self, observations: NDArray[Any]) -> Int64s:
         """The materials that the single agent's observations show as chosen, in their last part; -1 before that."""
-        if not self._sees_planes:
+        if self._sees == NUMBERS:
             return observations[:, -1] - 1
         shown = observations[:, -1, 0, 0].astype(np.int64)
         return np.round(shown * self._materials / FULL).astype(np.int64) - 1
@@ -246,6 +262,11 @@ class Agent:
         for role, learner in self._learners().items():
             learner.engine.load_online(np.tile(online[role], (len(self.runs), 1)))
 
+    def load_every_online(self, online: Mapping[str, NDArray[Any]]) -> None:
+        """Load every run's online networks, by role; ValueError if their shape differs."""
+        for role, learner in self._learners().items():
+            learner.engine.load_online(online[role])
+
     def rows_of(self, run: int) -> dict[str, slice]:
         """A run's rows, by role."""
         return {"main": slice(run, run + 1), "low": slice(run * self._low_levels, (run + 1) * self._low_levels)}
@@ -299,13 +320,15 @@ def _numbers(spec: AgentSpec, scenarios: Sequence[Scenario], encoding: str) -> t
     return StateSpace(observed, materials, encoding), builds
 
 
-def _planes(spec: AgentSpec, scenarios: Sequence[Scenario], _: str) -> tuple[States, States]:
-    """The main agent's states, and the low-level agents', as planes."""
-    materials, size = len(scenarios[0].materials), common_size(scenarios)
+def _planes(spec: AgentSpec, scenarios: Sequence[Scenario], shape: tuple[int, ...]) -> tuple[States, States]:
+    """The main agent's states, and the low-level agents', as planes of that shape, to which the material is added."""
+    materials = len(scenarios[0].materials)
     low_levels = materials if spec.low_level_per_material else 1
     more = spec.appends_material or spec.sees_choice
-    builds = PlaneStates(len(scenarios) * low_levels, _low_level_actions(spec, materials), (PLANES + more, size, size))
-    return PlaneStates(len(scenarios), materials, (PLANES, size, size)), builds
+    builds = PlaneStates(
+        len(scenarios) * low_levels, _low_level_actions(spec, materials), (shape[0] + more, *shape[1:])
+    )
+    return PlaneStates(len(scenarios), materials, shape), builds
 
 
 def _low_level_actions(spec: AgentSpec, materials: int) -> int:

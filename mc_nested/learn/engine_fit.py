@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 from mc_nested.learn.dqn.engines import COMPILED
 
-NUMBERS = "numbers"
-"""An agent that sees x, y, b and its choice; otherwise it sees planes (arena/planes.py)."""
+NUMBERS, SCREEN = "numbers", "screen"
+"""What an agent sees: x, y, b and its choice; or the game's window. Otherwise planes (arena/planes.py)."""
 
 MLP, CNN, CPU = "mlp", "cnn", "cpu"
 
@@ -27,7 +27,7 @@ def misfit(computing: Computing, *, explores_by_place: bool, imagines: bool, enc
         f'states "{states}" need engine "torch": the compiled engine takes numbers alone': compiled and not numbers,
         f'network "{network}" needs engine "torch": the compiled engine has "mlp" alone': compiled and network != MLP,
         f'device "{device}" needs engine "torch": the compiled engine is for the processor': compiled and device != CPU,
-        'network "cnn" needs states "image": numbers have no neighbours': network == CNN and numbers,
+        'network "cnn" needs states "image" or "screen": numbers have no neighbours': network == CNN and numbers,
         '[imagination] needs engine "compiled" and states "numbers"': imagines and not (compiled and numbers),
         f'[excursions] go by x and y: with states "{states}", write [explore_nested]': explores_by_place
         and not numbers,

@@ -195,10 +195,11 @@ class Preset(_Table):
         description='the network\'s input: "scaled" numbers, "one-hot" inputs for each value of x, y, b and a_M, or '
         '"cell" inputs for each cell (x, y) and for each value of b and a_M',
     )
-    states: Literal["numbers", "image"] = Field(
+    states: Literal["numbers", "image", "screen"] = Field(
         default="numbers",
-        description='what the agent sees: "numbers" x, y, b and a_M, or an "image" of the arena from above, as planes '
-        "of bytes; an image needs the torch engine",
+        description='what the agent sees: "numbers" x, y, b and a_M; an "image" of the arena from above, as planes of '
+        'bytes; or the game\'s window itself, the "screen", as its last four pictures in 84 x 84 greys. All but '
+        "numbers need the torch engine, and the screen a backend with a window",
     )
     engine: Literal["compiled", "torch"] = Field(
         default="compiled",

@@ -24,7 +24,7 @@ FRAMES = 4
 """Pictures in an observation, the newest last (Mnih et al., 2015)."""
 
 NEEDS_A_WINDOW = (
-    "states screen need a game's window, and the simulator has none: add --backend virtual, or --backend live"
+    'states "screen" need a game\'s window, and the simulator has none: train with --backend virtual, or --backend live'
 )
 """What to say where the states "screen" are asked for in the simulator."""
 

@@ -62,6 +62,12 @@ def test_an_engine_that_the_preset_does_not_name_is_named_again() -> None:
     assert "--engine" not in next_steps(Path("x"), image, is_at_optimum=False)[0]
 
 
+def test_what_was_learnt_on_the_virtual_client_is_played_there() -> None:
+    more, play, *_ = next_steps(Path("x"), config(backend="virtual"), is_at_optimum=False)
+    assert more.endswith("--episodes 6000 --backend virtual")
+    assert "mc-nested play x --backend virtual shows what it builds" in play
+
+
 @pytest.mark.parametrize(("profile", "words"), [("default", ""), ("mine", " --profile mine")])
 def test_what_was_learnt_in_a_game_is_built_there_again(profile: str, words: str) -> None:
     live = config(backend="live", profile=profile)
