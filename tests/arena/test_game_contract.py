@@ -28,22 +28,22 @@ class ForgetsToReset(GridGame):
 
 
 class StaysPut(GridGame):
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         before = self._cell
-        return Outcome(before, super().act(action).placed)
+        return Outcome(before, super().act(action, material).placed)
 
 
 class WalksThroughBlocks(GridGame):
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         placed, self._placed = self._placed, set()
-        outcome = super().act(action)
+        outcome = super().act(action, material)
         self._placed = placed | self._placed
         return outcome
 
 
 class ClaimsBlocksThatDidNotLand(GridGame):
-    def act(self, action: Action) -> Outcome:
-        outcome = super().act(action)
+    def act(self, action: Action, material: int | None = None) -> Outcome:
+        outcome = super().act(action, material)
         return Outcome(outcome.cell, (outcome.cell[0], outcome.cell[1] + 1))
 
 
@@ -54,22 +54,22 @@ class StartsElsewhere(GridGame):
 
 
 class PlacesAgainAndAgain(GridGame):
-    def act(self, action: Action) -> Outcome:
-        outcome = super().act(action)
+    def act(self, action: Action, material: int | None = None) -> Outcome:
+        outcome = super().act(action, material)
         self._placed -= {outcome.placed or (-1, -1)}
         return outcome
 
 
 class PlacesBeforeItMoves(GridGame):
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         ahead = (self._cell[0], self._cell[1] + 1)
-        outcome = super().act(action)
+        outcome = super().act(action, material)
         return Outcome(outcome.cell, ahead if outcome.placed else None)
 
 
 class WalksOutOfTheArena(GridGame):
-    def act(self, action: Action) -> Outcome:
-        outcome = super().act(action)
+    def act(self, action: Action, material: int | None = None) -> Outcome:
+        outcome = super().act(action, material)
         x, y = outcome.cell
         return Outcome((x - (x == 0 and action is Action.L), y), outcome.placed)
 
