@@ -236,7 +236,7 @@ def test_a_scenario_with_parts_survives_its_table(scenario: Scenario) -> None:
         (in_parts(FAR, NEAR, more="choose_every = 0"), "choose_every"),
         (in_parts(more="choose_every = 4"), "choose_every: goes with [[parts]]"),
         (in_parts(FAR) + "[[parts]]\ncells = '''#'''", "parts: part 2: 1 rows, and the design has 5: draw as many"),
-        (in_parts(FAR, NEAR).replace("'''\n.....", "'''\n..?..", 1), "parts: part 1: row 1 is '..?..'"),
+        (in_parts(FAR, NEAR).replace("cells = '''\n.....", "cells = '''\n..?..", 1), "parts: part 1: row 1 is '..?..'"),
     ],
 )
 def test_a_mistake_in_the_parts_is_one_line_that_names_it(text: str, says: str) -> None:
