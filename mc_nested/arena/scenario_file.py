@@ -84,10 +84,7 @@ class ScenarioTable(BaseModel):
     def _dumped(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
         """What was saved before there were parts keeps its identity: without any, they aren't named."""
         dumped: dict[str, Any] = dump(self)
-        for later in ("parts", "choose_every"):
-            if not dumped[later]:
-                del dumped[later]
-        return dumped
+        return {key: value for key, value in dumped.items() if value or key not in {"parts", "choose_every"}}
 
 
 def paper_scenarios() -> list[str]:

@@ -19,7 +19,7 @@ BOTH, START = np.array([0, 1]), np.array([[7, 13, 1], [7, 13, 1]])
 
 def of_two_runs(name: str = "hierarchical") -> tuple[Agent, BatchedReturnThenExplore]:
     agent = Agent(AGENT_SPECS[name], [DOT, DOT], PRESET, 0)
-    return agent, BatchedReturnThenExplore(RULE, agent)
+    return agent, BatchedReturnThenExplore(RULE, agent, [DOT, DOT])
 
 
 def played(explorer: BatchedReturnThenExplore, run: int, row: int, hits: bool = True) -> None:
@@ -27,8 +27,8 @@ def played(explorer: BatchedReturnThenExplore, run: int, row: int, hits: bool = 
     only, after = np.array([run]), np.array([[7, 12, 0]])
     explorer.begin(only, np.zeros((2, NUMBERS)))
     reward, action = np.array([float(hits)]), np.array([int(Action.BD)])
-    explorer.observe(only, START[[run]], START[[run]], action, reward, after, np.array([True]))
-    explorer.end(only, np.array([row]))
+    explorer.observe(only, START[[run]], START[[run]], action, reward, after, np.array([True]), np.array([row]))
+    explorer.end(only)
 
 
 def imitated(agent: Agent) -> list[int]:
@@ -72,24 +72,25 @@ def test_a_loaded_exploration_goes_on_and_imitates_what_it_did() -> None:
 
 def test_without_imitation_no_best_episode_is_kept_for_it() -> None:
     agent = Agent(AGENT_SPECS["nested"], [DOT], PRESET.model_copy(update={"imitation": None}), 0)
-    explorer = BatchedReturnThenExplore(RULE, agent)
+    explorer = BatchedReturnThenExplore(RULE, agent, [DOT])
     played_states = np.array([[7, 13, 1, 0]])
     explorer.begin(np.array([0]), np.zeros((1, NUMBERS)))
     after = np.array([[7, 12, 0, 0]])
-    explorer.observe(np.array([0]), START[:1], played_states, np.array([7]), np.ones(1), after, np.array([True]))
-    explorer.end(np.array([0]), np.array([0]))
+    seen = np.array([7]), np.ones(1), after, np.array([True])
+    explorer.observe(np.array([0]), START[:1], played_states, *seen, np.array([0]))
+    explorer.end(np.array([0]))
     assert agent.low_level.best is None
     assert explorer.state()["0.best"].shape == (1, 8)
 
 
 def test_in_a_larger_arena_it_remembers_what_happened_beyond_15_cells() -> None:
     far = dataclasses.replace(DOT, design=frozenset({(19, 19)}), start=(19, 19), size=20)
-    explorer = BatchedReturnThenExplore(RULE, Agent(AGENT_SPECS["hierarchical"], [far], PRESET, 0))
+    explorer = BatchedReturnThenExplore(RULE, Agent(AGENT_SPECS["hierarchical"], [far], PRESET, 0), [far])
     only, start, after = np.array([0]), np.array([[19, 19, 1]]), np.array([[19, 18, 0]])
     explorer.begin(only, np.zeros((1, NUMBERS)))
-    explorer.observe(only, start, start, np.array([int(Action.BD)]), np.ones(1), after, np.array([True]))
+    explorer.observe(only, start, start, np.array([int(Action.BD)]), np.ones(1), after, np.array([True]), only)
     assert explorer.state()["0.came_to"].shape == (20, 20, 8)
     assert explorer.state()["0.came_to"][19, 19].any()
-    explorer.end(only, only)
+    explorer.end(only)
     explorer.begin(only, np.zeros((1, NUMBERS)))
     assert explorer.act(only, start, np.zeros((1, NUMBERS))).tolist() == [Action.BD]

@@ -32,8 +32,8 @@ def after(walk: list[EpisodeStep], rule: ExcursionRule = RULE, row: int = 0) -> 
     excursions = ReturnThenExplore(rule, actions=8)
     excursions.begin(numbers(0, 0, 0))
     for each in walk:
-        excursions.observe(each)
-    excursions.end(row)
+        excursions.observe(each._replace(row=row))
+    excursions.end()
     return excursions
 
 
@@ -142,10 +142,9 @@ def test_more_blocks_are_better_then_fewer_steps_and_as_good_replaces() -> None:
     for walk, taken in ((worse, False), (longer, False), (equal, True)):
         excursions.begin(numbers(0, 0, 0))
         for each in walk:
-            excursions.observe(each)
-        assert excursions.end(row=5) is taken
-    assert excursions.best == equal
-    assert excursions.best_row == 5
+            excursions.observe(each._replace(row=5))
+        assert excursions.end() is taken
+    assert excursions.best == [each._replace(row=5) for each in equal]
 
 
 def test_a_loop_is_cut_out() -> None:
@@ -178,14 +177,14 @@ def test_saved_excursions_go_on_where_they_were(steps: int) -> None:
         one.next_action(each.x, each.y, numbers(NEVER, NEVER, 0.0))
         one.observe(each)
     other.load({name: kept.copy() for name, kept in one.state().items()})
-    assert (other.best, other.best_row) == (one.best, 1)
+    assert other.best == one.best == [each._replace(row=1) for each in WALK]
     for each in WALK[steps:]:
         chosen = [some.next_action(each.x, each.y, numbers(ALWAYS, NEVER, 0.3)) for some in (one, other)]
         assert chosen[0] == chosen[1]
         one.observe(each)
         other.observe(each)
-    one.end(2)
-    other.end(2)
+    one.end()
+    other.end()
     assert one.best == other.best
 
 
