@@ -8,6 +8,7 @@ from mc_nested.arena.action import Action
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
 from mc_nested.learn.preset import ExcursionRule, Imitation
+from tests.arena.made_parts import STRIPES
 from tests.learn.made_experiments import DOT, small_preset
 
 RULE = ExcursionRule(at_end=1.0, wander=1, rejoin=0.4, repeat=0.8)
@@ -94,3 +95,32 @@ def test_in_a_larger_arena_it_remembers_what_happened_beyond_15_cells() -> None:
     explorer.end(only)
     explorer.begin(only, np.zeros((1, NUMBERS)))
     assert explorer.act(only, start, np.zeros((1, NUMBERS))).tolist() == [Action.BD]
+
+
+def test_each_row_imitates_its_own_steps_of_an_episode_in_parts() -> None:
+    agent = Agent(AGENT_SPECS["hierarchical"], [STRIPES], PRESET, 0)
+    explorer = BatchedReturnThenExplore(RULE, agent, [STRIPES])
+    only = np.array([0])
+    states = [np.array([state]) for state in ([1, 1, 5], [1, 2, 4], [2, 2, 3], [2, 1, 3])]
+    explorer.begin(only, np.zeros((1, NUMBERS)))
+    # Two blocks of the far part by the second material's agent, one of the near part by the first's.
+    for row, before, after in zip((1, 1, 0), states[:3], [*states[1:3], np.array([[3, 1, 2]])], strict=True):
+        seen = np.array([int(Action.RD)]), np.ones(1), after, np.array([False])
+        explorer.observe(only, before, before, *seen, np.array([row]))
+    explorer.end(only)
+    assert imitated(agent) == [1, 2]
+    again = Agent(AGENT_SPECS["hierarchical"], [STRIPES], PRESET, 0)
+    BatchedReturnThenExplore(RULE, again, [STRIPES]).load(explorer.state())
+    assert imitated(again) == [1, 2]
+
+
+def test_a_runs_first_episode_takes_nothing_from_another_run() -> None:
+    agent, explorer = of_two_runs("nested")
+    explorer.begin(BOTH, np.zeros((2, NUMBERS)))
+    after = np.array([[7, 12, 0, 1]])
+    for run in (0, 1):
+        only = np.array([run])
+        before = np.array([[7, 13, 1, 1]])
+        explorer.observe(only, START[[run]], before, np.array([7]), np.ones(1), after, np.array([True]), only)
+        explorer.end(only)
+    assert imitated(agent) == [1, 1]
