@@ -18,6 +18,7 @@ from mc_nested.arena.picture import (
     draw_picture,
 )
 from mc_nested.arena.scenario import Material, Scenario
+from tests.arena.made_parts import STRIPES
 
 PAIR = Scenario("pair", frozenset({(6, 14), (7, 14)}), (7, 12), 9, (Material("stone", 1.0, "stone"),))
 BUILT, WRONG = (BLOCKS[kind][0] for kind in "#x")
@@ -87,3 +88,11 @@ def test_a_picture_is_the_callers_own() -> None:
     first = draw_picture(PAIR, None, ())
     first[:] = 0
     assert draw_picture(PAIR, None, ()).any()
+
+
+def test_the_parts_of_a_design_have_colours_of_their_own_built_or_not() -> None:
+    picture = draw_picture(STRIPES, None, {(1, 3), (3, 2)}, 20)
+    far, near = (cell_of(picture, *cell, 20, 5) for cell in ((2, 3), (1, 2)))
+    assert [cell[10, 10].tolist() for cell in (far, near)] == [list(colour) for colour in TO_BUILD[:2]]
+    built = [cell_of(picture, *cell, 20, 5)[1, 1].tolist() for cell in ((1, 3), (3, 2))]
+    assert built == [list(colour) for colour in DESIGN[:2]]
