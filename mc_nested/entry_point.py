@@ -95,6 +95,7 @@ def made_vector_env(
     """What ``gymnasium.make_vec`` makes: arenas in NumPy arrays, or one live game.
 
     ``reset(options={"material": name})`` chooses for all, a list of indices for each. ``info`` holds the score alone.
+    With parts, actions are (num_envs, 2), each beside a material, and ``info`` holds ``earned`` and ``chooses``, too.
 
     Args:
         num_envs: how many arenas; a live game is one.

@@ -128,13 +128,13 @@ class CheckedGame:
         self.episodes.append([])
         return self._cell
 
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         """Act in the game, perhaps with a mishap."""
         if self._rate:
             self._client.mishaps.maybe(self._rate, MISHAP_WITHIN_S)
         self.actions += 1
         try:
-            outcome = self._game.act(action)
+            outcome = self._game.act(action, material)
         except LiveError:
             self.episodes.pop()
             raise

@@ -60,7 +60,8 @@ def record_play(
                 game.reset(episode % len(scenario.materials))
                 for _ in range(STEPS_AN_EPISODE):
                     try:
-                        game.act(Action(int(rng.integers(8))))
+                        action = Action(int(rng.integers(8)))
+                        game.act(action, int(rng.integers(len(scenario.materials))) if scenario.parts else None)
                     except LiveError as error:
                         failed.append(error)
                         break

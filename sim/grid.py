@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from gymnasium.spaces import Discrete
 from gymnasium.vector import VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
@@ -15,7 +14,8 @@ from mc_nested.arena.game import Outcome, PlayLog, Resumable
 from mc_nested.arena.rules import PLACES, STEP, cells_of, grid_of, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options, seeds_of
+from mc_nested.arena.tally import Tally, tally_of
+from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options, seeds_of, shared_action_space, taken_apart
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
 
@@ -42,7 +42,7 @@ class GridGame:
         self._placed = set()
         return self._cell
 
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:  # noqa: ARG002 - and so are these
         self._cell = moved(self._cell, action, self._placed, self._size)
         block = landing(self._cell, action, self._placed, self._size)
         if block is not None:
@@ -86,7 +86,8 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         runs = self.num_envs = len(self.scenarios)
         highest = np.max([highest_observation(scenario) for scenario in self.scenarios], axis=0)
         self.single_observation_space = space_up_to(highest)
-        self.single_action_space = Discrete(len(Action))
+        self.single_action_space = shared_action_space(self.scenarios)
+        self._tally = tally_of(self.scenarios)
         self.observation_space = batch_space(self.single_observation_space, runs)
         self.action_space = batch_space(self.single_action_space, runs)
 
@@ -128,17 +129,26 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         self._steps[mask] = 0
         self._score[mask] = self._worth[mask, materials[mask]]
         self._terminated[mask] = self._truncated[mask] = False
+        if self._tally:
+            self._tally.begin(mask, materials)
         return self._observations(), {}
 
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
-        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``."""
+        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``.
+
+        With parts, the actions may be (R, 2): each beside the material to take in hand, and ``info`` says more (Info).
+        """
+        actions, materials = taken_apart(actions)
         running = ~(self._terminated | self._truncated) & (actions != NO_ACTION)
+        if self._tally and materials is not None:
+            self._tally.take(running, materials)
         ahead = self._position + self._move[actions]
         self._position = np.where(self._solid[ahead] | ~running, self._position, ahead)
         front = self._position + _FRONT
         lands = _PLACES[actions] & ~self._solid[front] & running
         self._solid[front[lands]] = True
-        rewards = (lands & self._design[front]).astype(np.float64)
+        pays = lands & (self._pays(self._tally, front) if self._tally else self._design[front])
+        rewards = pays.astype(np.float64)
         self._score += rewards
         self._blocks_left -= lands
         self._steps += running
@@ -146,6 +156,9 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         self._truncated |= ~self._terminated & (self._steps >= self._step_limit)
         ended = running & (self._terminated | self._truncated)
         info = {"score": np.where(ended, self._score, 0.0), "_score": ended}
+        if self._tally:
+            self._tally.lay(lands, pays)
+            info = self._tally.info(running, lands, ended)
         return self._observations(), rewards, self._terminated.copy(), self._truncated.copy(), info
 
     def render(self) -> tuple[Any, ...] | None:
@@ -178,12 +191,15 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
 
     def snapshot(self) -> Arrays:
         """Every arena as it stands, for ``restore``."""
-        return {name: getattr(self, name).copy() for name in self._STATE}
+        own = {name: getattr(self, name).copy() for name in self._STATE}
+        return own | (self._tally.snapshot() if self._tally else {})
 
     def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
         """Put every arena back as it stood at ``snapshot``."""
         for name in self._STATE:
             setattr(self, name, snapshot[name].copy())
+        if self._tally:
+            self._tally.restore(snapshot)
 
     _STATE = ("_solid", "_position", "_blocks_left", "_steps", "_score", "_terminated", "_truncated")
 
@@ -195,6 +211,11 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         """The part of all arenas' flat array that is the run's cells, (x, y), without the border."""
         size = self.scenarios[run].size
         return solid.reshape(-1, self._side, self._side)[run, 1 : size + 1, 1 : size + 1]
+
+    def _pays(self, tally: Tally, front: Int64s) -> Bools:
+        """Whether a block would pay there, (R,); it means nothing where none can land."""
+        x, y = np.divmod(front - self._base, self._side)
+        return tally.pays(x - 1, np.minimum(y - 1, self._side - 3))
 
     def _observations(self) -> Int64s:
         x, y = np.divmod(self._position - self._base, self._side)

@@ -35,13 +35,14 @@ class NextStepAutoreset(VectorWrapper[Int64s, Int64s, Int64s, Int64s, Any]):
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
         """One action in every arena whose episode runs, and a reset of every other; flags and rewards are this step's.
 
-        ResetNeeded before the first reset; ValueError if there isn't one action of the eight for each arena.
+        ResetNeeded before the first reset; ValueError if there isn't one action for each arena.
         """
         if self._ended is None:
             raise ResetNeeded("no episode has begun: call reset() first")
         chosen = np.asarray(actions)
         if not self.action_space.contains(chosen):
-            raise ValueError(f"actions needs one of 0 to 7 for each of the {self.num_envs} arenas, not {actions}")
+            one = "an action and a material" if self.action_space.shape == (self.num_envs, 2) else "one of 0 to 7"
+            raise ValueError(f"actions needs {one} for each of the {self.num_envs} arenas, not {actions}")
         again = self._ended
         observations, rewards, terminated, truncated, info = self.env.step(chosen)
         if again.any():

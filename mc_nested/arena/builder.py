@@ -1,21 +1,24 @@
 """The scripted builder: the upper limit in every plot. It shows that every design's optimum can be reached.
 
 It builds the farthest row first, and each row from its nearer end. So all nearer rows are still free, nothing is ever
-in the way, and no state (x, y, b) repeats between two blocks.
+in the way, and no state (x, y, b) repeats between two blocks. A design in parts is built by part_builder.py.
 """
 
 from itertools import groupby
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.rules import STEP, is_inside
+from mc_nested.arena.part_builder import build_in_parts
+from mc_nested.arena.rules import PLACES, STEP, WITH_BLOCK, is_inside
 from mc_nested.arena.scenario import Scenario
-
-WITH_BLOCK = {Action.F: Action.FD, Action.B: Action.BD, Action.L: Action.LD, Action.R: Action.RD}
-"""The action that makes the same move and then places a block."""
 
 
 def build(scenario: Scenario) -> list[Action]:
-    """The actions that place every block of the design, from the start cell."""
+    """The actions that place every block of the design, part after part, from the start cell.
+
+    ScenarioError if the parts can't be built in their order.
+    """
+    if scenario.parts:
+        return build_in_parts(scenario)
     actions: list[Action] = []
     cell = scenario.start
     for target in _order(scenario):
@@ -24,6 +27,16 @@ def build(scenario: Scenario) -> list[Action]:
         actions += [*path[:-1], WITH_BLOCK[path[-1]]]
         cell = stand
     return actions
+
+
+def build_with_materials(scenario: Scenario, material: int | None = None) -> list[tuple[Action, int]]:
+    """The same actions, each with the material in hand: the one named, or the one that is worth most in the part."""
+    steps, left = [], scenario.blocks
+    for action in build(scenario):
+        best = scenario.best_materials[scenario.part_at(left)]
+        steps.append((action, best if material is None else material))
+        left -= action in PLACES
+    return steps
 
 
 def _order(scenario: Scenario) -> list[Cell]:

@@ -1,6 +1,7 @@
 """ArenaEnv: a gymnasium.Env over any Game; every backend shares it.
 
 Actions 0 to 7 (action.Action) go in; raw (x, y, b) comes out, b being the blocks left. Encoding belongs to learn/.
+In a scenario with parts, the index of the material to take in hand goes in beside the action.
 """
 
 from collections.abc import Collection, Mapping
@@ -9,7 +10,7 @@ from typing import Any, TypedDict
 import gymnasium
 import numpy as np
 from gymnasium.error import ResetNeeded
-from gymnasium.spaces import Box, Discrete, Space
+from gymnasium.spaces import Box, Discrete, MultiDiscrete, Space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
@@ -18,6 +19,7 @@ from mc_nested.arena.game import Game, Resumable
 from mc_nested.arena.picture import draw_picture
 from mc_nested.arena.rules import cells_of, grid_of
 from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.tally import THE_ARENA, tally_of
 from mc_nested.arrays import Arrays, Int64s
 
 Observation = Int64s
@@ -34,13 +36,19 @@ class Info(TypedDict, total=False):
     """What a step returns beside the reward."""
 
     material: str
-    """The name of the episode's material."""
+    """The name of the episode's material; with parts, of the one in hand."""
 
     placed: Cell
     """Where a block landed; not there if none did."""
 
     score: float
     """The episode's score, the main agent's r_M; there on the last step alone."""
+
+    earned: float
+    """With parts: r_M so far; on the last step, the score."""
+
+    chooses: bool
+    """With parts: whether the main agent has to choose a material before the next step."""
 
 
 def highest_observation(scenario: Scenario) -> Observation:
@@ -52,6 +60,17 @@ def space_up_to(highest: Int64s) -> Space[Any]:
     """The space of observations from 0 to the highest, as int64."""
     space: Space[Any] = Box(low=np.zeros_like(highest), high=highest, dtype=np.int64)
     return space
+
+
+def action_space_of(scenario: Scenario) -> Space[Any]:
+    """The eight actions; with parts, each beside the index of a material."""
+    space: Space[Any] = Discrete(len(Action))
+    return MultiDiscrete([len(Action), len(scenario.materials)]) if scenario.parts else space
+
+
+def step_in(scenario: Scenario, action: int, material: int) -> int | tuple[int, int]:
+    """What ``step`` takes to do an action with a material in hand."""
+    return (action, material) if scenario.parts else action
 
 
 def rendered(mode: str | None, scenario: Scenario, cell: Cell, placed: Collection[Cell]) -> Any:
@@ -68,10 +87,12 @@ def blank_observations(space: Space[Any], runs: int) -> NDArray[Any]:
     return np.zeros((runs, *(space.shape or ())), dtype=space.dtype)
 
 
-class ArenaEnv(gymnasium.Env[Observation, np.int64]):
+class ArenaEnv(gymnasium.Env[Observation, Any]):
     """One arena. The reward is the nested agent's r_N; the last step's ``info["score"]`` is the main agent's r_M.
 
     ``reset(options={"material": name})`` takes the main agent's choice; without it, the material with the best p.
+    With parts, ``step`` takes an action and a material to take in hand before it; with an action alone, the one in hand
+    stays there. ``info["chooses"]`` says when the main agent has to choose, and ``info["earned"]`` is r_M so far.
     Terminated when no block is left, truncated at the scenario's step limit (docs/explanation/task.md).
     A live game's LiveError passes through; the episode is over then and has to be reset.
     """
@@ -83,7 +104,8 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
         self.scenario = scenario
         self.render_mode = render_mode
         self.observation_space = space_up_to(highest_observation(scenario))
-        self.action_space = Discrete(len(Action))
+        self.action_space = action_space_of(scenario)
+        self._tally = tally_of([scenario])
         self._material = scenario.best_material
         self._cell = scenario.start
         self._placed: set[Cell] = set()
@@ -111,28 +133,33 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
         self._cell = self.game.reset(self._material)
         self._placed = set()
         self._steps = 0
+        if self._tally:
+            self._tally.begin(THE_ARENA, np.array([self._material]))
         self._running = True
         return self._observation(), dict(self._info())
 
-    def step(self, action: np.int64 | int) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-        """Do one action and earn r_N: 1 if the block just placed is on the design, else 0 (paper, section 5.1.3)."""
+    def step(self, action: Any) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+        """Do one action and earn r_N: 1 if the block just placed is on the design, else 0 (paper, section 5.1.3).
+
+        With parts, 1 if it is on the part that is built now. ValueError if the scenario doesn't have that material.
+        """
         if not self._running:
             raise ResetNeeded("the episode has ended, or none has begun: call reset() first")
+        wanted = self._taken_in_hand(action)
         self._running = False
-        outcome = self.game.act(Action(int(action)))
+        outcome = self.game.act(*wanted)
         self._cell = outcome.cell
         self._steps += 1
         if outcome.placed is not None:
             self._placed.add(outcome.placed)
-        reward = 1.0 if outcome.placed in self.scenario.design else 0.0
+        reward = 1.0 if self._pays(outcome.placed) else 0.0
         terminated = self._blocks_left == 0
         truncated = not terminated and self._steps >= self.scenario.step_limit
         self._running = not (terminated or truncated)
         info = self._info()
         if outcome.placed is not None:
             info["placed"] = outcome.placed
-        if not self._running:
-            info["score"] = self.scenario.score(self._placed, self._material)
+        self._count(info, outcome.placed, reward)
         return self._observation(), reward, terminated, truncated, dict(info)
 
     def render(self) -> Any:
@@ -148,6 +175,7 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
         """The current episode, the game's part included, for ``restore``. The game must be resumable."""
         stands_at = np.array([self._material, *self._cell, self._steps, self._running])
         game = self.game.resumable.snapshot() if self.game.resumable else {}
+        game |= self._tally.snapshot() if self._tally else {}
         return {**game, "env_stands_at": stands_at, "env_placed": grid_of(self._placed, self.scenario.size)}
 
     def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
@@ -155,8 +183,38 @@ class ArenaEnv(gymnasium.Env[Observation, np.int64]):
         self._material, x, y, self._steps, running = (int(value) for value in snapshot["env_stands_at"])
         self._cell, self._running = (x, y), bool(running)
         self._placed = set(cells_of(snapshot["env_placed"]))
+        if self._tally:
+            self._tally.restore(snapshot)
         if self.game.resumable:
             self.game.resumable.restore(snapshot)
+
+    def _taken_in_hand(self, action: Any) -> tuple[Action] | tuple[Action, int]:
+        """What the game is asked to do; the material is in hand from now on."""
+        if self._tally is None or np.ndim(action) == 0:
+            return (Action(int(action)),)
+        done, material = Action(int(action[0])), int(action[1])
+        self._tally.take(THE_ARENA, np.array([material]))
+        self._material = material
+        return done, material
+
+    def _pays(self, placed: Cell | None) -> bool:
+        if self._tally is None or placed is None:
+            return placed in self.scenario.design
+        return bool(self._tally.pays(np.array([placed[0]]), np.array([placed[1]]))[0])
+
+    def _count(self, info: Info, placed: Cell | None, reward: float) -> None:
+        """Count the step that was done, and say in ``info`` what it brought the main agent."""
+        is_over = not self._running
+        if self._tally is None:
+            if is_over:
+                info["score"] = self.scenario.score(self._placed, self._material)
+            return
+        landed = np.array([placed is not None])
+        self._tally.lay(landed, np.array([reward > 0]))
+        info["chooses"] = bool(self._tally.chooses(THE_ARENA, landed)[0]) and not is_over
+        info["earned"] = float(self._tally.total(np.array([is_over]))[0])
+        if is_over:
+            info["score"] = info["earned"]
 
     @property
     def _blocks_left(self) -> int:

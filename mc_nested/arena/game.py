@@ -52,5 +52,8 @@ class Game(Protocol):
     def reset(self, material: int) -> Cell:
         """Clear the arena, put the agent on the scenario's start cell with the material in hand; return that cell."""
 
-    def act(self, action: Action) -> Outcome:
-        """Do one action, the move first and then the block, and say what happened."""
+    def act(self, action: Action, material: int | None = None) -> Outcome:
+        """Do one action, the move first and then the block, and say what happened.
+
+        Before it, take the material of that index in hand; without one, what was in hand stays there.
+        """

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.drawing import BUILT, FREE, MISSING, WRONG, kind_of
+from mc_nested.arena.drawing import BUILT, FREE, WRONG, kind_of, part_of
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Bools, Float64s
 
@@ -28,9 +28,11 @@ SAMPLES = 4
 
 GROUND: Colour = (236, 240, 233)
 GRID: Colour = (213, 219, 208)
-TO_BUILD: Colour = (205, 222, 240)
-DESIGN: Colour = (52, 108, 170)
-"""The outline of every cell of the design, built or not."""
+TO_BUILD: tuple[Colour, ...] = ((205, 222, 240), (239, 212, 232), (208, 232, 208), (243, 226, 196))
+"""A cell to build, in the first part, the second, and so on; from the fifth on they come again."""
+
+DESIGN: tuple[Colour, ...] = ((52, 108, 170), (158, 60, 136), (50, 126, 62), (168, 104, 18))
+"""The outline of every cell of the design, built or not, in the same order."""
 
 BLOCKS: dict[str, tuple[Colour, Colour, Colour]] = {
     BUILT: ((124, 126, 132), (166, 168, 174), (86, 88, 94)),
@@ -42,7 +44,8 @@ AGENT_BODY: Colour = (208, 52, 48)
 AGENT_ARROW: Colour = (255, 255, 255)
 
 COLOURS: tuple[Colour, ...] = (
-    *(GROUND, GRID, TO_BUILD, DESIGN, AGENT_BODY, AGENT_ARROW),
+    *(GROUND, GRID, AGENT_BODY, AGENT_ARROW),
+    *(colour for part in zip(TO_BUILD, DESIGN, strict=True) for colour in part),
     *(colour for block in BLOCKS.values() for colour in block),
 )
 """All of these; what lies between two of them is an edge."""
@@ -52,7 +55,13 @@ def draw_picture(scenario: Scenario, agent: Cell | None, placed: Collection[Cell
     """The arena, (size * cell_px, size * cell_px, 3): the design outlined, blocks, and the agent, which looks up."""
     size = scenario.size
     tiles = np.array(
-        [[_tile(kind_of(scenario, None, placed, (x, y)), cell_px) for x in range(size)] for y in reversed(range(size))]
+        [
+            [
+                _tile(kind_of(scenario, None, placed, (x, y)), part_of(scenario, (x, y)) % len(DESIGN), cell_px)
+                for x in range(size)
+            ]
+            for y in reversed(range(size))
+        ]
     )
     picture: Picture = tiles.swapaxes(1, 2).reshape(size * cell_px, size * cell_px, 3)
     if agent is not None:
@@ -67,9 +76,9 @@ def draw_agent(picture: Picture, size: int, agent: Cell, cell_px: int, body: Col
     here[:] = _with_agent(here, body)
 
 
-@lru_cache(maxsize=64)
-def _tile(kind: str, px: int) -> Picture:
-    """One cell of that kind, (px, px, 3); the line of the grid runs along its top and its left."""
+@lru_cache(maxsize=256)
+def _tile(kind: str, part: int, px: int) -> Picture:
+    """One cell of that kind and part, (px, px, 3); the line of the grid runs along its top and its left."""
     across, down = _points(px)
     line = 1 / px
     tile = np.full((px, px, 3), GRID, dtype=np.float64)
@@ -77,17 +86,17 @@ def _tile(kind: str, px: int) -> Picture:
     if kind == FREE:
         return _rounded(tile)
     edge = max(1.5, px / 10) / px
-    if kind == MISSING:
-        return _rounded(_framed(_painted(tile, TO_BUILD, _square(px, 1.0)), px, edge))
+    if kind not in BLOCKS:
+        return _rounded(_framed(_painted(tile, TO_BUILD[part], _square(px, 1.0)), part, px, edge))
     top, lit, dark = BLOCKS[kind]
     tile = _painted(tile, dark, _square(px, 1.0))
     tile = _painted(tile, lit, _square(px, 1.0) & (across + down < 1 + line))
     tile = _painted(tile, top, _square(px, 1.0 + 1.5 * edge * px))
-    return _rounded(_framed(tile, px, edge) if kind == BUILT else tile)
+    return _rounded(_framed(tile, part, px, edge) if kind == BUILT else tile)
 
 
-def _framed(tile: Float64s, px: int, edge: float) -> Float64s:
-    return _painted(tile, DESIGN, _square(px, 1.0) & ~_square(px, 1.0 + edge * px))
+def _framed(tile: Float64s, part: int, px: int, edge: float) -> Float64s:
+    return _painted(tile, DESIGN[part], _square(px, 1.0) & ~_square(px, 1.0 + edge * px))
 
 
 def _with_agent(tile: Picture, colour: Colour) -> Picture:

@@ -26,6 +26,9 @@ STEP: dict[Action, Cell] = {
 PLACES = frozenset({Action.FD, Action.LD, Action.RD, Action.BD})
 """The actions that place a block after their move."""
 
+WITH_BLOCK = {Action.F: Action.FD, Action.B: Action.BD, Action.L: Action.LD, Action.R: Action.RD}
+"""The action that makes the same move and then places a block."""
+
 
 def is_inside(cell: Cell, size: int) -> bool:
     """Whether the cell belongs to the arena."""

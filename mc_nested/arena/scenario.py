@@ -1,9 +1,11 @@
-"""Scenario: the arena's size, the design to build, the start cell, the step limit, and each material's value."""
+"""Scenario: the arena's size, the design and its parts, the start cell, the step limit, and each material's value."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from functools import cached_property
 
 from mc_nested.arena.action import Cell
+from mc_nested.arena.parts import Part, check_parts, part_after
 from mc_nested.errors import ScenarioError
 
 DEFAULT_SIZE = 15
@@ -30,7 +32,11 @@ class Material:
 class Scenario:
     """A task: build the design's cells, one block each, from the start cell within the step limit.
 
-    The arena is ``size`` by ``size`` cells. ScenarioError if it can't be that large, or a cell lies outside.
+    The arena is ``size`` by ``size`` cells. With ``parts``, the design is built one part after the other, and the main
+    agent chooses a material as each begins, and within it every ``choose_every`` steps, if that is given.
+
+    Raises:
+        ScenarioError: the arena can't be that large, a cell lies outside, or the parts don't fit the design.
     """
 
     name: str
@@ -39,6 +45,8 @@ class Scenario:
     step_limit: int
     materials: tuple[Material, ...]
     size: int = DEFAULT_SIZE
+    parts: tuple[Part, ...] = ()
+    choose_every: int | None = None
 
     def __post_init__(self) -> None:
         if not SMALLEST_SIZE <= self.size <= LARGEST_SIZE:
@@ -54,6 +62,17 @@ class Scenario:
             )
         if self.start[0] not in cells or self.start[1] not in cells:
             raise ScenarioError(f"start: {self.start} lies outside: choose 0 to {self.size - 1} for x and y")
+        if self.parts:
+            check_parts(self.parts, self.design)
+
+    @cached_property
+    def in_order(self) -> tuple[Part, ...]:
+        """The parts in the order in which they are built; the whole design is one if the scenario has none."""
+        return self.parts or (Part(self.design, tuple(material.p for material in self.materials)),)
+
+    def part_at(self, blocks_left: int) -> int:
+        """Index of the part that is built while so many blocks are left; the last one when none is."""
+        return part_after(self.blocks - blocks_left, self.in_order)
 
     @property
     def blocks(self) -> int:
@@ -67,16 +86,21 @@ class Scenario:
 
     @property
     def best_material(self) -> int:
-        """Index of the material with the highest p; the first if several have the same."""
-        return max(range(len(self.materials)), key=lambda index: self.materials[index].p)
+        """Index of the material that is worth most in the first part; the first if several are worth the same."""
+        return self.in_order[0].best_material
+
+    @property
+    def best_materials(self) -> tuple[int, ...]:
+        """Index of the material that is worth most in each part."""
+        return tuple(part.best_material for part in self.in_order)
 
     @property
     def optimum(self) -> float:
-        """The highest score: every block on the design, of the best material."""
-        return self.blocks + self.materials[self.best_material].p
+        """The highest score: every block on its part, of the best material there."""
+        return sum((max(part.worth) for part in self.in_order), start=float(self.blocks))
 
     def score(self, placed: Collection[Cell], material: int) -> float:
-        """r_M for what stands, of the material of that index: the blocks on the design, plus p."""
+        """r_M for what stands, all of the material of that index: the blocks on the design, plus p. Without parts."""
         return len(self.design.intersection(placed)) + self.materials[material].p
 
     def material_index(self, name: str) -> int:

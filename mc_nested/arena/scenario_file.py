@@ -1,14 +1,16 @@
 """Scenario files: TOML with the design as an ASCII grid, the far edge on top.
 
-The drawing's size is the arena's: N rows of N characters make an arena of N x N cells.
+The drawing's size is the arena's: N rows of N characters make an arena of N x N cells. A part is drawn in the same way.
 """
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer
 
 from mc_nested.arena.action import Cell
+from mc_nested.arena.part_builder import can_be_built
+from mc_nested.arena.parts import Part
 from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE, Material, Scenario
 from mc_nested.errors import ScenarioError
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
@@ -24,16 +26,31 @@ Name = Annotated[str, Field(min_length=1, max_length=LONGEST_NAME, pattern=r"^\P
 """A name of one line: no control characters."""
 
 
+Worth = Annotated[float, Field(ge=-LARGEST_P, le=LARGEST_P)]
+
+
 class MaterialTable(BaseModel):
     """A material in a scenario file: one that the main agent can choose."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
     name: Name = Field(description="what it is called: each has a name of its own")
-    p: Annotated[float, Field(ge=-LARGEST_P, le=LARGEST_P)] = Field(
-        description="what choosing it adds to the episode's score"
-    )
+    p: Worth = Field(description="what choosing it adds to the episode's score")
     block: Annotated[str, Field(pattern=r"^[a-z0-9_]+$")] = Field(
         description="its block, as Minecraft 1.13 and later name it, without namespace: stone, oak_planks"
+    )
+
+
+class PartTable(BaseModel):
+    """A part in a scenario file: they are built in the order in which they stand there."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+    cells: str = Field(
+        description="the drawing of the part's cells, as large as the design's: each cell of the design is in one part"
+    )
+    worth: dict[str, Worth] = Field(
+        default={},
+        description="what each material is worth in this part, by its name; the p of those that aren't named is that "
+        "of their own table",
     )
 
 
@@ -55,6 +72,19 @@ class ScenarioTable(BaseModel):
     materials: Annotated[list[MaterialTable], Field(min_length=1)] = Field(
         description="what can be built of, a table each"
     )
+    parts: list[PartTable] = Field(
+        default=[],
+        description="for a design that is built in parts, a table each: the main agent chooses a material for each",
+    )
+    choose_every: Annotated[int, Field(ge=1, le=LONGEST)] | None = Field(
+        default=None, description="with parts: the main agent chooses again after so many steps within a part, too"
+    )
+
+    @model_serializer(mode="wrap")
+    def _dumped(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """What was saved before there were parts keeps its identity: without any, they aren't named."""
+        dumped: dict[str, Any] = dump(self)
+        return {key: value for key, value in dumped.items() if value or key not in {"parts", "choose_every"}}
 
 
 def paper_scenarios() -> list[str]:
@@ -63,8 +93,8 @@ def paper_scenarios() -> list[str]:
 
 
 def shipped_scenarios() -> list[str]:
-    """Names of the scenarios that come with the project: the paper's, then larger ones and one in two parts."""
-    return [*paper_scenarios(), "islands", "house", "square"]
+    """Names of the scenarios that come with the project: the paper's, a scattered and two larger ones, one in parts."""
+    return [*paper_scenarios(), "islands", "house", "square", "flag"]
 
 
 def load_scenario(name_or_file: str | Path) -> Scenario:
@@ -81,7 +111,8 @@ def parse_scenario(text: str, source: str) -> Scenario:
 
 def scenario_of(table: ScenarioTable, source: str) -> Scenario:
     """The scenario of a table; ScenarioError, one line that names ``source``, if it can't be built."""
-    design, size = _parse_grid(table.design, source)
+    design, size = _parse_grid(table.design, f"{source}: design")
+    parts = tuple(_part_of(part, number, table, source) for number, part in enumerate(table.parts, 1))
     try:
         scenario = Scenario(
             name=table.name,
@@ -90,6 +121,8 @@ def scenario_of(table: ScenarioTable, source: str) -> Scenario:
             step_limit=table.step_limit,
             materials=tuple(Material(m.name, m.p, m.block) for m in table.materials),
             size=size,
+            parts=parts,
+            choose_every=table.choose_every,
         )
     except ScenarioError as error:
         raise ScenarioError(f"{source}: {error}") from None
@@ -105,6 +138,14 @@ def table_of(scenario: Scenario) -> ScenarioTable:
         step_limit=scenario.step_limit,
         design=draw_grid(scenario.design, scenario.size),
         materials=[MaterialTable(name=m.name, p=m.p, block=m.block) for m in scenario.materials],
+        parts=[
+            PartTable(
+                cells=draw_grid(part.cells, scenario.size),
+                worth={m.name: p for m, p in zip(scenario.materials, part.worth, strict=True)},
+            )
+            for part in scenario.parts
+        ],
+        choose_every=scenario.choose_every,
     )
 
 
@@ -114,18 +155,27 @@ def draw_grid(cells: frozenset[Cell], size: int) -> str:
     return "".join(row + "\n" for row in rows)
 
 
-def _parse_grid(grid: str, source: str) -> tuple[frozenset[Cell], int]:
-    """The cells of a drawing, and how many it has along each side."""
+def _part_of(part: PartTable, number: int, table: ScenarioTable, source: str) -> Part:
+    where = f"{source}: parts: part {number}"
+    cells, size = _parse_grid(part.cells, where)
+    if size != len(table.design.split()):
+        raise ScenarioError(f"{where}: {size} rows, and the design has {len(table.design.split())}: draw as many")
+    unknown = sorted(part.worth.keys() - {material.name for material in table.materials})
+    if unknown:
+        raise ScenarioError(f"{where}: there is no material {unknown[0]!r}: name one of [[materials]]")
+    return Part(cells, tuple(part.worth.get(material.name, material.p) for material in table.materials))
+
+
+def _parse_grid(grid: str, where: str) -> tuple[frozenset[Cell], int]:
+    """The cells of a drawing, and how many it has along each side; ``where`` it is, for errors."""
     rows = grid.split()
     size = len(rows)
     for number, row in enumerate(rows, 1):
         if set(row) - {BLOCK, FREE}:
-            raise ScenarioError(
-                f"{source}: design: row {number} is {row!r}: write {BLOCK!r} for a block and {FREE!r} for none"
-            )
+            raise ScenarioError(f"{where}: row {number} is {row!r}: write {BLOCK!r} for a block and {FREE!r} for none")
         if len(row) != size:
             raise ScenarioError(
-                f"{source}: design: {size} rows, and row {number} has {len(row)} characters: draw a square, "
+                f"{where}: {size} rows, and row {number} has {len(row)} characters: draw a square, "
                 f"{SMALLEST_SIZE} to {LARGEST_SIZE} rows of as many characters"
             )
     cells = frozenset(
@@ -152,3 +202,9 @@ def _check(scenario: Scenario, source: str) -> None:
     names = [material.name for material in scenario.materials]
     if len(set(names)) != len(names):
         raise ScenarioError(f"{source}: materials: two have the same name: rename one")
+    if scenario.choose_every is not None and not scenario.parts:
+        raise ScenarioError(f"{source}: choose_every: goes with [[parts]]: draw the design in one part, or in several")
+    if scenario.parts and not can_be_built(scenario):
+        raise ScenarioError(
+            f"{source}: parts: what is built first shuts off a cell of a later part: change their order, or the design"
+        )

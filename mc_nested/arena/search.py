@@ -1,8 +1,9 @@
 """The fewest steps that build a whole design: exact search over every order of its blocks.
 
 A state is (which blocks are placed, where the agent is). Only states without a wasted block count, so the blocks are
-one of the 2^n subsets of the design. For each subset, the cells that the agent can be in after t steps are a row of
-bits for each y. So one step of every subset at once is a few shifts over an array of shape (2^n, size).
+one of the 2^n subsets of the design; with parts, none that holds a block of a part before the earlier parts are whole.
+For each subset, the cells that the agent can be in after t steps are a row of bits for each y. So one step of every
+subset at once is a few shifts over an array of shape (2^n, size).
 """
 
 from dataclasses import dataclass
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import build
 from mc_nested.arena.scenario import Scenario
+from mc_nested.arrays import Int64s
 
 EXACT_UP_TO = 18
 """Blocks up to which the search is exact: beyond, time and memory double with each block."""
@@ -31,7 +33,7 @@ class FewestSteps:
 
 
 def fewest_steps(scenario: Scenario) -> FewestSteps:
-    """The fewest steps that build the whole design, ignoring the step limit."""
+    """The fewest steps that build the whole design, part after part, ignoring the step limit."""
     if scenario.blocks > EXACT_UP_TO:
         return FewestSteps(len(build(scenario)), exact=False)
     return FewestSteps(_search(scenario), exact=True)
@@ -41,6 +43,7 @@ def _search(scenario: Scenario) -> int:
     """Breadth first from the start cell until the whole design is built."""
     blocks = sorted(scenario.design)
     free = _free_cells(blocks, scenario.size)
+    out_of_turn = _out_of_turn(blocks, scenario)
     reached = np.zeros_like(free)
     reached[0, scenario.start[1]] = 1 << scenario.start[0]
     steps = 0
@@ -49,8 +52,21 @@ def _search(scenario: Scenario) -> int:
         reached |= moved
         for index, (x, y) in enumerate(blocks):
             _place(moved, reached, index, x, y - 1)
+        reached[out_of_turn] = 0
         steps += 1
     return steps
+
+
+def _out_of_turn(blocks: list[Cell], scenario: Scenario) -> Int64s:
+    """The subsets that hold a block of a part, and not all of an earlier one: in its order, none of them comes up."""
+    subsets = np.arange(1 << len(blocks))
+    wrong = np.zeros(len(subsets), dtype=np.bool_)
+    begun = np.zeros(len(subsets), dtype=np.bool_)
+    for part in reversed(scenario.in_order):
+        mask = sum(1 << index for index, cell in enumerate(blocks) if cell in part.cells)
+        wrong |= begun & (subsets & mask != mask)
+        begun |= subsets & mask != 0
+    return np.flatnonzero(wrong)
 
 
 def _free_cells(blocks: list[Cell], size: int) -> Rows:

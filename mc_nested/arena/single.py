@@ -4,6 +4,9 @@ The main and the nested agent's actions are one set: 0 to M - 1 choose one of th
 building actions. The state is (x, y, b, m); m is 0 until a material is chosen, then its action + 1
 (docs/explanation/task.md). The choice earns the material's p and counts as a step. A first action that is no material
 ends the episode with score 0. A later material action does nothing, and counts as a step.
+
+With parts, a later material action takes that material in hand, and counts as a step. What a material is worth is
+earned block by block: a step earns what it adds to r_M, the last one also the share of the blocks that are missing.
 """
 
 from collections.abc import Mapping, Sequence
@@ -16,11 +19,15 @@ from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action
-from mc_nested.arena.env import highest_observation, space_up_to
+from mc_nested.arena.env import BLOCKS_LEFT, highest_observation, space_up_to
 from mc_nested.arena.game import Resumable
 from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.tally import tally_of
 from mc_nested.arena.vector import NO_ACTION, reset_options, resumable_arenas
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
+
+OWN = "single_of_"
+"""What the names of its own tally begin with in a snapshot; the arenas within may have one, too."""
 
 
 class SingleAgentVectorEnv(VectorWrapper):
@@ -36,6 +43,8 @@ class SingleAgentVectorEnv(VectorWrapper):
         runs = env.num_envs
         self._resumable = resumable_arenas(env)
         self._scenarios = tuple(scenarios)
+        self._tally = tally_of(scenarios)
+        self._in_parts = np.array([bool(scenario.parts) for scenario in scenarios])
         self._worth = np.array([[material.p for material in scenario.materials] for scenario in scenarios])
         self._step_limit = np.array([scenario.step_limit for scenario in scenarios])
         self._materials = self._worth.shape[1]
@@ -77,17 +86,27 @@ class SingleAgentVectorEnv(VectorWrapper):
             self.env.reset(options={"reset_mask": chooses, "material": np.where(chooses, actions, 0)})
             self._chosen[chooses] = actions[chooses] + 1
             rewards[chooses] = self._worth[chooses, actions[chooses]]
+            if self._tally:
+                self._tally.begin(chooses, actions)
+        if self._tally:
+            takes = running & ~first & (actions < self._materials) & self._in_parts
+            self._chosen[takes] = actions[takes] + 1
+            self._tally.take(takes, actions)
         if acts.any():
-            within = np.where(acts, actions - self._materials, NO_ACTION)
-            observations, earned, terminated, _, _ = self.env.step(within)
+            observations, earned, terminated = self._step_within(acts, actions - self._materials)
             self._observations[acts] = observations[acts]
             rewards[acts] = earned[acts]
             self._terminated |= terminated & acts
         self._terminated |= first & ~chooses
         self._steps += running
-        self._score += rewards
         self._truncated |= running & ~self._terminated & (self._steps >= self._step_limit)
         ended = running & (self._terminated | self._truncated)
+        before = self._score.copy()
+        self._score += rewards
+        if self._tally:
+            by_block = running & self._in_parts & (self._chosen > 0)
+            self._score = np.where(by_block, self._tally.total(ended), self._score)
+            rewards = np.where(by_block, self._score - before, rewards)
         info = {"score": np.where(ended, self._score, 0.0), "_score": ended}
         return self._seen(), rewards, self._terminated.copy(), self._truncated.copy(), info
 
@@ -95,6 +114,17 @@ class SingleAgentVectorEnv(VectorWrapper):
         """The cells where a block landed in each arena, (runs, size, size); none before a material is chosen."""
         within: Bools = self.env.occupied()  # type: ignore[attr-defined]  # both kinds of arenas have it
         return within & (self._chosen > 0)[:, None, None]
+
+    def _step_within(self, acts: Bools, actions: Int64s) -> tuple[Int64s, Float64s, Bools]:
+        """One of the eight actions in the masked arenas within; what they showed and earned, and which terminated."""
+        within = np.where(acts, actions, NO_ACTION)
+        if self._tally is None:
+            observations, earned, terminated, _, _ = self.env.step(within)
+            return observations, earned, terminated
+        observations, earned, terminated, _, _ = self.env.step(np.stack((within, self._tally.in_hand), axis=1))
+        landed = acts & (observations[:, BLOCKS_LEFT] < self._observations[:, BLOCKS_LEFT])
+        self._tally.lay(landed, landed & (earned > 0))
+        return observations, earned, terminated
 
     @property
     def resumable(self) -> Resumable | None:
@@ -104,12 +134,15 @@ class SingleAgentVectorEnv(VectorWrapper):
     def snapshot(self) -> Arrays:
         """Every arena as it stands, for ``restore``."""
         own = {f"single{name}": getattr(self, name).copy() for name in self._STATE}
+        own |= {f"{OWN}{name}": kept for name, kept in self._tally.snapshot().items()} if self._tally else {}
         return {**own, **(self._resumable.snapshot() if self._resumable else {})}
 
     def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
         """Put every arena back as it stood at ``snapshot``."""
         for name in self._STATE:
             setattr(self, name, snapshot[f"single{name}"].copy())
+        if self._tally:
+            self._tally.restore({name.removeprefix(OWN): kept for name, kept in snapshot.items() if OWN in name})
         if self._resumable:
             self._resumable.restore(snapshot)
 

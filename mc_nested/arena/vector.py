@@ -2,19 +2,21 @@
 
 Autoreset is disabled. ``reset(options={"reset_mask": bool (R,), "material": int (R,)})`` begins an episode in the
 masked arenas; a material may also be the name of one, for all. An arena whose episode has ended does nothing until
-then: its reward is 0 and its flags stay set.
+then: its reward is 0 and its flags stay set. With parts, actions are (R, 2): each beside the index of the material to
+take in hand; or (R,), where the one in hand stays there.
 """
 
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from gymnasium.spaces import Space
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.env import RENDERING, ArenaEnv, blank_observations
+from mc_nested.arena.env import RENDERING, ArenaEnv, action_space_of, blank_observations
 from mc_nested.arena.game import Resumable
 from mc_nested.arena.rules import grid_of
 from mc_nested.arena.scenario import Scenario
@@ -101,19 +103,24 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         return self._observations.copy(), {}
 
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
-        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``."""
+        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``.
+
+        With parts, ``info`` says more (Info), each with its mask.
+        """
         rewards = np.zeros(self.num_envs)
-        scores = np.zeros(self.num_envs)
-        ended = np.zeros(self.num_envs, dtype=np.bool_)
-        running = ~(self._terminated | self._truncated)
-        for run in np.flatnonzero(running & (actions != NO_ACTION)):
+        told = {"score": np.zeros(self.num_envs)}
+        if self.scenario.parts:
+            told |= {"earned": np.zeros(self.num_envs), "chooses": np.zeros(self.num_envs, dtype=np.bool_)}
+        masks = {f"_{name}": np.zeros(self.num_envs, dtype=np.bool_) for name in told}
+        running = ~(self._terminated | self._truncated) & (taken_apart(actions)[0] != NO_ACTION)
+        for run in np.flatnonzero(running):
             self._observations[run], rewards[run], self._terminated[run], self._truncated[run], info = self.envs[
                 run
             ].step(actions[run])
-            if "score" in info:
-                scores[run], ended[run] = info["score"], True
+            for name in told.keys() & info.keys():
+                told[name][run], masks[f"_{name}"][run] = info[name], True
         flags = self._terminated.copy(), self._truncated.copy()
-        return self._observations.copy(), rewards, *flags, {"score": scores, "_score": ended}
+        return self._observations.copy(), rewards, *flags, {**told, **masks}
 
     def render(self) -> tuple[Any, ...] | None:
         """Every arena as its Env draws it; None without a render mode."""
@@ -123,6 +130,16 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         """Close every Env."""
         for env in self.envs:
             env.close()
+
+
+def taken_apart(actions: Int64s) -> tuple[Int64s, Int64s | None]:
+    """The actions (R,), and the materials to take in hand before them (R,) where (R, 2) name them."""
+    return (actions[:, 0], actions[:, 1]) if actions.ndim == 2 else (actions, None)
+
+
+def shared_action_space(scenarios: Sequence[Scenario]) -> Space[Any]:
+    """The action space of an arena among these: with materials if one of the scenarios has parts."""
+    return action_space_of(next((scenario for scenario in scenarios if scenario.parts), scenarios[0]))
 
 
 def seeds_of(seed: int | list[int | None] | None, runs: int) -> list[int | None]:

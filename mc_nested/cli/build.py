@@ -1,14 +1,17 @@
 """``mc-nested build``: a known design, built by the scripted builder, in the simulator or in a running game."""
 
+from collections.abc import Sequence
 from functools import partial
+from itertools import groupby
 from typing import Annotated
 
 import typer
 
 from calibration.arena.copy_note import undo_command
-from mc_nested.arena.builder import build as builders_actions
+from mc_nested.arena.action import Action
+from mc_nested.arena.builder import build_with_materials
 from mc_nested.arena.design_scenario import is_buildable
-from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.env import ArenaEnv, step_in
 from mc_nested.arena.game import Game
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.options import (
@@ -34,7 +37,7 @@ from mc_nested.report.film import check_film
 def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     design: Annotated[str, typer.Argument(metavar="NAME|FILE", help=f"the design: {FILES}")],
     layer: LayerOption = None,
-    material: Annotated[str | None, typer.Option(help="what it is built of [the one worth most]")] = None,
+    material: Annotated[str | None, typer.Option(help="what it is built of [the one worth most, in each part]")] = None,
     backend: BackendOption = Backend.SIM,
     profile: ProfileOption = None,
     server_allowed: ServerOption = False,
@@ -54,8 +57,8 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     if video:
         check_film(video)
     scenario = named_scenario(design, layer, must_choose=True)
-    index = scenario.best_material if material is None else scenario.material_index(material)
-    steps = len(builders_actions(scenario))
+    chosen = build_with_materials(scenario, None if material is None else scenario.material_index(material))
+    steps = len(chosen)
     if not is_buildable(scenario):
         raise ScenarioError(
             f"scenario {scenario.name}: the scripted builder takes {steps} steps, and its step_limit is "
@@ -76,8 +79,8 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             journal=viewing.publisher.board,
         )
         with opened as (played, display), filmed(played, display, scenario, video) as game:
-            built = started_over(partial(_built, game, scenario, index, viewing, quiet=quiet or as_json))
-    name = scenario.materials[index].name
+            built = started_over(partial(_built, game, scenario, chosen, viewing, quiet=quiet or as_json))
+    name = ", then ".join(scenario.materials[index].name for index, _ in groupby(index for _, index in chosen))
     found = {
         "scenario": scenario.name,
         "blocks": scenario.blocks,
@@ -95,14 +98,14 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         output.hint(f"  it stands until the arena is cleared for the next episode; {afterwards}")
 
 
-def _built(game: Game, scenario: Scenario, material: int, viewing: Viewed, *, quiet: bool) -> int:
+def _built(game: Game, scenario: Scenario, steps: Sequence[tuple[Action, int]], viewing: Viewed, *, quiet: bool) -> int:
     """Build the design from a reset on; how many of its blocks stand then."""
     env = ArenaEnv(game, scenario)
     with watched(env, scenario.name, viewing, quiet=quiet) as show:
-        env.reset(options={"material": scenario.materials[material].name})
+        env.reset(options={"material": scenario.materials[steps[0][1]].name})
         show()
-        for action in builders_actions(scenario):
-            env.step(action)
+        for step in steps:
+            env.step(step_in(scenario, *step))
             show()
     return len(env.placed & scenario.design)
 

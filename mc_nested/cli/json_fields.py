@@ -105,7 +105,8 @@ JSON_FIELDS: Mapping[str, Mapping[str, str]] = {
     },
     "scenarios": {
         "scenarios": "of each: name, size, blocks, materials, optimum, fewest_steps (is_exact: by search), "
-        "builder_steps, step_limit, and the design as rows, the far edge first",
+        "builder_steps, step_limit, parts (cells as rows, worth by material), choose_every (None: once a part) and "
+        "the design as rows, the far edge first",
     },
     "read": {
         "file": "the picture",

@@ -8,7 +8,8 @@ import typer
 from rich.table import Table
 from rich.text import Text
 
-from mc_nested.arena.builder import build
+from mc_nested.arena.builder import build_with_materials
+from mc_nested.arena.env import step_in
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import paper_scenarios, table_of
 from mc_nested.cli.experiment import (
@@ -29,7 +30,7 @@ from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
 from mc_nested.cli.screen_states import check_window
 from mc_nested.errors import UserError
-from mc_nested.learn.agents import AGENT_SPECS, check_exploration
+from mc_nested.learn.agents import AGENT_SPECS, check_exploration, check_parts
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.learn.experiments.reproduction import LONGER, LONGER_AGENTS, LONGER_SCENARIOS, ReproduceConfig
 from mc_nested.learn.preset import MOST, load_preset
@@ -93,6 +94,8 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     check_window(chosen.states, has_window=False)
     for name in agent or AGENT_SPECS:
         check_exploration(AGENT_SPECS[name], chosen)
+    scenarios = named_scenarios(scenario or paper_scenarios(), layer)
+    check_parts(scenarios, chosen)
     config = ReproduceConfig(
         agents=[name for name in AGENT_SPECS if name in agent] if agent else list(AGENT_SPECS),
         trials=trials or TRIALS,
@@ -101,7 +104,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         longer=longer or 0,
         preset_name=preset or PRESET,
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
-        scenarios=[table_of(each) for each in named_scenarios(scenario or paper_scenarios(), layer)],
+        scenarios=[table_of(each) for each in scenarios],
     )
     if longer and not (config.longer_agents and config.longer_scenarios):
         raise UserError(
@@ -189,11 +192,11 @@ def _sum(costs: Sequence[Cost]) -> Cost:
 
 
 def builders_score(scenario: Scenario) -> float:
-    """The scripted builder's score within the step limit, with the best material."""
+    """The scripted builder's score within the step limit, with the best material of each part."""
     env = arena_env(scenario)
     env.reset(options={"material": scenario.materials[scenario.best_material].name})
-    for action in build(scenario):
-        _, _, terminated, truncated, info = env.step(action)
+    for step in build_with_materials(scenario):
+        _, _, terminated, truncated, info = env.step(step_in(scenario, *step))
         if terminated or truncated:
             return float(info["score"])
     raise AssertionError("the builder places every block, which ends the episode")

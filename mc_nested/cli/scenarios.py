@@ -9,6 +9,7 @@ from rich.console import Console, Group
 from rich.text import Text
 
 from mc_nested.arena.builder import build
+from mc_nested.arena.parts import Part
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import draw_grid, shipped_scenarios
 from mc_nested.arena.search import EXACT_UP_TO, fewest_steps
@@ -79,8 +80,24 @@ def _fields(scenario: Scenario) -> dict[str, Any]:
         "is_exact": fewest.exact,
         "builder_steps": len(build(scenario)),
         "step_limit": scenario.step_limit,
+        "parts": [
+            {"cells": draw_grid(part.cells, scenario.size).split(), "worth": dict(_worth(scenario, part))}
+            for part in scenario.parts
+        ],
+        "choose_every": scenario.choose_every,
         "design": draw_grid(scenario.design, scenario.size).split(),
     }
+
+
+def _worth(scenario: Scenario, part: Part) -> list[tuple[str, float]]:
+    return [(material.name, p) for material, p in zip(scenario.materials, part.worth, strict=True)]
+
+
+def _part_line(scenario: Scenario, number: int) -> str:
+    part = scenario.parts[number]
+    worth = ", ".join(f"{name} {p:+g}" for name, p in _worth(scenario, part))
+    every = f"; chosen anew every {scenario.choose_every} steps" if scenario.choose_every else ""
+    return f"{f'part {number + 1}':<9}  {len(part.cells)} blocks: {worth}{every}"
 
 
 def _facts(scenario: Scenario) -> Group:
@@ -90,10 +107,13 @@ def _facts(scenario: Scenario) -> Group:
     else:
         steps = f"at most {fewest.steps} steps, the scripted builder's: searched up to {EXACT_UP_TO} blocks"
     materials = ", ".join(f"{material.name} {material.p:+g}" for material in scenario.materials)
+    if scenario.parts:
+        materials = ", ".join(material.name for material in scenario.materials)
     lines = [
         f"arena      {scenario.size} x {scenario.size} cells",
         f"blocks     {scenario.blocks}",
         f"materials  {materials}",
+        *(_part_line(scenario, number) for number in range(len(scenario.parts))),
         f"optimum    {scenario.optimum:g}",
         f"fewest     {steps}",
         f"limit      {scenario.step_limit} steps",

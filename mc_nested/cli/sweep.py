@@ -26,6 +26,7 @@ from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
 from mc_nested.cli.screen_states import check_window
 from mc_nested.errors import UserError
+from mc_nested.learn.agents import check_parts
 from mc_nested.learn.experiments.ablation import AblationConfig, shipped_parts
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.learn.experiments.sweep import SweepConfig, shipped_variants
@@ -85,6 +86,7 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     if ablation:
         if preset is not None:
             raise UserError("--ablation takes parts off the presets live and tuned: leave out --preset")
+        check_parts(scenarios, load_preset("live"))
         ablation_config = _ablation(scenarios, trials, episodes, seed, jobs)
         with output_folder(out, "ablation") as path:
             run_ablation(ExperimentFolder.new(path, ablation_config, VERB), output)

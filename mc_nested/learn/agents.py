@@ -74,6 +74,13 @@ def check_exploration(spec: AgentSpec, preset: Preset) -> None:
             raise PresetError(f"{name} is not for the single agent: take nested or hierarchical, or the preset paper")
 
 
+def check_parts(scenarios: Sequence[Scenario], preset: Preset) -> None:
+    """PresetError if the preset can't learn in scenarios with parts."""
+    in_parts = next((scenario for scenario in scenarios if scenario.parts), None)
+    if preset.imagination and in_parts:  # what a cell pays would depend on the part
+        raise PresetError(f"[imagination] knows no parts, and {in_parts.name} has some: take the preset tuned or paper")
+
+
 def _known(name: str) -> str:
     if name not in AGENT_SPECS:
         raise ValueError(f"must be one of {', '.join(AGENT_SPECS)}")
@@ -110,6 +117,7 @@ class Agent:
         runs: Sequence[int] | None = None,
     ) -> None:
         check_exploration(spec, preset)
+        check_parts(scenarios, preset)
         self.runs = tuple(range(len(scenarios)) if runs is None else runs)
         streams = [initial_stream(seed, run) for run in self.runs]
         self._materials = len(scenarios[0].materials)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -15,15 +16,21 @@ from mc_nested.learn.learner import CHOICE_NUMBERS
 
 @dataclass
 class GreedyEpisode:
-    """One greedy episode: the material chosen (-1 for none), the actions of the agent's own set, and r_M."""
+    """One greedy episode: the material in hand at each step (-1 for none), the actions of the agent's own set, r_M."""
 
-    material: int = -1
+    materials: list[int] = field(default_factory=list)
     actions: list[int] = field(default_factory=list)
     score: float = 0.0
 
+    @property
+    def material(self) -> int:
+        """The material in hand at the end; -1 if none was chosen."""
+        return self.materials[-1] if self.materials else -1
+
     def material_name(self, scenario: Scenario) -> str:
-        """The chosen material's name; "no material" where none was chosen."""
-        return scenario.materials[self.material].name if self.material >= 0 else "no material"
+        """The materials' names, in the order in which they were in hand; "no material" where none was chosen."""
+        chosen = [material for material, _ in groupby(self.materials) if material >= 0]
+        return ", then ".join(scenario.materials[material].name for material in chosen) or "no material"
 
 
 def play_greedily(
@@ -34,6 +41,7 @@ def play_greedily(
 ) -> list[GreedyEpisode]:
     """One greedy episode of every run, from a reset on; ``after_step`` is called after each step of all runs."""
     runs = len(scenarios)
+    has_parts = any(scenario.parts for scenario in scenarios)
     never, unused = np.zeros(runs), np.ones((runs, CHOICE_NUMBERS))
     start = agent.start_states(scenarios)
     materials = agent.main.act(start, never, unused) if agent.main else np.zeros(runs, dtype=np.int64)
@@ -42,14 +50,18 @@ def play_greedily(
     running = np.ones(runs, dtype=np.bool_)
     while running.any():
         actions = agent.act(agent.low_level_states(observations, materials), materials, never, unused)
-        observations, _, terminated, truncated, info = env.step(actions)
+        takes = np.stack((actions, materials), axis=1) if agent.main and has_parts else actions
+        observations, _, terminated, truncated, info = env.step(takes)
+        in_hand = materials if agent.main else agent.chosen_materials(observations)
         for run in np.flatnonzero(running):
             episodes[run].actions.append(int(actions[run]))
+            episodes[run].materials.append(int(in_hand[run]))
             if info["_score"][run]:
                 episodes[run].score = float(info["score"][run])
+        if agent.main and has_parts:
+            due = np.flatnonzero(info["chooses"])
+            materials = materials.copy()
+            materials[due] = agent.main.act(observations[due], never[due], unused[due], due)
         running = ~(terminated | truncated)
         after_step()
-    chosen = materials if agent.main else agent.chosen_materials(observations)
-    for episode, material in zip(episodes, chosen, strict=True):
-        episode.material = int(material)
     return episodes

@@ -12,8 +12,9 @@ from mc_nested.arrays import Float64s
 TICKS_A_CHUNK = 256
 """Ticks whose numbers are drawn at once; another value changes the numbers of every seed."""
 
-INITIAL, TICKS, MAIN_UPDATES, PRACTICE = 0, 1, 2, 3
-"""What a stream is for: initial parameters, ticks, the main agent's updates after an episode, practice before one."""
+INITIAL, TICKS, MAIN_UPDATES, PRACTICE, CHOICES = 0, 1, 2, 3, 4
+"""What a stream is for: initial parameters, ticks, the main agent's updates after an episode, practice before one,
+the main agent's choices within an episode."""
 
 
 def initial_stream(seed: int, run: int) -> np.random.Generator:
@@ -24,6 +25,11 @@ def initial_stream(seed: int, run: int) -> np.random.Generator:
 def main_updates_stream(seed: int, run: int, tick: int) -> np.random.Generator:
     """The generator of the main agent's batches after the episode of that run that ended at that tick."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, MAIN_UPDATES, tick))))
+
+
+def choice_stream(seed: int, run: int, tick: int) -> np.random.Generator:
+    """The generator of the main agent's choice within an episode, after that tick of that run."""
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, CHOICES, tick))))
 
 
 def practice_stream(seed: int, run: int, episode: int) -> np.random.Generator:

@@ -28,10 +28,12 @@ from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, Bat
 from mc_nested.learn.exploration.schedules import LinearDecay
 from mc_nested.learn.imagination.background_practice import Background, BackgroundPractice, BackgroundThread
 from mc_nested.learn.imagination.imagination import Imagination
+from mc_nested.learn.kept_policies import KeptPolicies
 from mc_nested.learn.learner import CHOICE_NUMBERS
+from mc_nested.learn.main_choices import ChoiceStep, MainChoices
 from mc_nested.learn.preset import Exploration, Preset
 from mc_nested.learn.state_dict import named_for, part_of
-from mc_nested.learn.streams import Streams, main_updates_stream
+from mc_nested.learn.streams import Streams
 
 NEVER = LinearDecay(0.0, 0.0, 1.0)
 """ε where every real episode is the greedy policy's: exploration follows from the imagination."""
@@ -90,21 +92,20 @@ class Trainer:
         self._rollback: EpisodeRollback | None = None
         self._stop_at_optimum = stop_at_optimum
         self._optimum = np.array([scenario.optimum for scenario in scenarios])
-        self._start = agent.start_states(scenarios)
+        start = agent.start_states(scenarios)
+        self._choices = MainChoices(agent.main, scenarios, start, preset, seed, agent.runs) if agent.main else None
         self._explore_main = _decay(preset.explore_main) if preset.explore_main else NEVER
         without = EXCURSIONS_ONLY if preset.excursions else NEVER
         self._explore_nested = _decay(preset.explore_nested) if preset.explore_nested else without
-        self._explorer = BatchedReturnThenExplore(preset.excursions, agent) if preset.excursions else None
+        self._explorer = BatchedReturnThenExplore(preset.excursions, agent, scenarios) if preset.excursions else None
         self._imagination = agent.imagination(scenarios, preset, seed)
         plays_on = self._imagination is not None and self._resumable is None
         self._beside_the_game = BackgroundPractice(background or BackgroundThread()) if plays_on else None
-        self._kept = {role: online.copy() for role, online in agent.online().items()}
-        self._kept_scores = np.full(runs, -np.inf)
+        self._kept = KeptPolicies(agent)
         batch, exploring = preset.update.batch, NUMBERS if preset.excursions else 0
         widths = [CHOICE_NUMBERS, batch, CHOICE_NUMBERS, batch * preset.updates_a_step, exploring]
         ends = [sum(widths[: part + 1]) for part in range(len(widths))]
         self._numbers = [slice(end - width, end) for width, end in zip(widths, ends, strict=True)]
-        self._seed = seed
         self._streams = Streams(seed, agent.runs, sum(widths))
         self._runs = _Runs(
             observations=blank_observations(env.single_observation_space, runs),
@@ -141,12 +142,12 @@ class Trainer:
     @property
     def kept_scores(self) -> Float64s:
         """The greedy score of the policy that each run keeps, (runs,); -inf before the first evaluation."""
-        return self._kept_scores
+        return self._kept.scores
 
     @property
     def kept(self) -> Arrays:
         """The networks of the policies that the runs keep, by role, and their ``scores``: what plays afterwards."""
-        return {**self._kept, "scores": self._kept_scores}
+        return {**self._kept.online, "scores": self._kept.scores}
 
     @property
     def epsilon(self) -> tuple[Float64s, Float64s]:
@@ -166,7 +167,7 @@ class Trainer:
         that is known (``Imagination.begin_from``).
         """
         self.agent.load_online(online)
-        self._kept = {role: taken.copy() for role, taken in self.agent.online().items()}
+        self._kept.take_all()
         self._runs.evaluated_at[:] = -1 if evaluated_first else 0
 
     @on_one_blas_thread
@@ -188,27 +189,32 @@ class Trainer:
             actions[rows] = self._explorer.act(rows, runs.observations, exploring)
         if self._imagination:
             actions[rows] = self._imagination.act(rows, actions)
-        observations, rewards, terminated, truncated, info = self._env.step(actions)
+        observations, rewards, terminated, truncated, info = self._env.step(
+            self._choices.in_hand(actions, runs.materials) if self._choices else actions
+        )
+        ended = (terminated | truncated) & ~runs.finished
+        chosen, step = runs.materials, ChoiceStep.of(observations, info, ended, main_draws, self.ticks)
+        if self._choices:
+            chosen = self._choices.again(step, chosen, training, np.where(training, self.epsilon[0], 0.0))
         if self._imagination:
             active = np.flatnonzero(~runs.finished)
             self._imagination.observe(active, runs.observations, runs.materials, actions, rewards, observations)
         else:
-            self._learn(rows, states, actions, rewards, observations, terminated, nested_draws)
+            next_states = self.agent.low_level_states(observations, chosen)
+            over = terminated | self._handed_over(chosen)
+            self._learn(rows, states, actions, rewards, next_states, over, nested_draws)
 
         runs.observations = observations
-        if self.agent.main is None:
-            runs.materials = self.agent.chosen_materials(observations)
+        runs.materials = chosen if self.agent.main else self.agent.chosen_materials(observations)
         runs.steps_in_episode += ~runs.finished
         self.env_steps += int(training.sum())
         self.evaluation_steps += int((runs.evaluating & ~runs.finished).sum())
-        ended = (terminated | truncated) & ~runs.finished
         if ended.any():
             if self._explorer:
-                over = np.flatnonzero(ended)
-                self._explorer.end(over, self.agent.low_level_rows(over, runs.materials))
+                self._explorer.end(np.flatnonzero(ended))
             if self._imagination:
                 self._imagination.end(np.flatnonzero(ended), runs.materials, info["score"])
-            self._end_training_episodes(np.flatnonzero(ended & training), info["score"], main_draws)
+            self._end_training_episodes(np.flatnonzero(ended & training), info["score"], step)
             self._end_evaluations(np.flatnonzero(ended & runs.evaluating), info["score"])
             runs.between_episodes |= ended
         self.ticks += 1
@@ -219,23 +225,29 @@ class Trainer:
         states: NDArray[Any],
         actions: Int64s,
         rewards: Float64s,
-        observations: NDArray[Any],
+        next_states: NDArray[Any],
         terminated: Bools,
         draws: Float64s,
     ) -> None:
         """Store the step of the named runs, observe it, and update from the replay; every array is of all runs."""
         runs, preset = self._runs, self.preset
-        next_states = self.agent.low_level_states(observations, runs.materials)
         learners = self.agent.low_level_rows(rows, runs.materials)
         seen = states[rows], actions[rows], rewards[rows], next_states[rows], terminated[rows]
         self.agent.low_level.store(learners, *seen)
         if self._explorer:
             active = np.flatnonzero(~runs.finished)
             before, seen_after = runs.observations[active], (rewards[active], next_states[active], terminated[active])
-            self._explorer.observe(active, before, states[active], actions[active], *seen_after)
+            acted = self.agent.low_level_rows(active, runs.materials)
+            self._explorer.observe(active, before, states[active], actions[active], *seen_after, acted)
         of_rows = draws[rows].reshape(len(rows), preset.updates_a_step, preset.update.batch)
         for update in range(preset.updates_a_step):
             self.agent.low_level.learn(learners, of_rows[:, update])
+
+    def _handed_over(self, chosen: Int64s) -> Bools:
+        """Where another low-level agent goes on from here: what it earns is not the last one's."""
+        every = np.arange(len(chosen))
+        before, after = (self.agent.low_level_rows(every, materials) for materials in (self._runs.materials, chosen))
+        return np.asarray(before != after)
 
     def abandon_episodes(self) -> None:
         """Start every unfinished episode over: its env is gone or in an unknown state.
@@ -254,6 +266,7 @@ class Trainer:
             **named_for("env", self._resumable.snapshot() if self._resumable else {}),
             **named_for("agent", self.agent.state()),
             **named_for("kept", self.kept),
+            **named_for("choices", self._choices.state() if self._choices else {}),
             **{k: v for name, part in self._recorders.items() for k, v in named_for(name, part.state()).items()},
         }
 
@@ -279,6 +292,8 @@ class Trainer:
         self.agent.load(part_of(state, "agent"))
         for name, kept in self.kept.items():
             kept[:] = state[f"kept.{name}"]
+        if self._choices:
+            self._choices.load(part_of(state, "choices"))
         for name, recorder in self._recorders.items():
             recorder.load(part_of(state, name))
         for journal in journals:
@@ -302,8 +317,8 @@ class Trainer:
         rows = np.flatnonzero(begins)
         begun_from = runs.evaluated_at < 0  # a policy from elsewhere is evaluated as it is
         self._learn_choices(rows[~begun_from[rows]])
-        if self.agent.main:
-            runs.materials[rows] = self.agent.main.act(self._start[rows], epsilon[rows], choice[rows], rows)
+        if self._choices:
+            runs.materials[rows] = self._choices.begin(rows, epsilon, choice)
         if self._imagination:
             builds_it_all = self._practise_and_reset(self._imagination, rows, begins)
             anyway = (runs.episodes[rows] >= self.preset.episodes) | begun_from[rows]
@@ -347,7 +362,7 @@ class Trainer:
         options = {"reset_mask": begins, "material": self._runs.materials}
         self._runs.observations, _ = self._env.reset(options=options)
 
-    def _end_training_episodes(self, rows: Int64s, scores: Float64s, draws: Float64s) -> None:
+    def _end_training_episodes(self, rows: Int64s, scores: Float64s, step: ChoiceStep) -> None:
         if not len(rows):
             return
         runs = self._runs
@@ -365,21 +380,8 @@ class Trainer:
                     float(epsilon_nested[run]),
                 )
             )
-        if not self.agent.main or self._imagination:
-            return
-        # The main agent has one transition per episode: after its choice there is nothing left to decide.
-        ended, start, after = np.ones(len(rows), dtype=np.bool_), self._start[rows], runs.observations[rows]
-        self.agent.main.store(rows, start, runs.materials[rows], scores[rows], after, ended)
-        for update in self._main_draws(rows, draws):
-            self.agent.main.learn(rows, update)
-
-    def _main_draws(self, rows: Int64s, draws: Float64s) -> Float64s:
-        """The numbers that select the batches of the main agent's updates now, (updates, k, batch)."""
-        if self.preset.main is None:
-            return draws[None, rows]
-        shape = self.preset.main.updates_an_episode, self.preset.update.batch
-        runs = [self.agent.runs[row] for row in rows]
-        return np.stack([main_updates_stream(self._seed, run, self.ticks).random(shape) for run in runs], axis=1)
+        if self._choices and not self._imagination:
+            self._choices.learn(rows, runs.materials, step)
 
     def _end_evaluations(self, rows: Int64s, scores: Float64s) -> None:
         runs = self._runs
@@ -388,15 +390,10 @@ class Trainer:
             steps, material = int(runs.steps_in_episode[run]), int(runs.materials[run])
             self.evaluation_rows.append(EvaluationRow(int(run), episode, score, material, steps))
             runs.evaluated_at[run] = episode
-            if self.preset.keep == "last" or score > self._kept_scores[run]:
-                self._keep(run, score)
+            if self.preset.keep == "last" or score > self._kept.scores[run]:
+                self._kept.take(run, score)
             reached = self._stop_at_optimum and score >= self._optimum[run]
             runs.finished[run] = episode >= self.preset.episodes or reached
-
-    def _keep(self, run: int, score: float) -> None:
-        self._kept_scores[run] = score
-        for role, online in self.agent.online().items():
-            self._kept[role][self.agent.rows_of(run)[role]] = online[self.agent.rows_of(run)[role]]
 
 
 def _decay(exploration: Exploration) -> LinearDecay:

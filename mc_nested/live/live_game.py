@@ -92,7 +92,7 @@ class LiveGame:
         self.log = ActionLog(self._body.effort)
         self._commands = reset_commands(profile, scenario.start, [material.block for material in scenario.materials])
         self._cell: Cell | None = None
-        self._placed: set[Cell] = set()
+        self._placed: dict[Cell, str] = {}
         self._others: frozenset[Cell] = frozenset()
         self._material = 0
         self._restore = restore
@@ -140,13 +140,13 @@ class LiveGame:
 
     def see_others(self, placed: Collection[Cell], cells: Collection[Cell]) -> None:
         """Take note of other builders of this arena: where all blocks stand now, and which cells the others are in."""
-        self._placed, self._others = set(placed), frozenset(cells)
+        self._placed, self._others = dict.fromkeys(placed, self._shown_id), frozenset(cells)
 
     def go_on_from(
         self, placed: Collection[Cell], pressed: Iterable[str], tick_phase: tuple[float, float, float]
     ) -> None:
         """Begin the next reset with what another LiveGame knew there, as the journal's note of its reset says."""
-        self._placed = set(placed)
+        self._placed = dict.fromkeys(placed, "")  # a reset asks where they are, not what
         self._controller.go_on_after(pressed)
         self._body.tick_phase.go_on_from(tick_phase)
 
@@ -157,14 +157,21 @@ class LiveGame:
             "tick_phase": self._body.tick_phase.state,
         }
 
-    def act(self, action: Action) -> Outcome:
-        """Perform an action on the screen. Where the rules void both its move and its block, nothing is pressed."""
+    def act(self, action: Action, material: int | None = None) -> Outcome:
+        """Perform an action on the screen. Where the rules void both its move and its block, nothing is pressed.
+
+        Before it, the hotbar key of another material is pressed. No screen says what is in the hand: that it was taken
+        is confirmed by the next block, which must be of it.
+        """
         if self._cell is None:
             raise LiveError("the game must be reset first: the last reset or action failed, or there was none")
         cell, self._cell = self._cell, None
-        self._journal.note("acts", action=int(action), cell=cell)
+        taken: dict[str, Fact] = {} if material is None else {"material": material}
+        self._journal.note("acts", action=int(action), cell=cell, **taken)
         began = self._clock.now()
         try:
+            if material is not None:
+                self._take_in_hand(material)
             outcome = self._perform(cell, action)
         except LiveError as error:
             self.log.failed_actions += 1
@@ -177,7 +184,7 @@ class LiveGame:
         self._journal.note("done", cell=outcome.cell, placed=outcome.placed, seconds=seconds)
         self._cell = outcome.cell
         if outcome.placed is not None:
-            self._placed.add(outcome.placed)
+            self._placed[outcome.placed] = self._shown_id
         return outcome
 
     def _with_evidence(self, error: LiveError) -> LiveError:
@@ -186,17 +193,27 @@ class LiveGame:
         return type(error)(f"{error}; what was seen last: {files[-1]}") if files else error
 
     def _perform(self, cell: Cell, action: Action) -> Outcome:
-        solid = self._placed | self._others
+        solid = self._placed.keys() | self._others
         target = rules.moved(cell, action, solid, self._scenario.size)
         landing = rules.landing(target, action, solid, self._scenario.size)
         if target == cell and landing is None:
             return Outcome(self._body.stay_in(cell), None)
-        shown_id = self._profile.shown_id(self._scenario.materials[self._material].block)
         if landing is not None:
-            return Outcome(target, self._body.build(target, self._placed, shown_id))
+            return Outcome(target, self._body.build(target, self._placed, self._shown_id))
         pose = self._body.move_to(target)
-        self._body.check_front(pose, self._placed, shown_id)
+        self._body.check_front(pose, self._placed)
         return Outcome(pose.cell, None)
+
+    @property
+    def _shown_id(self) -> str:
+        """The id of the material in hand, as the debug screen shows it."""
+        return self._profile.shown_id(self._scenario.materials[self._material].block)
+
+    def _take_in_hand(self, material: int) -> None:
+        if material != self._material:
+            self._body.check_screen()
+            self._controller.tap(self._profile.keys.hotbar[material])
+            self._material = material
 
     def _prepare(self, material: int) -> None:
         if self._profile.world is not None:

@@ -43,12 +43,16 @@ WINDOW = "the window; grey: the chat's place"
 
 @dataclass(frozen=True)
 class Moment:
-    """A moment of an episode: the agent's cell, the cells that hold a block, the steps so far, and the material."""
+    """A moment of an episode: the agent's cell, the cells that hold a block, the steps so far, and the material.
+
+    ``score`` is r_M if the episode ended now.
+    """
 
     cell: Cell
     placed: Collection[Cell]
     steps: int
     material: int
+    score: float
 
 
 def draw_moment(scenario: Scenario, moment: Moment, arena_px: int = ARENA_PX) -> Picture:
@@ -60,7 +64,7 @@ def draw_moment(scenario: Scenario, moment: Moment, arena_px: int = ARENA_PX) ->
     paper[top : top + len(arena), left : left + len(arena)] = arena
     name = f"{scenario.name}, in {scenario.materials[moment.material].name}"
     built = len(scenario.design.intersection(moment.placed))
-    score = f"{scenario.score(moment.placed, moment.material):g} of {scenario.optimum:g}"
+    score = f"{moment.score:g} of {scenario.optimum:g}"
     image = Image.fromarray(paper)
     pen = ImageDraw.Draw(image)
     right, (upper, lower) = MARGIN + arena_px, LINES

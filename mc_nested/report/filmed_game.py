@@ -3,10 +3,13 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.game import Game, Outcome, PlayLog
 from mc_nested.arena.picture import Picture
 from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.tally import THE_ARENA, Tally
 from mc_nested.report.arena_picture import ARENA_PX, Moment, Size, beside, box_for, draw_moment
 from mc_nested.report.film import Film
 
@@ -43,6 +46,7 @@ class FilmedGame:
     ) -> None:
         self._game, self._scenario, self._film, self._window = game, scenario, film, window
         self._arena_px = arena_px
+        self._tally = Tally([scenario])
         self._placed: set[Cell] = set()
         self._steps, self._material = 0, 0
         self._began = 0.0
@@ -62,21 +66,31 @@ class FilmedGame:
         if not self._film.is_empty:
             self._film.begin_anew()
         self._placed, self._steps, self._material, self._box = set(), 0, material, None
+        self._tally.begin(THE_ARENA, np.array([material]))
         self._began = self._window.now() if self._window else 0.0
         self._show(cell)
         return cell
 
-    def act(self, action: Action) -> Outcome:
-        outcome = self._game.act(action)
+    def act(self, action: Action, material: int | None = None) -> Outcome:
+        outcome = self._game.act(action, material)
         self._steps += 1
+        if material is not None:
+            self._material = material
+            self._tally.take(THE_ARENA, np.array([material]))
         if outcome.placed is not None:
+            self._count(*outcome.placed)
             self._placed.add(outcome.placed)
         self._show(outcome.cell)
         return outcome
 
+    def _count(self, x: int, y: int) -> None:
+        if len(self._placed) < self._scenario.blocks:  # what is placed after the episode's end earns nothing
+            self._tally.lay(THE_ARENA, self._tally.pays(np.array([x]), np.array([y])))
+
     def _show(self, cell: Cell) -> None:
         at = self._window.now() - self._began if self._window else self._simulated_s()
-        moment = Moment(cell, self._placed, self._steps, self._material)
+        score = float(self._tally.total(THE_ARENA)[0])
+        moment = Moment(cell, self._placed, self._steps, self._material, score)
         picture = draw_moment(self._scenario, moment, self._arena_px)
         if self._window:
             window = self._window.picture()

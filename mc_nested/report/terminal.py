@@ -6,7 +6,7 @@ from rich.console import Group
 from rich.text import Text
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.drawing import AGENT, BUILT, FREE, MISSING, WRONG, kind_of
+from mc_nested.arena.drawing import AGENT, BUILT, FREE, MISSING, PARTS, WRONG, kind_of
 from mc_nested.arena.scenario import Scenario
 
 STYLES = {
@@ -16,6 +16,9 @@ STYLES = {
     MISSING: "cyan",
     FREE: "bright_black",
 }
+
+PART_STYLES = ("cyan", "magenta", "green", "yellow")
+"""Of the cells to build in the first part, the second, and so on; from the fifth on they come again."""
 
 NAMES = {AGENT: "the agent", BUILT: "built", WRONG: "off the design", MISSING: "still to build"}
 
@@ -27,10 +30,23 @@ def arena_view(scenario: Scenario, agent: Cell | None, placed: Collection[Cell])
         row = Text("  ")
         for x in range(scenario.size):
             kind = kind_of(scenario, agent, placed, (x, y))
-            row.append(f"{kind} ", style=STYLES[kind])
+            row.append(f"{kind} ", style=style_of(kind))
         rows.append(row)
     legend = Text("  ")
-    for kind, name in NAMES.items():
-        legend.append(f" {kind} ", style=STYLES[kind])
+    for kind, name in named_signs(len(scenario.parts)).items():
+        legend.append(f" {kind} ", style=style_of(kind))
         legend.append(f" {name}  ", style="default")
     return Group(*rows, legend)
+
+
+def style_of(kind: str) -> str:
+    """The style of what is drawn in a cell."""
+    return STYLES.get(kind) or PART_STYLES[PARTS.index(kind) % len(PART_STYLES)]
+
+
+def named_signs(parts: int) -> dict[str, str]:
+    """What each sign means, in a design of so many parts, 0 if it isn't in parts."""
+    if not parts:
+        return NAMES
+    built = {kind: name for kind, name in NAMES.items() if kind != MISSING}
+    return built | {sign: f"part {sign}" for sign in PARTS[:parts]}

@@ -7,7 +7,7 @@ from operator import itemgetter
 from rich.text import Text
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.drawing import AGENT, BUILT, FREE, MISSING, WRONG
+from mc_nested.arena.drawing import AGENT, BUILT, FREE, MISSING, PARTS, WRONG
 from mc_nested.report import terminal, terminal_map
 from mc_nested.view.status import ArenaSeen, Standing
 
@@ -105,12 +105,17 @@ def _block_sign(count: int, trials: int, is_right: bool) -> tuple[str, str]:
 
 def _free_sign(arena: ArenaSeen, cell: Cell, is_design: bool) -> tuple[str, str]:
     if not arena.beliefs:
-        kind = MISSING if is_design else FREE
-        return kind, terminal.STYLES[kind]
+        kind = _missing_sign(arena, cell) if is_design else FREE
+        return kind, terminal.style_of(kind)
     sign = arena.beliefs[cell[1]][cell[0]]
     if sign in BELIEVED:
         return sign, BELIEVED[sign][0]
     return (NOT_KNOWN, BELIEVED[NOT_KNOWN][0]) if is_design else (FREE, terminal.STYLES[FREE])
+
+
+def _missing_sign(arena: ArenaSeen, cell: Cell) -> str:
+    signs = (sign for sign, cells in zip(PARTS, arena.parts, strict=False) if cell in cells)
+    return next(signs, MISSING)
 
 
 def _legend(arena: ArenaSeen, trials: int, width: int) -> list[Text]:
@@ -127,7 +132,10 @@ def _legend(arena: ArenaSeen, trials: int, width: int) -> list[Text]:
     if arena.beliefs:
         entries += [(sign, style, name) for sign, (style, name) in BELIEVED.items()]
     else:
-        entries.append((MISSING, terminal.STYLES[MISSING], terminal.NAMES[MISSING]))
+        to_build = {
+            sign: name for sign, name in terminal.named_signs(len(arena.parts)).items() if sign in MISSING + PARTS
+        }
+        entries += [(sign, terminal.style_of(sign), name) for sign, name in to_build.items()]
     lines: list[Text] = []
     for sign, style, name in entries:
         entry = Text.assemble((sign, style), f" {name}")

@@ -63,11 +63,13 @@ class ArenaSeen(BaseModel):
     stands: tuple[Standing, ...] = ()
     agents: tuple[Standing, ...] = ()
     beliefs: tuple[str, ...] = ()
+    parts: tuple[tuple[Cell, ...], ...] = ()
 
     @classmethod
     def of(cls, scenario: Scenario) -> "ArenaSeen":
         """The empty arena of a scenario."""
-        return cls(size=scenario.size, design=tuple(sorted(scenario.design)))
+        parts = tuple(tuple(sorted(part.cells)) for part in scenario.parts)
+        return cls(size=scenario.size, design=tuple(sorted(scenario.design)), parts=parts)
 
 
 class ReadingSeen(BaseModel):

@@ -35,7 +35,7 @@ def _section(key: str, value: Schema, models: Schema, *, is_required: bool) -> s
         )
     below = models[name]
     heading = f"[[{key}]]" if value.get("type") == "array" else f"[{key}]"
-    left_out = "This table may be left out.\n\n" if not is_required and value["default"] is None else ""
+    left_out = "This table may be left out.\n\n" if not is_required and value["default"] in (None, []) else ""
     text = of_docstring(below.get("description", ""))
     return f"## {heading}\n\n{text}\n\n{left_out}{_keys(below['properties'], below.get('required', []))}"
 

@@ -46,3 +46,29 @@ def check_game(game: Game, scenario: Scenario, actions: Sequence[Action], truth:
         game.reset(0)
         game.resumable.restore(kept)
         assert [game.act(action) for action in actions[half:]] == said[half:], "a restored episode goes on as before"
+
+
+Kinds = Callable[[], dict[Cell, str]]
+"""The block, as the scenario names it, that each cell of the arena truly holds."""
+
+
+def check_materials(
+    game: Game, scenario: Scenario, steps: Sequence[tuple[Action, int | None]], kinds: Kinds | None = None
+) -> None:
+    """AssertionError where what is in hand changes an outcome, or a block isn't of the material in hand.
+
+    One episode after an abandoned one that ended with another material in hand; a step is an action and the material to
+    take in hand before it, None to leave it.
+    """
+    first, last = 0, len(scenario.materials) - 1
+    game.reset(first)
+    game.act(Action.B, last)
+    cell, in_hand, stands = game.reset(first), first, dict[Cell, str]()
+    for action, material in steps:
+        in_hand = in_hand if material is None else material
+        cell = moved(cell, action, stands, scenario.size)
+        block = landing(cell, action, stands, scenario.size)
+        assert game.act(action, material) == Outcome(cell, block), f"{action.name} does the same with any material"
+        if block is not None:
+            stands[block] = scenario.materials[in_hand].block
+        assert kinds is None or kinds() == stands, f"{action.name} places what is in hand"

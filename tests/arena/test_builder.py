@@ -5,7 +5,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.builder import build
+from mc_nested.arena.builder import build, build_with_materials
+from mc_nested.arena.env import step_in
 from mc_nested.arena.rules import landing, moved
 from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE, Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
@@ -16,7 +17,7 @@ from sim.grid import arena_env
 def test_the_builder_reaches_the_optimum_within_the_step_limit(name: str) -> None:
     env = arena_env(name)
     env.reset()
-    results = [env.step(action) for action in build(env.scenario)]
+    results = [env.step(step_in(env.scenario, *step)) for step in build_with_materials(env.scenario)]
     *_, (_, _, terminated, truncated, info) = results
     assert terminated
     assert not truncated

@@ -106,10 +106,10 @@ def test_an_unknown_material_is_refused() -> None:
 
 
 class BreaksDown(GridGame):
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         if action is Action.F:
             raise LiveError("the game is gone")
-        return super().act(action)
+        return super().act(action, material)
 
 
 def test_a_game_that_broke_down_needs_a_reset_before_it_goes_on() -> None:

@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.builder import build
 from mc_nested.arena.game import Outcome
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from sim.grid import GridGame
-from tests.arena.game_contract import BUMPS, check_game
+from tests.arena.game_contract import BUMPS, check_game, check_materials
+from tests.arena.made_parts import STRIPES, TO_FAR, TO_NEAR
 
 LINE = load_scenario("line")
 
@@ -28,22 +30,22 @@ class ForgetsToReset(GridGame):
 
 
 class StaysPut(GridGame):
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         before = self._cell
-        return Outcome(before, super().act(action).placed)
+        return Outcome(before, super().act(action, material).placed)
 
 
 class WalksThroughBlocks(GridGame):
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         placed, self._placed = self._placed, set()
-        outcome = super().act(action)
+        outcome = super().act(action, material)
         self._placed = placed | self._placed
         return outcome
 
 
 class ClaimsBlocksThatDidNotLand(GridGame):
-    def act(self, action: Action) -> Outcome:
-        outcome = super().act(action)
+    def act(self, action: Action, material: int | None = None) -> Outcome:
+        outcome = super().act(action, material)
         return Outcome(outcome.cell, (outcome.cell[0], outcome.cell[1] + 1))
 
 
@@ -54,22 +56,22 @@ class StartsElsewhere(GridGame):
 
 
 class PlacesAgainAndAgain(GridGame):
-    def act(self, action: Action) -> Outcome:
-        outcome = super().act(action)
+    def act(self, action: Action, material: int | None = None) -> Outcome:
+        outcome = super().act(action, material)
         self._placed -= {outcome.placed or (-1, -1)}
         return outcome
 
 
 class PlacesBeforeItMoves(GridGame):
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         ahead = (self._cell[0], self._cell[1] + 1)
-        outcome = super().act(action)
+        outcome = super().act(action, material)
         return Outcome(outcome.cell, ahead if outcome.placed else None)
 
 
 class WalksOutOfTheArena(GridGame):
-    def act(self, action: Action) -> Outcome:
-        outcome = super().act(action)
+    def act(self, action: Action, material: int | None = None) -> Outcome:
+        outcome = super().act(action, material)
         x, y = outcome.cell
         return Outcome((x - (x == 0 and action is Action.L), y), outcome.placed)
 
@@ -84,6 +86,63 @@ class NeverLooks(GridGame):
 
     def truth(self) -> tuple[Cell, set[Cell]]:
         return LINE.start, set()
+
+
+class NotesItsBlocks(GridGame):
+    """Notes of what its blocks are."""
+
+    def __init__(self, scenario: Scenario) -> None:
+        super().__init__(scenario)
+        self.in_hand, self.stands = 0, dict[Cell, str]()
+
+    def reset(self, material: int) -> Cell:
+        self.in_hand, self.stands = material, {}
+        return super().reset(material)
+
+    def act(self, action: Action, material: int | None = None) -> Outcome:
+        self.take(material)
+        outcome = super().act(action, material)
+        if outcome.placed:
+            self.stands[outcome.placed] = STRIPES.materials[self.in_hand].block
+        return outcome
+
+    def take(self, material: int | None) -> None:
+        self.in_hand = self.in_hand if material is None else material
+
+
+class NeverTakesAnother(NotesItsBlocks):
+    def take(self, material: int | None) -> None:
+        """Leave what is in hand."""
+
+
+class TakesTheFirstAgain(NotesItsBlocks):
+    def take(self, material: int | None) -> None:
+        self.in_hand = material or 0
+
+
+class KeepsItOverAReset(NotesItsBlocks):
+    def reset(self, material: int) -> Cell:
+        kept = self.in_hand
+        start = super().reset(material)
+        self.in_hand = kept
+        return start
+
+
+IN_BOTH = [(TO_FAR[0], 1), (TO_FAR[1], None), *((action, 0) for action in TO_NEAR)]
+
+
+def test_whatever_is_in_hand_the_simulator_passes_and_so_does_what_notes_its_blocks() -> None:
+    check_materials(GridGame(STRIPES), STRIPES, IN_BOTH)
+    game = NotesItsBlocks(STRIPES)
+    check_materials(game, STRIPES, IN_BOTH, lambda: game.stands)
+
+
+@pytest.mark.parametrize("liar", [NeverTakesAnother, TakesTheFirstAgain, KeepsItOverAReset])
+def test_a_game_that_places_another_material_fails(liar: Callable[..., NotesItsBlocks]) -> None:
+    game = liar(STRIPES)
+    steps = [(TO_FAR[0], None), *IN_BOTH[1:]] if liar is KeepsItOverAReset else IN_BOTH
+    with pytest.raises(AssertionError, match="places what is in hand"):
+        check_materials(game, STRIPES, steps, lambda: game.stands)
 
 
 def test_the_simulator_passes() -> None:

@@ -18,6 +18,7 @@ from mc_nested.arena.picture import (
     draw_picture,
 )
 from mc_nested.arena.scenario import Material, Scenario
+from tests.arena.made_parts import STRIPES
 
 PAIR = Scenario("pair", frozenset({(6, 14), (7, 14)}), (7, 12), 9, (Material("stone", 1.0, "stone"),))
 BUILT, WRONG = (BLOCKS[kind][0] for kind in "#x")
@@ -39,13 +40,13 @@ def test_every_kind_of_cell_has_a_colour_of_its_own_and_the_far_edge_is_on_top()
     assert picture.shape == (240, 240, 3)
     assert picture.dtype == np.uint8
     cells = [(7, 14), (6, 14), (0, 3), (9, 9)]
-    assert [middle(picture, *cell) for cell in cells] == [list(each) for each in (BUILT, TO_BUILD, WRONG, GROUND)]
+    assert [middle(picture, *cell) for cell in cells] == [list(each) for each in (BUILT, TO_BUILD[0], WRONG, GROUND)]
 
 
 def test_the_design_is_outlined_before_and_after_it_is_built_and_nothing_else_is() -> None:
     picture = draw_picture(PAIR, None, {(7, 14), (0, 3)})
     corner = [cell_of(picture, *cell)[1, 1].tolist() for cell in [(7, 14), (6, 14), (0, 3), (9, 9)]]
-    assert [colour == list(DESIGN) for colour in corner] == [True, True, False, False]
+    assert [colour == list(DESIGN[0]) for colour in corner] == [True, True, False, False]
 
 
 def test_a_line_of_the_grid_runs_before_every_cell() -> None:
@@ -77,7 +78,7 @@ def test_an_arena_is_drawn_as_large_as_it_is_asked_for(size: int, px: int) -> No
     picture = draw_picture(corner, (0, 0), (), px)
     assert picture.shape == (size * px, size * px, 3)
     at = px // 2
-    assert cell_of(picture, size - 1, size - 1, px, size)[at, at].tolist() == list(TO_BUILD)
+    assert cell_of(picture, size - 1, size - 1, px, size)[at, at].tolist() == list(TO_BUILD[0])
     reds = (picture[..., 0] > 190) & (picture[..., 1] < 80)
     assert reds[-px:, :px].any()
     assert not reds[:-px].any()
@@ -87,3 +88,11 @@ def test_a_picture_is_the_callers_own() -> None:
     first = draw_picture(PAIR, None, ())
     first[:] = 0
     assert draw_picture(PAIR, None, ()).any()
+
+
+def test_the_parts_of_a_design_have_colours_of_their_own_built_or_not() -> None:
+    picture = draw_picture(STRIPES, None, {(1, 3), (3, 2)}, 20)
+    far, near = (cell_of(picture, *cell, 20, 5) for cell in ((2, 3), (1, 2)))
+    assert [cell[10, 10].tolist() for cell in (far, near)] == [list(colour) for colour in TO_BUILD[:2]]
+    built = [cell_of(picture, *cell, 20, 5)[1, 1].tolist() for cell in ((1, 3), (3, 2))]
+    assert built == [list(colour) for colour in DESIGN[:2]]

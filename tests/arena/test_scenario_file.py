@@ -7,7 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import build
+from mc_nested.arena.parts import Part
 from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE, SMALLEST_SIZE, Material, Scenario
 from mc_nested.arena.scenario_file import (
     draw_grid,
@@ -19,6 +21,7 @@ from mc_nested.arena.scenario_file import (
     table_of,
 )
 from mc_nested.errors import ScenarioError
+from tests.arena.made_parts import scenarios_with_parts
 
 WOOD, STONE = Material("wood", -5.0, "oak_planks"), Material("stone", 10.0, "stone")
 
@@ -66,10 +69,10 @@ def test_a_file_that_begins_with_a_byte_order_mark_is_read(tmp_path: Path) -> No
 
 def test_experiments_run_the_papers_three_and_more_are_shipped() -> None:
     assert paper_scenarios() == ["line", "zigzag", "diamond"]
-    assert shipped_scenarios() == ["line", "zigzag", "diamond", "islands", "house", "square"]
+    assert shipped_scenarios() == ["line", "zigzag", "diamond", "islands", "house", "square", "flag"]
 
 
-@pytest.mark.parametrize(("name", "blocks"), [("islands", 6), ("house", 40), ("square", 100)])
+@pytest.mark.parametrize(("name", "blocks"), [("islands", 6), ("house", 40), ("square", 100), ("flag", 16)])
 def test_the_other_shipped_scenarios_can_be_built_with_half_as_many_steps_again_as_the_builder_takes(
     name: str, blocks: int
 ) -> None:
@@ -189,3 +192,56 @@ def test_a_name_that_lacks_its_ending_is_recognised(tmp_path: Path) -> None:
 def test_an_unknown_material_lists_the_known_ones() -> None:
     with pytest.raises(ScenarioError, match="no material 'gold': choose one of wood, stone"):
         load_scenario("line").material_index("gold")
+
+
+def in_parts(*drawings: frozenset[Cell], more: str = "") -> str:
+    """A scenario file in an arena of 5, whose parts are drawn like that."""
+    design = draw_grid(frozenset({(1, 3), (2, 3), (1, 2)}), 5)
+    head = f'name = "two"\nstart = [0, 0]\nstep_limit = 20\n{more}\n'
+    materials = (
+        f'[[materials]]\nname = "{name}"\np = {p}\nblock = "{name}"\n' for name, p in (("glass", 1), ("ice", 2))
+    )
+    parts = (f"[[parts]]\ncells = '''\n{draw_grid(cells, 5)}'''\nworth = {{ ice = 0 }}\n" for cells in drawings)
+    return f"{head}design = '''\n{design}'''\n" + "".join((*materials, *parts))
+
+
+FAR, NEAR = frozenset({(1, 3), (2, 3)}), frozenset({(1, 2)})
+
+
+def test_parts_are_read_in_their_order_and_what_they_do_not_say_is_the_materials_p() -> None:
+    scenario = parse_scenario(in_parts(FAR, NEAR, more="choose_every = 4"), "two.toml")
+    assert scenario.parts == (Part(FAR, (1.0, 0.0)), Part(NEAR, (1.0, 0.0)))
+    assert scenario.choose_every == 4
+    assert parse_scenario(in_parts(FAR, NEAR), "two.toml").choose_every is None
+
+
+def test_a_scenario_without_parts_is_saved_as_it_always_was() -> None:
+    assert set(table_of(load_scenario("line")).model_dump()) == {"name", "start", "step_limit", "design", "materials"}
+    assert table_of(load_scenario("flag")).model_dump().keys() >= {"parts"}
+
+
+@given(scenarios_with_parts())
+def test_a_scenario_with_parts_survives_its_table(scenario: Scenario) -> None:
+    assert scenario_of(table_of(scenario), "here") == scenario
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        (in_parts(FAR, FAR | NEAR), "parts: cell (1, 3) is in part 2 and in an earlier one: draw it in one"),
+        (in_parts(FAR), "parts: cell (1, 2) of the design is in no part: draw it in one"),
+        (in_parts(NEAR, FAR), "parts: what is built first shuts off a cell of a later part"),
+        (in_parts(FAR, NEAR).replace("ice = 0", "gold = 0", 1), "parts: part 1: there is no material 'gold'"),
+        (in_parts(FAR, NEAR).replace("ice = 0", "ice = nan", 1), "parts.0.worth.ice"),
+        (in_parts(FAR, NEAR, more="choose_every = 0"), "choose_every"),
+        (in_parts(more="choose_every = 4"), "choose_every: goes with [[parts]]"),
+        (in_parts(FAR) + "[[parts]]\ncells = '''#'''", "parts: part 2: 1 rows, and the design has 5: draw as many"),
+        (in_parts(FAR, NEAR).replace("cells = '''\n.....", "cells = '''\n..?..", 1), "parts: part 1: row 1 is '..?..'"),
+    ],
+)
+def test_a_mistake_in_the_parts_is_one_line_that_names_it(text: str, says: str) -> None:
+    with pytest.raises(ScenarioError) as caught:
+        parse_scenario(text, "two.toml")
+    assert str(caught.value).startswith("two.toml: ")
+    assert says in str(caught.value)
+    assert "\n" not in str(caught.value)

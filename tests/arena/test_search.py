@@ -10,6 +10,7 @@ from mc_nested.arena.rules import landing, moved
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.search import EXACT_UP_TO, FewestSteps, fewest_steps
+from tests.arena.made_parts import scenarios_with_parts
 
 
 @pytest.mark.parametrize(("name", "steps"), [("line", 13), ("zigzag", 25), ("diamond", 38)])
@@ -49,6 +50,14 @@ def test_a_plain_search_finds_the_same(design: frozenset[Cell], start: Cell, off
     assert found.steps <= len(build(scenario))
 
 
+@given(scenarios_with_parts())
+@settings(max_examples=40)
+def test_a_plain_search_finds_the_same_part_after_part(scenario: Scenario) -> None:
+    found = fewest_steps(scenario)
+    assert found == FewestSteps(_plain_search(scenario), exact=True)
+    assert found.steps <= len(build(scenario))
+
+
 def _scenario(design: frozenset[Cell], start: Cell, size: int = 15) -> Scenario:
     return Scenario("any", design, start, size * size, (Material("stone", 0.0, "stone"),), size)
 
@@ -61,10 +70,11 @@ def _plain_search(scenario: Scenario) -> int:
         steps += 1
         ahead = set()
         for cell, placed in frontier:
+            now = scenario.in_order[scenario.part_at(scenario.blocks - len(placed))].cells
             for action in Action:
                 stands = moved(cell, action, placed, scenario.size)
                 block = landing(stands, action, placed, scenario.size)
-                if block is None or block in scenario.design:
+                if block is None or block in now:
                     ahead.add((stands, placed | {block} if block else placed))
         frontier = ahead - seen
         seen |= frontier

@@ -7,10 +7,12 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arena.vector import ArenaVectorEnv
 from sim.grid import GridVectorEnv, arena_env
+from tests.arena.made_parts import STRIPES, scenarios_with_parts
 
 LINE = load_scenario("line")
 WOOD, STONE, FIRST_MOVE = 0, 1, 2
@@ -96,6 +98,66 @@ def test_arrays_and_single_arenas_agree(seed: int) -> None:
             np.testing.assert_array_equal(one, other)
         np.testing.assert_array_equal(ours[4]["score"], theirs[4]["score"])
         mask = ours[2] | ours[3]
+
+
+@given(scenarios_with_parts(), st.integers(0, 2**32 - 1))
+@settings(max_examples=60)
+def test_with_parts_an_episodes_return_is_its_score_and_the_score_that_of_the_arena(
+    scenario: Scenario, seed: int
+) -> None:
+    random, materials = np.random.default_rng(seed), len(scenario.materials)
+    view = SingleAgentVectorEnv(GridVectorEnv([scenario]), [scenario])
+    view.reset()
+    arena = arena_env(scenario)
+    total, in_hand = 0.0, int(random.integers(materials))
+    rewards = [float(view.step(np.array([in_hand]))[1][0])]
+    assert rewards == [0.0], "the first choice earns nothing by itself"
+    arena.reset(options={"material": scenario.materials[in_hand].name})
+    for _ in range(scenario.step_limit):
+        action = int(random.integers(materials + len(Action)))
+        observations, reward, terminated, truncated, info = view.step(np.array([action]))
+        rewards.append(float(reward[0]))
+        if action < materials:
+            in_hand = action
+        else:
+            told = arena.step((action - materials, in_hand))[4]
+            total = told["earned"]
+        assert observations[0, 3] == in_hand + 1
+        if terminated[0] or truncated[0]:
+            break
+    lacks = 0.0
+    if truncated[0]:
+        laid, part = len(arena.placed), scenario.part_at(scenario.blocks - len(arena.placed))
+        of_part = scenario.in_order[part]
+        ends = sum(len(each.cells) for each in scenario.in_order[: part + 1])
+        lacks = of_part.worth[in_hand] * (ends - laid) / len(of_part.cells)
+    assert info["score"][0] == pytest.approx(total + lacks)
+    assert sum(rewards) == pytest.approx(info["score"][0])
+
+
+def test_with_parts_a_later_material_action_takes_it_in_hand_and_counts_as_a_step() -> None:
+    view = SingleAgentVectorEnv(GridVectorEnv([STRIPES]), [STRIPES])
+    view.reset()
+    steps = [view.step(np.array([action])) for action in (STONE, FIRST_MOVE + Action.FD, WOOD, FIRST_MOVE + Action.RD)]
+    assert [step[1][0] for step in steps] == [0.0, 1 + 5, 0.0, 1 - 2.5]
+    assert [step[0][0, 3] for step in steps] == [2, 2, 1, 1]
+    for _ in range(7):
+        view.step(np.array([STONE]))
+    *_, truncated, info = view.step(np.array([STONE]))
+    assert truncated[0], "twelve steps, nine of which chose"
+    assert info["score"][0] == 2 + 5 - 2.5 - 3, "and the near stripe, of which nothing stands, counts for stone"
+
+
+def test_a_snapshot_of_parts_brings_both_tallies_back() -> None:
+    view = SingleAgentVectorEnv(GridVectorEnv([STRIPES]), [STRIPES])
+    view.reset()
+    view.step(np.array([STONE]))
+    view.step(np.array([FIRST_MOVE + Action.FD]))
+    kept = view.snapshot()
+    ahead = [WOOD, FIRST_MOVE + Action.RD, *[FIRST_MOVE + Action.B] * 8]
+    first = [view.step(np.array([action]))[1].tolist() for action in ahead]
+    view.restore(kept)
+    assert [view.step(np.array([action]))[1].tolist() for action in ahead] == first
 
 
 def test_a_snapshot_brings_every_arena_back() -> None:

@@ -31,12 +31,12 @@ class FragileGame(GridGame):
     def resumable(self) -> Resumable | None:
         return None
 
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         self._left -= 1
         if self._left < 0 < self._failures:
             self._failures -= 1
             raise self._error
-        return super().act(action)
+        return super().act(action, material)
 
 
 class GreyDisplay:

@@ -209,7 +209,7 @@ def test_a_layer_is_built_block_for_block_on_the_virtual_client(
 
 
 def test_the_shipped_designs_are_all_built(capsys: pytest.CaptureFixture[str]) -> None:
-    for name in ("zigzag", "islands", "house", "square"):
+    for name in ("zigzag", "islands", "house", "square", "flag"):
         assert run("build", name) == 0
         blocks = load_scenario(name).blocks
         assert f"built {blocks} of {blocks} blocks" in capsys.readouterr().out

@@ -1,5 +1,6 @@
 """``mc-nested scenarios``: the designs, their optimum and their fewest steps."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -17,9 +18,21 @@ def test_scenarios_lists_the_designs(capsys: pytest.CaptureFixture[str]) -> None
         "optimum 26 fewest 38 steps; the scripted builder takes 52",
         "blocks 6 materials wood -5, stone +10 optimum 16 fewest 27 steps; the scripted builder takes 27",
         "blocks 40 materials wood -5, stone +10 optimum 50 fewest at most 108 steps, the scripted builder's",
+        "part 1 8 blocks: wood -5, stone +10 part 2 8 blocks: wood +10, stone -5 optimum 36 fewest 22 steps; the",
         "blocks 100 materials wood -5, stone +10 optimum 110 fewest at most 107 steps, the scripted builder's",
     ):
         assert words in printed
+
+
+def test_a_design_in_parts_is_drawn_and_told_part_by_part(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("scenarios", "flag") == 0
+    printed = capsys.readouterr().out
+    assert "1 1 1 1" in printed
+    assert "1  part 1   2  part 2" in printed
+    assert run("scenarios", "flag", "--json") == 0
+    (flag,) = json.loads(capsys.readouterr().out)["scenarios"]
+    assert [part["worth"] for part in flag["parts"]] == [{"wood": -5, "stone": 10}, {"wood": 10, "stone": -5}]
+    assert flag["parts"][0]["cells"][5] == ".....####......"
 
 
 def test_a_large_design_of_a_users_own_is_listed_with_an_upper_bound(

@@ -21,14 +21,14 @@ def play(agent: Agent, explorer: BatchedReturnThenExplore, steps: int) -> None:
         after = states - [[0, 0, 1, 0]]
         seen = states, np.array([7]), np.ones(1), after, np.array([True])
         agent.low_level.store(run, *seen)
-        explorer.observe(run, states[:, :3], *seen)
+        explorer.observe(run, states[:, :3], *seen, run)
         agent.low_level.learn(run, np.zeros((1, 4)))
-    explorer.end(run, run)
+    explorer.end(run)
 
 
 def test_what_an_episode_taught_is_undone() -> None:
     agent = Agent(AGENT_SPECS["nested"], [DOT], small_preset(), 0)
-    explorer = BatchedReturnThenExplore(RULE, agent)
+    explorer = BatchedReturnThenExplore(RULE, agent, [DOT])
     play(agent, explorer, 5)
     before = EpisodeRollback.of(agent, {"scouts": explorer})
     kept = {name: array.copy() for name, array in {**agent.state(), **explorer.state()}.items()}
@@ -61,7 +61,7 @@ def test_what_an_episode_showed_a_learnt_game_is_forgotten() -> None:
 def test_without_exploration_the_agent_alone_is_restored() -> None:
     agent = Agent(AGENT_SPECS["nested"], [DOT], small_preset(), 0)
     before, online = EpisodeRollback.of(agent, {}), agent.low_level.engine.online.copy()
-    play(agent, BatchedReturnThenExplore(RULE, agent), 4)
+    play(agent, BatchedReturnThenExplore(RULE, agent, [DOT]), 4)
     before.restore(agent, {})
     np.testing.assert_array_equal(agent.low_level.engine.online, online)
     assert agent.low_level.replay.added.tolist() == [0]

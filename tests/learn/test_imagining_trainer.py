@@ -156,11 +156,11 @@ class StartsOver(GridGame):
     def resumable(self) -> Resumable | None:
         return None
 
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         self.acts_left -= 1
         if self.acts_left == 0:
             raise ConnectionError("the game is gone")
-        return super().act(action)
+        return super().act(action, material)
 
 
 def live_like(preset: Preset = SMALL) -> tuple[StartsOver, Trainer]:

@@ -438,11 +438,11 @@ class Spoils(StartsOver):
 
     acts_left = 50
 
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         self.acts_left -= 1
         if self.acts_left == 0:
             raise ConnectionError("the game is gone")
-        return super().act(action)
+        return super().act(action, material)
 
 
 FEW_EXCURSIONS = SCOUTING.model_copy(update={"episodes": 20})

@@ -38,11 +38,11 @@ class Slow(GridGame):
         self.at_reset()
         return super().reset(material)
 
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         self.acts_left -= 1
         if self.acts_left == 0:
             raise LiveError("the game is gone")
-        return super().act(action)
+        return super().act(action, material)
 
 
 class Rounds:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.builder import build
+from mc_nested.arena.builder import build, build_with_materials
 from mc_nested.arena.game import Outcome
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario
@@ -24,10 +24,10 @@ from mc_nested.live.menus.commands import reset_commands
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import GameVersion, Profile, WorldTable
-from tests.arena.game_contract import BUMPS, check_game
+from tests.arena.game_contract import BUMPS, check_game, check_materials
 from tests.live.fake_game import FakeDisplay, FakeGame, FakeScreen, connection_to, devices_of
 
-LINE = load_scenario("line")
+LINE, FLAG = load_scenario("line"), load_scenario("flag")
 STONE = LINE.best_material
 facings = st.sampled_from(["north", "south", "west", "east"])
 actions = st.sampled_from(list(Action))
@@ -123,6 +123,46 @@ def test_the_contract_of_every_game_holds_in_a_live_one(facing: Facing) -> None:
     world = _world(facing)
     check_game(_play(world), LINE, [*BUMPS, *build(LINE)])
     assert world.down == set()
+
+
+def _kinds(world: FakeGame) -> dict[Cell, str]:
+    arena = world.profile.marked_arena()
+    cells = ((x, y) for x in range(FLAG.size) for y in range(FLAG.size))
+    return {cell: world.blocks[arena.block_of(cell)] for cell in cells if arena.block_of(cell) in world.blocks}
+
+
+def test_the_flag_is_built_of_the_material_that_each_part_is_worth_most_in() -> None:
+    world = _world()
+    check_materials(_play(world, FLAG), FLAG, build_with_materials(FLAG), lambda: _kinds(world))
+    halves = [{_kinds(world)[cell] for cell in part.cells} for part in FLAG.parts]
+    assert halves == [{"stone"}, {"oak_planks"}]
+    assert world.down == set()
+
+
+def test_a_hotbar_key_is_pressed_where_another_material_is_taken_and_nowhere_else() -> None:
+    world = _world()
+    game = _play(world, FLAG)
+    game.reset(STONE)
+    taken = []
+    for action, material in ((Action.B, STONE), (Action.B, 0), (Action.B, 0), (Action.B, None), (Action.B, STONE)):
+        before = len(world.presses)
+        game.act(action, material)
+        taken.append([key for key in world.presses[before:] if key in world.profile.keys.hotbar])
+    assert taken == [[], ["1"], [], [], ["2"]]
+
+
+def test_a_block_of_another_material_than_was_taken_is_noticed_and_the_game_wants_a_reset() -> None:
+    world = _world()
+    game = _play(world, FLAG)
+    game.reset(STONE)
+    world.hotbar[0] = "stone"  # somebody else has changed the hotbar
+    with pytest.raises(NotConfirmedError, match=r"stone at .* was placed, not minecraft:oak_planks"):
+        game.act(Action.BD, 0)
+    with pytest.raises(LiveError, match="must be reset first"):
+        game.act(Action.B)
+    game.reset(STONE)
+    assert game.act(Action.BD, 0).placed == (7, 14), "the reset has filled the hotbar again"
+    assert _kinds(world) == {(7, 14): "oak_planks"}
 
 
 def test_after_an_error_the_game_wants_a_reset() -> None:

@@ -8,27 +8,40 @@ import sys
 
 import pytest
 
+from mc_nested.arena.action import Cell
+from mc_nested.arena.builder import build_with_materials
 from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.live.profile.store import load_profile
 from mc_nested.live.session import open_live_game
+from scripts import standin_oracle
 from scripts.standin import ROOT
-from tests.arena.game_contract import BUMPS, check_game
+from tests.arena.game_contract import BUMPS, check_game, check_materials
 from tests.standin_fixture import Standin
 
 
 @pytest.mark.standin
 def test_the_contract_of_every_game_holds_in_a_real_window(standin: Standin) -> None:
-    command = [sys.executable, "-m", "tests.live.test_standin_contract", str(standin.profile)]
+    command = [sys.executable, "-m", "tests.live.test_standin_contract", str(standin.profile), standin.oracle]
     done = subprocess.run(command, cwd=ROOT, env=standin.env, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert standin.errors() == []
 
 
-def play_in_the_window(profile: str) -> None:
+def play_in_the_window(profile: str, oracle: str) -> None:
     """AssertionError or LiveError where the game in the profile's window doesn't keep the contract."""
-    line = load_scenario("line")
+    line, flag = load_scenario("line"), load_scenario("flag")
     with open_live_game(line, profile, print) as (game, _):
         check_game(game, line, BUMPS)
+    arena = load_profile(profile).marked_arena()
+
+    def kinds() -> dict[Cell, str]:
+        """The blocks that the server has in the arena."""
+        cells = {arena.block_of((x, y)): (x, y) for x in range(flag.size) for y in range(flag.size)}
+        return {cells[block]: name for block, name in standin_oracle.blocks(oracle, *arena.region).items()}
+
+    with open_live_game(flag, profile, print) as (game, _):
+        check_materials(game, flag, build_with_materials(flag), kinds)
 
 
 if __name__ == "__main__":
-    play_in_the_window(sys.argv[1])
+    play_in_the_window(*sys.argv[1:])

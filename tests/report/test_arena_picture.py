@@ -23,7 +23,7 @@ from mc_nested.report.arena_picture import (
 
 LINE = load_scenario("line")
 STONE = LINE.best_material
-START = Moment(LINE.start, (), 0, STONE)
+START = Moment(LINE.start, (), 0, STONE, 10.0)
 
 
 def words_of(picture: Picture) -> Picture:
@@ -39,7 +39,7 @@ def flat(width: int, height: int, colour: tuple[int, int, int]) -> Picture:
 )
 def test_every_arena_fills_the_same_square(arena_px: int, size: int, px: int) -> None:
     scenario = dataclasses.replace(LINE, design=frozenset({(2, 2)}), start=(1, 1), size=size)
-    picture = draw_moment(scenario, Moment((1, 1), {(2, 2), (3, 3)}, 4, STONE), arena_px)
+    picture = draw_moment(scenario, Moment((1, 1), {(2, 2), (3, 3)}, 4, STONE, 12.0), arena_px)
     assert picture.shape == (arena_px + CAPTION + MARGIN, arena_px + 2 * MARGIN, 3)
     side = size * px
     top, left = CAPTION + (arena_px - side) // 2, (picture.shape[1] - side) // 2
@@ -50,9 +50,9 @@ def test_every_arena_fills_the_same_square(arena_px: int, size: int, px: int) ->
 @pytest.mark.parametrize(
     "changed",
     [
-        Moment(LINE.start, (), 1, STONE),
-        Moment(LINE.start, {(7, 5)}, 0, STONE),
-        Moment(LINE.start, (), 0, 1 - STONE),
+        Moment(LINE.start, (), 1, STONE, 10.0),
+        Moment(LINE.start, {(7, 5)}, 0, STONE, 11.0),
+        Moment(LINE.start, (), 0, 1 - STONE, -5.0),
     ],
     ids=["another step", "a block", "another material"],
 )
@@ -61,7 +61,7 @@ def test_the_words_tell_the_step_the_blocks_and_the_material(changed: Moment) ->
 
 
 def test_the_words_say_nothing_of_where_the_agent_stands() -> None:
-    elsewhere = draw_moment(LINE, Moment((3, 3), (), 0, STONE))
+    elsewhere = draw_moment(LINE, Moment((3, 3), (), 0, STONE, 10.0))
     np.testing.assert_array_equal(words_of(elsewhere), words_of(draw_moment(LINE, START)))
 
 

@@ -50,10 +50,10 @@ def test_the_film_shows_the_start_and_every_step() -> None:
     for action in (Action.B, Action.BD, Action.LD):
         game.act(action)
     moments = [
-        Moment((7, 14), (), 0, STONE),
-        Moment((7, 13), (), 1, STONE),
-        Moment((7, 12), {(7, 13)}, 2, STONE),
-        Moment((6, 12), {(7, 13), (6, 13)}, 3, STONE),
+        Moment((7, 14), (), 0, STONE, 10.0),
+        Moment((7, 13), (), 1, STONE, 10.0),
+        Moment((7, 12), {(7, 13)}, 2, STONE, 10.0),
+        Moment((6, 12), {(7, 13), (6, 13)}, 3, STONE, 10.0),
     ]
     for (picture, _), moment in zip(film.shown, moments, strict=True):
         np.testing.assert_array_equal(picture, draw_moment(LINE, moment))
@@ -76,7 +76,7 @@ def test_an_episode_that_starts_over_begins_the_film_anew() -> None:
     game.act(Action.BD)
     game.reset(0)
     ((picture, at),) = film.shown
-    np.testing.assert_array_equal(picture, draw_moment(LINE, Moment((7, 14), (), 0, 0)))
+    np.testing.assert_array_equal(picture, draw_moment(LINE, Moment((7, 14), (), 0, 0, -5.0)))
     assert at == 0.0
 
 
@@ -91,7 +91,7 @@ def test_a_window_is_shown_beside_as_it_is_after_each_step_and_in_its_own_time()
     assert film.times == pytest.approx([0.0, 0.4, 1.7])
     box = box_for(windows[0])
     for step, (picture, _) in enumerate(film.shown):
-        moment = draw_moment(LINE, Moment((7, 14 - step), (), step, STONE))
+        moment = draw_moment(LINE, Moment((7, 14 - step), (), step, STONE, 10.0))
         np.testing.assert_array_equal(picture, beside(moment, windows[step], box))
 
 

@@ -90,11 +90,11 @@ class Deceived:
     def reset(self, material: int) -> Cell:
         return self._game.reset(material)
 
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         self._acts_left -= 1
         if not self._acts_left:
             raise LiveError("gone")
-        self._game.act(action)
+        self._game.act(action, material)
         return Outcome(LINE.start, None)
 
 

@@ -13,6 +13,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
 from sim.grid import GridVectorEnv, arena_env
+from tests.arena.made_parts import scenarios_with_parts
 
 LINE, ZIGZAG, DIAMOND = (load_scenario(name) for name in ("line", "zigzag", "diamond"))
 
@@ -39,6 +40,32 @@ def test_arrays_and_single_arenas_agree_on_everything(seed: int) -> None:
         mask = (ours[2] | ours[3]) & (random.random(4) < 0.5)
         material = random.integers(0, 2, 4)
         options = {"reset_mask": mask, "material": material}
+        np.testing.assert_array_equal(arrays.reset(options=options)[0], singles.reset(options=options)[0])
+
+
+@given(scenarios_with_parts(), st.integers(0, 2**32 - 1))
+@settings(max_examples=60)
+def test_arrays_and_single_arenas_agree_on_everything_with_parts(scenario: Scenario, seed: int) -> None:
+    random, materials = np.random.default_rng(seed), len(scenario.materials)
+    scenario = dataclasses.replace(scenario, step_limit=20)
+    arrays, singles = GridVectorEnv([scenario] * 3), ArenaVectorEnv([arena_env(scenario) for _ in range(3)])
+    chosen = {"material": random.integers(0, materials, 3)}
+    np.testing.assert_array_equal(arrays.reset(options=chosen)[0], singles.reset(options=chosen)[0])
+    for step in range(40):
+        if step == 7:
+            kept = arrays.snapshot(), singles.snapshot()
+            arrays.step(np.array([Action.BD] * 3))
+            singles.step(np.array([Action.BD] * 3))
+            arrays.restore(kept[0])
+            singles.restore(kept[1])
+        actions = np.stack((random.integers(-1, 8, 3), random.integers(0, materials, 3)), axis=1)
+        ours, theirs = arrays.step(actions), singles.step(actions)
+        for one, other in zip(ours[:4], theirs[:4], strict=True):
+            np.testing.assert_array_equal(one, other)
+        assert ours[4].keys() == theirs[4].keys()
+        for name in ours[4]:
+            np.testing.assert_array_equal(ours[4][name], theirs[4][name])
+        options = {"reset_mask": ours[2] | ours[3], "material": random.integers(0, materials, 3)}
         np.testing.assert_array_equal(arrays.reset(options=options)[0], singles.reset(options=options)[0])
 
 

@@ -1,5 +1,6 @@
 from mc_nested.view.arena_panel import arena_panel
 from mc_nested.view.status import ArenaSeen, Standing
+from tests.arena.made_parts import STRIPES
 from tests.view.shown import SMALL
 
 
@@ -48,6 +49,13 @@ def test_a_large_panel_has_large_cells_and_what_the_signs_mean() -> None:
 
     assert lines[:4] == [".   .   .   x", "", ".   .   o   .", ""]
     assert lines[8] == "^ agent  # built  x off the design"
+
+
+def test_with_parts_a_cell_to_build_has_its_parts_number() -> None:
+    stripes = ArenaSeen.of(STRIPES).model_copy(update={"stands": (Standing(1, 3, 1),)})
+    lines = drawn(stripes, width=60, height=8)
+    assert lines[:3] == [". . . . .", ". # 1 . .", ". 2 2 2 ."]
+    assert "1 part 1  2 part 2" in lines[5]
 
 
 def test_a_narrow_panel_has_a_column_a_cell() -> None:

@@ -23,6 +23,8 @@ class Team:
 
     def __post_init__(self) -> None:
         _check_number(len(self.starts))
+        if self.scenario.parts:
+            raise ScenarioError(f"scenario {self.scenario.name} has parts: several builders take one without")
         size = self.scenario.size
         for number, start in enumerate(self.starts):
             if not is_inside(start, size):

@@ -39,7 +39,7 @@ class Evaluated(BaseModel):
 
 def evaluated(row: EvaluationRow, scenario: Scenario) -> Evaluated:
     """What an outcome says about a greedy episode on that scenario."""
-    material = GreedyEpisode(row.material).material_name(scenario)
+    material = GreedyEpisode([row.material]).material_name(scenario)
     return Evaluated(episode=row.episode, score=row.score, material=material, steps=row.steps)
 
 

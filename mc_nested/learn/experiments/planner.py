@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.builder import WITH_BLOCK, build
-from mc_nested.arena.rules import STEP, front_of, is_inside, moved
+from mc_nested.arena.builder import build
+from mc_nested.arena.rules import STEP, WITH_BLOCK, front_of, is_inside, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.learn.imagination.beliefs import Belief, Beliefs
 

@@ -1,15 +1,17 @@
 """ReturnThenExplore for every run of an agent; the best episodes are handed to the low-level learners to imitate."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arena.env import BLOCKS_LEFT, X, Y
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.replay import Transitions
+from mc_nested.learn.dqn.self_imitation import BestEpisodes
 from mc_nested.learn.dqn.state_space import numbered
 from mc_nested.learn.exploration.return_then_explore import PLAN_NUMBERS, STEP_NUMBERS, EpisodeStep, ReturnThenExplore
 from mc_nested.learn.preset import ExcursionRule
@@ -25,11 +27,15 @@ class BatchedReturnThenExplore:
     Args:
         rule: how often and how far excursions leave the best episode.
         agent: the agent whose low-level agents act.
+        scenarios: each run's scenario.
     """
 
-    def __init__(self, rule: ExcursionRule, agent: Agent) -> None:
+    def __init__(self, rule: ExcursionRule, agent: Agent, scenarios: Sequence[Scenario]) -> None:
         self._low_level, self._space = agent.low_level, numbered(agent.low_level.states)
-        self._explorers = [ReturnThenExplore(rule, self._space.actions, agent.size) for _ in agent.runs]
+        self._explorers = [
+            ReturnThenExplore(rule, self._space.actions, agent.size, len(scenario.in_order)) for scenario in scenarios
+        ]
+        self._part_at = [[scenario.part_at(left) for left in range(scenario.blocks + 1)] for scenario in scenarios]
 
     def begin(self, runs: Int64s, numbers: Float64s) -> None:
         """Begin an episode in each of the named runs; ``numbers`` (all runs, NUMBERS) plan the excursions.
@@ -41,10 +47,11 @@ class BatchedReturnThenExplore:
 
     def act(self, runs: Int64s, observations: Int64s, numbers: Float64s) -> Int64s:
         """The next actions of the named runs (k,), for the observations and numbers of all runs."""
-        chosen = [
-            self._explorers[run].next_action(*observations[run, [X, Y]].tolist(), numbers[run, PLAN_NUMBERS:])
-            for run in runs
-        ]
+        chosen = []
+        for run in runs:
+            x, y, left = observations[run, [X, Y, BLOCKS_LEFT]].tolist()
+            part = self._part_at[run][left]
+            chosen.append(self._explorers[run].next_action(x, y, numbers[run, PLAN_NUMBERS:], part))
         return np.array(chosen, dtype=np.int64)
 
     def observe(
@@ -56,22 +63,27 @@ class BatchedReturnThenExplore:
         rewards: Float64s,
         next_states: Int64s,
         terminated: Bools,
+        rows: Int64s,
     ) -> None:
-        """Record what the actions did; every array is of the named runs (k, …), ``before`` is what was acted on."""
+        """Record what the actions did; every array is of the named runs (k, …).
+
+        ``before`` is what was acted on, ``rows`` are the low-level learners' rows that acted.
+        """
         indices, next_indices = self._space.index(states), self._space.index(next_states)
         used = before[:, BLOCKS_LEFT] > next_states[:, BLOCKS_LEFT]
-        columns = (before[:, X], before[:, Y], indices, actions, rewards, next_indices, terminated, used)
+        parts = np.array([self._part_at[run][left] for run, left in zip(runs, before[:, BLOCKS_LEFT], strict=True)])
+        columns = (before[:, X], before[:, Y], indices, actions, rewards, next_indices, terminated, used, parts, rows)
         for run, *values in zip(runs.tolist(), *(column.tolist() for column in columns), strict=True):
             self._explorers[run].observe(EpisodeStep(*values))
 
-    def end(self, runs: Int64s, rows: Int64s) -> None:
-        """End the episodes of the named runs (k,); ``rows`` (k,) are the low-level learners' rows that acted."""
-        for run, row in zip(runs.tolist(), rows.tolist(), strict=True):
-            explorer, last = self._explorers[run], self._explorers[run].best_row
-            if explorer.end(row) and self._low_level.best:
-                if row != last:
-                    self._low_level.best.forget(last)
-                self._low_level.best.keep(row, self._transitions(explorer.best))
+    def end(self, runs: Int64s) -> None:
+        """End the episodes of the named runs (k,)."""
+        for run in runs.tolist():
+            last = {step.row for step in self._explorers[run].best}
+            if self._explorers[run].end() and self._low_level.best:
+                for row in last:
+                    self._low_level.best.forget(row)
+                self._imitate(self._low_level.best, run)
 
     def state(self) -> Arrays:
         """Everything that later steps depend on, by name."""
@@ -82,8 +94,14 @@ class BatchedReturnThenExplore:
         """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
         for run, explorer in enumerate(self._explorers):
             explorer.load(part_of(state, str(run)))
-            if self._low_level.best and explorer.best:
-                self._low_level.best.keep(explorer.best_row, self._transitions(explorer.best))
+            if self._low_level.best:
+                self._imitate(self._low_level.best, run)
+
+    def _imitate(self, best: BestEpisodes, run: int) -> None:
+        """Let each row that acted in the run's best episode imitate its own steps of it."""
+        walk = self._explorers[run].best
+        for row in {step.row for step in walk}:
+            best.keep(row, self._transitions([step for step in walk if step.row == row]))
 
     def _transitions(self, walk: list[EpisodeStep]) -> Transitions:
         terminated = np.array([step.terminated for step in walk], dtype=np.bool_)

@@ -2,15 +2,16 @@
 
 After Go-Explore (Ecoffet et al., "First return, then explore", Nature 590, 2021): first return to a known state, then
 explore. It differs in what it keeps and how it returns. There is no archive of cells, only the best episode of the run,
-and a record of what each action did in each cell of the arena. It returns by repeating that episode's actions from the
-start, never by restoring a simulator's state. Exploration is random, but avoids what wasted a block in that cell
-before. Where it meets a later cell of the best episode, it may follow that episode again; a block that had been skipped
-is then one more.
+and a record of what each action did in each cell of the arena, for each part of the design: what is on the design
+depends on the part that is built. It returns by repeating that episode's actions from the start, never by restoring a
+simulator's state. Exploration is random, but avoids what wasted a block in that cell before. Where it meets a later
+cell of the best episode, it may follow that episode again; a block that had been skipped is then one more.
 
 The best episode is followed only while x, y and b are those that it leads to. Where an action slipped, they aren't:
 what comes next in the best episode was right in another cell, and the excursion explores from there instead.
 """
 
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,7 +29,10 @@ UNKNOWN, WASTED, ON_DESIGN, NO_BLOCK = 0, 1, 2, 3
 
 
 class EpisodeStep(NamedTuple):
-    """One step as the low-level agent saw it: cell, states as indices, and whether a block was used up."""
+    """One step as the low-level agent saw it: cell, states as indices, and whether a block was used up.
+
+    ``part`` is the index of the part that was built, ``row`` the learner's row that acted.
+    """
 
     x: int
     y: int
@@ -38,6 +42,12 @@ class EpisodeStep(NamedTuple):
     next_state: int
     terminated: bool
     used_block: bool
+    part: int = 0
+    row: int = 0
+
+
+SEEN = 8
+"""The first fields of a step: what a checkpoint's table of steps has always held; the rest is a table of its own."""
 
 
 class ReturnThenExplore:
@@ -47,13 +57,13 @@ class ReturnThenExplore:
         rule: how often and how far an excursion leaves the best episode.
         actions: how many actions the agent has.
         size: cells along each side of the arena.
+        parts: how many parts the design is built in.
     """
 
-    def __init__(self, rule: ExcursionRule, actions: int, size: int = DEFAULT_SIZE) -> None:
+    def __init__(self, rule: ExcursionRule, actions: int, size: int = DEFAULT_SIZE, parts: int = 1) -> None:
         self.best: list[EpisodeStep] = []
-        self.best_row = 0
         self._rule = rule
-        self._effects = np.zeros((size, size, actions), dtype=np.int8)
+        self._effects = np.zeros((parts, size, size, actions), dtype=np.int8)
         self._walk: list[EpisodeStep] = []
         self._clean = True
         self._leave_at = self._wander_until = 0
@@ -68,15 +78,16 @@ class ReturnThenExplore:
         self._following = 0 if self._leave_at else None
         self._walk, self._clean = [], True
 
-    def next_action(self, x: int, y: int, numbers: Float64s) -> int:
-        """What to do next at x and y, from 3 random numbers."""
+    def next_action(self, x: int, y: int, numbers: Float64s, part: int = 0) -> int:
+        """What to do next at x and y, while that part is built, from 3 random numbers."""
         rejoins, repeats, which = numbers
-        effects = self._effects[x, y]
+        effects = self._effects[part, x, y]
         done = len(self._walk)
         if self._following is not None and not self._is_where_it_leads(self._following, x, y):
             self._stop_following(done)
         if self._may_rejoin(done):
-            here = [i for i in range(self._leave_at, len(self.best)) if (self.best[i].x, self.best[i].y) == (x, y)]
+            later = enumerate(self.best[self._leave_at :], self._leave_at)
+            here = [i for i, step in later if (step.x, step.y, step.part) == (x, y, part)]
             if here and rejoins < self._rule.rejoin:
                 self._following = here[int(which * len(here))]
         if self._following is not None:
@@ -92,46 +103,51 @@ class ReturnThenExplore:
 
     def observe(self, step: EpisodeStep) -> None:
         """Record what the last action did."""
-        known = self._effects[step.x, step.y, step.action]
+        effects = self._effects[step.part, step.x, step.y]
         if step.used_block:
-            self._effects[step.x, step.y, step.action] = ON_DESIGN if step.reward > 0 else WASTED
-        elif known == UNKNOWN:  # otherwise the cell in front was taken already, which says nothing new
-            self._effects[step.x, step.y, step.action] = NO_BLOCK
+            effects[step.action] = ON_DESIGN if step.reward > 0 else WASTED
+        elif effects[step.action] == UNKNOWN:  # otherwise the cell in front was taken already, which says nothing new
+            effects[step.action] = NO_BLOCK
         if step.used_block and step.reward <= 0:
             self._clean, self._following = False, None
         if self._clean:
             self._walk.append(step)
 
-    def end(self, row: int) -> bool:
+    def end(self) -> bool:
         """End the episode, an excursion or a greedy one; return whether it is the best so far, or as good.
 
-        ``row`` is the learner's row that acted. More blocks on the design before the first wasted block are better,
-        then fewer steps.
+        More blocks on the design before the first wasted block are better, then fewer steps.
         """
         built = [i for i, step in enumerate(self._walk) if step.used_block]
         walk = without_loops(self._walk[: built[-1] + 1]) if built else []
         if (blocks_in(walk), -len(walk)) < (blocks_in(self.best), -len(self.best)):
             return False
-        self.best, self.best_row = walk, row
+        self.best = walk
         return True
 
     def state(self) -> Arrays:
         """Everything that later steps depend on, by name."""
         following = -1 if self._following is None else self._following
-        plan = [self.best_row, self._clean, self._leave_at, self._wander_until, following]
+        best_row = self.best[-1].row if self.best else 0
+        plan = [best_row, self._clean, self._leave_at, self._wander_until, following]
+        best, walk = _table(self.best), _table(self._walk)
         return {
-            "came_to": self._effects,
+            "came_to": self._effects if len(self._effects) > 1 else self._effects[0],
             "plan": np.array(plan, dtype=np.int64),
-            "best": _table(self.best),
-            "walk": _table(self._walk),
+            "best": best[:, :SEEN],
+            "walk": walk[:, :SEEN],
+            "best_of": best[:, SEEN:],
+            "walk_of": walk[:, SEEN:],
         }
 
     def load(self, state: Arrays) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
         self._effects[:] = state["came_to"]
-        self.best_row, clean, self._leave_at, self._wander_until, following = (int(value) for value in state["plan"])
+        best_row, clean, self._leave_at, self._wander_until, following = (int(value) for value in state["plan"])
         self._clean, self._following = bool(clean), None if following < 0 else following
-        self.best, self._walk = _steps(state["best"]), _steps(state["walk"])
+        # Before there were parts, one row acted in all of an episode.
+        part_and_row = {name: state.get(f"{name}_of", [(0, best_row)] * len(state[name])) for name in ("best", "walk")}
+        self.best, self._walk = (_steps(state[name], of) for name, of in part_and_row.items())
 
     def _may_rejoin(self, done: int) -> bool:
         return self._following is None and self._clean and self._leave_at < done <= self._wander_until
@@ -184,10 +200,13 @@ def _table(steps: list[EpisodeStep]) -> Float64s:
     return np.array(steps, dtype=np.float64).reshape(len(steps), len(EpisodeStep._fields))
 
 
-def _steps(table: NDArray[Any]) -> list[EpisodeStep]:
+def _steps(table: NDArray[Any], parts_and_rows: Iterable[Sequence[float]]) -> list[EpisodeStep]:
     return [
         EpisodeStep(
-            int(x), int(y), int(state), int(action), float(reward), int(following), bool(terminated), bool(used)
+            *(int(x), int(y), int(state), int(action), float(reward), int(following), bool(terminated), bool(used)),
+            *(int(part), int(row)),
         )
-        for x, y, state, action, reward, following, terminated, used in table.tolist()
+        for (x, y, state, action, reward, following, terminated, used), (part, row) in zip(
+            table.tolist(), parts_and_rows, strict=True
+        )
     ]

@@ -41,7 +41,7 @@ class ImaginedGame:
         self._solid = self._arena.empty.copy()
         return cell_at(self._position, self._arena)
 
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:  # noqa: ARG002 - and so are these
         self._position, block = step(self._arena, self._position, int(action), self._solid)
         placed = None if block == NOWHERE else cell_at(block, self._arena)
         return Outcome(cell_at(self._position, self._arena), placed)

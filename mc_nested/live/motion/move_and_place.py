@@ -5,7 +5,7 @@ move:  look where the agent is and where it will stop -> hold the key that ends 
 place: see the floor ahead -> click, perhaps while still moving -> wait until the debug screen names the new block there
 """
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Mapping
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import front_of, is_inside
@@ -95,7 +95,7 @@ class Body:
             )
         return pose
 
-    def build(self, cell: Cell, built: Collection[Cell], shown_id: str) -> Cell:
+    def build(self, cell: Cell, built: Mapping[Cell, str], shown_id: str) -> Cell:
         """Walk to a cell and place a block in front of it; the cell where the block was seen.
 
         The click goes out while the agent still moves if it is right wherever the agent comes to a stop. The game gets
@@ -103,7 +103,7 @@ class Body:
 
         Args:
             cell: where to stand.
-            built: the cells that hold a block already.
+            built: the cells that hold a block already, and the block's id there as the debug screen shows it.
             shown_id: the block's id as the debug screen shows it.
         """
         front = front_of(cell)
@@ -123,7 +123,7 @@ class Body:
             state, pose = self._step(state, pose, cell, 0, click_early)
         if not clicked:
             pose = self.move_to(cell, tries_made=0 if is_there else 1)
-            self.check_front(pose, built, shown_id)
+            self.check_front(pose, built)
             return self.place(cell, shown_id, pose)
         if not hits_floor(state.end, cell):
             raise NotConfirmedError(
@@ -132,7 +132,7 @@ class Body:
         is_placed = self._is_placed(cell, block, shown_id)
         return front if is_placed else self.place(cell, shown_id)
 
-    def check_front(self, pose: PoseEstimate, built: Collection[Cell], shown_id: str) -> None:
+    def check_front(self, pose: PoseEstimate, built: Mapping[Cell, str]) -> None:
         """Check that the agent looks at what should be there: one of its own blocks in the next cell, or the floor.
 
         A block too many, or a missing one, is an error whatever its cause. Outside the arena nothing is known.
@@ -141,24 +141,24 @@ class Body:
         if not is_inside(front, self._arena.size):
             return
         x, y, z = block = self._arena.block_of(front)
-        is_built = front in built
+        own = built.get(front)
 
         def is_right(seen: PoseEstimate) -> bool:
             if seen.target is None or seen.target.pos is None:
-                return not is_built
-            return seen.target == Target(block, shown_id) if is_built else seen.target.pos == (x, y - 1, z)
+                return own is None
+            return seen.target.pos == (x, y - 1, z) if own is None else seen.target == Target(block, own)
 
         if not is_right(pose):
             seen = self._observer.watch(is_right, self._limits.confirm_s)
             if not is_right(seen):
                 raise NotConfirmedError(
-                    f"{shown_id if is_built else 'only the floor'} should be at {block}, the screen says "
+                    f"{own or 'only the floor'} should be at {block}, the screen says "
                     f"{_words(seen.target)}: did somebody else build there?"
                 )
 
     def check_floor_ahead(self) -> None:
         """Check that no block is left in front of the cell in which the agent stands; presses nothing."""
-        self.check_front(self._observer.look_and_check(), (), "")
+        self.check_front(self._observer.look_and_check(), {})
 
     def place(self, cell: Cell, shown_id: str, pose: PoseEstimate | None = None) -> Cell:
         """Place a block in front of ``cell``, where the agent stands or stops, and return the cell where it was seen.

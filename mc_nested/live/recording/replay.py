@@ -7,6 +7,7 @@ episode any more, and the next reset is where both are alike again.
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -139,8 +140,7 @@ class _Player:
                     self._pass_by(call)
                     continue
                 self.seen.actions += 1
-                action = Action(call[2]["action"])
-                self._call(lambda action=action: game.act(action))  # type: ignore[misc]  # mypy infers no lambda's default
+                self._call(partial(game.act, Action(call[2]["action"]), call[2].get("material")))
                 self.seen.followed += 1
                 self._on_progress(self.seen)
         except OtherCall as other:

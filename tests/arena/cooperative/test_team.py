@@ -52,3 +52,8 @@ def test_two_builders_never_start_on_one_cell() -> None:
 def test_nobody_starts_outside() -> None:
     with pytest.raises(ScenarioError, match=r"^builder 1 starts on \(15, 0\), outside: choose 0 to 14 for x and y$"):
         Team(LINE, ((7, 14), (15, 0)))
+
+
+def test_a_team_builds_a_design_without_parts() -> None:
+    with pytest.raises(ScenarioError, match="^scenario flag has parts: several builders take one without$"):
+        team_of(load_scenario("flag"), 2)

@@ -32,8 +32,8 @@ def after(walk: list[EpisodeStep], rule: ExcursionRule = RULE, row: int = 0) -> 
     excursions = ReturnThenExplore(rule, actions=8)
     excursions.begin(numbers(0, 0, 0))
     for each in walk:
-        excursions.observe(each)
-    excursions.end(row)
+        excursions.observe(each._replace(row=row))
+    excursions.end()
     return excursions
 
 
@@ -142,10 +142,9 @@ def test_more_blocks_are_better_then_fewer_steps_and_as_good_replaces() -> None:
     for walk, taken in ((worse, False), (longer, False), (equal, True)):
         excursions.begin(numbers(0, 0, 0))
         for each in walk:
-            excursions.observe(each)
-        assert excursions.end(row=5) is taken
-    assert excursions.best == equal
-    assert excursions.best_row == 5
+            excursions.observe(each._replace(row=5))
+        assert excursions.end() is taken
+    assert excursions.best == [each._replace(row=5) for each in equal]
 
 
 def test_a_loop_is_cut_out() -> None:
@@ -178,14 +177,14 @@ def test_saved_excursions_go_on_where_they_were(steps: int) -> None:
         one.next_action(each.x, each.y, numbers(NEVER, NEVER, 0.0))
         one.observe(each)
     other.load({name: kept.copy() for name, kept in one.state().items()})
-    assert (other.best, other.best_row) == (one.best, 1)
+    assert other.best == one.best == [each._replace(row=1) for each in WALK]
     for each in WALK[steps:]:
         chosen = [some.next_action(each.x, each.y, numbers(ALWAYS, NEVER, 0.3)) for some in (one, other)]
         assert chosen[0] == chosen[1]
         one.observe(each)
         other.observe(each)
-    one.end(2)
-    other.end(2)
+    one.end()
+    other.end()
     assert one.best == other.best
 
 
@@ -212,3 +211,39 @@ def test_where_the_best_episode_passed_twice_a_number_says_from_which_step_it_is
     explorer.begin(np.array([0.9, 0.0, 0.9]))  # leaves at once
     explorer.observe(step(7, 14, 1))
     assert explorer.next_action(7, 13, np.array([0.5, 0.5, which])) == action
+
+
+def test_what_is_on_the_design_is_known_for_each_part() -> None:
+    excursions = ReturnThenExplore(RULE, actions=8, parts=2)
+    excursions.begin(numbers(0, 0, 0))
+    excursions.observe(step(7, 13, 5, used=True, reward=1.0))
+    excursions.observe(step(7, 13, 5, used=True, reward=0.0)._replace(part=1))
+    excursions.begin(numbers(0, 0, 0))
+    assert excursions.next_action(7, 13, numbers(NEVER, 0.0, 0.0), part=0) == 5, "a block there is on the first part"
+    drawn = {excursions.next_action(7, 13, numbers(NEVER, 0.0, which), part=1) for which in np.arange(0, 1, 0.05)}
+    assert drawn == {0, 1, 2, 3, 4, 6, 7}, "and wasted while the second is built"
+
+
+def test_the_best_episode_is_rejoined_in_the_part_that_is_built() -> None:
+    ends = WALK[-1]._replace(part=1)
+    walk = [*WALK[:2], ends]
+    for part, action in ((1, ends.action), (0, 0)):
+        excursions = ReturnThenExplore(RULE, actions=8, parts=2)
+        excursions.best = walk
+        excursions.begin(numbers(0.5, 0.0, 0.9))
+        excursions.next_action(7, 14, numbers(NEVER, NEVER, 0.0))
+        excursions.observe(step(7, 14, 0))
+        assert excursions.next_action(ends.x, ends.y, numbers(ALWAYS, NEVER, 0.0), part) == action
+
+
+def test_the_parts_and_rows_of_saved_steps_come_back_and_without_them_one_row_acted() -> None:
+    one = ReturnThenExplore(RULE, actions=8, parts=2)
+    one.best = [step(7, 14, 1)._replace(row=3), step(7, 13, 5, True, 1.0)._replace(part=1, row=2)]
+    kept = one.state()
+    assert kept["came_to"].shape == (2, 15, 15, 8)
+    other = ReturnThenExplore(RULE, actions=8, parts=2)
+    other.load(kept)
+    assert other.best == one.best
+    earlier = {name: array for name, array in kept.items() if not name.endswith("_of")}
+    other.load(earlier)
+    assert [(each.part, each.row) for each in other.best] == [(0, 2), (0, 2)]

@@ -68,7 +68,7 @@ class MadeUpGame:
         self._cell, self._blocks = self._start, set()
         return self._cell
 
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:  # noqa: ARG002 - and so are these
         ahead = (self._cell[0] + self._moves[action][0], self._cell[1] + self._moves[action][1])
         if self._is_free(ahead):
             self._cell = ahead
@@ -127,10 +127,10 @@ class Slipping:
     def reset(self, material: int) -> Cell:
         return self._game.reset(material)
 
-    def act(self, action: Action) -> Outcome:
+    def act(self, action: Action, material: int | None = None) -> Outcome:
         if self._random.random() < self._share:
             action = Action(int(self._random.integers(0, len(Action))))
-        return self._game.act(action)
+        return self._game.act(action, material)
 
 
 def seen_at_random(game: Game, scenario: Scenario, episodes: int, seed: int = 0) -> Experience:

@@ -116,7 +116,7 @@ def test_what_is_built_on_the_way_is_right_or_an_error_however_late_the_game_tak
     body.arrive((7, 7))
     game.late_from, game.late_until = game.clock.now() + since, game.clock.now() + since + late
     try:
-        body.build(cell, (), "minecraft:stone")
+        body.build(cell, {}, "minecraft:stone")
     except NotConfirmedError:
         return
     game.clock.sleep_until(game.clock.now() + 1.0)
@@ -128,7 +128,7 @@ def test_what_is_built_on_the_way_is_right_or_an_error_however_late_the_game_tak
 @pytest.mark.parametrize("cell", [(6, 7), (8, 7)])
 def test_a_block_beside_is_clicked_before_it_is_certain_where_the_agent_stops(cell: Cell) -> None:
     on_the_way, one_by_one = _game(), _game()
-    _body(on_the_way).build(cell, (), "minecraft:stone")
+    _body(on_the_way).build(cell, {}, "minecraft:stone")
     body = _body(one_by_one)
     body.place(cell, "minecraft:stone", body.move_to(cell))
     assert on_the_way.clock.now() < one_by_one.clock.now() - 0.04
@@ -141,14 +141,14 @@ def test_a_correction_on_the_way_to_a_block_is_counted_as_one() -> None:
     body = _body(game)
     body.arrive((7, 7))
     game.late_from, game.late_until = game.clock.now() + 0.1, game.clock.now() + 0.45
-    body.build((7, 8), (), "minecraft:stone")
+    body.build((7, 8), {}, "minecraft:stone")
     assert (body.effort.moves, body.effort.clicks) == (1, 1)
     assert body.effort.corrections == len([press for press in game.presses if press in "wasd"]) - 1 > 0
 
 
 def test_at_the_arenas_edge_no_click_goes_out_before_the_end_is_certain() -> None:
     on_the_way, one_by_one = _game((1, 7)), _game((1, 7))
-    _body(on_the_way).build((0, 7), (), "minecraft:stone")
+    _body(on_the_way).build((0, 7), {}, "minecraft:stone")
     body = _body(one_by_one)
     body.place((0, 7), "minecraft:stone", body.move_to((0, 7)))
     assert on_the_way.clock.now() == one_by_one.clock.now()

@@ -114,6 +114,14 @@ def test_the_end_alone_is_kept_by_trimming(tmp_path: Path) -> None:
     assert [path.name for path in folder.iterdir()] == ["00001.mcap"]
 
 
+def test_materials_that_are_taken_in_hand_are_decided_alike(tmp_path: Path) -> None:
+    record_play(tmp_path / "flag", 12, scenario_name="flag")
+    taken = [call.call[2]["material"] for call in calls_of(tmp_path / "flag") if call.call[:2] == ["note", "acts"]]
+    assert set(taken) == {0, 1}
+    seen = replay(tmp_path / "flag", FONT)
+    assert (seen.actions, seen.followed, seen.differences) == (12, 12, [])
+
+
 def test_an_episode_with_mishaps_is_followed_too(tmp_path: Path) -> None:
     client = VirtualClient(seed=2)
     client.mishaps.plan("pause", 4.0)

@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from mc_nested.arena.action import Action
-from mc_nested.arena.builder import build
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.builder import build, build_with_materials
+from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.rules import front_of
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError
@@ -23,10 +24,10 @@ from mc_nested.live.vision.debug_screen import read_debug_screen
 from sim.client.client import VirtualClient
 from sim.client.drawing.scenery import SEEN
 from sim.client.mishaps import KINDS
-from tests.arena.game_contract import BUMPS, check_game
+from tests.arena.game_contract import BUMPS, check_game, check_materials
 from tests.sim.client.playing import FONT, SOON_S, TAP_S, arena_of, connection_to, play, read
 
-LINE = load_scenario("line")
+LINE, FLAG = load_scenario("line"), load_scenario("flag")
 LONGEST_WALKING_STEP = 0.217
 """Blocks a tick: steady walking is 0.216, sprinting 0.281 (FACTS: Walking)."""
 
@@ -58,6 +59,38 @@ def test_blocks_are_built_where_they_were_asked_for(version: str) -> None:
     assert set(client.built.values()) == {"stone"}
     assert client.window.down == set()
     assert client.window.strays == []
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])
+def test_the_flag_is_built_of_two_materials(version: str) -> None:
+    client = VirtualClient(version=version, seed=2)
+    arena = arena_of(client)
+    with play(client, FLAG) as game:
+        env = ArenaEnv(game, FLAG)
+        env.reset()
+        *_, last = [env.step(step) for step in build_with_materials(FLAG)]
+    assert last[4]["score"] == FLAG.optimum
+    of_cell = {cell: client.built[arena.block_of(cell)] for cell in client.placed(arena)}
+    planks = "planks" if version == "1.12.2" else "oak_planks"
+    assert of_cell == {
+        cell: name for part, name in zip(FLAG.parts, ("stone", planks), strict=True) for cell in part.cells
+    }
+    assert client.window.down == set()
+    assert client.window.strays == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("facing", ["south", "west", "north", "east"])
+def test_materials_are_taken_in_hand_on_the_virtual_client(facing: Facing) -> None:
+    client = VirtualClient(seed=3)
+    with play(client, FLAG, facing) as game:
+        arena = arena_of(client, facing)
+
+        def kinds() -> dict[Cell, str]:
+            return {cell: client.built[arena.block_of(cell)] for cell in client.placed(arena)}
+
+        steps = [(action, step // 2 % 3 - 1) for step, action in enumerate([*BUMPS, *build(FLAG)])]
+        check_materials(game, FLAG, [(action, taken if taken >= 0 else None) for action, taken in steps], kinds)
 
 
 @pytest.mark.slow

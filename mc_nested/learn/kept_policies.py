@@ -1,0 +1,28 @@
+"""The policies that the runs keep: what plays afterwards."""
+
+import numpy as np
+
+from mc_nested.learn.agents import Agent
+
+
+class KeptPolicies:
+    """A copy of each run's online networks at one of its greedy evaluations, and the score there.
+
+    ``online`` is by role; ``scores`` is (runs,), -inf before the first evaluation.
+    """
+
+    def __init__(self, agent: Agent) -> None:
+        self._agent = agent
+        self.scores = np.full(len(agent.runs), -np.inf)
+        self.take_all()
+
+    def take_all(self) -> None:
+        """Keep the networks of every run as they are; no score is known of them."""
+        self.online = {role: online.copy() for role, online in self._agent.online().items()}
+
+    def take(self, run: int, score: float) -> None:
+        """Keep a run's networks as they are, which have scored that."""
+        self.scores[run] = score
+        for role, rows in self._agent.rows_of(run).items():
+            if role in self.online:
+                self.online[role][rows] = self._agent.online()[role][rows]
