@@ -135,7 +135,7 @@ def _results(
     config: ReproduceConfig, agents: Sequence[str], names: Sequence[str], outcomes: Outcomes, suffix: str
 ) -> Results:
     evaluations: dict[tuple[str, str, int], list[Evaluation]] = {}
-    costs: dict[tuple[str, str], list[Cost]] = {(agent, name): [] for agent in agents for name in names}
+    costs: dict[tuple[str, str], dict[int, Cost]] = {(agent, name): {} for agent in agents for name in names}
     for job, outcome in outcomes:
         updates = sum(run.updates for run in outcome.runs)
         for group, scenario, trial, run in zip(job.groups, job.scenarios, job.trials, outcome.runs, strict=True):
@@ -147,8 +147,9 @@ def _results(
                 for row in run.evaluations
             ]
             seconds = outcome.seconds * run.updates / updates if updates else 0.0
-            costs[agent, scenario.name].append(
-                Cost(agent, scenario.name, outcome.networks, outcome.parameters, run.updates, run.env_steps, seconds)
+            held = () if run.replay_bytes is None else (run.replay_bytes,)
+            costs[agent, scenario.name][trial] = Cost(
+                agent, scenario.name, outcome.networks, outcome.parameters, run.updates, run.env_steps, seconds, held
             )
     scenarios = [scenario for scenario in config.loaded_scenarios() if scenario.name in names]
     preset = config.longer_preset if suffix else config.preset
@@ -171,12 +172,14 @@ def _results(
             for trial in range(config.trials)
             for row in evaluations[agent, name, trial]
         ],
-        costs=[_sum(own) for own in costs.values()],
+        costs=[_sum([own[trial] for trial in range(config.trials)]) for own in costs.values()],
     )
 
 
 def _sum(costs: Sequence[Cost]) -> Cost:
+    held = tuple(count for cost in costs for count in cost.replay_bytes)
     return costs[0]._replace(
+        replay_bytes=held if len(held) == len(costs) else (),
         updates=sum(cost.updates for cost in costs),
         env_steps=sum(cost.env_steps for cost in costs),
         seconds=sum(cost.seconds for cost in costs),

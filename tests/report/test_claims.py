@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from mc_nested.report.claims import judge
+from mc_nested.report.claims.judge import judge
 from mc_nested.report.results import Results
 from mc_nested.report.verdicts import JudgedClaim, Verdict
 from tests.report.made_results import Trial, level, made, scattered, the_papers

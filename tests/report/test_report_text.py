@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from mc_nested.report.claims import judge
+from mc_nested.report.claims.judge import judge
 from mc_nested.report.report_text import report_text
 from mc_nested.report.results import Results
 from tests.report.made_results import level, made, the_papers
