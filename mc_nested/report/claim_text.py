@@ -18,11 +18,13 @@ METHOD = """\
 - The trials of two agents are independent samples: the seed that they share gives them the same random numbers, but
   they spend them on other networks and other choices, so nothing pairs them.
 - Permutation tests compare Welch's t, not the difference itself, so that they keep their level where the spreads
-  differ. They go through all splits of the trials where there are at most {splits:,}, else through {resamples:,} drawn
-  with a fixed seed, which makes {smallest} the smallest p.
+  differ. Where the trials of the one with the wider spread are strongly skewed as well, ten of them are too few for
+  that: in a simulation, α = 0.05 was then 0.14. They go through all splits of the trials where there are at most
+  {splits:,}, else through {resamples:,} drawn with a fixed seed, which makes {smallest} the smallest p.
 - The intervals of means and differences are Student's and Welch's t, those of a score cut at the optimum, which no mean
-  exceeds. Those of shares are exact. None is corrected for being one of many: an interval without 0 can occur beside
-  an undecided test. An interval without width says that no trial differed, not that no other would.
+  exceeds. In simulations of ten trials they held the mean in 95 % of normal ones, and in 91 % of skewed ones. Those of
+  shares are exact. None is corrected for being one of many: an interval without 0 can occur beside an undecided test.
+  An interval without width says that no trial differed, not that no other would.
 - Greedy episodes don't vary by chance: a final score is one episode. What varies is the training, so the unit is the
   trial.
 - {kept}

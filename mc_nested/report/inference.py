@@ -139,4 +139,4 @@ def _centre_and_scale(left: Float64s, right: Float64s) -> tuple[float, float]:
     both = np.concatenate((left, right))
     centre = float(both.mean())
     # Where nothing but rounding differs, nothing is blown up to look like a difference.
-    return centre, max(float(np.abs(both - centre).max()), 1e-9 * (1.0 + abs(centre)))
+    return centre, max(float(np.abs(both - centre).max()), 1e-5 * (1.0 + abs(centre)))

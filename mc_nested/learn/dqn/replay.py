@@ -63,7 +63,8 @@ class Replay:
 
     def bytes_held(self) -> Int64s:
         """Bytes of the transitions that each run holds, (runs,); room that isn't filled yet is not counted."""
-        return self.sizes() * sum(kept[0, 0].nbytes for kept in self._kept)
+        held: Int64s = self.sizes() * sum(kept[0, 0].nbytes for kept in self._kept)
+        return held
 
     def add(self, rows: Int64s, transitions: Transitions) -> None:
         """Store one transition for each of the named runs (k,)."""
