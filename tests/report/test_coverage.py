@@ -3,7 +3,8 @@
 The bootstraps are the ways that were not taken.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -42,11 +43,13 @@ def two_ways(random: np.random.Generator) -> Float64s:
     return np.where(random.random((TRIALS, EXPERIMENTS)) < 0.5, 21.0, 16.0)
 
 
-MADE = {normal: 0.0, skewed: 1.0, scores: 0.6 * 21 + 0.4 * 16, two_ways: 18.5}
+Made = Callable[[np.random.Generator], Float64s]
+
+MADE: Mapping[Made, float] = {normal: 0.0, skewed: 1.0, scores: 0.6 * 21 + 0.4 * 16, two_ways: 18.5}
 """Ways to make trials, and their mean."""
 
 
-def bootstrapped(method: str) -> Callable[[Float64s], Ends]:
+def bootstrapped(method: Literal["percentile", "BCa"]) -> Callable[[Float64s], Ends]:
     def interval(trials: Float64s) -> Ends:
         found = stats.bootstrap(
             (trials,), np.mean, axis=0, n_resamples=999, batch=100, method=method, rng=np.random.default_rng(0)
@@ -56,7 +59,7 @@ def bootstrapped(method: str) -> Callable[[Float64s], Ends]:
     return interval
 
 
-def coverage(interval: Callable[[Float64s], Ends], made: Callable[[np.random.Generator], Float64s]) -> float:
+def coverage(interval: Callable[[Float64s], Ends], made: Made) -> float:
     low, high = interval(made(np.random.default_rng(7)))
     return float(((low <= MADE[made] + 1e-9) & (MADE[made] - 1e-9 <= high)).mean())
 

@@ -30,7 +30,7 @@ def peaked(deviation: float) -> Made:
 
 def scores(most: int) -> Made:
     """Whole blocks about a mean of 17, with ties."""
-    return lambda random: 17.0 + random.integers(-most, most + 1, 10)
+    return lambda random: 17 + random.integers(-most, most + 1, 10).astype(np.float64)
 
 
 def skewed(deviation: float) -> Made:
