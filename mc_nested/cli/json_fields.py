@@ -60,7 +60,10 @@ JSON_FIELDS: Mapping[str, Mapping[str, str]] = {
         "parameters": "of a trial's networks",
         "live": "of a live game: what playing took",
     },
-    "reproduce": {**_EXPERIMENT, "claims": "letter, claim and verdict of each"},
+    "reproduce": {
+        **_EXPERIMENT,
+        "claims": "letter, claim and verdict of each; of --robustness also choices, each with its verdict",
+    },
     "sweep": _EXPERIMENT,
     "benchmark": {**_EXPERIMENT, "measures": "of each contestant: trials, solved, and its episodes to the optimum"},
     "evaluate": {

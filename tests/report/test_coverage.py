@@ -54,7 +54,7 @@ def bootstrapped(method: Literal["percentile", "BCa"]) -> Callable[[Float64s], E
         found = stats.bootstrap(
             (trials,), np.mean, axis=0, n_resamples=999, batch=100, method=method, rng=np.random.default_rng(0)
         )
-        return found.confidence_interval.low, found.confidence_interval.high
+        return np.asarray(found.confidence_interval.low), np.asarray(found.confidence_interval.high)
 
     return interval
 

@@ -58,9 +58,8 @@ def test_each_claim_counts_its_verdicts_under_the_other_choices(choices: list[Ju
 
 
 def test_scores_stand_with_the_optimum_of_the_choice(choices: list[JudgedChoice]) -> None:
-    lower = judged_under(
-        "designs", "smaller", replace(made(the_papers()), optimum={**choices[0].results.optimum, "line": 17.0})
-    )
+    optimum = {**choices[0].results.optimum, "line": 17.0}
+    lower = judged_under("designs", "smaller", replace(made(the_papers()), optimum=optimum))
     line = robustness_text([choices[0], lower]).splitlines()[-3]
     assert cells(line)[:2] == ["designs: smaller", "20.00, 17.00, 13.00 of 17"]
 
