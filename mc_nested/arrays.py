@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 Bools = NDArray[np.bool_]
 Float32s = NDArray[np.float32]
 Float64s = NDArray[np.float64]
+Bytes = NDArray[np.uint8]
 Int8s = NDArray[np.int8]
 Int64s = NDArray[np.int64]
 Integers = NDArray[np.integer[Any]]

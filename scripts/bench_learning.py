@@ -51,10 +51,10 @@ def ours(runs: int) -> Slices:
     trainer = Trainer(GridVectorEnv(scenarios), scenarios, agent, PAPER, seed=0)
 
     def work() -> int:
-        before = int(agent.low_level.ddqn.updates.sum())
+        before = int(agent.low_level.engine.updates.sum())
         for _ in range(20):
             trainer.tick()
-        return int(agent.low_level.ddqn.updates.sum()) - before
+        return int(agent.low_level.engine.updates.sum()) - before
 
     return work
 

@@ -167,6 +167,10 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         """The cells where a block landed in that arena since its last reset."""
         return cells_of(self._cells(self._solid, run))
 
+    def occupied(self) -> Bools:
+        """The cells where a block landed since each arena's last reset, (runs, size, size); arenas of one size."""
+        return np.stack([self._cells(self._solid, run) for run in range(self.num_envs)])
+
     @property
     def resumable(self) -> Resumable | None:
         """These arenas: their episodes can be saved half-way."""

@@ -63,9 +63,9 @@ def rendered(mode: str | None, scenario: Scenario, cell: Cell, placed: Collectio
     return None
 
 
-def blank_observations(space: Space[Any], runs: int) -> Int64s:
+def blank_observations(space: Space[Any], runs: int) -> NDArray[Any]:
     """Zeros for one observation of that space per run."""
-    return np.zeros((runs, *(space.shape or ())), dtype=np.int64)
+    return np.zeros((runs, *(space.shape or ())), dtype=space.dtype)
 
 
 class ArenaEnv(gymnasium.Env[Observation, np.int64]):

@@ -56,10 +56,15 @@ def draw_picture(scenario: Scenario, agent: Cell | None, placed: Collection[Cell
     )
     picture: Picture = tiles.swapaxes(1, 2).reshape(size * cell_px, size * cell_px, 3)
     if agent is not None:
-        top, left = (size - 1 - agent[1]) * cell_px, agent[0] * cell_px
-        here = picture[top : top + cell_px, left : left + cell_px]
-        here[:] = _with_agent(here)
+        draw_agent(picture, size, agent, cell_px)
     return picture
+
+
+def draw_agent(picture: Picture, size: int, agent: Cell, cell_px: int, body: Colour = AGENT_BODY) -> None:
+    """Lay an agent of that colour over its cell of an arena's picture."""
+    top, left = (size - 1 - agent[1]) * cell_px, agent[0] * cell_px
+    here = picture[top : top + cell_px, left : left + cell_px]
+    here[:] = _with_agent(here, body)
 
 
 @lru_cache(maxsize=64)
@@ -85,7 +90,7 @@ def _framed(tile: Float64s, px: int, edge: float) -> Float64s:
     return _painted(tile, DESIGN, _square(px, 1.0) & ~_square(px, 1.0 + edge * px))
 
 
-def _with_agent(tile: Picture) -> Picture:
+def _with_agent(tile: Picture, colour: Colour) -> Picture:
     px = len(tile)
     across, down = _points(px)
     middle = 0.5 + 0.5 / px  # of the cell without the grid's line
@@ -93,7 +98,7 @@ def _with_agent(tile: Picture) -> Picture:
     body = np.hypot(right, below) < 0.42
     arrow = (below > -0.30) & (below < 0.22) & (2 * np.abs(right) < 1.0 * (below + 0.30))
     notch = (below > 0.04) & (2 * np.abs(right) < 1.1 * (below - 0.04) * 2)
-    return _rounded(_painted(_painted(tile.astype(np.float64), AGENT_BODY, body), AGENT_ARROW, arrow & ~notch))
+    return _rounded(_painted(_painted(tile.astype(np.float64), colour, body), AGENT_ARROW, arrow & ~notch))
 
 
 def _points(px: int) -> tuple[Float64s, Float64s]:

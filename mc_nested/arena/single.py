@@ -91,6 +91,11 @@ class SingleAgentVectorEnv(VectorWrapper):
         info = {"score": np.where(ended, self._score, 0.0), "_score": ended}
         return self._seen(), rewards, self._terminated.copy(), self._truncated.copy(), info
 
+    def occupied(self) -> Bools:
+        """The cells where a block landed in each arena, (runs, size, size); none before a material is chosen."""
+        within: Bools = self.env.occupied()  # type: ignore[attr-defined]  # both kinds of arenas have it
+        return within & (self._chosen > 0)[:, None, None]
+
     @property
     def resumable(self) -> Resumable | None:
         """This view, if the arenas within can be resumed."""

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.action import Cell
 from mc_nested.arena.env import RENDERING, ArenaEnv, blank_observations
 from mc_nested.arena.game import Resumable
+from mc_nested.arena.rules import grid_of
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
@@ -82,6 +83,10 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     def placed(self, run: int) -> frozenset[Cell]:
         """The cells where a block landed in that arena since its last reset."""
         return self.envs[run].placed
+
+    def occupied(self) -> Bools:
+        """The cells where a block landed since each arena's last reset, (runs, size, size)."""
+        return np.stack([grid_of(env.placed, env.scenario.size) for env in self.envs])
 
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None

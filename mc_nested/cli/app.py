@@ -24,6 +24,7 @@ COMPLETION_OPTIONS = ("--install-completion", "--show-completion")
 
 VERBS = (
     "train",
+    "cooperate",
     "reproduce",
     "sweep",
     "benchmark",

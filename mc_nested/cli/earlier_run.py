@@ -37,7 +37,7 @@ def earlier_run(run: Path, wanted: RunFolder) -> EarlierRun:
     """The best trial of that training, for the wanted one; RunError if its networks don't fit."""
     folder = RunFolder.open(run)
     theirs, ours = folder.new_agent(1), wanted.new_agent(1)
-    if (theirs.spec, theirs.sizes) != (ours.spec, ours.sizes):
+    if (theirs.spec, theirs.forms) != (ours.spec, ours.forms):
         raise RunError(
             f"{run}: its networks don't fit this training: take its agent ({folder.config.agent}), its preset, and a "
             f"design of {folder.scenario.blocks} blocks in an arena of {folder.scenario.size} x {folder.scenario.size}"

@@ -5,7 +5,7 @@ from rich.text import Text
 
 from mc_nested.cli.options import RunArgument
 from mc_nested.cli.output import JsonOption, Output
-from mc_nested.learn.agents import Agent, view_of
+from mc_nested.learn.agents import Agent
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
 from sim.grid import GridVectorEnv
@@ -44,5 +44,5 @@ def load_agent(folder: RunFolder) -> Agent:
 
 def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:
     """One greedy episode of every trial in the simulator."""
-    env = view_of(agent.spec, GridVectorEnv(folder.scenarios), folder.scenarios)
+    env = agent.view_of(GridVectorEnv(folder.scenarios), folder.scenarios)
     return play_greedily(env, folder.scenarios, agent)

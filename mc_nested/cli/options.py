@@ -23,21 +23,35 @@ from sim.grid import GridGame, GridVectorEnv
 
 
 class Backend(str, Enum):
-    """The backend: the headless simulator, or a running game's window."""
+    """The backend: the headless simulator, the virtual client on its own clock, or a running game's window."""
 
     SIM = "sim"
+    VIRTUAL = "virtual"
     LIVE = "live"
 
 
 def where_words(backend: Backend) -> str:
     """Where it is played, in words."""
-    return "in the simulator" if backend is Backend.SIM else "in the running game"
+    words = {Backend.SIM: "in the simulator", Backend.VIRTUAL: "on the virtual client"}
+    return words.get(backend, "in the running game")
 
 
 RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="the folder of a training (its --out)")]
-BackendOption = Annotated[Backend, typer.Option(help="the headless simulator, or a running game's window")]
+BackendOption = Annotated[
+    Backend, typer.Option(help="the headless simulator, the virtual client, or a running game's window")
+]
 ProfileOption = Annotated[
     str | None, typer.Option(metavar="NAME|FILE", help="the profile of your game and screen (default: 'default')")
+]
+
+EngineOption = Annotated[
+    str | None, typer.Option(metavar="NAME", help="what computes: compiled, or torch [the preset's]")
+]
+DeviceOption = Annotated[
+    str | None, typer.Option(metavar="NAME", help="where torch computes: cpu, cuda or mps [the preset's]")
+]
+StatesOption = Annotated[
+    str | None, typer.Option(metavar="NAME", help="what the agent sees: numbers, or an image [the preset's]")
 ]
 
 ServerOption = Annotated[
@@ -69,6 +83,13 @@ def open_game(
     if backend is Backend.SIM:
         yield GridGame(scenario), None
         return
+    if backend is Backend.VIRTUAL:
+        # Imported here: no other backend needs it, and every verb would wait for it.
+        from mc_nested.cli.virtual_games import open_virtual_games
+
+        with open_virtual_games([scenario], journal=journal) as (game,):
+            yield game, game.connection.devices.display
+        return
     say = partial(typer.echo, err=True)
     with open_live_game(
         scenario,
@@ -92,13 +113,22 @@ def open_arenas(
     evidence: Path | None = None,
     open_recorder: OpenRecorder = no_recorder,
     journal: Journal | None = None,
+    seed: int = 0,
 ) -> Iterator[tuple[GridVectorEnv | ArenaVectorEnv, PlayLog | None]]:
     """The backend's arenas, one per scenario, and the log of playing them, if any; closed after the block.
 
-    RunError if a live game should be several arenas; otherwise as ``open_game``.
+    ``seed`` is of the virtual clients' random numbers. RunError if a live game should be several arenas; otherwise as
+    ``open_game``.
     """
     if backend is Backend.SIM:
         yield GridVectorEnv(scenarios), None
+        return
+    if backend is Backend.VIRTUAL:
+        from mc_nested.cli.virtual_games import VirtualPlay, open_virtual_games
+
+        with open_virtual_games(scenarios, seed, journal) as games:
+            envs = [ArenaEnv(game, scenario) for game, scenario in zip(games, scenarios, strict=True)]
+            yield ArenaVectorEnv(envs), VirtualPlay(games)
         return
     if len(scenarios) != 1:
         raise RunError(f"a live game is one arena, not {len(scenarios)}: train one trial at a time, --trials 1")
@@ -116,5 +146,5 @@ def open_arenas(
 
 
 def played_live(log: PlayLog | None, failure_budget: FailureBudget) -> dict[str, Any]:
-    """What playing in a running game took, for a training's summary; nothing for the simulator."""
+    """What playing in a running game, or on the virtual client, took, for a summary; nothing for the simulator."""
     return {"live": {**log.summary(), **failure_budget.summary()}} if log else {}

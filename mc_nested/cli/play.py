@@ -26,7 +26,7 @@ from mc_nested.cli.video import VideoOption, filmed
 from mc_nested.cli.viewing import Viewed, ViewOption, viewed
 from mc_nested.cli.watching import started_over, watched
 from mc_nested.errors import RunError, UserError
-from mc_nested.learn.agents import Agent, view_of
+from mc_nested.learn.agents import Agent
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.devices import Display
@@ -114,7 +114,7 @@ def _watch(
             if pictures:
                 pictures.take()
 
-        arenas = view_of(agent.spec, ArenaVectorEnv([env]), [scenario])
+        arenas = agent.view_of(ArenaVectorEnv([env]), [scenario])
         return play_greedily(arenas, [scenario], agent, after_step)[0]
 
 

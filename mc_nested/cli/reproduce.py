@@ -20,6 +20,7 @@ from mc_nested.cli.experiment import (
 )
 from mc_nested.cli.experiment_end import say_end
 from mc_nested.cli.experiment_results import results_of_groups
+from mc_nested.cli.options import DeviceOption, EngineOption
 from mc_nested.cli.output import JsonOption, Output, QuietOption
 from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.robustness import is_robustness, run_robustness
@@ -57,6 +58,8 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         list[str] | None, typer.Option(help=f"an agent, as often as you like [{', '.join(AGENT_SPECS)}]")
     ] = None,
     preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=f"hyper-parameters [{PRESET}]")] = None,
+    engine: EngineOption = None,
+    device: DeviceOption = None,
     longer: Annotated[
         int | None,
         typer.Option(
@@ -97,7 +100,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     for name in agent or ():
         if name not in AGENT_SPECS:
             raise UserError(f"no agent {name!r}: choose one of {', '.join(AGENT_SPECS)}")
-    chosen = load_preset(preset or PRESET)
+    chosen = load_preset(preset or PRESET).changed(engine=engine, device=device)
     for name in agent or AGENT_SPECS:
         check_exploration(AGENT_SPECS[name], chosen)
     chosen = chosen.model_copy(update={"episodes": episodes or chosen.episodes})

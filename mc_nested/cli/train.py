@@ -6,7 +6,15 @@ from typing import Annotated, Any
 import typer
 
 from mc_nested.arena.scenario_file import table_of
-from mc_nested.cli.options import DEFAULT_PROFILE, Backend, ProfileOption, ServerOption
+from mc_nested.cli.options import (
+    DEFAULT_PROFILE,
+    Backend,
+    DeviceOption,
+    EngineOption,
+    ProfileOption,
+    ServerOption,
+    StatesOption,
+)
 from mc_nested.cli.output import JsonOption, Output, QuietOption
 from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.recording_options import RecordOption
@@ -44,6 +52,9 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     agent: Annotated[str | None, typer.Option(help=f"the agent: {', '.join(AGENT_SPECS)} [nested]")] = None,
     backend: Annotated[Backend | None, typer.Option(help="where [sim]")] = None,
     preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="hyper-parameters [paper]")] = None,
+    engine: EngineOption = None,
+    device: DeviceOption = None,
+    states: StatesOption = None,
     episodes: Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial [the preset's]")] = None,
     trials: Annotated[
         int | None, typer.Option(min=1, max=MOST_TRIALS, help="independent trials, trained as one batch [1]")
@@ -85,6 +96,7 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     if agent not in (None, *AGENT_SPECS):
         raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENT_SPECS)}")
     chosen = load_preset(DEFAULTS["preset"] if preset is None else preset)
+    chosen = chosen.changed(engine=engine, device=device, states=states)
     where = backend or DEFAULTS["backend"]
     config = RunConfig(
         agent=agent or DEFAULTS["agent"],

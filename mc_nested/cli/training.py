@@ -18,7 +18,6 @@ from mc_nested.cli.training_end import MAP, say_end
 from mc_nested.cli.training_view import TrainingView
 from mc_nested.cli.viewing import Viewed, viewed
 from mc_nested.errors import DesktopError, LiveError, NotInFrontError
-from mc_nested.learn.agents import view_of
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.live.failure_budget import FailureBudget
@@ -31,7 +30,7 @@ from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from mc_nested.view.publisher import Publisher
 from mc_nested.view.status_files import remove_status
 
-SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.LIVE: 15.0}
+SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.VIRTUAL: 60.0, Backend.LIVE: 15.0}
 """Seconds between checkpoints, which is what a kill can cost: in the simulator, or in a game of a block per second."""
 
 
@@ -75,9 +74,10 @@ def run_training(
             evidence=folder.path / "evidence",
             open_recorder=live_recorder(how.record, what, folder.scenario, server_allowed=how.server_allowed),
             journal=board,
+            seed=config.seed,
         ) as (env, log):
             agent = folder.new_agent(config.trials)
-            arenas = view_of(agent.spec, env, folder.scenarios)
+            arenas = agent.view_of(env, folder.scenarios)
             trainer = Trainer(arenas, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
             if resumed:
                 folder.checkpoint.load_into(trainer)

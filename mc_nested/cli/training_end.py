@@ -10,7 +10,7 @@ from typing import Any
 from mc_nested.arena.scenario_file import ScenarioTable, load_scenario, shipped_scenarios, table_of
 from mc_nested.cli.options import DEFAULT_PROFILE
 from mc_nested.cli.output import Output
-from mc_nested.learn.preset import MOST
+from mc_nested.learn.preset import MOST, load_preset, shipped_presets
 from mc_nested.learn.runs.run_folder import RunConfig
 
 MAP = "map.png"
@@ -25,6 +25,11 @@ def say_end(output: Output, path: Path, config: RunConfig, summary: Mapping[str,
         played = ", ".join("never" if each is None else f"{each['episodes']}" for each in summary["played_to_optimum"])
         lines.append(f"episodes to the optimum: {reached}; with the greedy ones: {played}")
     scores = ", ".join(f"{score:g}" for score in summary["final_scores"])
+    if config.backend == "virtual":
+        minutes = sum(summary["live"]["game_s"]) / 60
+        lines.append(
+            f"game time:  {minutes:.1f} minutes on the virtual client since the training was last begun or resumed"
+        )
     lines += [f"final scores (optimum {summary['optimum']:g}): {scores}"]
     lines += [f"run:        {path}", f"curve:      {path / 'curve.png'}"]
     if config.preset.imagination:
@@ -52,10 +57,19 @@ def words_for_more(path: Path, config: RunConfig) -> list[str]:
     words = ["mc-nested", "train", "--from", str(path), "--scenario", _named(config.scenario)]
     if config.agent != "nested":
         words += ["--agent", config.agent]
-    words += ["--preset", config.preset_name, "--episodes", str(min(2 * config.preset.episodes, MOST))]
+    words += ["--preset", config.preset_name, *_beside_preset(config)]
+    words += ["--episodes", str(min(2 * config.preset.episodes, MOST))]
     if config.stop_at_optimum:
         words.append("--stop-at-optimum")
     return words + _live(config)
+
+
+def _beside_preset(config: RunConfig) -> list[str]:
+    """The options that said something else than the preset, as far as it is known; in a file it may say so itself."""
+    usual = load_preset(config.preset_name if config.preset_name in shipped_presets() else "paper")
+    keys = ("engine", "device", "states")
+    changed = [key for key in keys if getattr(config.preset, key) != getattr(usual, key)]
+    return [word for key in changed for word in (f"--{key}", getattr(config.preset, key))]
 
 
 def command_line(words: Sequence[str]) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
+from mc_nested.cli.options import Backend, where_words
 from mc_nested.learn.episode_log import EpisodeRow
 from mc_nested.learn.runs.run_folder import RunConfig
 from mc_nested.learn.trainer import Trainer
@@ -60,6 +61,7 @@ class TrainingView:
             if config.backend == "live"
             else None
         )
+        self._where = where_words(Backend(config.backend))
         self._curve = ScoreCurve()
         self._best = BestScores(self._trials)
         self._beliefs: tuple[str, ...] = ()
@@ -83,7 +85,7 @@ class TrainingView:
         self._look()
         self._board.show(arena=self._arena(), learning=self._learning())
         if self._expected is None:
-            self._board.does("trains in the simulator")
+            self._board.does(f"trains {self._where}")
             self._board.show(detail=self._pace())
 
     def _arena(self) -> ArenaSeen:

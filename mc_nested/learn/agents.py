@@ -16,14 +16,17 @@ from numpy.typing import NDArray
 from pydantic import AfterValidator
 
 from mc_nested.arena.action import Action
-from mc_nested.arena.env import highest_observation
+from mc_nested.arena.env import BLOCKS_LEFT, highest_observation
+from mc_nested.arena.planes import FULL, PLANES, PlanesVectorEnv, common_size, shares, start_planes, with_material
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
-from mc_nested.arrays import Arrays, Float64s, Int64s
+from mc_nested.arrays import Arrays, Bytes, Float64s, Int64s
 from mc_nested.errors import PresetError
-from mc_nested.learn.dqn.networks import Sizes, parameter_count
+from mc_nested.learn.dqn.engine import NetworkForm
 from mc_nested.learn.dqn.replay import ReplayMark
 from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.states import PlaneStates, States
+from mc_nested.learn.engine_fit import NUMBERS
 from mc_nested.learn.imagination.imagination import Imagination, Surroundings
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import Preset
@@ -101,30 +104,55 @@ class Agent:
         check_exploration(spec, preset)
         self.runs = tuple(range(len(scenarios)) if runs is None else runs)
         streams = [initial_stream(seed, run) for run in self.runs]
-        materials = len(scenarios[0].materials)
-        observed = np.stack([highest_observation(scenario) for scenario in scenarios])
+        self._materials = len(scenarios[0].materials)
         self.size = max(scenario.size for scenario in scenarios)
         self.spec = spec
-        encoding = preset.encoding
-        chooses = StateSpace(observed, materials, encoding)
+        self._sees_planes = preset.states != NUMBERS
+        states_of = _planes if self._sees_planes else _numbers
+        chooses, builds = states_of(spec, scenarios, preset.encoding)
         self.main = Learner(chooses, preset.for_main(), streams) if spec.has_main else None
-        self._low_levels = materials if spec.low_level_per_material else 1
-        highest = np.hstack([observed, *_highest_appended(spec, len(scenarios), materials)])
-        self._width = highest.shape[1]
-        actions = len(Action) + (0 if spec.has_main else materials)
+        self._low_levels = self._materials if spec.low_level_per_material else 1
         self._longest = max(scenario.step_limit for scenario in scenarios)
         self.low_level = Learner(
-            StateSpace(np.repeat(highest, self._low_levels, axis=0), actions, encoding),
+            builds,
             preset,
             [stream for stream in streams for _ in range(self._low_levels)],
             (preset.imitation, self._longest) if preset.imitation else None,
         )
 
-    def low_level_states(self, observations: Int64s, materials: Int64s) -> Int64s:
-        """The low-level agents' states, (runs, width): the nested agent's is s_N = [s_M, a_M] (paper, section 4.1)."""
+    def low_level_states(self, observations: NDArray[Any], materials: Int64s) -> NDArray[Any]:
+        """The low-level agents' states, (runs, …): the nested agent's is s_N = [s_M, a_M] (paper, section 4.1).
+
+        To numbers, a_M is one number more. To planes, it is one plane more: "one extra dimension".
+        """
+        if self._sees_planes:
+            return self._with_material(observations, materials)
         if not self.spec.appends_material:
-            return observations[:, : self._width]
+            return observations[:, : BLOCKS_LEFT + 1 + self.spec.sees_choice]
         return np.concatenate((observations, materials[:, None]), axis=1)
+
+    def _with_material(self, planes: Bytes, materials: Int64s) -> Bytes:
+        if not self.spec.appends_material:
+            return planes[:, : PLANES + self.spec.sees_choice]
+        return with_material(planes, shares(materials + 1, self._materials))
+
+    def view_of(
+        self, env: VectorEnv[Int64s, Int64s, Any], scenarios: Sequence[Scenario]
+    ) -> VectorEnv[Any, Int64s, Any]:
+        """The arenas as the agent sees them: in its states; for the single agent, choosing a material is an action."""
+        view = env if self.spec.has_main else SingleAgentVectorEnv(env, scenarios)
+        return PlanesVectorEnv(view, scenarios) if self._sees_planes else view
+
+    def start_states(self, scenarios: Sequence[Scenario]) -> NDArray[Any]:
+        """What the main agent sees of each scenario before the first move, (runs, …)."""
+        return start_planes(scenarios) if self._sees_planes else np.array([each.start_state for each in scenarios])
+
+    def chosen_materials(self, observations: NDArray[Any]) -> Int64s:
+        """The materials that the single agent's observations show as chosen, in their last part; -1 before that."""
+        if not self._sees_planes:
+            return observations[:, -1] - 1
+        shown = observations[:, -1, 0, 0].astype(np.int64)
+        return np.round(shown * self._materials / FULL).astype(np.int64) - 1
 
     def low_level_rows(self, runs: Int64s, materials: Int64s) -> Int64s:
         """The rows of ``low_level`` that act in the named runs (k,), for the materials of all runs (runs,)."""
@@ -132,7 +160,7 @@ class Agent:
             return runs
         return runs * self._low_levels + materials[runs]
 
-    def act(self, states: Int64s, materials: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:
+    def act(self, states: NDArray[Any], materials: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:
         """The low-level agents' ε-greedy actions in every run, (runs,)."""
         rows = None if self._low_levels == 1 else self.low_level_rows(np.arange(len(states)), materials)
         return self.low_level.act(states, epsilon, uniforms, rows)
@@ -151,9 +179,9 @@ class Agent:
         return Imagination(self.main, self.low_level, known, preset, preset.imagination, seed, self.runs)
 
     @property
-    def sizes(self) -> dict[str, Sizes]:
-        """The widths of the networks, by role."""
-        return {role: learner.ddqn.sizes for role, learner in self._learners().items()}
+    def forms(self) -> dict[str, NetworkForm]:
+        """What the networks are, by role."""
+        return {role: learner.engine.form for role, learner in self._learners().items()}
 
     @property
     def networks(self) -> int:
@@ -163,13 +191,13 @@ class Agent:
     @property
     def parameters(self) -> int:
         """Parameters of one run's networks, target networks not counted."""
-        main = parameter_count(self.main.ddqn.sizes) if self.main else 0
-        return main + self._low_levels * parameter_count(self.low_level.ddqn.sizes)
+        main = self.main.parameters if self.main else 0
+        return main + self._low_levels * self.low_level.parameters
 
     @property
     def updates(self) -> int:
         """Updates done, over all runs and agents."""
-        return sum(int(learner.ddqn.updates.sum()) for learner in self._learners().values())
+        return sum(int(learner.engine.updates.sum()) for learner in self._learners().values())
 
     @property
     def replay_bytes(self) -> Int64s:
@@ -185,7 +213,7 @@ class Agent:
         """
         figures = {}
         for role, learner in self._learners().items():
-            for name, values in (("loss", learner.ddqn.last_loss()), ("q", learner.ddqn.last_q())):
+            for name, values in (("loss", learner.engine.last_loss()), ("q", learner.engine.last_q())):
                 of_run = values.reshape(len(self.runs), -1)
                 known = np.isfinite(of_run)
                 total = np.where(known, of_run, 0.0).sum(axis=1)
@@ -206,22 +234,24 @@ class Agent:
     def networks_state(self) -> Arrays:
         """The networks and their optimisers, by name: enough to act with."""
         return {
-            k: v for role, learner in self._learners().items() for k, v in named_for(role, learner.ddqn.state()).items()
+            k: v
+            for role, learner in self._learners().items()
+            for k, v in named_for(role, learner.engine.state()).items()
         }
 
     def load_networks(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Load the networks; KeyError or ValueError if their shape differs."""
         for role, learner in self._learners().items():
-            learner.ddqn.load(part_of(state, role))
+            learner.engine.load(part_of(state, role))
 
     def online(self) -> Arrays:
         """The online networks' parameters, by role: what acting needs."""
-        return {role: learner.ddqn.online for role, learner in self._learners().items()}
+        return {role: learner.engine.online for role, learner in self._learners().items()}
 
     def load_online(self, online: Mapping[str, NDArray[Any]]) -> None:
         """Load one run's online networks, by role, into every run; ValueError if their shape differs."""
         for role, learner in self._learners().items():
-            learner.ddqn.load_online(np.tile(online[role], (len(self.runs), 1)))
+            learner.engine.load_online(np.tile(online[role], (len(self.runs), 1)))
 
     def rows_of(self, run: int) -> dict[str, slice]:
         """A run's rows, by role."""
@@ -266,16 +296,27 @@ class Agent:
         return {"main": self.main, "low": self.low_level} if self.main else {"low": self.low_level}
 
 
-def view_of(
-    spec: AgentSpec, env: VectorEnv[Int64s, Int64s, Any], scenarios: Sequence[Scenario]
-) -> VectorEnv[Int64s, Int64s, Any]:
-    """The arenas as that agent sees them: for the single agent, choosing a material is an action."""
-    return env if spec.has_main else SingleAgentVectorEnv(env, scenarios)
+def _numbers(spec: AgentSpec, scenarios: Sequence[Scenario], encoding: str) -> tuple[States, States]:
+    """The main agent's states, and the low-level agents', as numbers."""
+    materials = len(scenarios[0].materials)
+    observed = np.stack([highest_observation(scenario) for scenario in scenarios])
+    highest = np.hstack([observed, *_highest_appended(spec, len(scenarios), materials)])
+    low_levels = materials if spec.low_level_per_material else 1
+    builds = StateSpace(np.repeat(highest, low_levels, axis=0), _low_level_actions(spec, materials), encoding)
+    return StateSpace(observed, materials, encoding), builds
 
 
-def chosen_materials(observations: Int64s) -> Int64s:
-    """The materials that the single agent's observations show as chosen, in their last column; -1 before the choice."""
-    return observations[:, -1] - 1
+def _planes(spec: AgentSpec, scenarios: Sequence[Scenario], _: str) -> tuple[States, States]:
+    """The main agent's states, and the low-level agents', as planes."""
+    materials, size = len(scenarios[0].materials), common_size(scenarios)
+    low_levels = materials if spec.low_level_per_material else 1
+    more = spec.appends_material or spec.sees_choice
+    builds = PlaneStates(len(scenarios) * low_levels, _low_level_actions(spec, materials), (PLANES + more, size, size))
+    return PlaneStates(len(scenarios), materials, (PLANES, size, size)), builds
+
+
+def _low_level_actions(spec: AgentSpec, materials: int) -> int:
+    return len(Action) + (0 if spec.has_main else materials)
 
 
 def _highest_appended(spec: AgentSpec, runs: int, materials: int) -> list[Int64s]:

@@ -9,7 +9,7 @@ from gymnasium.vector import VectorEnv
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Int64s
-from mc_nested.learn.agents import Agent, chosen_materials
+from mc_nested.learn.agents import Agent
 from mc_nested.learn.learner import CHOICE_NUMBERS
 
 
@@ -33,12 +33,13 @@ def play_greedily(
     after_step: Callable[[], None] = lambda: None,
 ) -> list[GreedyEpisode]:
     """One greedy episode of every run, from a reset on; ``after_step`` is called after each step of all runs."""
-    start = np.array([scenario.start_state for scenario in scenarios])
-    never, unused = np.zeros(len(start)), np.ones((len(start), CHOICE_NUMBERS))
-    materials = agent.main.act(start, never, unused) if agent.main else np.zeros(len(start), dtype=np.int64)
+    runs = len(scenarios)
+    never, unused = np.zeros(runs), np.ones((runs, CHOICE_NUMBERS))
+    start = agent.start_states(scenarios)
+    materials = agent.main.act(start, never, unused) if agent.main else np.zeros(runs, dtype=np.int64)
     observations, _ = env.reset(options={"material": materials})
     episodes = [GreedyEpisode() for _ in scenarios]
-    running = np.ones(len(start), dtype=np.bool_)
+    running = np.ones(runs, dtype=np.bool_)
     while running.any():
         actions = agent.act(agent.low_level_states(observations, materials), materials, never, unused)
         observations, _, terminated, truncated, info = env.step(actions)
@@ -48,7 +49,7 @@ def play_greedily(
                 episodes[run].score = float(info["score"][run])
         running = ~(terminated | truncated)
         after_step()
-    chosen = materials if agent.main else chosen_materials(observations)
+    chosen = materials if agent.main else agent.chosen_materials(observations)
     for episode, material in zip(episodes, chosen, strict=True):
         episode.material = int(material)
     return episodes

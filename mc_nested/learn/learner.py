@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
-from mc_nested.learn.dqn.ddqn import DDQN, Batch, UpdateRule
-from mc_nested.learn.dqn.networks import initial_parameters
+from mc_nested.learn.dqn.engine import Batch, UpdateRule
+from mc_nested.learn.dqn.engines import made_engine
 from mc_nested.learn.dqn.prioritized import Priorities
 from mc_nested.learn.dqn.replay import FIRST_ROOM, Replay, Transitions
 from mc_nested.learn.dqn.self_imitation import BestEpisodes
-from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.states import States
 from mc_nested.learn.preset import Imitation, Preset
 from mc_nested.learn.state_dict import named_for, part_of
 
@@ -24,7 +24,7 @@ class Learner:
     """Rows of one agent, each a run or a part of a run; every row learns from its own transitions only.
 
     Args:
-        space: its states and actions.
+        states: what its rows see and do.
         preset: its hyper-parameters.
         streams: a generator for each row's initial parameters.
         imitation: how it imitates its best episodes and how long they can be; None if it doesn't.
@@ -32,47 +32,56 @@ class Learner:
 
     def __init__(
         self,
-        space: StateSpace,
+        states: States,
         preset: Preset,
         streams: list[np.random.Generator],
         imitation: tuple[Imitation, int] | None = None,
     ) -> None:
-        sizes = space.network(preset.hidden)
         update = preset.update
-        self.space = space
-        self.ddqn = DDQN(
-            space,
-            sizes,
-            UpdateRule(
-                update.batch,
-                update.learning_rate,
-                update.target_period,
-                update.huber_delta,
-                imitation[0].margin if imitation else 0.0,
-            ),
-            np.stack([initial_parameters(sizes, stream) for stream in streams]),
+        self.states = states
+        rule = UpdateRule(
+            update.batch,
+            update.learning_rate,
+            update.target_period,
+            update.huber_delta,
+            imitation[0].margin if imitation else 0.0,
         )
-        self.replay = Replay(space.rows, space.count, space.actions, preset.replay_capacity)
+        self.engine = made_engine(states, preset.engine_choice, rule, streams)
+        self.replay = Replay(states, preset.replay_capacity)
         wanted = preset.prioritized
-        self.priorities = Priorities(space.rows, FIRST_ROOM, wanted.alpha, wanted.beta) if wanted else None
+        self.priorities = Priorities(states.rows, FIRST_ROOM, wanted.alpha, wanted.beta) if wanted else None
         self._gamma = update.gamma
         self._learning_starts = update.learning_starts
         self._td_weight = np.float32(imitation[0].td_weight if imitation else 1.0)
-        self.best = BestEpisodes(space.rows, imitation[1], imitation[0].batch) if imitation else None
+        self.best = BestEpisodes(states.rows, imitation[1], imitation[0].batch) if imitation else None
 
-    def act(self, states: Int64s, epsilon: Float64s, uniforms: Float64s, rows: Int64s | None = None) -> Int64s:
-        """ε-greedy actions (k,) for states (k, width), ε (k,) and uniform numbers (k, 2); all rows unless named."""
-        values = self.ddqn.q_values(self.space.index(states), rows)
-        random = (uniforms[:, 1] * self.space.actions).astype(np.int64)
-        return np.where(uniforms[:, 0] < epsilon, random, values.argmax(-1))
+    @property
+    def parameters(self) -> int:
+        """Parameters of one row's network."""
+        return int(self.engine.online.shape[1])
+
+    def act(self, states: NDArray[Any], epsilon: Float64s, uniforms: Float64s, rows: Int64s | None = None) -> Int64s:
+        """ε-greedy actions (k,) for states (k, …), ε (k,) and uniform numbers (k, 2); all rows unless named."""
+        actions = (uniforms[:, 1] * self.states.actions).astype(np.int64)
+        greedy = np.flatnonzero(uniforms[:, 0] >= epsilon)
+        if len(greedy):
+            named = greedy if rows is None else rows[greedy]
+            actions[greedy] = self.engine.q_values(self.states.kept(states[greedy]), named).argmax(-1)
+        return actions
 
     def store(
-        self, rows: Int64s, states: Int64s, actions: Int64s, rewards: Float64s, next_states: Int64s, terminated: Bools
+        self,
+        rows: Int64s,
+        states: NDArray[Any],
+        actions: Int64s,
+        rewards: Float64s,
+        next_states: NDArray[Any],
+        terminated: Bools,
     ) -> None:
-        """Store one transition for each of the named rows (k,), states (k, width); no bootstrap after termination."""
+        """Store one transition for each of the named rows (k,), states (k, …); no bootstrap after termination."""
         if self.priorities and len(rows):
             self.priorities.add(rows, self.replay.added[rows] % self.replay.capacity)
-        both = self.space.index(np.stack((states, next_states)))
+        both = self.states.kept(np.stack((states, next_states)))
         self.replay.add(rows, Transitions(both, actions, rewards, self.discounts(terminated)))
 
     def discounts(self, terminated: Bools) -> Float64s:
@@ -86,7 +95,7 @@ class Learner:
             rows, uniforms = rows[ready], uniforms[ready]
         if len(rows):
             indices, batch = self._batch(rows, uniforms)
-            errors = self.ddqn.update(rows, batch)
+            errors = self.engine.update(rows, batch)
             drew = ~batch.imitated[:, -1]  # what is imitated comes first in its row, and wasn't drawn
             if self.priorities and drew.any():
                 own = np.where(batch.imitated, errors[:, -1:], errors)
@@ -94,11 +103,11 @@ class Learner:
 
     def state(self) -> Arrays:
         """The networks, optimisers and priorities, by name: with the replay, all that later updates depend on."""
-        return {**self.ddqn.state(), **named_for("priorities", self.priorities.state() if self.priorities else {})}
+        return {**self.engine.state(), **named_for("priorities", self.priorities.state() if self.priorities else {})}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if the shape differs."""
-        self.ddqn.load(state)
+        self.engine.load(state)
         if self.priorities:
             self.priorities.load(part_of(state, "priorities"))
 

@@ -5,9 +5,19 @@ from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    SerializerFunctionWrapHandler,
+    ValidationError,
+    model_serializer,
+    model_validator,
+)
 
 from mc_nested.errors import PresetError
+from mc_nested.learn.dqn.engines import EngineChoice
+from mc_nested.learn.engine_fit import Computing, misfit
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
 
 MOST = 1_000_000_000
@@ -185,6 +195,23 @@ class Preset(_Table):
         description='the network\'s input: "scaled" numbers, "one-hot" inputs for each value of x, y, b and a_M, or '
         '"cell" inputs for each cell (x, y) and for each value of b and a_M',
     )
+    states: Literal["numbers", "image"] = Field(
+        default="numbers",
+        description='what the agent sees: "numbers" x, y, b and a_M, or an "image" of the arena from above, as planes '
+        "of bytes; an image needs the torch engine",
+    )
+    engine: Literal["compiled", "torch"] = Field(
+        default="compiled",
+        description='what computes: "compiled" is the fast one, for an "mlp" over numbers; "torch" takes any network',
+    )
+    device: Literal["cpu", "cuda", "mps"] = Field(
+        default="cpu", description="where the torch engine computes: the processor, an NVIDIA GPU, or a Mac's GPU"
+    )
+    network: str = Field(
+        default="mlp",
+        description='"mlp" has dense layers alone, with tanh (paper); "cnn" convolutions before them, for images; or '
+        'your own, "my_module:make", where make(shape, actions) gives a torch module without buffers',
+    )
     updates_a_step: Annotated[int, Field(ge=1, le=MOST_UPDATES_A_STEP)] = Field(
         default=1, description="updates after each step"
     )
@@ -201,12 +228,30 @@ class Preset(_Table):
 
     @model_serializer(mode="wrap")
     def _dumped(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """What was saved before there were these tables keeps its identity: without one, it isn't named."""
+        """What was saved before there were these keys keeps its identity: at its default, none is named."""
         dumped: dict[str, Any] = dump(self)
-        for later in ("main", "imagination"):
-            if getattr(self, later) is None:
+        for later in ("main", "imagination", "states", "engine", "device", "network"):
+            if getattr(self, later) == type(self).model_fields[later].default:
                 dumped.pop(later, None)
         return dumped
+
+    @property
+    def engine_choice(self) -> EngineChoice:
+        """What computes its networks."""
+        return EngineChoice(self.engine, self.device, self.network, tuple(self.hidden))
+
+    def changed(self, **keys: Any) -> "Preset":
+        """The preset with those keys changed, where they aren't None; PresetError, one line, if they don't fit it."""
+        wanted = {key: value for key, value in keys.items() if value is not None}
+        try:
+            return Preset.model_validate({**self.model_dump(), **wanted})
+        except ValidationError as error:
+            mistake = error.errors()[0]
+            expected = str(mistake.get("ctx", {}).get("expected", "")).replace("'", "")
+            reason = f"must be {expected}" if expected else mistake["ctx"]["error"]
+            raise PresetError(
+                f"with {', '.join(f'--{key} {value}' for key, value in wanted.items())}: {reason}"
+            ) from error
 
     def for_main(self) -> "Preset":
         """The main agent's, which may begin to learn earlier."""
@@ -214,6 +259,19 @@ class Preset(_Table):
             return self
         update = self.update.model_copy(update={"learning_starts": self.main.learning_starts})
         return self.model_copy(update={"update": update})
+
+    @model_validator(mode="after")
+    def _check_engine(self) -> "Preset":
+        computing = Computing(self.engine, self.device, self.network, self.states)
+        wrong = misfit(
+            computing,
+            explores_by_place=self.excursions is not None,
+            imagines=self.imagination is not None,
+            encoding=self.encoding,
+        )
+        if wrong:
+            raise ValueError(wrong)
+        return self
 
     @model_validator(mode="after")
     def _check_exploration(self) -> "Preset":

@@ -20,7 +20,7 @@ from mc_nested.arena.env import blank_observations
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import resumable_arenas
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
-from mc_nested.learn.agents import Agent, chosen_materials
+from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
 from mc_nested.learn.episode_rollback import EpisodeMemory, EpisodeRollback
@@ -44,7 +44,7 @@ EXCURSIONS_ONLY = LinearDecay(1.0, 1.0, 1.0)
 class _Runs:
     """The progress of each run; every array is (runs, …)."""
 
-    observations: Int64s
+    observations: NDArray[Any]
     materials: Int64s
     episodes: Int64s
     steps_in_episode: Int64s
@@ -69,7 +69,7 @@ class Trainer:
 
     def __init__(
         self,
-        env: VectorEnv[Int64s, Int64s, Any],
+        env: VectorEnv[Any, Int64s, Any],
         scenarios: Sequence[Scenario],
         agent: Agent,
         preset: Preset,
@@ -90,7 +90,7 @@ class Trainer:
         self._rollback: EpisodeRollback | None = None
         self._stop_at_optimum = stop_at_optimum
         self._optimum = np.array([scenario.optimum for scenario in scenarios])
-        self._start = np.array([scenario.start_state for scenario in scenarios])
+        self._start = agent.start_states(scenarios)
         self._explore_main = _decay(preset.explore_main) if preset.explore_main else NEVER
         without = EXCURSIONS_ONLY if preset.excursions else NEVER
         self._explore_nested = _decay(preset.explore_nested) if preset.explore_nested else without
@@ -197,7 +197,7 @@ class Trainer:
 
         runs.observations = observations
         if self.agent.main is None:
-            runs.materials = chosen_materials(observations)
+            runs.materials = self.agent.chosen_materials(observations)
         runs.steps_in_episode += ~runs.finished
         self.env_steps += int(training.sum())
         self.evaluation_steps += int((runs.evaluating & ~runs.finished).sum())
@@ -216,10 +216,10 @@ class Trainer:
     def _learn(
         self,
         rows: Int64s,
-        states: Int64s,
+        states: NDArray[Any],
         actions: Int64s,
         rewards: Float64s,
-        observations: Int64s,
+        observations: NDArray[Any],
         terminated: Bools,
         draws: Float64s,
     ) -> None:

@@ -93,6 +93,7 @@ class LiveGame:
         self._commands = reset_commands(profile, scenario.start, [material.block for material in scenario.materials])
         self._cell: Cell | None = None
         self._placed: set[Cell] = set()
+        self._others: frozenset[Cell] = frozenset()
         self._material = 0
         self._restore = restore
 
@@ -136,6 +137,10 @@ class LiveGame:
         self._cell = self._scenario.start
         self._journal.note("stands", cell=self._cell)
         return self._cell
+
+    def see_others(self, placed: Collection[Cell], cells: Collection[Cell]) -> None:
+        """Take note of other builders of this arena: where all blocks stand now, and which cells the others are in."""
+        self._placed, self._others = set(placed), frozenset(cells)
 
     def go_on_from(
         self, placed: Collection[Cell], pressed: Iterable[str], tick_phase: tuple[float, float, float]
@@ -181,8 +186,9 @@ class LiveGame:
         return type(error)(f"{error}; what was seen last: {files[-1]}") if files else error
 
     def _perform(self, cell: Cell, action: Action) -> Outcome:
-        target = rules.moved(cell, action, self._placed, self._scenario.size)
-        landing = rules.landing(target, action, self._placed, self._scenario.size)
+        solid = self._placed | self._others
+        target = rules.moved(cell, action, solid, self._scenario.size)
+        landing = rules.landing(target, action, solid, self._scenario.size)
         if target == cell and landing is None:
             return Outcome(self._body.stay_in(cell), None)
         shown_id = self._profile.shown_id(self._scenario.materials[self._material].block)

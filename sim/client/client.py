@@ -26,6 +26,7 @@ from sim.client.desktop.pointer import VirtualPointer
 from sim.client.desktop.window import VirtualWindow
 from sim.client.drawing.font import drawn_atlas
 from sim.client.drawing.painter import Painter
+from sim.client.drawing.scenery import SEEN
 from sim.client.drawing.view_layers import ViewLayers
 from sim.client.game.controls import Controls
 from sim.client.game.edition import Edition
@@ -54,22 +55,27 @@ class VirtualClient:
     Args:
         settings: how it is set up.
         clipboard: the desktop's clipboard; None for one of its own.
+        joins: another client, on another desktop, whose world this one's player joins; they share a clock.
         choices: settings by name, in place of those in ``settings``: ``VirtualClient(seed=3, version="1.12.2")``.
     """
 
     def __init__(
-        self, settings: ClientSettings | None = None, clipboard: Clipboard | None = None, **choices: Any
+        self,
+        settings: ClientSettings | None = None,
+        clipboard: Clipboard | None = None,
+        joins: "VirtualClient | None" = None,
+        **choices: Any,
     ) -> None:
         self.settings = settings = dataclasses.replace(settings or ClientSettings(), **choices)
         self.edition = Edition(settings.version)
         seeds = np.random.SeedSequence(settings.seed).spawn(4)
         inputs, captures, phases, mishaps = (np.random.default_rng(seed) for seed in seeds)
-        self.clock = VirtualClock()
+        self.clock: VirtualClock = joins.clock if joins else VirtualClock()
         self.clipboard: Clipboard = clipboard or VirtualClipboard()
         self._frames = Frames(settings.fps, self.clock.now() + float(phases.uniform(0, 1 / settings.fps)))
         self.window = VirtualWindow(self.clock, self._frames, inputs, settings.size, settings.input_latency_s)
         self.game = VirtualGame(
-            self._new_realm(),
+            self._new_realm(joins.realm if joins else None),
             keys=GameKeys(SIDES_SWAPPED if settings.swaps_sides else BINDINGS),
             ground=Ground(settings.slipperiness, settings.speed),
             shows_target=settings.shows_target,
@@ -188,11 +194,23 @@ class VirtualClient:
         x, y = self.window.pointer
         self.window.pointer = (x - right, y - down)
 
-    def _new_realm(self) -> Realm:
+    def _new_realm(self, joined: Realm | None) -> Realm:
+        """The world as this client's player knows it: one of its own, or that of another player."""
         settings = self.settings
-        world = VirtualWorld(math.floor(settings.feet[1]), settings.floor_block)
+        world = joined.world if joined else VirtualWorld(math.floor(settings.feet[1]), settings.floor_block)
         player = Player(settings.feet, settings.yaw, settings.pitch, mode=settings.mode)
-        return Realm(self.edition, world, player, has_cheats=settings.has_cheats, spawn=settings.feet)
+        players = joined.players if joined else []
+        name = f"Player{len(players) + 1}" if joined else "Player"
+        return Realm(
+            self.edition,
+            world,
+            player,
+            name,
+            has_cheats=settings.has_cheats,
+            spawn=settings.feet,
+            rules=joined.rules if joined else {},
+            players=players,
+        )
 
     def _save(self, realm: Realm) -> None:
         if self.settings.world_folder is not None:
@@ -208,13 +226,16 @@ class VirtualClient:
     def _view(self) -> View:
         """What the game shows, in this window."""
         view, settings = self.game.view(), self.settings
+        if settings.world == SEEN and self.game.is_in_world:
+            view = dataclasses.replace(view, sight=self.game.sight())
         if view.f3 is None:
             return view
         fps = round(settings.fps if settings.shown_fps is None else settings.shown_fps)
         return dataclasses.replace(view, f3=dataclasses.replace(view.f3, fps=fps, size=self.window.size))
 
     def _title(self) -> str:
-        state = self.settings.words.get("Singleplayer", "Singleplayer")
+        is_shared = len(self.realm.players) > 1
+        state = "Multiplayer (LAN)" if is_shared else self.settings.words.get("Singleplayer", "Singleplayer")
         return self.edition.title(in_world=self.game.is_in_world, state=state)
 
     def _tick(self) -> None:

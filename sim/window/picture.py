@@ -7,10 +7,10 @@ import moderngl
 from mc_nested.live.model.reading import Block
 from sim.client.client import VirtualClient
 from sim.client.game.screens import IN_WORLD
-from sim.client.game.view import View
+from sim.client.game.view import Eye, View
 from sim.window.gui_overlay import GuiOverlay
 from sim.window.smooth_eye import SmoothEye
-from sim.window.world_scene import Eye, WorldScene
+from sim.window.world_scene import WorldScene
 
 
 @dataclass(frozen=True)

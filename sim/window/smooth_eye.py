@@ -2,7 +2,7 @@
 
 from sim.client.client import TICK_S
 from sim.client.game.game import VirtualGame
-from sim.window.world_scene import Eye
+from sim.client.game.view import Eye
 
 _JUMP = 4.0
 """Blocks that nobody walks in a tick: a teleport, which is seen at once."""

@@ -1,19 +1,17 @@
 """The world in three dimensions, through OpenGL: the floor, the blocks, the one looked at, and the one in the hand."""
 
-from dataclasses import dataclass
-
 import moderngl
 import numpy as np
 
 from mc_nested.live.model.reading import Block
+from sim.client.drawing import daylight
 from sim.client.drawing.block_colours import block_colour
+from sim.client.drawing.camera import Matrix, held_block, projection, view
+from sim.client.drawing.cubes import FAR, Floats, cubes, floor_square, outline, row_of, unit_cube
+from sim.client.drawing.grain import GRAIN_BLOCKS, grain
 from sim.client.game.realm import Realm
+from sim.client.game.view import Eye
 from sim.client.game.world import block_of
-from sim.window.camera import Matrix, held_block, projection, view
-from sim.window.cubes import FAR, Floats, cubes, floor_square, outline, row_of, unit_cube
-from sim.window.grain import GRAIN_BLOCKS, grain
-
-SKY = (0.47, 0.65, 1.0)
 
 _VERTEX = """
 #version 330
@@ -23,7 +21,9 @@ out vec2 on_face; flat out vec3 shade;
 void main() {
     vec3 at = corner + offset + origin;
     on_face = abs(normal.y) > 0.5 ? at.xz : abs(normal.x) > 0.5 ? at.zy : at.xy;
-    float light = normal.y > 0.5 ? 1.0 : normal.y < -0.5 ? 0.5 : abs(normal.z) > 0.5 ? 0.8 : 0.62;
+    float level = normal.y > 0.5 ? TOP : BOTTOM;
+    float upright = abs(normal.z) > 0.5 ? NORTH_AND_SOUTH : EAST_AND_WEST;
+    float light = abs(normal.y) > 0.5 ? level : upright;
     shade = colour * light;
     gl_Position = camera * vec4(corner + offset, 1.0);
 }
@@ -36,7 +36,7 @@ uniform sampler2D grain; uniform vec3 sky; uniform float far;
 in vec2 on_face; flat in vec3 shade;
 out vec4 pixel;
 void main() {
-    float fog = clamp((1.0 / gl_FragCoord.w - 0.3 * far) / (0.7 * far), 0.0, 1.0);
+    float fog = clamp((1.0 / gl_FragCoord.w - FOG_FROM * far) / ((1.0 - FOG_FROM) * far), 0.0, 1.0);
     pixel = vec4(mix(shade * texture(grain, on_face / GRAIN).r, sky, fog), 1.0);
 }
 """
@@ -47,17 +47,26 @@ out vec4 pixel;
 void main() { pixel = vec4(0.0, 0.0, 0.0, 1.0); }
 """
 
+_CONSTANTS = {
+    "GRAIN": GRAIN_BLOCKS,
+    "FOG_FROM": daylight.FOG_FROM,
+    "TOP": daylight.TOP,
+    "BOTTOM": daylight.BOTTOM,
+    "NORTH_AND_SOUTH": daylight.NORTH_AND_SOUTH,
+    "EAST_AND_WEST": daylight.EAST_AND_WEST,
+}
+
 _LOWER = 0.002
 """Blocks by which the floor is drawn lower than what is built into it."""
 
 
-@dataclass(frozen=True)
-class Eye:
-    """Where the camera is: its position in blocks, its view in degrees."""
+def _with_constants(shader: str) -> str:
+    return shader.replace("#version 330", "#version 330" + "".join(_defined(each) for each in _CONSTANTS.items()))
 
-    position: tuple[float, float, float]
-    yaw: float
-    pitch: float
+
+def _defined(constant: tuple[str, float]) -> str:
+    name, value = constant
+    return f"\n#define {name} {float(value)}"
 
 
 class WorldScene:
@@ -69,10 +78,9 @@ class WorldScene:
         self._grain = context.texture(dots.shape, 1, np.round(dots * 255).astype(np.uint8).tobytes())
         self._grain.build_mipmaps()
         self._grain.filter = (moderngl.NEAREST_MIPMAP_NEAREST, moderngl.NEAREST)
-        self._blocks = context.program(
-            vertex_shader=_VERTEX, fragment_shader=_FRAGMENT.replace("GRAIN", f"{GRAIN_BLOCKS}.0")
-        )
-        self._lines = context.program(vertex_shader=_VERTEX, fragment_shader=_BLACK)
+        vertex = _with_constants(_VERTEX)
+        self._blocks = context.program(vertex_shader=vertex, fragment_shader=_with_constants(_FRAGMENT))
+        self._lines = context.program(vertex_shader=vertex, fragment_shader=_BLACK)
 
     def draw(self, realm: Realm, eye: Eye, size: tuple[int, int], target: Block | None) -> None:
         """The world as seen from ``eye``, in a window of ``size`` pixels; ``target`` is outlined."""
@@ -80,7 +88,7 @@ class WorldScene:
         origin = block_of(eye.position)
         x, y, z = (part - own for part, own in zip(eye.position, origin, strict=True))
         perspective = projection(*size)
-        self._context.clear(*SKY, depth=1.0)
+        self._context.clear(*daylight.SKY, depth=1.0)
         self._context.enable(moderngl.DEPTH_TEST)
         self._look(perspective @ view((x, y, z), eye.yaw, eye.pitch), origin)
         floor = row_of((0.0, world.floor - origin[1] - _LOWER, 0.0), block_colour(world.floor_block))
@@ -101,7 +109,7 @@ class WorldScene:
     def _look(self, camera: Matrix, origin: Block) -> None:
         for program in (self._blocks, self._lines):
             program["camera"] = tuple(float(part) for part in camera.T.flat)
-        self._blocks["sky"], self._blocks["far"], self._blocks["grain"] = SKY, float(FAR), 0
+        self._blocks["sky"], self._blocks["far"], self._blocks["grain"] = daylight.SKY, float(FAR), 0
         # The grain repeats with the blocks, so only the part within it counts; small numbers keep their digits.
         self._blocks["origin"] = tuple(float(part % GRAIN_BLOCKS) for part in origin)
         self._grain.use(0)

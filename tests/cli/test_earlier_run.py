@@ -9,7 +9,6 @@ import torch
 
 from mc_nested.cli.earlier_run import earlier_run
 from mc_nested.errors import RunError
-from mc_nested.learn.agents import view_of
 from mc_nested.learn.imagination.beliefs import Belief
 from mc_nested.learn.imagination.learnt_rules import learn_rules
 from mc_nested.learn.runs.checkpoint import FILE
@@ -43,7 +42,7 @@ def begun(files: Path, design: str, out: Path) -> Trainer:
     assert run(*words(files, design), "--episodes", "1", "--out", out) == 0
     folder = RunFolder.open(out)
     agent = folder.new_agent(1)
-    env = view_of(agent.spec, GridVectorEnv(folder.scenarios), folder.scenarios)
+    env = agent.view_of(GridVectorEnv(folder.scenarios), folder.scenarios)
     trainer = Trainer(env, folder.scenarios, agent, folder.config.preset, 5)
     earlier_run(files / "first", folder).begin(trainer)
     return trainer

@@ -54,6 +54,14 @@ def test_the_command_names_whatever_is_not_the_default() -> None:
     assert line.endswith(f"mc-nested train --from x {more}"), "a design of that name, but another one"
 
 
+def test_an_engine_that_the_preset_does_not_name_is_named_again() -> None:
+    other = load_preset("paper").changed(engine="torch", states="image")
+    (line, *_) = next_steps(Path("x"), config(preset=other), is_at_optimum=False)
+    assert "--preset paper --engine torch --states image --episodes 6000" in line
+    image = config(preset_name="image", preset=load_preset("image"))
+    assert "--engine" not in next_steps(Path("x"), image, is_at_optimum=False)[0]
+
+
 @pytest.mark.parametrize(("profile", "words"), [("default", ""), ("mine", " --profile mine")])
 def test_what_was_learnt_in_a_game_is_built_there_again(profile: str, words: str) -> None:
     live = config(backend="live", profile=profile)

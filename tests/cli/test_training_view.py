@@ -5,7 +5,7 @@ import pytest
 
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.cli.training_view import ScoreCurve, TrainingView
-from mc_nested.learn.agents import AGENT_SPECS, Agent, view_of
+from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.episode_log import EpisodeRow
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.runs.run_folder import RunConfig
@@ -51,7 +51,7 @@ def a_training(preset_name: str, trials: int, backend: str = "sim") -> tuple[Tra
     scenarios = [LINE] * trials
     env = GridVectorEnv(scenarios)
     agent = Agent(AGENT_SPECS["nested"], scenarios, preset, 0)
-    trainer = Trainer(view_of(agent.spec, env, scenarios), scenarios, agent, preset, 0)
+    trainer = Trainer(agent.view_of(env, scenarios), scenarios, agent, preset, 0)
     config = RunConfig.model_validate(
         {
             "agent": "nested",

@@ -10,7 +10,7 @@ import pytest
 from mc_nested.cli.app import VERBS
 from mc_nested.learn.runs.policies import FILE as POLICIES
 
-LEARNING = ("train", "reproduce", "sweep", "benchmark")
+LEARNING = ("train", "cooperate", "reproduce", "sweep", "benchmark")
 
 BLOCKED = "import sys; sys.modules['torch'] = None; "
 COMMAND = BLOCKED + "from mc_nested.cli.app import main; main(sys.argv[1:])"

@@ -7,15 +7,18 @@ from collections.abc import Callable
 from tests.design_files import written
 
 SIZES = {
+    "mc-nested cooperate": "--trials 1 --episodes 20",
     "mc-nested reproduce": "--trials 1 --episodes 4 --scenario line",
     "mc-nested reproduce --robustness": "--trials 1 --episodes 1 --scenario line",
     "mc-nested sweep --ablation": "--trials 1 --episodes 1 --scenario line",
     "mc-nested sweep": "--trials 1 --episodes 2 --scenario line",
     "mc-nested benchmark": "--designs 1 --agents nested --presets live",
     "mc-nested train --backend live": "--episodes 1",
+    "mc-nested train --backend virtual": "--trials 1 --episodes 1",
     "mc-nested train --preset live --trials": "--trials 1",
     "mc-nested train --scenario zigzag --trials 90": "--trials 2 --episodes 2",
     "mc-nested train --preset tuned --trials": "--trials 1 --episodes 20",
+    "mc-nested train --scenario line --preset image": "--episodes 30",
     "mc-nested train --trials 10": "--trials 1 --episodes 30",
     "mc-nested train --scenario line --trials 10": "--episodes 1000",
     "python scripts/examples/sb3_dqn.py": "--steps 100",
@@ -29,6 +32,7 @@ SIZES = {
     "python scripts/bench_view.py": "--rounds 1 --actions 4 --json",
     "python scripts/bench_rehearsal.py": "--actions 4 --only '60 fps' --json",
     "python scripts/bench_rehearsal_clients.py": "--clients 1 --actions 4 --json",
+    "python scripts/bench_screen.py": "--steps 20 --json",
     "python scripts/bench_standin.py": "--actions 4 --json",
     "python scripts/draw_film.py": "film.gif --scenario line",
     "python scripts/draw_view.py": "--folder . --seconds 15",

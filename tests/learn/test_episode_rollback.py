@@ -34,7 +34,7 @@ def test_what_an_episode_taught_is_undone() -> None:
     kept = {name: array.copy() for name, array in {**agent.state(), **explorer.state()}.items()}
     play(agent, explorer, 3)
     assert agent.low_level.replay.added.tolist() == [8]
-    assert not np.array_equal(agent.low_level.ddqn.online, kept["low.online"])
+    assert not np.array_equal(agent.low_level.engine.online, kept["low.online"])
     before.restore(agent, {"scouts": explorer})
     assert agent.low_level.replay.added.tolist() == [5]
     for name, array in {**agent.state(), **explorer.state()}.items():
@@ -60,8 +60,8 @@ def test_what_an_episode_showed_a_learnt_game_is_forgotten() -> None:
 
 def test_without_exploration_the_agent_alone_is_restored() -> None:
     agent = Agent(AGENT_SPECS["nested"], [DOT], small_preset(), 0)
-    before, online = EpisodeRollback.of(agent, {}), agent.low_level.ddqn.online.copy()
+    before, online = EpisodeRollback.of(agent, {}), agent.low_level.engine.online.copy()
     play(agent, BatchedReturnThenExplore(RULE, agent), 4)
     before.restore(agent, {})
-    np.testing.assert_array_equal(agent.low_level.ddqn.online, online)
+    np.testing.assert_array_equal(agent.low_level.engine.online, online)
     assert agent.low_level.replay.added.tolist() == [0]

@@ -13,9 +13,9 @@ def always(agent: Agent, role: str, action: int) -> None:
     """Make the networks prefer one action in every state: all parameters 0 but that output's bias."""
     learner = {"main": agent.main, "low": agent.low_level}[role]
     assert learner is not None
-    online = learner.ddqn.online
+    online = learner.engine.online
     online[:] = 0.0
-    outputs, width = learner.space.actions, learner.ddqn.sizes[-2] + 1
+    outputs, width = learner.states.actions, learner.engine.form.numbers[-2] + 1
     online[:, -outputs * width :].reshape(-1, outputs, width)[:, action, -1] = 1.0
 
 

@@ -17,7 +17,7 @@ def learner(highest: list[list[int]], actions: int = 8) -> Learner:
 
 
 def values(learner: Learner, states: list[list[int]]) -> np.ndarray:
-    return learner.ddqn.q_values(learner.space.index(np.array(states)))
+    return learner.engine.q_values(learner.states.kept(np.array(states)))
 
 
 def test_a_number_below_epsilon_explores_and_the_second_says_where() -> None:
@@ -42,10 +42,10 @@ def test_learning_starts_with_the_first_full_batch() -> None:
     for _ in range(31):
         remember(one, [0, 1])
         one.learn(both, draws)
-    assert one.ddqn.updates.tolist() == [0, 0]
+    assert one.engine.updates.tolist() == [0, 0]
     remember(one, [1])
     one.learn(both, draws)
-    assert one.ddqn.updates.tolist() == [0, 1]
+    assert one.engine.updates.tolist() == [0, 1]
 
 
 def test_a_learner_learns_what_a_terminal_reward_is_worth() -> None:
@@ -116,10 +116,10 @@ def test_what_is_imitated_changes_no_priority() -> None:
 def test_without_a_weight_td_errors_change_nothing(weight: float, learns: bool) -> None:
     imitation = Imitation(batch=8, margin=0.5, td_weight=weight), 60
     one = Learner(StateSpace(np.array([[14]]), 2), PAPER, [np.random.default_rng(0)], imitation)
-    before = one.ddqn.online.copy()
+    before = one.engine.online.copy()
     state, over = np.array([[3]]), np.array([True])
     for _ in range(40):
         one.store(np.array([0]), state, np.array([1]), np.array([4.0]), state, over)
     one.learn(np.array([0]), np.random.default_rng(0).random((1, 32)))
-    assert one.ddqn.updates.tolist() == [1]
-    assert bool((one.ddqn.online != before).any()) is learns
+    assert one.engine.updates.tolist() == [1]
+    assert bool((one.engine.online != before).any()) is learns

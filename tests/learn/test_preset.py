@@ -142,7 +142,7 @@ def test_a_preset_without_imagination_is_saved_as_before_there_was_one() -> None
 
 
 def test_an_unknown_name_lists_the_known_ones() -> None:
-    with pytest.raises(PresetError, match="no preset 'papr': name one of live, paper, tuned"):
+    with pytest.raises(PresetError, match="no preset 'papr': name one of image, live, paper, tuned"):
         load_preset("papr")
 
 

@@ -15,7 +15,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.arrays import Arrays, Float32s, Int64s
-from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec, view_of
+from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import ExcursionRule, Imitation, MainUpdates, Preset, Prioritized, load_preset
@@ -42,7 +42,7 @@ def trainer_of(
     spec: AgentSpec = NESTED,
 ) -> Trainer:
     agent = Agent(spec, scenarios, preset, seed)
-    env = view_of(spec, GridVectorEnv(scenarios), scenarios)
+    env = agent.view_of(GridVectorEnv(scenarios), scenarios)
     return Trainer(env, scenarios, agent, preset, seed, stop_at_optimum)
 
 
@@ -79,7 +79,7 @@ def saved(trainer: Trainer) -> tuple[Arrays, list[Arrays]]:
 
 
 def weights(trainer: Trainer, run: int) -> list[Float32s]:
-    return [learner.ddqn.online[run] for learner in _learners(trainer.agent)]
+    return [learner.engine.online[run] for learner in _learners(trainer.agent)]
 
 
 @pytest.fixture(scope="module")
@@ -111,21 +111,21 @@ def test_the_nested_agent_updates_once_a_step_and_the_main_agent_once_an_episode
     assert int(three_runs.agent.low_level.replay.added.sum()) == steps
     assert main_of(three_runs.agent).replay.added.tolist() == [20] * 3
     # From 16 transitions on: the first 15 steps, and the first 15 episodes, bring none.
-    assert int(three_runs.agent.low_level.ddqn.updates.sum()) == steps - 3 * 15
-    assert main_of(three_runs.agent).ddqn.updates.tolist() == [5] * 3
+    assert int(three_runs.agent.low_level.engine.updates.sum()) == steps - 3 * 15
+    assert main_of(three_runs.agent).engine.updates.tolist() == [5] * 3
 
 
 def test_a_main_agent_of_its_own_table_learns_from_its_second_episode_on() -> None:
     preset = SHORT.model_copy(update={"episodes": 4, "main": MainUpdates(learning_starts=2, updates_an_episode=50)})
     agent = finish(trainer_of([LINE, LINE], preset)).agent
-    assert main_of(agent).ddqn.updates.tolist() == [150] * 2
+    assert main_of(agent).engine.updates.tolist() == [150] * 2
     chosen = main_of(agent).act(np.array([[7, 14, 11]] * 2), np.zeros(2), np.ones((2, 2)))
     for run in (0, 1):
         kept = kept_by(main_of(agent), run)
         tried = {int(material): kept["rewards"][kept["actions"] == material].mean() for material in kept["actions"]}
         assert len(tried) == 1 or chosen[run] == max(tried, key=lambda material: tried[material])
     alone = finish(trainer_of([LINE], preset)).agent
-    np.testing.assert_array_equal(main_of(alone).ddqn.online[0], main_of(agent).ddqn.online[0])
+    np.testing.assert_array_equal(main_of(alone).engine.online[0], main_of(agent).engine.online[0])
 
 
 def test_a_main_agents_own_table_leaves_what_the_nested_agent_draws() -> None:
@@ -142,7 +142,7 @@ def test_evaluations_are_neither_stored_nor_counted_as_training(three_runs: Trai
 def test_the_main_agents_one_transition_is_the_start_its_choice_and_the_score(three_runs: Trainer) -> None:
     kept = kept_by(main_of(three_runs.agent), 1)
     rows = [row for row in three_runs.episode_rows if row.trial == 1]
-    start = main_of(three_runs.agent).space.index(np.array([7, 14, 11]))
+    start = main_of(three_runs.agent).states.kept(np.array([7, 14, 11]))
     assert kept["states"][:, 0].tolist() == [start] * 20
     assert kept["actions"].tolist() == [row.material for row in rows]
     assert kept["rewards"].tolist() == [row.score for row in rows]
@@ -367,7 +367,7 @@ def test_a_training_begun_from_a_policy_keeps_it_until_it_has_one_of_its_own(exp
 
 def test_there_are_as_many_updates_a_step_as_the_preset_says(exploring: Trainer) -> None:
     steps = sum(row.steps for row in exploring.episode_rows)
-    assert int(exploring.agent.low_level.ddqn.updates.sum()) == 2 * (steps - 2 * 15)
+    assert int(exploring.agent.low_level.engine.updates.sum()) == 2 * (steps - 2 * 15)
 
 
 @pytest.mark.parametrize("spec", [NESTED, HIERARCHICAL], ids=["nested", "hierarchical"])
@@ -454,7 +454,7 @@ FEW_EXCURSIONS = SCOUTING.model_copy(update={"episodes": 20})
 )
 def test_an_abandoned_episode_is_never_learnt_from(spec: AgentSpec, preset: Preset) -> None:
     agent = Agent(spec, [LINE], preset, 0)
-    trainer = Trainer(view_of(spec, ArenaVectorEnv([ArenaEnv(Spoils(LINE), LINE)]), [LINE]), [LINE], agent, preset, 0)
+    trainer = Trainer(agent.view_of(ArenaVectorEnv([ArenaEnv(Spoils(LINE), LINE)]), [LINE]), [LINE], agent, preset, 0)
     known: list[tuple[Arrays, list[list[int]]]] = []
     ended = 0
     with suppress(ConnectionError):
@@ -526,9 +526,9 @@ def test_each_low_agent_of_the_hierarchy_learns_from_its_own_material_alone() ->
         for material in (0, 1):
             rows = [row for row in trainer.episode_rows if (row.trial, row.material) == (run, material)]
             assert trainer.agent.low_level.replay.added[2 * run + material] == sum(row.steps for row in rows)
-    assert trainer.agent.low_level.space.inputs == 3, "nothing of the top agent is in the low agents' state"
+    assert trainer.agent.low_level.engine.form.numbers[0] == 3, "nothing of the top agent is in the low agents' state"
     added = trainer.agent.low_level.replay.added
-    assert trainer.agent.low_level.ddqn.updates.tolist() == np.maximum(added - 15, 0).tolist()
+    assert trainer.agent.low_level.engine.updates.tolist() == np.maximum(added - 15, 0).tolist()
 
 
 def test_the_single_agent_learns_from_its_choice_as_from_any_action() -> None:
@@ -537,7 +537,7 @@ def test_the_single_agent_learns_from_its_choice_as_from_any_action() -> None:
         kept = kept_by(trainer.agent.low_level, run)
         rows = [row for row in trainer.episode_rows if row.trial == run]
         begins = np.concatenate(([0], np.cumsum([row.steps for row in rows])[:-1]))
-        unchosen = trainer.agent.low_level.space.index(np.array([7, 14, 11, 0]))
+        unchosen = trainer.agent.low_level.states.kept(np.array([7, 14, 11, 0]))
         assert kept["states"][begins, 0].tolist() == [unchosen] * 60
         choices = kept["actions"][begins].astype(int)
         assert [row.material for row in rows] == np.where(choices < 2, choices, -1).tolist()
@@ -557,7 +557,7 @@ def test_every_agents_training_can_be_repeated_and_resumed(spec: AgentSpec) -> N
     assert resumed.episode_rows == whole.episode_rows
     for name, kept in whole.state().items():
         assert np.array_equal(resumed.state()[name], kept), name
-    played = play_greedily(view_of(spec, GridVectorEnv([LINE] * 2), [LINE] * 2), [LINE] * 2, whole.agent)
+    played = play_greedily(whole.agent.view_of(GridVectorEnv([LINE] * 2), [LINE] * 2), [LINE] * 2, whole.agent)
     last = {row.trial: row for row in whole.evaluation_rows}
     assert [(episode.score, episode.material) for episode in played] == [
         (last[run].score, last[run].material) for run in (0, 1)

@@ -109,16 +109,16 @@ def test_an_episode_that_begins_before_practice_is_over_is_a_training_episode() 
     trainer = finish(training(Rounds(0)))
     assert [row.episode for row in trainer.episode_rows] == [1, 2, 3, 4, 5]
     assert [row.episode for row in trainer.evaluation_rows] == [5], "after the last episode there is always one"
-    assert trainer.agent.low_level.ddqn.updates.tolist() == [0]
+    assert trainer.agent.low_level.engine.updates.tolist() == [0]
 
 
 def test_what_was_practised_within_an_episode_is_taken_over_before_the_next_reset() -> None:
     trainer = training(Rounds(0, beside_episode=ENOUGH))
     while len(trainer.episode_rows) < 2:
         trainer.tick()
-        assert trainer.agent.low_level.ddqn.updates.tolist() == [0]
+        assert trainer.agent.low_level.engine.updates.tolist() == [0]
     trainer.tick()
-    assert trainer.agent.low_level.ddqn.updates[0] > 0
+    assert trainer.agent.low_level.engine.updates[0] > 0
 
 
 def test_a_reset_that_fails_ends_the_practice_and_the_training_goes_on() -> None:
@@ -149,7 +149,7 @@ def test_practice_runs_in_a_thread_while_the_game_resets() -> None:
         nonlocal updates
         pause = threading.Event()
         for _ in range(int(PATIENCE_S / 0.01)):
-            if updates := int(trainer.agent.low_level.ddqn.updates[0]):
+            if updates := int(trainer.agent.low_level.engine.updates[0]):
                 return
             pause.wait(0.01)
 
@@ -164,7 +164,7 @@ def test_a_spoiled_episode_leaves_the_networks_that_were_put_in_to_play_it() -> 
     def best_are_put_in() -> None:
         nonlocal begun
         begun += 1
-        trainer.agent.low_level.ddqn.online[:] = begun
+        trainer.agent.low_level.engine.online[:] = begun
 
     game = Slow(LINE)
     trainer = training(PutsIn(best_are_put_in), game)
@@ -175,9 +175,9 @@ def test_a_spoiled_episode_leaves_the_networks_that_were_put_in_to_play_it() -> 
     with pytest.raises(LiveError):
         finish(trainer)
     assert begun == before + 2, "beside the reset and beside the episode"
-    trainer.agent.low_level.ddqn.online[:] = 0.0
+    trainer.agent.low_level.engine.online[:] = 0.0
     trainer.abandon_episodes()
-    assert np.all(trainer.agent.low_level.ddqn.online == begun)
+    assert np.all(trainer.agent.low_level.engine.online == begun)
 
 
 def test_a_spoiled_episode_leaves_what_was_practised_before_and_beside_it_and_nothing_of_its_own() -> None:
@@ -193,7 +193,7 @@ def test_a_spoiled_episode_leaves_what_was_practised_before_and_beside_it_and_no
     trainer.abandon_episodes()
     assert are_the_same(networks(trainer), practised)
     assert len(trainer.state()["imagination.0.steps"]) == known
-    before = int(trainer.agent.low_level.ddqn.updates[0])
+    before = int(trainer.agent.low_level.engine.updates[0])
     assert before > 0
     assert [row.episode for row in finish(trainer).episode_rows] == [1, 2, 3, 4, 5]
-    assert trainer.agent.low_level.ddqn.updates[0] >= before
+    assert trainer.agent.low_level.engine.updates[0] >= before

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from mc_nested.arrays import Float64s, Int64s, Integers
 from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.learn.dqn.states import States
 
 FIRST_ROOM = 4096
 """Transitions per run that memory is allocated for at first; it doubles when full."""
@@ -16,7 +17,7 @@ FIRST_ROOM = 4096
 class Transitions(NamedTuple):
     """Transitions side by side, an array of each part in the caller's shape.
 
-    ``states`` (2, …) holds the index of every s and of every s' (state_space.py); ``discounts`` is the factor of the
+    ``states`` (2, …) holds every s and every s', as ``States.kept`` gives them; ``discounts`` is the factor of the
     value of s': γ, or 0 where the episode terminated.
     """
 
@@ -43,18 +44,17 @@ class Replay:
     """The last ``capacity`` transitions of each run; what a run samples depends on its own transitions only.
 
     Args:
-        runs: how many runs.
-        states: how many states there are.
-        actions: how many actions there are.
+        states: what the runs see and do, a row a run.
         capacity: transitions kept per run; the oldest is overwritten.
     """
 
-    def __init__(self, runs: int, states: int, actions: int, capacity: int) -> None:
+    def __init__(self, states: States, capacity: int) -> None:
         self.capacity = capacity
-        self.added = np.zeros(runs, dtype=np.int64)
-        self._index_type, self._action_type = np.min_scalar_type(states), np.min_scalar_type(actions - 1)
+        self.added = np.zeros(states.rows, dtype=np.int64)
+        self._shape, self._state_type = states.shape, np.min_scalar_type(states.highest)
+        self._action_type = np.min_scalar_type(states.actions - 1)
         self._room = min(FIRST_ROOM, capacity)
-        self._kept = self._memory(runs, self._room)
+        self._kept = self._memory(states.rows, self._room)
         self._taken_back_to: list[Int64s] = []
 
     def sizes(self) -> Int64s:
@@ -81,7 +81,7 @@ class Replay:
     def gather(self, rows: Int64s, indices: Int64s) -> Transitions:
         """The transitions at those indices (k, batch) of the named runs (k,); blank ones of a run that holds none."""
         drawn = Transitions(
-            states=np.empty((2, *indices.shape), dtype=np.int64),
+            states=np.empty((2, *indices.shape, *self._shape), self._state_type if self._shape else np.int64),
             actions=np.empty(indices.shape, dtype=np.int64),
             rewards=np.empty(indices.shape, dtype=np.float32),
             discounts=np.empty(indices.shape, dtype=np.float32),
@@ -162,7 +162,7 @@ class Replay:
 
     def _memory(self, runs: int, room: int) -> Transitions:
         return Transitions(
-            states=np.zeros((runs, room, 2), dtype=self._index_type),
+            states=np.zeros((runs, room, 2, *self._shape), dtype=self._state_type),
             actions=np.zeros((runs, room), dtype=self._action_type),
             rewards=np.zeros((runs, room), dtype=np.float32),
             discounts=np.zeros((runs, room), dtype=np.float32),

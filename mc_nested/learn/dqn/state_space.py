@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mc_nested.arrays import Float32s, Int64s, Integers
-from mc_nested.learn.dqn.networks import Sizes
+from mc_nested.learn.dqn.states import States
 
 
 class StateParts(NamedTuple):
@@ -63,7 +63,21 @@ class StateSpace:
         indices: Int64s = np.einsum("...w,w->...", states, self.strides)
         return indices
 
-    def network(self, hidden: Sequence[int]) -> Sizes:
+    @property
+    def highest(self) -> int:
+        """The highest index that a replay keeps: of no state, the first beyond them."""
+        return self.count
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """() of an index."""
+        return ()
+
+    def kept(self, states: Integers) -> Int64s:
+        """The index (…) of each state (…, width), which is all that a replay keeps of it."""
+        return self.index(states)
+
+    def network(self, hidden: Sequence[int]) -> tuple[int, ...]:
         """The widths of a network for these states and actions."""
         return (self.inputs, *hidden, self.actions)
 
@@ -93,6 +107,13 @@ class StateSpace:
         """The features of every state for that row's network, by index: (states, inputs + 1), the last a 1."""
         first = self._first[row]
         return self.table[first : first + self.count]
+
+
+def numbered(states: States) -> StateSpace:
+    """Those states, whose indices something else is to know; TypeError if they aren't numbered."""
+    if not isinstance(states, StateSpace):
+        raise TypeError("only numbered states have indices")
+    return states
 
 
 def _of_cells(encoding: str, radix: Int64s, highest: Int64s) -> Float32s:

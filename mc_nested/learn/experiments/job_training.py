@@ -16,7 +16,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Int64s
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError
-from mc_nested.learn.agents import Agent, view_of
+from mc_nested.learn.agents import Agent
 from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.evaluation import GreedyEpisode
 from mc_nested.learn.experiments.jobs import Job
@@ -120,7 +120,7 @@ class JobTraining:
     def __init__(self, job: Job, folder: Path, env: VectorEnv[Int64s, Int64s, Any]) -> None:
         self.job = job
         agent = Agent(job.spec, job.scenarios, job.preset, job.seed, job.trials)
-        view = view_of(job.spec, env, job.scenarios)
+        view = agent.view_of(env, job.scenarios)
         self.trainer = Trainer(view, job.scenarios, agent, job.preset, job.seed, job.stop_at_optimum)
         self._folder = folder
         self._checkpoint = Checkpoint(folder / "checkpoint", job.identity())
@@ -221,8 +221,8 @@ class JobTraining:
 def updates_by_run(agent: Agent) -> Int64s:
     """Updates of all of a run's networks, (runs,)."""
     runs = len(agent.runs)
-    updates: Int64s = agent.low_level.ddqn.updates.reshape(runs, -1).sum(axis=1)
-    return updates + (agent.main.ddqn.updates if agent.main else 0)
+    updates: Int64s = agent.low_level.engine.updates.reshape(runs, -1).sum(axis=1)
+    return updates + (agent.main.engine.updates if agent.main else 0)
 
 
 @contextmanager

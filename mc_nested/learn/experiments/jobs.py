@@ -11,6 +11,7 @@ from typing import Any
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.learn.agents import AgentSpec
+from mc_nested.learn.engine_fit import NUMBERS
 from mc_nested.learn.preset import Preset
 
 PLANNER = "planner"
@@ -128,13 +129,15 @@ def _batches(runs: Iterable[Run]) -> list[list[Run]]:
     return [list(batch) for _, batch in groupby(runs, _kind)]
 
 
-def _kind(run: Run) -> tuple[AgentSpec, Preset, int, int]:
+def _kind(run: Run) -> tuple[AgentSpec, Preset, int, int, int]:
     """What runs must have in common to be one batch: their networks have one shape, the same as in a batch of one.
 
-    There is an output for each material of a choice; with one-hot, an input for each number of blocks left.
+    There is an output for each material of a choice; with one-hot, an input for each number of blocks left; an image is
+    as large as its arena.
     """
     one_hot_blocks = run.scenario.blocks if run.preset.encoding == "one-hot" else 0
-    return run.spec, run.preset, len(run.scenario.materials), one_hot_blocks
+    side = run.scenario.size if run.preset.states != NUMBERS else 0
+    return run.spec, run.preset, len(run.scenario.materials), one_hot_blocks, side
 
 
 def _job(name: str, runs: Sequence[Run], seed: int) -> Job:

@@ -2,7 +2,7 @@
 
 import datetime
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from mc_nested.errors import McNestedError, RunError
 from mc_nested.learn.agents import AGENT_SPECS
+from mc_nested.learn.cooperation.team_run import TeamRun
 from mc_nested.learn.experiments.ablation import AblationConfig
 from mc_nested.learn.experiments.benchmark import BenchmarkConfig
 from mc_nested.learn.experiments.experiment_folder import CONFIG, JOBS_FOLDER, ExperimentConfig, ExperimentFolder
@@ -104,7 +105,7 @@ def facts_of(folder: Path) -> RunFacts | None:
         if (found := _key_in(file)) is None:
             return None
         key = found
-        facts = _training(folder) if key == "agent" else _experiment(folder, key)
+        facts = _facts_by_key(folder, key)
     except McNestedError as error:
         if not key and not any((folder / name).exists() for name in OUR_OWN):
             return None
@@ -118,6 +119,12 @@ def _key_in(file: Path) -> str | None:
     """The key of a config.toml that tells what kind it is; None if it is no run's. RunError if it isn't TOML."""
     document = parse_document(read_toml_text(file, RunError), str(file), RunError)
     return next((key for key in VERB_OF_KEY if key in document), None)
+
+
+def _facts_by_key(path: Path, key: str) -> RunFacts:
+    if key == "agent":
+        return _training(path)
+    return _cooperation(path) if key == "builders" else _experiment(path, key)
 
 
 def _training(path: Path) -> RunFacts:
@@ -137,23 +144,46 @@ def _training(path: Path) -> RunFacts:
     )
     if folder.only_begun:
         return facts
+    return _as_far_as_trained(facts, folder.kept, config.trials)
+
+
+def _cooperation(path: Path) -> RunFacts:
+    run = TeamRun.open(path)
+    config = run.config
+    facts = RunFacts(
+        path,
+        "cooperate",
+        "can be resumed",
+        designs=[config.scenario.name],
+        agents=[f"{config.builders} {config.networks}"],
+        presets=[Path(config.preset_name).stem],
+        trials=config.trials,
+        episodes_done=0,
+        episodes=config.preset.episodes * config.trials,
+        optimum=run.team.scenario.optimum,
+    )
+    return facts if run.only_begun else _as_far_as_trained(facts, run.checkpoint.state, config.trials)
+
+
+def _as_far_as_trained(facts: RunFacts, read_checkpoint: Callable[[], object], trials: int) -> RunFacts:
+    """The facts of a training that was saved: how far it is, or what is damaged."""
     try:
-        folder.kept()  # the checkpoint may be gone, or damaged
-        summary = _summary(path / SUMMARY)
+        read_checkpoint()  # it may be gone, or damaged
+        summary = _summary(facts.folder / SUMMARY, facts.verb)
     except RunError as error:
         return replace(facts, state="damaged", why=str(error), episodes_done=None)
     facts = replace(facts, episodes_done=sum(summary.episodes_done))
     scores = [score for score in summary.final_scores if score is not None]
-    if len(scores) < config.trials:
+    if len(scores) < trials:
         return facts
     return replace(facts, state="finished", score=sum(scores) / len(scores))
 
 
-def _summary(file: Path) -> _Summary:
+def _summary(file: Path, verb: str) -> _Summary:
     try:
         return _Summary.model_validate_json(file.read_text("utf-8"))
     except (OSError, UnicodeDecodeError, ValidationError) as error:
-        raise RunError(f"{file}: can't be read: mc-nested train --resume {file.parent} writes it again") from error
+        raise RunError(f"{file}: can't be read: mc-nested {verb} --resume {file.parent} writes it again") from error
 
 
 def _experiment(path: Path, key: str) -> RunFacts:

@@ -10,6 +10,7 @@ from mc_nested.arena.env import BLOCKS_LEFT, X, Y
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.replay import Transitions
+from mc_nested.learn.dqn.state_space import numbered
 from mc_nested.learn.exploration.return_then_explore import PLAN_NUMBERS, STEP_NUMBERS, EpisodeStep, ReturnThenExplore
 from mc_nested.learn.preset import ExcursionRule
 from mc_nested.learn.state_dict import named_for, part_of
@@ -27,8 +28,8 @@ class BatchedReturnThenExplore:
     """
 
     def __init__(self, rule: ExcursionRule, agent: Agent) -> None:
-        self._low_level = agent.low_level
-        self._explorers = [ReturnThenExplore(rule, agent.low_level.space.actions, agent.size) for _ in agent.runs]
+        self._low_level, self._space = agent.low_level, numbered(agent.low_level.states)
+        self._explorers = [ReturnThenExplore(rule, self._space.actions, agent.size) for _ in agent.runs]
 
     def begin(self, runs: Int64s, numbers: Float64s) -> None:
         """Begin an episode in each of the named runs; ``numbers`` (all runs, NUMBERS) plan the excursions.
@@ -57,7 +58,7 @@ class BatchedReturnThenExplore:
         terminated: Bools,
     ) -> None:
         """Record what the actions did; every array is of the named runs (k, …), ``before`` is what was acted on."""
-        indices, next_indices = self._low_level.space.index(states), self._low_level.space.index(next_states)
+        indices, next_indices = self._space.index(states), self._space.index(next_states)
         used = before[:, BLOCKS_LEFT] > next_states[:, BLOCKS_LEFT]
         columns = (before[:, X], before[:, Y], indices, actions, rewards, next_indices, terminated, used)
         for run, *values in zip(runs.tolist(), *(column.tolist() for column in columns), strict=True):

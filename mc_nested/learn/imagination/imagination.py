@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
+from mc_nested.learn.dqn.state_space import numbered
 from mc_nested.learn.imagination.arena_step import imagined_arena
 from mc_nested.learn.imagination.beliefs import Beliefs, believe
 from mc_nested.learn.imagination.experience import Experience, RealStep
@@ -67,21 +68,21 @@ class Imagination:
         seed: int,
         runs: Sequence[int],
     ) -> None:
-        self._main, self._low_level = main, low_level
+        self._main, self._low_level, self._space = main, low_level, numbered(low_level.states)
         self._surroundings = surroundings
         self._rule, self._seed, self._numbers = rule, seed, runs
         self._practice = Practice(low_level, preset, rule)
         self._experience = [Experience() for _ in runs]
-        self._rows_a_run = low_level.space.rows // len(runs)
+        self._rows_a_run = self._space.rows // len(runs)
         self._explores, self._falls_short = np.ones(len(runs), dtype=np.bool_), np.zeros(len(runs), dtype=np.bool_)
-        self._untried = np.ones((len(runs), low_level.space.actions), dtype=np.bool_)
+        self._untried = np.ones((len(runs), self._space.actions), dtype=np.bool_)
         self._unclear = np.zeros_like(self._untried)
-        self._tries = np.zeros((len(runs), low_level.space.actions), dtype=np.int64)
+        self._tries = np.zeros((len(runs), self._space.actions), dtype=np.int64)
 
     def rules(self, run: int) -> LearntRules:
         """What that run has learnt of moving and placing."""
         seen = self._experience[run]
-        actions, size = self._low_level.space.actions, self._surroundings[run].size
+        actions, size = self._space.actions, self._surroundings[run].size
         return learn_rules(seen.steps, seen.first_of_episode, actions, size)
 
     def beliefs(self, run: int) -> Beliefs:
@@ -118,7 +119,7 @@ class Imagination:
         rules, beliefs = self.rules(run), self.beliefs(run)
         anew = bool(self._falls_short[run]) and not self._explores[run] and not beliefs.explores
         self._explores[run] = beliefs.explores
-        self._unclear[run] = unclear_moves(seen.steps, self._low_level.space.actions)
+        self._unclear[run] = unclear_moves(seen.steps, self._space.actions)
         arena = imagined_arena(rules, beliefs)
         x, y, blocks = here.start
         if beliefs.explores:
@@ -224,7 +225,7 @@ class Imagination:
 
     def _appended(self, material: int) -> Int64s:
         """What follows x, y and b in a state of the low-level agent: the nested agent's a_M."""
-        return np.array([material] * (len(self._low_level.space.strides) - 3), dtype=np.int64)
+        return np.array([material] * (len(self._space.strides) - 3), dtype=np.int64)
 
     def _real_transitions(self, run: int, material: int, landed: Int64s) -> RealTransitions:
         """The run's transitions as its low-level agent of that material saw them; none where the replay has none."""
@@ -235,9 +236,9 @@ class Imagination:
         if self._rows_a_run > 1:
             own &= steps[:, 8] == material
         steps, landed = steps[own], landed[own]
-        appended = len(self._low_level.space.strides) - 3
+        appended = len(self._space.strides) - 3
         last = np.repeat(steps[:, 8:], appended, axis=1)
-        index = self._low_level.space.index
+        index = self._space.index
         return RealTransitions(
             index(np.hstack((steps[:, 0:3], last))),
             index(np.hstack((steps[:, 4:7], last))),

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mc_nested.arrays import Float64s, Int64s
-from mc_nested.learn.dqn.ddqn import Batch
+from mc_nested.learn.dqn.engine import Batch
 from mc_nested.learn.learner import Learner
 
 LAST = 3
@@ -31,8 +31,8 @@ def scores_of_materials(extras: Float64s, materials: int, blocks: int, most: flo
 
 def learn_choice(main: Learner, row: int, start: Int64s, scores: Float64s) -> None:
     """Update that row of the main agent until its values of the start state (3,) are the scores (materials,)."""
-    rows, state = np.array([row]), main.space.index(start[None])
-    batch = main.ddqn.rule.batch
+    rows, state = np.array([row]), main.states.kept(start[None])
+    batch = main.engine.rule.batch
     actions = np.arange(batch) % len(scores)
     lesson = Batch(
         states=np.broadcast_to(state, (2, 1, batch)).copy(),
@@ -43,5 +43,5 @@ def learn_choice(main: Learner, row: int, start: Int64s, scores: Float64s) -> No
         weights=np.ones((1, batch), np.float32),
     )
     for _ in range(MOST_UPDATES):
-        if np.abs(main.ddqn.update(rows, lesson)).max() <= CLOSE:
+        if np.abs(main.engine.update(rows, lesson)).max() <= CLOSE:
             return

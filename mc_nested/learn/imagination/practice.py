@@ -8,9 +8,11 @@ from numpy.random import Generator
 
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Bools, Float64s, Int64s
-from mc_nested.learn.dqn.cell_networks import passes_for
-from mc_nested.learn.dqn.networks import initial_parameters, parameter_count
+from mc_nested.learn.dqn.compiled_engine.cell_networks import passes_for
+from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
+from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters, parameter_count
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
+from mc_nested.learn.dqn.state_space import numbered
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, index_of
 from mc_nested.learn.imagination.imagined_task import ImaginedTask
 from mc_nested.learn.imagination.practice_kernel import (
@@ -158,7 +160,7 @@ class Practice:
     """
 
     def __init__(self, learner: Learner, preset: Preset, rule: ImaginationRule) -> None:
-        self._learner = learner
+        self._engine, self._space = compiled_engine(learner.engine), numbered(learner.states)
         update = preset.update
         self._rule = PracticeRule(
             update.gamma,
@@ -182,7 +184,7 @@ class Practice:
             added=np.zeros(1, np.int64),
         )
         self._tables: QTables | None = None
-        self._workspaces = [self._workspace(row) for row in range(learner.space.rows)]
+        self._workspaces = [self._workspace(row) for row in range(self._space.rows)]
 
     def session(
         self, row: int, arena: ImaginedArena, goal: Goal, others: Int64s, real: RealTransitions, random: Generator
@@ -192,14 +194,14 @@ class Practice:
         ``real`` are in its replay from the beginning. A row's sessions share arrays: of all of a learner's sessions
         only the last may be run.
         """
-        space, ddqn = self._learner.space, self._learner.ddqn
+        space, engine = self._space, self._engine
         offset = int(others @ space.strides[3:])
         task = ImaginedTask(
             index_of(goal.start, arena), goal.blocks, goal.step_limit, goal.aim, space.strides[:3], offset
         )
         tables, rule = self._tables_for(arena, goal.step_limit), self._rule
         table = TablePractice(tables, arena, task, rule.gamma, goal.most_table_steps, random)
-        own = Row(*ddqn.row(row))
+        own = Row(*engine.row(row))
         work = self._workspaces[row]._replace(table=tables.by_blocks)
         if not goal.most_table_steps:
             rule = rule._replace(by_table=0.0)
@@ -208,7 +210,7 @@ class Practice:
             self._begin_with(real)
             work.seen_in[:] = -1
             if goal.anew:
-                own.online[:] = own.target[:] = initial_parameters(ddqn.sizes, random)
+                own.online[:] = own.target[:] = initial_parameters(engine.sizes, random)
                 own.first_moment[:] = own.second_moment[:] = 0.0
             table.begin()
 
@@ -219,7 +221,7 @@ class Practice:
                     return
             table.end()
             practise(numbers, arena, task._replace(aim=table.aim), rule, parts, self._replay, work, progress)
-            ddqn.check_finite(row, parts.online)
+            engine.check_finite(row, parts.online)
 
         longest = max(2 + goal.step_limit * (2 + self._batch), longest_episode(task))
         return PracticeSession(
@@ -233,7 +235,7 @@ class Practice:
 
     def _tables_for(self, arena: ImaginedArena, step_limit: int) -> QTables:
         """This learner's tables, made anew if the arena has another number of cells than before."""
-        space, cells = self._learner.space, len(arena.empty)
+        space, cells = self._space, len(arena.empty)
         if self._tables is None or len(self._tables.built.here) != cells:
             self._tables = empty_tables(space.count, space.actions, cells)
         return self._tables._replace(trail=empty_trail(step_limit), best=empty_trail(step_limit))
@@ -246,7 +248,7 @@ class Practice:
         self._replay.added[0] = count
 
     def _workspace(self, row: int) -> Workspace:
-        sizes, space = self._learner.ddqn.sizes, self._learner.space
+        sizes, space = self._engine.sizes, self._space
         return Workspace(
             sizes=np.array(sizes),
             numbers=space.rest_of(row),

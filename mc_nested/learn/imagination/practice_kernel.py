@@ -13,16 +13,22 @@ from typing import NamedTuple
 import numpy as np
 
 from mc_nested.arrays import Bools, Float32s, Float64s, Int64s, Integers
-from mc_nested.learn.dqn.adam import adam_step
-from mc_nested.learn.dqn.cell_networks import CellPasses, backward_cells, by_input, by_node, forward_cells
 from mc_nested.learn.dqn.compiled import compiled
-from mc_nested.learn.dqn.ddqn import td_target
+from mc_nested.learn.dqn.compiled_engine.adam import adam_step
+from mc_nested.learn.dqn.compiled_engine.cell_networks import (
+    CellPasses,
+    backward_cells,
+    by_input,
+    by_node,
+    forward_cells,
+)
+from mc_nested.learn.dqn.compiled_engine.engine import td_target
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, step
 from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask, epsilon_from, is_wasted, state_at
 
 
 class PracticeRule(NamedTuple):
-    """Hyper-parameters: those of an update (ddqn.py), and the highest and the lowest ε of an imagined episode.
+    """Hyper-parameters: those of an update (engine.py), and the highest and the lowest ε of an imagined episode.
 
     ``double``: the online network chooses the action of s' that the target network values, not the target network.
     ``n_steps``: how many rewards in a row a target adds up before the value of the state that follows.

@@ -1,9 +1,8 @@
 """A training's folder: config.toml, episodes.csv, evaluations.csv, summary.json and checkpoint/."""
 
-import csv
 import json
 import shutil
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -14,7 +13,6 @@ from pydantic import BaseModel, ConfigDict, Field
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
 from mc_nested.arrays import Arrays
-from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentName
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
@@ -23,6 +21,7 @@ from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.checkpoint import Checkpoint
 from mc_nested.learn.runs.folder_kind import FORMAT, check_config, check_free
 from mc_nested.learn.runs.policies import load_policies, misfit_of, save_policies
+from mc_nested.learn.runs.run_files import write_table, write_text
 from mc_nested.learn.state_dict import part_of
 from mc_nested.learn.trainer import Trainer
 from mc_nested.toml_file import parse_toml, read_toml_text
@@ -35,7 +34,7 @@ class RunConfig(BaseModel):
 
     format: Annotated[int, Field(ge=1)] = FORMAT
     agent: AgentName
-    backend: Literal["sim", "live"]
+    backend: Literal["sim", "virtual", "live"]
     profile: str | None = None
     trials: Annotated[int, Field(ge=1)]
     seed: Annotated[int, Field(ge=0)]
@@ -105,7 +104,7 @@ class RunFolder:
         """Make the folder and write config.toml; RunError if the disk refuses."""
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            _write_text(self.path / "config.toml", tomlkit.dumps(self.config.model_dump(exclude_none=True)))
+            write_text(self.path / "config.toml", tomlkit.dumps(self.config.model_dump(exclude_none=True)))
         except OSError as error:
             raise RunError(f"{self.path}: can't be written, {error.strerror}: name another folder") from error
 
@@ -129,9 +128,9 @@ class RunFolder:
         summary = {**summarise(self.config, self.scenario, trainer, wall_s), **(beside or {})}
         with self.writing():
             self._save_checkpoint(trainer)
-            _write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)
-            _write_table(self.path / "evaluations.csv", EvaluationRow._fields, trainer.evaluation_rows)
-            _write_text(self.path / "summary.json", json.dumps(summary, indent=2) + "\n")
+            write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)
+            write_table(self.path / "evaluations.csv", EvaluationRow._fields, trainer.evaluation_rows)
+            write_text(self.path / "summary.json", json.dumps(summary, indent=2) + "\n")
         return summary
 
     def kept(self) -> Arrays:
@@ -233,15 +232,3 @@ def _played_until(trainer: Trainer, trial: int, episode: int | None) -> dict[str
     greedy = [row for row in trainer.evaluation_rows if row.trial == trial and row.episode <= episode]
     steps = sum(row.steps for row in played) + sum(row.steps for row in greedy)
     return {"episodes": len(played) + len(greedy), "steps": steps}
-
-
-def _write_text(path: Path, text: str) -> None:
-    with atomic_write(path) as unfinished:
-        unfinished.write_text(text, encoding="utf-8")
-
-
-def _write_table(path: Path, header: Sequence[str], rows: Sequence[EpisodeRow | EvaluationRow]) -> None:
-    with atomic_write(path) as unfinished, unfinished.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(header)
-        writer.writerows(rows)

@@ -43,6 +43,13 @@ def chat_regions(size: tuple[int, int], scale: int | None) -> tuple[Region, ...]
     )
 
 
+def messages_region(size: tuple[int, int], scale: int) -> Region:
+    """Where messages show while the chat is closed, ten at most, in a window (width, height), cut to it."""
+    width, height = size
+    top = max(0, height - (_HIGHEST_BOTTOM + LINES // 2 * LINE_PITCH) * scale)
+    return Region(0, top, min(width, _WIDTH * scale), max(0, height - _BOTTOM * scale) - top)
+
+
 def without_chat(frame: Frame, scale: int | None, opaque: Sequence[Region] = ()) -> Frame:
     """A copy of a whole window's picture, (height, width, 3), its chat blanked; ``scale`` is None where not known.
 

@@ -9,6 +9,8 @@ _KNOWN: dict[str, Colour] = {
     "dirt": (134, 96, 67),
     "glowstone": (231, 190, 105),
     "grass_block": (104, 159, 56),
+    "lapis_block": (31, 67, 140),
+    "mossy_cobblestone": (110, 118, 95),
     "oak_planks": (176, 142, 86),
     "planks": (176, 142, 86),
     "obsidian": (32, 20, 48),

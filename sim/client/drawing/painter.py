@@ -9,8 +9,9 @@ from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Block
 from mc_nested.live.vision.font import Font
 from sim.client.drawing.picture import LayeredPicture
-from sim.client.drawing.scenery import random_world
+from sim.client.drawing.scenery import SEEN, random_world
 from sim.client.drawing.view_layers import ViewLayers
+from sim.client.drawing.world_layer import WorldLayers
 from sim.client.game.edition import Edition
 from sim.client.game.screens import IN_WORLD
 from sim.client.game.view import View
@@ -30,7 +31,7 @@ class Painter:
         scale: framebuffer pixels a GUI pixel.
         font: the font of all texts.
         edition: the game's version.
-        kind: the kind of world behind the text, of ``scenery.WORLDS``, bright or dark.
+        kind: the kind of world behind the text, of ``scenery.WORLDS``, bright, dark or ``scenery.SEEN``.
         seed: of the random world.
         words: the menus' texts in another language, by their English.
     """
@@ -48,9 +49,11 @@ class Painter:
         width, height = size
         rng = np.random.default_rng(seed)
         self._size = size
-        self._world = random_world(rng, kind, width + _SHIFTS, height + _SHIFTS)
+        # Of the world that is seen every part is drawn over this.
+        self._world = random_world(rng, "flat" if kind == SEEN else kind, width + _SHIFTS, height + _SHIFTS)
         tile = rng.integers(0, _DIRT, (_TILE, _TILE, 3), np.uint8)
         self._dirt: Frame = np.tile(tile, (-(-height // _TILE), -(-width // _TILE), 1))[:height, :width]
+        self._worlds = WorldLayers(size)
         self._layers = ViewLayers(size, scale, font, edition, words or {})
         self._scene = lru_cache(2 * _SHIFTS)(self._moved)
         self._shown: View | None = None
@@ -60,7 +63,8 @@ class Painter:
         """The picture of a view, or a region of it."""
         if view is not self._shown:
             self._shown = view
-            self._picture.show(self._background(view), self._layers.of(view))
+            world = [self._worlds.of(view.sight)] if view.sight else []
+            self._picture.show(self._background(view), [*world, *self._layers.of(view)])
         return self._picture.grab(region)
 
     def _background(self, view: View) -> Frame:

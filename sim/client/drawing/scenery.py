@@ -7,6 +7,9 @@ from mc_nested.live.devices import Frame
 WORLDS = ("flat", "noise", "grey noise", "blocks", "gradient", "specks")
 """Kinds of worlds that are drawn at random; ``bright`` and ``dark`` are a sky at noon and a night."""
 
+SEEN = "seen"
+"""Instead of a random picture: the world that the player sees (world_layer.py)."""
+
 
 def random_world(rng: np.random.Generator, kind: str, width: int, height: int) -> Frame:
     """A picture (height, width, 3) of one kind of ``WORLDS``, or of ``bright`` or ``dark``."""

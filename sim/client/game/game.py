@@ -4,7 +4,7 @@ from collections import deque
 from collections.abc import Callable
 
 from mc_nested.live.model.reading import Target
-from sim.client.game import physics, ray
+from sim.client.game import bodies, physics, ray
 from sim.client.game.block_tags import tags_of
 from sim.client.game.chat import VirtualChat
 from sim.client.game.commands import chat_line
@@ -14,7 +14,7 @@ from sim.client.game.gaits import Gaits
 from sim.client.game.keys import GameKeys
 from sim.client.game.realm import SLOTS, Realm
 from sim.client.game.screens import DEATH_WAIT, IN_WORLD, Effect, MenuState, ScreenName
-from sim.client.game.view import View
+from sim.client.game.view import Eye, Sight, View
 from sim.client.game.world import AIR, block_of
 
 REPEAT_TICKS = 4
@@ -198,6 +198,20 @@ class VirtualGame:
             self.notices,
         )
 
+    def sight(self) -> Sight:
+        """The world as the player sees it now."""
+        player, world = self.realm.player, self.realm.world
+        hit = self.target_block(self.reach())
+        stack = player.hotbar[player.slot]
+        return Sight(
+            Eye(self.realm.eye(), player.yaw, player.pitch),
+            world.seen(),
+            world.floor,
+            world.floor_block,
+            hit.block if hit else None,
+            stack.block if stack else None,
+        )
+
     def target_block(self, reach: float) -> ray.Hit | None:
         """The block that the player looks at, if it is within ``reach`` blocks."""
         player, world = self.realm.player, self.realm.world
@@ -270,7 +284,8 @@ class VirtualGame:
         stack = player.hotbar[player.slot]
         if target is None or stack is None or world.block_at(target.before) != AIR:
             return
-        if physics.overlaps(player.feet, self.realm.size()[0], target.before):
+        height = self.realm.size()[0]
+        if any(physics.overlaps(feet, height, target.before) for feet in (player.feet, *self.realm.others())):
             return
         if self._refusals_to_come:
             self._refusals_to_come -= 1
@@ -303,20 +318,31 @@ class VirtualGame:
         if keys.is_held("jump") and player.on_ground:
             player.velocity = (player.velocity[0], physics.JUMP, player.velocity[2])
         push = physics.wish(forward, left, gait, player.yaw)
-        before = player.feet
+        before, height = player.feet, self.realm.size()[0]
         player.feet, player.velocity, player.on_ground = physics.step(
             before,
             player.velocity,
             push,
-            self.realm.size()[0],
+            height,
             world.is_solid,
             on_ground=player.on_ground,
             ground=self._ground.under(gait),
             sneaks=player.is_sneaking,
         )
+        self._stop_at_others(before, height)
         self._is_at_wall = bool(is_pushed) and not (player.velocity[0] or player.velocity[2])
         # A player who stands still on the ground stays there until a key or the world changes.
         self._rested_at = (world.revision, before) if player.on_ground and player.feet == before else None
+
+    def _stop_at_others(self, before: physics.Vector, height: float) -> None:
+        """Take back what of the step led into another player, and the speed that way."""
+        player = self.realm.player
+        feet = bodies.kept_apart(before, player.feet, self.realm.others(), height)
+        if feet != player.feet:
+            east, up, south = player.velocity
+            stays_x, stays_z = feet[0] != player.feet[0], feet[2] != player.feet[2]
+            player.velocity = (0.0 if stays_x else east, up, 0.0 if stays_z else south)
+            player.feet = feet
 
     def _f3(self) -> F3Screen:
         realm = self.realm

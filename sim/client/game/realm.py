@@ -64,7 +64,7 @@ class Player:
 
 @dataclass
 class Realm:
-    """A world with its player and its rules."""
+    """A world with its player and its rules. ``players`` are all in that world, this one too."""
 
     edition: Edition
     world: VirtualWorld
@@ -76,6 +76,15 @@ class Realm:
     day_time: int = 6000
     view_distance: int = 10
     """Chunks around the player's own that are loaded."""
+    players: list[Player] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        if not any(player is self.player for player in self.players):
+            self.players.append(self.player)
+
+    def others(self) -> list[Vector]:
+        """Where the feet of the other players are."""
+        return [player.feet for player in self.players if player is not self.player]
 
     def rule(self, older: str, newer: str, default: bool) -> bool:
         """Whether a rule is on, given its name before 1.21.11 and its name since (FACTS: Commands)."""

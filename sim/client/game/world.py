@@ -21,6 +21,7 @@ class VirtualWorld:
         self.floor = floor
         self.floor_block = floor_block
         self._changed: dict[Block, str] = {}
+        self._seen: tuple[int, Mapping[Block, str]] = (-1, {})
         self.revision = 0
         """Increases with every change."""
 
@@ -57,6 +58,12 @@ class VirtualWorld:
     def built(self) -> dict[Block, str]:
         """What differs from the bare floor: names by position, ``AIR`` where some of the floor is missing."""
         return dict(self._changed)
+
+    def seen(self) -> Mapping[Block, str]:
+        """What ``built`` returns, and the same mapping again until something changes: not to be written to."""
+        if self._seen[0] != self.revision:
+            self._seen = self.revision, self.built()
+        return self._seen[1]
 
     def restore(self, built: Mapping[Block, str]) -> None:
         """Restore what ``built`` returned."""

@@ -19,12 +19,12 @@ def test_what_is_written_is_read_back() -> None:
 def test_an_option_is_listed_with_what_its_value_can_be() -> None:
     train = shipped().verbs["train"].parameters
     by_name = {name: parameter for parameter in train for name in parameter.names}
-    assert by_name["--backend"] == Parameter(["--backend"], "where [sim]", choices=["sim", "live"])
+    assert by_name["--backend"] == Parameter(["--backend"], "where [sim]", choices=["sim", "virtual", "live"])
     assert by_name["-q"].words == 0
     assert by_name["--quiet"] is by_name["-q"]
     assert by_name["--resume"].ones_own == "runs"
     assert by_name["--profile"].ones_own == "profiles"
-    assert by_name["--preset"].choices == ["live", "paper", "tuned"]
+    assert by_name["--preset"].choices == ["image", "live", "paper", "tuned"]
     assert "--install-completion" not in by_name
 
 

@@ -33,18 +33,20 @@ def half(value):
 
 UPDATES = """
 import numpy as np
-from mc_nested.learn.dqn.ddqn import DDQN, Batch, UpdateRule
-from mc_nested.learn.dqn.networks import initial_parameters
+from mc_nested.learn.dqn.compiled_engine.engine import CompiledEngine
+from mc_nested.learn.dqn.engine import Batch, UpdateRule
+from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
 from mc_nested.learn.dqn.state_space import StateSpace
 
 space = StateSpace(np.array([[3, 3]]), actions=2)
 sizes = space.network([4])
-ddqn = DDQN(space, sizes, UpdateRule(2, 1e-2, 3, 1.0), initial_parameters(sizes, np.random.default_rng(0))[None])
+online = initial_parameters(sizes, np.random.default_rng(0))[None]
+engine = CompiledEngine(space, sizes, UpdateRule(2, 1e-2, 3, 1.0), online)
 ones = np.ones((1, 2), np.float32)
 batch = Batch(np.array([[[1, 2]], [[2, 3]]]), np.array([[0, 1]]), ones, ones, ones > 1, ones)
 for _ in range(5):
-    ddqn.update(np.array([0]), batch)
-print(ddqn.online.astype(np.float64).sum())
+    engine.update(np.array([0]), batch)
+print(engine.online.astype(np.float64).sum())
 """
 
 
@@ -119,7 +121,7 @@ def test_packages_that_are_installed_beside_it_do_not_count(tmp_path: Path) -> N
 
 def test_an_update_needs_adam_but_not_the_trainer() -> None:
     needed: set[Path] = set()
-    new = {ROOT / "mc_nested/learn/dqn/ddqn.py"}
+    new = {ROOT / "mc_nested/learn/dqn/compiled_engine/engine.py"}
     while new:
         needed |= new
         new = {path for source in new for path in _imported_by(source, ROOT, PACKAGE)} - needed

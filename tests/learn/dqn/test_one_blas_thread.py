@@ -13,20 +13,21 @@ from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 UPDATES = """
 import hashlib
 import numpy as np
-from mc_nested.learn.dqn.ddqn import DDQN, Batch, UpdateRule
-from mc_nested.learn.dqn.networks import initial_parameters
+from mc_nested.learn.dqn.compiled_engine.engine import CompiledEngine
+from mc_nested.learn.dqn.engine import Batch, UpdateRule
+from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
 from mc_nested.learn.dqn.state_space import StateSpace
 
 space = StateSpace(np.array([[14, 14, 16, 1]]), actions=8, encoding="one-hot")
 sizes = space.network([256, 256])
 random = np.random.default_rng(0)
-ddqn = DDQN(space, sizes, UpdateRule(64, 1e-3, 5, 1.0), initial_parameters(sizes, random)[None])
+engine = CompiledEngine(space, sizes, UpdateRule(64, 1e-3, 5, 1.0), initial_parameters(sizes, random)[None])
 for _ in range(20):
     states, actions = random.integers(0, space.count, (2, 1, 64)), random.integers(0, 8, (1, 64))
     rewards, ones = random.random((1, 64)).astype(np.float32), np.ones((1, 64), np.float32)
-    ddqn.update(np.array([0]), Batch(states, actions, rewards, ones, ones > 1, ones))
-ddqn.q_values(np.array([5]))
-print(hashlib.sha256(ddqn.online.tobytes()).hexdigest())
+    engine.update(np.array([0]), Batch(states, actions, rewards, ones, ones > 1, ones))
+engine.q_values(np.array([5]))
+print(hashlib.sha256(engine.online.tobytes()).hexdigest())
 """
 
 

@@ -8,12 +8,17 @@ from hypothesis import strategies as st
 from mc_nested.arrays import Float64s, Int64s
 from mc_nested.learn.dqn import replay as replay_module
 from mc_nested.learn.dqn.replay import Replay, Transitions
+from mc_nested.learn.dqn.state_space import StateSpace
 
 
 def transition(*numbers: int) -> Transitions:
     """A transition for each number, made so that every field follows from the number."""
     n = np.array(numbers)
     return Transitions(np.stack([n, n + 2]), n % 8, n / 2, n / 4)
+
+
+def replay_of(runs: int, capacity: int, states: int = 200, actions: int = 8) -> Replay:
+    return Replay(StateSpace(np.array([[states - 1]] * runs), actions), capacity)
 
 
 def drawn_from(replay: Replay, rows: Int64s, uniforms: Float64s) -> Transitions:
@@ -31,7 +36,7 @@ def numbers(drawn: Transitions) -> list[list[int]]:
 
 
 def test_what_the_numbers_point_at_is_drawn() -> None:
-    replay = Replay(runs=2, states=200, actions=8, capacity=10)
+    replay = replay_of(2, 10)
     for step in range(4):
         replay.add(np.array([0, 1]), transition(step, 100 + step))
     uniforms = np.array([[0.0, 0.24, 0.25, 0.5, 0.999999], [0.75, 0.0, 0.5, 0.26, 0.3]])
@@ -39,17 +44,17 @@ def test_what_the_numbers_point_at_is_drawn() -> None:
 
 
 def test_what_a_run_holds_is_counted_in_bytes_and_not_the_room_for_more() -> None:
-    replay = Replay(runs=2, states=200, actions=8, capacity=3)
+    replay = replay_of(2, 3)
     for step in range(5):
         replay.add(np.array([0]), transition(step))
     replay.add(np.array([1]), transition(9))
     # Two indices below 256 and an action, a byte each, reward and discount, four each: 11. Run 0 is full with three.
     assert replay.bytes_held().tolist() == [33, 11]
-    assert Replay(runs=1, states=7650, actions=8, capacity=3).bytes_held().tolist() == [0]
+    assert replay_of(1, 3, states=7650).bytes_held().tolist() == [0]
 
 
 def test_runs_fill_at_their_own_pace() -> None:
-    replay = Replay(runs=3, states=200, actions=8, capacity=10)
+    replay = replay_of(3, 10)
     replay.add(np.array([2]), transition(7))
     replay.add(np.array([0, 2]), transition(8, 9))
     assert replay.sizes().tolist() == [1, 0, 2]
@@ -57,7 +62,7 @@ def test_runs_fill_at_their_own_pace() -> None:
 
 
 def test_the_oldest_gives_way_when_it_is_full() -> None:
-    replay = Replay(runs=1, states=200, actions=8, capacity=3)
+    replay = replay_of(1, 3)
     for step in range(5):
         replay.add(np.array([0]), transition(step))
     assert replay.sizes().tolist() == [3]
@@ -67,7 +72,7 @@ def test_the_oldest_gives_way_when_it_is_full() -> None:
 
 @given(uniform=st.floats(0, 1, exclude_max=True), size=st.integers(1, 9))
 def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
-    replay = Replay(runs=2, states=200, actions=8, capacity=100)
+    replay = replay_of(2, 100)
     for step in range(size):
         replay.add(np.array([0]), transition(step))
     replay.add(np.array([1]), transition(50))
@@ -78,7 +83,7 @@ def test_every_draw_is_one_of_the_runs_own(uniform: float, size: int) -> None:
 def test_taken_back_it_holds_exactly_what_it_held(before: int, since: int, capacity: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(replay_module, "FIRST_ROOM", 4)
-        replay = Replay(runs=2, states=200, actions=8, capacity=capacity)
+        replay = replay_of(2, capacity)
     for step in range(before):
         replay.add(np.array([0]), transition(step))
     mark = replay.mark(30)
@@ -92,7 +97,7 @@ def test_taken_back_it_holds_exactly_what_it_held(before: int, since: int, capac
 
 
 def test_a_mark_is_good_for_as_many_additions_as_it_was_made_for() -> None:
-    replay = Replay(runs=1, states=200, actions=8, capacity=3)
+    replay = replay_of(1, 3)
     mark = replay.mark(2)
     for step in range(3):
         replay.add(np.array([0]), transition(step))
@@ -109,7 +114,7 @@ def test_a_mark_is_good_for_as_many_additions_as_it_was_made_for() -> None:
 def test_journals_around_what_was_taken_back_bring_back_what_is_held(
     before: int, spoiled: list[tuple[int, int]], after: int, capacity: int
 ) -> None:
-    replay, copy = (Replay(runs=1, states=200, actions=8, capacity=capacity) for _ in range(2))
+    replay, copy = (replay_of(1, capacity) for _ in range(2))
     row = np.array([0])
     for step in range(before):
         replay.add(row, transition(step))
@@ -131,7 +136,7 @@ def test_journals_around_what_was_taken_back_bring_back_what_is_held(
 
 
 def test_draws_are_uniform() -> None:
-    replay = Replay(runs=1, states=200, actions=8, capacity=100)
+    replay = replay_of(1, 100)
     for step in range(8):
         replay.add(np.array([0]), transition(step))
     uniforms = np.random.default_rng(0).random((1, 80_000))
@@ -143,9 +148,9 @@ def test_draws_are_uniform() -> None:
 def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(replay_module, "FIRST_ROOM", 4)
-        grown = Replay(runs=1, states=200, actions=8, capacity=capacity)
-        copy = Replay(runs=1, states=200, actions=8, capacity=capacity)
-    large = Replay(runs=1, states=200, actions=8, capacity=capacity)
+        grown = replay_of(1, capacity)
+        copy = replay_of(1, capacity)
+    large = replay_of(1, capacity)
     for step in range(steps):
         for replay in (grown, large):
             replay.add(np.array([0]), transition(step))
@@ -161,7 +166,7 @@ def test_growing_and_a_saved_copy_change_nothing(steps: int, capacity: int) -> N
 def test_what_was_added_in_parts_is_the_whole(parts: list[int], capacity: int) -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(replay_module, "FIRST_ROOM", 4)
-        replay, copy = (Replay(runs=2, states=200, actions=8, capacity=capacity) for _ in range(2))
+        replay, copy = (replay_of(2, capacity) for _ in range(2))
     number = 0
     for part in parts:
         marks = replay.marks()
@@ -175,14 +180,14 @@ def test_what_was_added_in_parts_is_the_whole(parts: list[int], capacity: int) -
 
 
 def test_a_run_that_holds_nothing_yields_blanks() -> None:
-    replay = Replay(runs=2, states=200, actions=8, capacity=10)
+    replay = replay_of(2, 10)
     replay.add(np.array([1]), transition(8))
     assert drawn_from(replay, np.array([0, 1]), np.array([[0.0], [0.9]])).states[0].tolist() == [[0], [8]]
 
 
 @pytest.mark.parametrize(("states", "bytes_a_number"), [(256, 2), (65_535, 2), (200_000, 4)])
 def test_states_are_kept_in_as_few_bytes_as_their_number_takes(states: int, bytes_a_number: int) -> None:
-    replay = Replay(runs=1, states=states, actions=8, capacity=10)
+    replay = replay_of(1, 10, states=states)
     replay.add(
         np.array([0]), Transitions(np.full((2, 1), states - 1), np.array([7]), np.array([1.0]), np.array([0.95]))
     )
@@ -195,7 +200,7 @@ def test_states_are_kept_in_as_few_bytes_as_their_number_takes(states: int, byte
 def test_every_action_is_kept_as_it_is_in_as_few_bytes_as_their_number_takes(
     actions: int, bytes_an_action: int
 ) -> None:
-    replay, copy = (Replay(runs=1, states=10, actions=actions, capacity=10) for _ in range(2))
+    replay, copy = (replay_of(1, 10, states=10, actions=actions) for _ in range(2))
     last = np.array([actions - 1])
     replay.add(np.array([0]), Transitions(np.zeros((2, 1), dtype=np.int64), last, np.ones(1), np.ones(1)))
     kept = replay.added_since(None)

@@ -71,9 +71,9 @@ def test_a_run_learns_the_rules_and_the_design_from_what_it_saw_alone() -> None:
 
 def test_before_the_first_step_nothing_is_practised() -> None:
     agent, imagination = imagination_of()
-    before = agent.low_level.ddqn.online.copy()
+    before = agent.low_level.engine.online.copy()
     assert not imagination.practise(0, 1)
-    np.testing.assert_array_equal(agent.low_level.ddqn.online, before)
+    np.testing.assert_array_equal(agent.low_level.engine.online, before)
 
 
 def test_practice_of_a_known_design_ends_with_a_policy_that_builds_it() -> None:
@@ -104,20 +104,20 @@ def test_while_the_design_is_unknown_no_policy_is_said_to_build_it() -> None:
 def test_practice_can_be_ended_from_outside() -> None:
     agent, imagination = imagination_of()
     play(imagination, BUILT)
-    before = agent.low_level.ddqn.online.copy()
+    before = agent.low_level.engine.online.copy()
     session = imagination.session(0, 1)
     session.run(lambda: False)
     assert not imagination.builds_it_all(0, session)
-    np.testing.assert_array_equal(agent.low_level.ddqn.online, before)
+    np.testing.assert_array_equal(agent.low_level.engine.online, before)
 
 
 @pytest.mark.parametrize(("spec", "changed"), [(NESTED, [1]), (HIERARCHICAL, [2])], ids=["nested", "hierarchical"])
 def test_only_the_runs_agent_of_that_material_practises(spec: AgentSpec, changed: list[int]) -> None:
     agent, imagination = imagination_of(2, spec)
     at_random(imagination, 3, run=1, runs=2)
-    before = agent.low_level.ddqn.online.copy()
+    before = agent.low_level.engine.online.copy()
     imagination.practise(1, 0)
-    differs = (agent.low_level.ddqn.online != before).any(axis=1)
+    differs = (agent.low_level.engine.online != before).any(axis=1)
     assert np.flatnonzero(differs).tolist() == changed
 
 
@@ -138,7 +138,7 @@ def test_the_same_run_practises_the_same_beside_others_and_alone() -> None:
     at_random(imagination_alone, 3)
     imagination.practise(2, 1)
     imagination_alone.practise(0, 1)
-    np.testing.assert_array_equal(beside.low_level.ddqn.online[2], alone.low_level.ddqn.online[0])
+    np.testing.assert_array_equal(beside.low_level.engine.online[2], alone.low_level.engine.online[0])
 
 
 def test_the_main_agent_chooses_what_was_never_tried_and_then_the_best() -> None:

@@ -46,7 +46,7 @@ def test_the_last_episodes_of_a_material_are_what_it_brings() -> None:
 def test_the_learnt_values_are_close_to_the_scores(scores: tuple[float, ...]) -> None:
     main = main_of(1)
     learn_choice(main, 0, START, np.array(scores))
-    values = main.ddqn.q_values(main.space.index(START[None]))[0]
+    values = main.engine.q_values(main.states.kept(START[None]))[0]
     # The last update begins within CLOSE; it moves each value a little more.
     np.testing.assert_allclose(values, scores, atol=1.2 * CLOSE)
     if abs(scores[0] - scores[1]) > 2.4 * CLOSE:
@@ -57,16 +57,16 @@ def test_what_was_learnt_takes_one_update_to_confirm() -> None:
     main = main_of(1)
     scores = np.array([-2.0, 13.0])
     learn_choice(main, 0, START, scores)
-    before = int(main.ddqn.updates[0])
+    before = int(main.engine.updates[0])
     learn_choice(main, 0, START, scores)
-    assert int(main.ddqn.updates[0]) - before <= 3
+    assert int(main.engine.updates[0]) - before <= 3
 
 
 def test_another_runs_main_agent_stays_as_it_is_and_it_learns_the_same_alone() -> None:
     beside, alone = main_of(2), main_of(1)
-    untouched = beside.ddqn.online[1].copy()
+    untouched = beside.engine.online[1].copy()
     for main in (beside, alone):
         learn_choice(main, 0, START, np.array([-2.0, 13.0]))
-    np.testing.assert_array_equal(beside.ddqn.online[1], untouched)
-    np.testing.assert_array_equal(beside.ddqn.online[0], alone.ddqn.online[0])
-    assert beside.ddqn.updates.tolist() == [alone.ddqn.updates[0], 0]
+    np.testing.assert_array_equal(beside.engine.online[1], untouched)
+    np.testing.assert_array_equal(beside.engine.online[0], alone.engine.online[0])
+    assert beside.engine.updates.tolist() == [alone.engine.updates[0], 0]

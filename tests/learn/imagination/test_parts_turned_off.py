@@ -63,7 +63,7 @@ def trained(preset: Preset, scenario: Scenario = BAR) -> Agent:
 @pytest.mark.parametrize("part", ["double", "real_transitions"])
 def test_a_practice_without_that_part_learns_something_else(part: str) -> None:
     usual, again, without = (
-        trained(live_with(**changes)).low_level.ddqn.online for changes in ({}, {part: True}, {part: False})
+        trained(live_with(**changes)).low_level.engine.online for changes in ({}, {part: True}, {part: False})
     )
     assert (usual == again).all()
     assert not np.allclose(usual, without)

@@ -51,27 +51,27 @@ def test_it_reaches_the_aim_and_the_policy_plays_as_well_outside(seed: int) -> N
     result, _ = practised(learner)
     assert result.reached
     assert result.score == GOAL.aim == greedy_score(learner, 0)
-    assert 0 < result.updates == learner.ddqn.updates[0] < 15_000
+    assert 0 < result.updates == learner.engine.updates[0] < 15_000
 
 
 def test_what_was_reached_is_confirmed_by_one_greedy_episode_without_an_update() -> None:
     learner = learner_of()
     practised(learner)
-    online = learner.ddqn.online.copy()
+    online = learner.engine.online.copy()
     assert practised(learner, seed=6)[0] == Practised(0, 1, GOAL.aim, True)
-    np.testing.assert_array_equal(learner.ddqn.online, online)
+    np.testing.assert_array_equal(learner.engine.online, online)
 
 
 def test_only_the_named_row_changes_as_it_would_alone() -> None:
     learner, alone = learner_of(3), learner_of(3)
-    before = {name: kept.copy() for name, kept in learner.ddqn.state().items()}
+    before = {name: kept.copy() for name, kept in learner.engine.state().items()}
     practised(learner, row=1)
-    for name, kept in learner.ddqn.state().items():
+    for name, kept in learner.engine.state().items():
         np.testing.assert_array_equal(kept[[0, 2]], before[name][[0, 2]], err_msg=name)
         assert (kept[1] != before[name][1]).any(), name
     practised(alone, row=0)
     practised(alone, row=1)
-    np.testing.assert_array_equal(alone.ddqn.online[1], learner.ddqn.online[1])
+    np.testing.assert_array_equal(alone.engine.online[1], learner.engine.online[1])
     assert learner.replay.added.tolist() == [0, 0, 0], "a practice has a replay of its own"
 
 
@@ -79,10 +79,10 @@ def test_the_same_numbers_make_the_same_networks_and_others_do_not() -> None:
     one, same, other = learner_of(), learner_of(), learner_of()
     results = [practised(one)[0], practised(same)[0]]
     assert results[0] == results[1]
-    for name, kept in one.ddqn.state().items():
-        np.testing.assert_array_equal(kept, same.ddqn.state()[name], err_msg=name)
+    for name, kept in one.engine.state().items():
+        np.testing.assert_array_equal(kept, same.engine.state()[name], err_msg=name)
     practised(other, seed=77)
-    assert (one.ddqn.online != other.ddqn.online).any()
+    assert (one.engine.online != other.engine.online).any()
 
 
 def test_a_budget_ends_what_can_not_be_reached() -> None:
@@ -109,14 +109,14 @@ def test_one_that_falls_short_leaves_the_policy_that_did_best(seed: int) -> None
     assert result.score == greedy_score(learner, 0)
     again, _ = practised(learner, goal=UNREACHABLE, seed=seed)
     assert again.score >= result.score, "practice makes no policy worse"
-    np.testing.assert_array_equal(learner.ddqn.online, learner.ddqn.target)
+    np.testing.assert_array_equal(learner.engine.online, learner.engine.target)
 
 
 def test_networks_that_can_not_learn_any_more_begin_anew_where_they_are_told_to() -> None:
     results = []
     for anew in (False, True):
         learner = learner_of()
-        learner.ddqn.online[:] = learner.ddqn.target[:] = 100.0  # every node is saturated
+        learner.engine.online[:] = learner.engine.target[:] = 100.0  # every node is saturated
         results.append(practised(learner, goal=GOAL._replace(anew=anew))[0].reached)
     assert results == [False, True]
 
@@ -158,13 +158,13 @@ def test_the_real_transitions_are_in_its_replay_and_the_imagined_ones_follow() -
     )
     _, practice = practised(learner, goal=UNREACHABLE, real=real)
     replay = practice._replay
-    assert replay.states[:2].tolist() == learner.space.index(np.array([[2, 1, 3, 1], [2, 2, 1, 1]])).tolist()
-    assert replay.next_states[:2].tolist() == learner.space.index(np.array([[2, 2, 2, 1], [1, 2, 0, 1]])).tolist()
+    assert replay.states[:2].tolist() == learner.states.kept(np.array([[2, 1, 3, 1], [2, 2, 1, 1]])).tolist()
+    assert replay.next_states[:2].tolist() == learner.states.kept(np.array([[2, 2, 2, 1], [1, 2, 0, 1]])).tolist()
     assert replay.actions[:2].tolist() == [Action.FD, Action.LD]
     assert replay.landed[:2].tolist() == [index_of((2, 3), arena), index_of((1, 3), arena)]
     assert replay.terminated[:2].tolist() == [False, True]
     added = int(replay.added[0])
-    begins = learner.space.index(np.array([*BENT.start_state, 1]))
+    begins = learner.states.kept(np.array([*BENT.start_state, 1]))
     assert replay.states[2] == begins, "the first imagined episode"
     imagined = replay.states[2:added]
     assert (imagined % 2 == 1).all(), "its material comes last in a state"

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from mc_nested.arrays import Float32s, Float64s
-from mc_nested.learn.dqn.ddqn import Batch
+from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
+from mc_nested.learn.dqn.engine import Batch
+from mc_nested.learn.dqn.state_space import numbered
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, cell_at, index_of
 from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask
 from mc_nested.learn.imagination.practice import Practice
@@ -25,7 +27,8 @@ class Practising:
     ) -> None:
         preset = with_update(SMALL, learning_starts=learning_starts, target_period=target_period)
         practice = Practice(learner, preset, RULE.model_copy(update={"n_steps": n_steps}))
-        self.arena, strides = arena_of(), learner.space.strides
+        self.arena, space = arena_of(), numbered(learner.states)
+        strides = space.strides
         offset = int(MATERIAL @ strides[3:])
         # An aim that is out of reach, and blocks that outlast every episode.
         start = index_of(BENT.start, self.arena)
@@ -33,9 +36,9 @@ class Practising:
         self.rule, self.replay, self.work = (
             practice._rule._replace(by_table=0.0),
             practice._replay,
-            practice._workspaces[0]._replace(table=np.zeros((learner.space.count, learner.space.actions), np.float32)),
+            practice._workspaces[0]._replace(table=np.zeros((space.count, space.actions), np.float32)),
         )
-        self.row = Row(*learner.ddqn.row(0))
+        self.row = Row(*compiled_engine(learner.engine).row(0))
         self.progress = Progress(np.zeros(1, np.int64), np.zeros(1), np.zeros(1, np.bool_), self.row.online.copy())
 
     @property
@@ -72,11 +75,11 @@ def batch_of(replay: PracticeReplay, held: int, uniforms: Float64s, pay: Float32
 @pytest.mark.parametrize(("steps", "target_period"), [(1, 1000), (1, 1), (10, 3)])
 def test_updates_are_those_of_ddqn_from_the_same_batches(steps: int, target_period: int) -> None:
     ours, theirs = learner_of(), learner_of()
-    theirs.ddqn.rule = theirs.ddqn.rule._replace(target_period=target_period)
+    compiled_engine(theirs.engine).rule = theirs.engine.rule._replace(target_period=target_period)
     at = Practising(ours, steps, target_period=target_period)
     for transition in range(200):  # real ones, of which some terminated and some were paid
         random = np.random.default_rng(transition)
-        at.replay.states[transition], at.replay.next_states[transition] = random.integers(0, ours.space.count, 2)
+        at.replay.states[transition], at.replay.next_states[transition] = random.integers(0, ours.states.highest, 2)
         at.replay.actions[transition] = random.integers(0, 8)
         landed = random.choice([index_of(cell, at.arena) for cell in [(2, 3), (3, 3), (0, 1), (4, 4)]])
         at.replay.landed[transition] = landed
@@ -93,11 +96,11 @@ def test_updates_are_those_of_ddqn_from_the_same_batches(steps: int, target_peri
     for update in range(done):
         first = 2 + update * (2 + BATCH) + 2
         batch = batch_of(at.replay, 201 + update, numbers[first : first + BATCH], at.arena.pay)
-        theirs.ddqn.update(np.array([0]), batch)
-    np.testing.assert_allclose(ours.ddqn.online, theirs.ddqn.online, rtol=1e-3, atol=2e-5)
-    np.testing.assert_allclose(ours.ddqn.target, theirs.ddqn.target, rtol=1e-3, atol=2e-5)
-    assert (ours.ddqn.target == ours.ddqn.online).all() == (done % target_period == 0)
-    for one, other in zip(ours.ddqn.row(0)[2:4], theirs.ddqn.row(0)[2:4], strict=True):
+        theirs.engine.update(np.array([0]), batch)
+    np.testing.assert_allclose(ours.engine.online, theirs.engine.online, rtol=1e-3, atol=2e-5)
+    np.testing.assert_allclose(ours.engine.target, theirs.engine.target, rtol=1e-3, atol=2e-5)
+    assert (ours.engine.target == ours.engine.online).all() == (done % target_period == 0)
+    for one, other in zip(*(compiled_engine(each.engine).row(0)[2:4] for each in (ours, theirs)), strict=True):
         np.testing.assert_allclose(one, other, rtol=1e-3, atol=1e-6)
 
 
@@ -117,7 +120,7 @@ def test_a_real_transition_is_paid_by_what_is_believed_now() -> None:
             numbers = np.full(at.longest, 0.2)  # the older half of the replay: the real transition
             at.replay.added[0] = 1
             at.go(numbers, arena)
-        values.append(learner.ddqn.q_values(real.states)[0, 4])
+        values.append(learner.engine.q_values(real.states)[0, 4])
     np.testing.assert_allclose(values, [1.0, 0.0], atol=0.1)
 
 

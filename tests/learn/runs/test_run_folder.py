@@ -12,7 +12,6 @@ import pytest
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.arrays import Arrays
 from mc_nested.errors import RunError
-from mc_nested.learn.agents import view_of
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.runs.policies import FILE as POLICIES
 from mc_nested.learn.runs.policies import save_policies
@@ -38,7 +37,7 @@ def config_of(trials: int = 2, profile: str | None = None) -> RunConfig:
 
 def trainer_in(folder: RunFolder) -> Trainer:
     agent = folder.new_agent(folder.config.trials)
-    env = view_of(agent.spec, GridVectorEnv(folder.scenarios), folder.scenarios)
+    env = agent.view_of(GridVectorEnv(folder.scenarios), folder.scenarios)
     return Trainer(env, folder.scenarios, agent, folder.config.preset, folder.config.seed)
 
 

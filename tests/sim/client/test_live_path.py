@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable
 from typing import NamedTuple
 
+import numpy as np
 import pytest
 
 from mc_nested.arena.action import Action
@@ -20,6 +21,7 @@ from mc_nested.live.model.reading import Target
 from mc_nested.live.profile.tables import GameVersion, Profile, WalkTable
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from sim.client.client import VirtualClient
+from sim.client.drawing.scenery import SEEN
 from sim.client.mishaps import KINDS
 from tests.arena.game_contract import BUMPS, check_game
 from tests.sim.client.playing import FONT, SOON_S, TAP_S, arena_of, connection_to, play, read
@@ -95,11 +97,30 @@ def test_every_versions_screen_is_read_at_every_scale(version: str, size: tuple[
         assert reading.target == Target((1, 63, 0), "minecraft:bedrock")
 
 
-@pytest.mark.parametrize("world", ["bright", "dark", "noise", "grey noise", "specks"])
+@pytest.mark.parametrize("world", ["bright", "dark", "noise", "grey noise", "specks", SEEN])
 def test_the_world_behind_makes_no_difference(world: str) -> None:
     client = VirtualClient(world=world, pitch=65.0)
     client.clock.sleep(0.2)
     assert read(client).target == Target((0, 63, 1), "minecraft:bedrock")
+
+
+def test_everything_is_read_while_the_world_that_is_seen_is_behind_it() -> None:
+    client = VirtualClient(world=SEEN)
+    random = np.random.default_rng(0)
+    arena = arena_of(client)
+    for _ in range(60):
+        right, forward = (int(part) for part in random.integers(0, 15, 2))
+        client.realm.world.put(
+            arena.block_of((right, forward)), str(random.choice(["stone", "oak_planks", "white_wool"]))
+        )
+        client.realm.player.go_to(arena.centre_of((int(random.integers(15)), int(random.integers(15)))))
+        client.realm.player.look(float(random.uniform(-180, 180)), float(random.uniform(20, 85)))
+        client.clock.sleep(0.2)
+        found, player = read(client), client.realm.player
+        assert found.problem is None
+        assert found.xyz == player.feet
+        if found.target is not None and found.target.pos is not None:
+            assert found.target.id == f"minecraft:{client.realm.world.block_at(found.target.pos)}"
 
 
 def test_26_4_is_recognised_and_named_as_unsupported() -> None:

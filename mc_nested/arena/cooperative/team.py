@@ -1,0 +1,63 @@
+"""Team: one scenario, built by k builders at once, each from a start cell of its own."""
+
+from dataclasses import dataclass, replace
+
+from mc_nested.arena.action import Cell
+from mc_nested.arena.rules import is_inside
+from mc_nested.arena.scenario import Scenario
+from mc_nested.errors import ScenarioError
+
+MOST_BUILDERS = 4
+"""Builders in one arena at most."""
+
+
+@dataclass(frozen=True)
+class Team:
+    """A scenario and the start cell of each builder, in the order of their numbers.
+
+    ScenarioError if there are none or too many, one starts outside, or two start on one cell.
+    """
+
+    scenario: Scenario
+    starts: tuple[Cell, ...]
+
+    def __post_init__(self) -> None:
+        _check_number(len(self.starts))
+        size = self.scenario.size
+        for number, start in enumerate(self.starts):
+            if not is_inside(start, size):
+                raise ScenarioError(f"builder {number} starts on {start}, outside: choose 0 to {size - 1} for x and y")
+            first = self.starts.index(start)
+            if first != number:
+                raise ScenarioError(
+                    f"builders {first} and {number} both start on cell {start}: give each a cell of its own"
+                )
+
+    @property
+    def builders(self) -> int:
+        """How many builders there are."""
+        return len(self.starts)
+
+    def scenario_of(self, builder: int) -> Scenario:
+        """The scenario with that builder's start cell."""
+        return replace(self.scenario, start=self.starts[builder])
+
+
+def team_of(scenario: Scenario, builders: int) -> Team:
+    """That many builders, spread over the arena; ScenarioError if there can't be so many."""
+    return Team(scenario, spread_starts(scenario, builders))
+
+
+def spread_starts(scenario: Scenario, builders: int) -> tuple[Cell, ...]:
+    """The scenario's start for builder 0; the others as far apart along its row, which goes on at the other end.
+
+    ScenarioError if there can't be so many.
+    """
+    _check_number(builders)
+    x, y = scenario.start
+    return tuple(((x + number * scenario.size // builders) % scenario.size, y) for number in range(builders))
+
+
+def _check_number(builders: int) -> None:
+    if not 1 <= builders <= MOST_BUILDERS:
+        raise ScenarioError(f"{builders} builders: an arena takes 1 to {MOST_BUILDERS}")

@@ -1,0 +1,1 @@
+"""Nested agents that cooperate (paper, section 6): k builders in one arena, trained together."""

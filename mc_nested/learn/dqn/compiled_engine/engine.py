@@ -1,0 +1,287 @@
+"""Double deep Q-learning (paper, section 2.4) for many independent networks, compiled.
+
+A row is one learner: an online and a target network, its optimiser's moments and its count of updates. Rows are
+independent: an update handles one row after the other, so that its parameters and batch stay in the processor's nearest
+cache, and the result is the same to the bit whatever other rows there are.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mc_nested.arrays import Float32s, Int64s
+from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.learn.dqn.compiled_engine.adam import adam_step
+from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for, parameter_count
+from mc_nested.learn.dqn.compiled_engine.target_values import TargetValues, table_pays
+from mc_nested.learn.dqn.engine import Batch, Engine, LastBatches, NetworkForm, UpdateRule, diverged
+from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
+from mc_nested.learn.dqn.self_imitation import rival
+from mc_nested.learn.dqn.state_space import StateParts, StateSpace
+
+EXPONENT = np.int32(0x7F800000)
+"""The bits of a 32-bit float's exponent: all are set in what is infinite or no number."""
+
+
+class _Networks(NamedTuple):
+    """What an update changes, (rows, parameters): the online networks and Adam's moments; ``updates`` is (rows,)."""
+
+    online: Float32s
+    first_moment: Float32s
+    second_moment: Float32s
+    updates: Int64s
+
+
+class _StateTable(NamedTuple):
+    """What is known of every state: the features, where each named row's begin (k,), and the target's values.
+
+    Without a table of values, (rows, 0, actions), a batch's come from the target networks, (rows, parameters).
+    """
+
+    parts: StateParts
+    first: Int64s
+    target_values: Float32s
+    target: Float32s
+
+
+class _Workspace(NamedTuple):
+    """Arrays that one network's passes over one batch reuse."""
+
+    inputs: Float32s
+    next_inputs: Float32s
+    hidden: tuple[Float32s, ...]
+    next_hidden: tuple[Float32s, ...]
+    scratch: tuple[Float32s, ...]
+    slope: Float32s
+    gradient: Float32s
+
+
+class _Estimates(NamedTuple):
+    """What an update writes down of its batch, (k, batch): Q(s, a) before it, and the TD errors."""
+
+    values: Float32s
+    errors: Float32s
+
+
+class CompiledEngine:
+    """The Engine of small dense networks over numbered states.
+
+    Args:
+        space: the states and actions.
+        sizes: widths of every network.
+        rule: what an update does.
+        online: initial parameters, (rows, parameters).
+    """
+
+    @on_one_blas_thread
+    def __init__(self, space: StateSpace, sizes: Sizes, rule: UpdateRule, online: Float32s) -> None:
+        self.space = space
+        self.sizes = sizes
+        self.rule = rule
+        self.online = online
+        self.target = online.copy()
+        self.updates: Int64s = np.zeros(len(online), dtype=np.int64)
+        self._first_moment, self._second_moment = np.zeros_like(online), np.zeros_like(online)
+        tabulated = table_pays(space.count, rule.batch, rule.target_period)
+        self._target_values = TargetValues(space, sizes, self.target, tabulated)
+        self._last = LastBatches(len(online), rule)
+        self._every_row = np.arange(len(online))
+        self._widths = np.array(sizes, dtype=np.int64)
+        self._acting = _workspace(sizes, 1)
+        self._learning = _workspace(sizes, rule.batch)
+
+    @property
+    def form(self) -> NetworkForm:
+        return NetworkForm("mlp", self.sizes)
+
+    @on_one_blas_thread
+    def load_online(self, online: Float32s) -> None:
+        if online.shape != self.online.shape:
+            raise ValueError(f"networks of {online.shape}, not {self.online.shape}")
+        self.online[:] = self.target[:] = online
+        self._target_values.renew(self._every_row, self.target)
+
+    @on_one_blas_thread
+    def q_values(self, states: Int64s, rows: Int64s | None = None) -> Float32s:
+        named = self._every_row if rows is None else rows
+        values = np.empty((len(named), self.space.actions), np.float32)
+        work = self._acting
+        firsts = self.space.first_of(named)
+        _value(named, states + firsts, self.online, self._widths, self.space.parts, work.inputs, work.hidden, values)
+        return values
+
+    @on_one_blas_thread
+    def update(self, rows: Int64s, batch: Batch) -> Float32s:
+        self.updates[rows] += 1
+        estimates = _Estimates(np.empty_like(batch.rewards), np.empty_like(batch.rewards))
+        finite = _update(
+            rows,
+            _Networks(self.online, self._first_moment, self._second_moment, self.updates),
+            batch,
+            _StateTable(self.space.parts, self.space.first_of(rows), self._target_values.values, self.target),
+            self._widths,
+            self.rule,
+            self._learning,
+            estimates,
+        )
+        if not finite:
+            raise diverged(self.rule, self.updates[rows])
+        self._last.values[rows], self._last.errors[rows] = estimates
+        due = rows[self.updates[rows] % self.rule.target_period == 0]
+        if len(due):
+            self.target[due] = self.online[due]
+            self._target_values.renew(due, self.target[due])
+        return estimates.errors
+
+    def row(self, row: int) -> tuple[Float32s, Float32s, Float32s, Float32s, Int64s]:
+        """One row's online and target network, Adam's moments, (parameters,) each, and its updates (1,): no copies.
+
+        For what updates them itself.
+        """
+        moments = self._first_moment[row], self._second_moment[row]
+        return self.online[row], self.target[row], *moments, self.updates[row : row + 1]
+
+    def check_finite(self, row: int, online: Float32s | None = None) -> None:
+        """DivergedError if a parameter of that row's online network, or of what it is to become, is no number."""
+        if not np.isfinite(self.online[row] if online is None else online).all():
+            raise diverged(self.rule, self.updates[row : row + 1])
+
+    def last_loss(self) -> Float32s:
+        return self._last.loss()
+
+    def last_q(self) -> Float32s:
+        return self._last.q()
+
+    def state(self) -> dict[str, NDArray[Any]]:
+        return {
+            "online": self.online,
+            "target": self.target,
+            "first_moment": self._first_moment,
+            "second_moment": self._second_moment,
+            "updates": self.updates,
+        }
+
+    @on_one_blas_thread
+    def load(self, state: Mapping[str, NDArray[Any]]) -> None:
+        for name, own in self.state().items():
+            own[:] = state[name]
+        self._target_values.renew(self._every_row, self.target)
+
+
+def compiled_engine(engine: Engine) -> CompiledEngine:
+    """That engine, whose parameters something else is to update; TypeError if it isn't the compiled one."""
+    if not isinstance(engine, CompiledEngine):
+        raise TypeError("the networks' parameters are only handed out by the compiled engine")
+    return engine
+
+
+def _workspace(sizes: Sizes, batch: int) -> _Workspace:
+    return _Workspace(
+        inputs=np.empty((sizes[0] + 1, batch), np.float32),
+        next_inputs=np.empty((sizes[0] + 1, batch), np.float32),
+        hidden=hidden_for(sizes, batch),
+        next_hidden=hidden_for(sizes, batch),
+        scratch=hidden_for(sizes, batch),
+        slope=np.empty((sizes[-1], batch), np.float32),
+        gradient=np.empty(parameter_count(sizes), np.float32),
+    )
+
+
+@compiled()
+def td_target(reward: float, discount: float, next_online: Float32s, next_target: Float32s) -> float:
+    """Y = r + γ Q(s', argmax Q(s'; θ); θ⁻), the bootstrap dropped where the episode terminated (paper, equation 4).
+
+    ``next_online`` and ``next_target`` are the two networks' values of s', (actions,).
+    """
+    target: float = reward + discount * next_target[np.argmax(next_online)]
+    return target
+
+
+@compiled()
+def _look_up(states: Int64s, parts: StateParts, inputs: Float32s) -> None:
+    """Write the features of the states (batch,) into a network's inputs, (…, batch)."""
+    cells, rest = parts.cells, parts.rest
+    for column in range(len(states)):
+        state = states[column]
+        of_cell, of_kind = state // parts.a_cell, state // parts.a_kind * parts.a_cell
+        of_rest = of_kind + state % parts.a_cell
+        for feature in range(cells.shape[1]):
+            inputs[feature, column] = cells[of_cell, feature]
+        for feature in range(rest.shape[1]):
+            inputs[cells.shape[1] + feature, column] = rest[of_rest, feature]
+
+
+@compiled()
+def _value(
+    rows: Int64s,
+    states: Int64s,
+    online: Float32s,
+    sizes: Int64s,
+    parts: StateParts,
+    inputs: Float32s,
+    hidden: Sequence[Float32s],
+    values: Float32s,
+) -> None:
+    for at in range(len(rows)):
+        _look_up(states[at : at + 1], parts, inputs)
+        forward(online[rows[at]], sizes, inputs, hidden, values[at].reshape(-1, 1))
+
+
+@compiled()
+def _update(
+    rows: Int64s,
+    networks: _Networks,
+    batch: Batch,
+    states: _StateTable,
+    sizes: Int64s,
+    rule: UpdateRule,
+    work: _Workspace,
+    estimates: _Estimates,
+) -> bool:
+    """``CompiledEngine.update``, row by row; returns whether all parameters are numbers afterwards."""
+    finite = True
+    count = batch.actions.shape[1]
+    slope = work.slope
+    next_values, values, next_targets = np.empty_like(slope), np.empty_like(slope), np.empty_like(slope)
+    tabulated = states.target_values.shape[1] > 0
+    for at in range(len(rows)):
+        row = rows[at]
+        online = networks.online[row]
+        _look_up(batch.states[0, at] + states.first[at], states.parts, work.inputs)
+        _look_up(batch.states[1, at] + states.first[at], states.parts, work.next_inputs)
+        if not tabulated:
+            forward(states.target[row], sizes, work.next_inputs, work.next_hidden, next_targets)
+        forward(online, sizes, work.next_inputs, work.next_hidden, next_values)
+        forward(online, sizes, work.inputs, work.hidden, values)
+        slope[:] = np.float32(0)
+        for column in range(count):
+            action = batch.actions[at, column]
+            if tabulated:
+                next_targets[:, column] = states.target_values[row, batch.states[1, at, column]]
+            discount, reward = batch.discounts[at, column], batch.rewards[at, column]
+            target = td_target(reward, discount, next_values[:, column], next_targets[:, column])
+            error = values[action, column] - target
+            estimates.values[at, column], estimates.errors[at, column] = values[action, column], error
+            clipped = min(max(error, -rule.huber_delta), rule.huber_delta)
+            slope[action, column] = clipped * batch.weights[at, column] / count
+            if batch.imitated[at, column]:
+                other = rival(values[:, column], action, rule.margin)
+                if other != action:
+                    slope[other, column] += np.float32(1 / count)
+                    slope[action, column] -= np.float32(1 / count)
+        backward(online, sizes, work.inputs, work.hidden, slope, work.gradient, work.scratch)
+        moments = networks.first_moment[row], networks.second_moment[row]
+        adam_step(online, *moments, work.gradient, networks.updates[row], rule.learning_rate)
+        finite = finite and all_finite(online)
+    return finite
+
+
+@compiled()
+def all_finite(values: Float32s) -> bool:
+    """Whether all of the values are numbers, by their bits: fast mathematics may take for granted that they are."""
+    highest = np.int32(0)
+    for bits in values.view(np.int32):
+        highest = max(highest, bits & EXPONENT)
+    return bool(highest != EXPONENT)

@@ -1,0 +1,52 @@
+"""The engine that a preset names, with its networks as they begin."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from mc_nested.errors import PresetError
+from mc_nested.learn.dqn.compiled_engine.engine import CompiledEngine
+from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
+from mc_nested.learn.dqn.engine import Engine, UpdateRule
+from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.states import States
+
+COMPILED, TORCH = "compiled", "torch"
+
+
+class EngineChoice(NamedTuple):
+    """What computes: the engine and its device, the network's name, and the nodes of each dense layer."""
+
+    engine: str
+    device: str
+    network: str
+    hidden: Sequence[int]
+
+
+def made_engine(
+    states: States, choice: EngineChoice, rule: UpdateRule, streams: Sequence[np.random.Generator]
+) -> Engine:
+    """The engine, with a network for each generator, from which its first parameters come.
+
+    PresetError if there is no such network or device, or torch is missing.
+    """
+    if choice.engine == COMPILED and isinstance(states, StateSpace):
+        sizes = states.network(choice.hidden)
+        return CompiledEngine(states, sizes, rule, np.stack([initial_parameters(sizes, stream) for stream in streams]))
+    return _made_torch_engine(states, choice, rule, streams)
+
+
+def _made_torch_engine(
+    states: States, choice: EngineChoice, rule: UpdateRule, streams: Sequence[np.random.Generator]
+) -> Engine:
+    try:  # it takes 200 MB, which the compiled engine doesn't need
+        from mc_nested.learn.dqn.torch_engine import engine, inputs, networks
+    except ImportError as error:
+        raise PresetError('engine "torch": torch is missing: install torch, or take --engine compiled') from error
+    device = engine.device_named(choice.device)
+    shape = inputs.input_shape(states)
+    form = networks.form_of(choice.network, shape, choice.hidden, states.actions)
+    make = networks.network_maker(choice.network, choice.hidden)
+    online = networks.initial_rows(form, lambda: make(shape, states.actions), streams)
+    return engine.TorchEngine(states, form, lambda: make(shape, states.actions), rule, online, device)

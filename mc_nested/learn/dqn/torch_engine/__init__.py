@@ -1,0 +1,1 @@
+"""The torch engine: any module, any observation, any device."""

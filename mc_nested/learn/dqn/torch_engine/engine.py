@@ -1,0 +1,195 @@
+"""Double deep Q-learning (paper, section 2.4) for rows of torch networks."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor, nn
+
+from mc_nested.arrays import Arrays, Float32s, Int64s
+from mc_nested.errors import PresetError
+from mc_nested.learn.dqn.engine import Batch, LastBatches, NetworkForm, UpdateRule, diverged
+from mc_nested.learn.dqn.states import States
+from mc_nested.learn.dqn.torch_engine.adam import adam_step
+from mc_nested.learn.dqn.torch_engine.inputs import inputs_of
+from mc_nested.learn.dqn.torch_engine.networks import MLP
+from mc_nested.learn.dqn.torch_engine.rows import NetworkRows
+
+
+class TorchEngine:
+    """The Engine of any torch module.
+
+    Args:
+        states: what the rows see and do.
+        form: what each network is.
+        make: makes one network.
+        rule: what an update does.
+        online: initial parameters, (rows, parameters).
+        device: where it computes.
+    """
+
+    def __init__(
+        self,
+        states: States,
+        form: NetworkForm,
+        make: Callable[[], nn.Module],
+        rule: UpdateRule,
+        online: Float32s,
+        device: torch.device,
+    ) -> None:
+        if device.type == "cpu":
+            # For networks this small a second thread only waits for the first, and sums would depend on the cores.
+            torch.set_num_threads(1)
+        self.form = form
+        self.rule = rule
+        self.updates: Int64s = np.zeros(len(online), dtype=np.int64)
+        self._device = device
+        with _enough_memory(device):
+            self._online = torch.from_numpy(online.copy()).to(device)
+            self._target = self._online.clone()
+            self._first, self._second = torch.zeros_like(self._online), torch.zeros_like(self._online)
+            self._inputs = inputs_of(states, device)
+            # On a processor, stacked convolutions are slower than one after the other.
+            stacks = device.type != "cpu" or not any(isinstance(part, nn.Conv2d) for part in make().modules())
+            self._values = NetworkRows(lambda: make().to(device), self._online, stacks)
+            self._target_values = NetworkRows(lambda: make().to(device), self._target, stacks)
+        self._last = LastBatches(len(online), rule)
+        self._every_row = np.arange(len(online))
+
+    @property
+    def online(self) -> Float32s:
+        return _array(self._online)
+
+    @property
+    def target(self) -> Float32s:
+        return _array(self._target)
+
+    def q_values(self, states: NDArray[Any], rows: Int64s | None = None) -> Float32s:
+        named = self._every_row if rows is None else rows
+        if not len(named):
+            return np.empty((0, self.form.numbers[-1]), np.float32)
+        with _enough_memory(self._device), torch.no_grad():
+            inputs = self._inputs(states[None, :, None], named)[0]
+            return _array(self._values.values(named, inputs).values[:, 0])
+
+    def update(self, rows: Int64s, batch: Batch) -> Float32s:
+        self.updates[rows] += 1
+        with _enough_memory(self._device):
+            states, following = self._inputs(batch.states, rows)
+            actions, rewards, discounts = (
+                self._tensor(part) for part in (batch.actions, batch.rewards, batch.discounts)
+            )
+            values, following_values, leaves = self._both_values(rows, states, following)
+            with torch.no_grad():
+                best = following_values.argmax(-1, keepdim=True)
+                bootstrap = self._target_values.values(rows, following).values.gather(-1, best)[..., 0]
+                goal = torch.addcmul(rewards, discounts, bootstrap)
+            chosen = values.gather(-1, actions[..., None])[..., 0]
+            huber = nn.functional.huber_loss(chosen, goal, reduction="none", delta=self.rule.huber_delta)
+            loss = torch.mul(huber, self._tensor(batch.weights)).sum() / self.rule.batch
+            if batch.imitated.any():
+                loss = loss + self._imitation(values, chosen, actions, self._tensor(batch.imitated))
+            self._step(rows, self._values.gradient(loss, leaves, len(rows)))
+            before = chosen.detach()
+            self._last.values[rows], self._last.errors[rows] = _array(before), _array(before - goal)
+        due = rows[self.updates[rows] % self.rule.target_period == 0]
+        if len(due):
+            self._target[due] = self._online[due]
+        errors: Float32s = self._last.errors[rows]
+        return errors
+
+    def _both_values(self, rows: Int64s, states: Tensor, following: Tensor) -> tuple[Tensor, Tensor, Sequence[Tensor]]:
+        """The online networks' values of s and of s', (k, batch, actions), and the leaves that those of s depend on."""
+        if self.form.network == MLP:  # a second pass takes longer than a slope of zero through twice the batch
+            both, leaves = self._values.values(rows, torch.cat((states, following), dim=1))
+            values, following_values = both.chunk(2, dim=1)
+            return values, following_values.detach(), leaves
+        with torch.no_grad():
+            following_values = self._values.values(rows, following).values
+        values, leaves = self._values.values(rows, states)
+        return values, following_values, leaves
+
+    def _imitation(self, values: Tensor, chosen: Tensor, actions: Tensor, imitated: Tensor) -> Tensor:
+        """The mean large-margin loss of what is imitated, summed over the rows (self_imitation.py)."""
+        margin = torch.full_like(values, self.rule.margin).scatter_(-1, actions[..., None], 0.0)
+        return ((values + margin).amax(-1) - chosen).mul(imitated).sum() / self.rule.batch
+
+    def _step(self, rows: Int64s, gradient: Tensor) -> None:
+        """One step of Adam in the named rows; DivergedError if a parameter is no number afterwards."""
+        steps, rate = self.updates[rows], self.rule.learning_rate
+        if len(rows) == len(self._every_row):
+            adam_step(self._online, self._first, self._second, gradient, steps, rate)
+            after = self._online
+        else:
+            named = torch.from_numpy(rows).to(self._device)
+            own = self._online[named], self._first[named], self._second[named]
+            adam_step(*own, gradient, steps, rate)
+            for whole, part in zip((self._online, self._first, self._second), own, strict=True):
+                whole[named] = part
+            after = own[0]
+        # A sum is no number if any part of it is none.
+        if not math.isfinite(float(after.sum())):
+            raise diverged(self.rule, self.updates[rows])
+
+    def load_online(self, online: Float32s) -> None:
+        if online.shape != tuple(self._online.shape):
+            raise ValueError(f"networks of {online.shape}, not {tuple(self._online.shape)}")
+        for own in (self._online, self._target):
+            own.copy_(torch.from_numpy(online))
+
+    def last_loss(self) -> Float32s:
+        return self._last.loss()
+
+    def last_q(self) -> Float32s:
+        return self._last.q()
+
+    def state(self) -> Arrays:
+        return {**{name: _array(own) for name, own in self._tensors().items()}, "updates": self.updates}
+
+    def load(self, state: Mapping[str, NDArray[Any]]) -> None:
+        for name, own in self._tensors().items():
+            if state[name].shape != tuple(own.shape):
+                raise ValueError(f"{name} is {state[name].shape}, it should be {tuple(own.shape)}")
+            own.copy_(torch.from_numpy(np.ascontiguousarray(state[name])))
+        self.updates[:] = state["updates"]
+
+    def _tensors(self) -> dict[str, Tensor]:
+        return {
+            "online": self._online,
+            "target": self._target,
+            "first_moment": self._first,
+            "second_moment": self._second,
+        }
+
+    def _tensor(self, array: NDArray[Any]) -> Tensor:
+        return torch.from_numpy(array).to(self._device)
+
+
+def device_named(name: str) -> torch.device:
+    """The device of that name; PresetError if this torch finds none."""
+    there = {"cpu": True, "cuda": torch.cuda.is_available(), "mps": torch.backends.mps.is_available()}
+    if not there[name]:
+        found = ", ".join(each for each, is_there in there.items() if is_there)
+        raise PresetError(f"device {name!r}: torch finds no such device on this computer: take {found}")
+    return torch.device(name)
+
+
+@contextmanager
+def _enough_memory(device: torch.device) -> Iterator[None]:
+    """PresetError, one line, where the device's memory is too small."""
+    try:
+        yield
+    except torch.OutOfMemoryError as error:
+        raise PresetError(
+            f"device {device.type!r}: out of memory: lower the preset's batch or hidden, train fewer trials at once, "
+            f"or take --device cpu"
+        ) from error
+
+
+def _array(tensor: Tensor) -> Float32s:
+    array: Float32s = tensor.cpu().numpy()
+    return array

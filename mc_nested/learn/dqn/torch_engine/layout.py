@@ -1,0 +1,73 @@
+"""Where a module's parameters lie in a flat row: a dense layer as the compiled engine's, each node's bias last.
+
+So an mlp of one engine can be handed to the other, and a checkpoint or an optimiser step is one array.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+
+from mc_nested.arrays import Float32s
+
+
+class Slot(NamedTuple):
+    """Parameters that lie together: one, or a dense layer's weights and biases."""
+
+    names: tuple[str, ...]
+    shape: tuple[int, ...]
+
+
+def slots_of(module: nn.Module) -> tuple[Slot, ...]:
+    """The slots of a module's parameters, in the order of the module."""
+    slots = []
+    for path, part in module.named_modules():
+        own = {f"{path}.{name}".lstrip("."): each for name, each in part.named_parameters(recurse=False)}
+        if isinstance(part, nn.Linear) and part.bias is not None:
+            slots.append(Slot(tuple(own), (part.out_features, part.in_features + 1)))
+        else:
+            slots += [Slot((name,), tuple(each.shape)) for name, each in own.items()]
+    return tuple(slots)
+
+
+def parts_of(rows: Tensor, slots: Sequence[Slot]) -> dict[str, Tensor]:
+    """Views of each parameter in the rows (…, parameters), (…, *its shape), by name."""
+    parts, start = {}, 0
+    for slot in slots:
+        end = start + int(np.prod(slot.shape))
+        lying = rows[..., start:end].view(*rows.shape[:-1], *slot.shape)
+        if len(slot.names) == 1:
+            parts[slot.names[0]] = lying
+        else:
+            parts[slot.names[0]], parts[slot.names[1]] = lying[..., :-1], lying[..., -1]
+        start = end
+    return parts
+
+
+def laid_out(parts: Sequence[Tensor], slots: Sequence[Slot], rows: int) -> Tensor:
+    """Rows (rows, parameters) of the parameters (rows, *shape) of every slot, in its order."""
+    each = iter(parts)
+    lying = []
+    for slot in slots:
+        part = next(each)
+        if len(slot.names) > 1:
+            weights = part.reshape(rows, slot.shape[0], -1)
+            part = torch.cat((weights, next(each).reshape(rows, slot.shape[0], 1)), dim=-1)
+        lying.append(part.reshape(rows, -1))
+    return torch.cat(lying, dim=1)
+
+
+def bind(module: nn.Module, row: Tensor) -> None:
+    """Make the module's parameters views of the row (parameters,): a change there is a change of the module."""
+    own = dict(module.named_parameters())
+    for name, part in parts_of(row, slots_of(module)).items():
+        own[name].data = part
+
+
+def flat_of(module: nn.Module) -> Float32s:
+    """A module's parameters as one row (parameters,)."""
+    slots, own = slots_of(module), dict(module.named_parameters())
+    flat: Float32s = laid_out([own[name] for slot in slots for name in slot.names], slots, 1)[0].detach().numpy()
+    return flat

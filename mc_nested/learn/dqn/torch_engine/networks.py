@@ -1,0 +1,118 @@
+"""The networks that a preset names, as torch modules: ``mlp``, ``cnn``, or anybody's own, ``my_module:make``.
+
+Each takes states (batch, *shape) as 32-bit floats and gives values (batch, actions).
+"""
+
+import importlib
+import sys
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from torch import nn
+
+from mc_nested.arrays import Float32s
+from mc_nested.errors import PresetError
+from mc_nested.learn.dqn.compiled_engine.networks import Sizes, initial_parameters
+from mc_nested.learn.dqn.engine import NetworkForm
+from mc_nested.learn.dqn.torch_engine.layout import flat_of
+
+MLP, CNN = "mlp", "cnn"
+
+LARGEST_SIDE_OF_SMALL = 40
+"""Planes of more cells a side are pictures: they get the deep Q-network's layers for pictures (Mnih et al., 2013)."""
+
+Make = Callable[[tuple[int, ...], int], nn.Module]
+"""Makes a network for states of that shape and so many actions."""
+
+
+def mlp(sizes: Sequence[int]) -> nn.Module:
+    """Dense layers of those widths: hidden ones with tanh, a linear output (paper, appendix: hyper-parameters)."""
+    layers: list[nn.Module] = [nn.Flatten()]
+    for inputs, outputs in pairwise(sizes):
+        layers += [nn.Linear(inputs, outputs), nn.Tanh()]
+    return nn.Sequential(*layers[:-1])
+
+
+def cnn(shape: tuple[int, ...], hidden: Sequence[int], actions: int) -> nn.Module:
+    """Convolutions, then dense layers of the ``hidden`` widths, all with ReLU, and a linear output."""
+    planes, height, width = shape
+    if max(height, width) > LARGEST_SIDE_OF_SMALL:
+        layers: list[nn.Module] = [
+            *(nn.Conv2d(planes, 16, 8, stride=4), nn.ReLU()),
+            *(nn.Conv2d(16, 32, 4, stride=2), nn.ReLU()),
+        ]
+    else:
+        layers = [
+            *(nn.Conv2d(planes, 16, 3, stride=2, padding=1), nn.ReLU()),
+            *(nn.Conv2d(16, 32, 3, stride=2, padding=1), nn.ReLU()),
+        ]
+    layers.append(nn.Flatten())
+    inputs = nn.Sequential(*layers)(torch.zeros(1, *shape)).shape[1]
+    for below, above in pairwise((inputs, *hidden)):
+        layers += [nn.Linear(below, above), nn.ReLU()]
+    return nn.Sequential(*layers, nn.Linear(hidden[-1], actions))
+
+
+def network_maker(network: str, hidden: Sequence[int]) -> Make:
+    """What makes the network of that name, with dense layers of those widths; PresetError if there is none."""
+    if network == MLP:
+        return lambda shape, actions: mlp((int(np.prod(shape)), *hidden, actions))
+    if network == CNN:
+        return lambda shape, actions: cnn(shape, hidden, actions)
+    return own_maker(network)
+
+
+def own_maker(network: str) -> Make:
+    """The function that ``my_module:make`` names; the working directory counts among the places of modules."""
+    module_name, _, name = network.partition(":")
+    if str(Path.cwd()) not in sys.path:
+        sys.path.insert(0, str(Path.cwd()))
+    try:
+        found: Any = getattr(importlib.import_module(module_name), name)
+    except (ImportError, AttributeError, SyntaxError) as error:
+        raise PresetError(f"network {network!r}: can't be loaded ({error}): name a module and its function") from error
+
+    def make(shape: tuple[int, ...], actions: int) -> nn.Module:
+        try:
+            made: nn.Module = found(shape, actions)
+            given = made(torch.zeros(2, *shape))
+        except Exception as error:
+            reason = str(error).partition("\n")[0]
+            raise PresetError(
+                f"network {network!r}: fails on states of {shape} ({reason}): mend it, or name another"
+            ) from error
+        if given.shape != (2, actions):
+            raise PresetError(
+                f"network {network!r}: gives {tuple(given.shape)} for 2 states: it should give (2, {actions}), a value "
+                f"an action"
+            )
+        if next(made.buffers(), None) is not None:
+            raise PresetError(f"network {network!r}: has buffers, as BatchNorm does: use layers without, as LayerNorm")
+        return made
+
+    return make
+
+
+def form_of(network: str, shape: tuple[int, ...], hidden: Sequence[int], actions: int) -> NetworkForm:
+    """What that network is: of dense layers alone their widths, otherwise the shape of a state before them."""
+    if network == MLP:
+        return NetworkForm(MLP, (int(np.prod(shape)), *hidden, actions))
+    return NetworkForm(network, (*shape, *(hidden if network == CNN else ()), actions))
+
+
+def initial_rows(form: NetworkForm, make: Callable[[], nn.Module], streams: Sequence[np.random.Generator]) -> Float32s:
+    """Initial parameters for each row (rows, parameters), by its generator; an mlp's as the compiled engine's."""
+    if form.network == MLP:
+        sizes: Sizes = form.numbers
+        return np.stack([initial_parameters(sizes, stream) for stream in streams])
+    with torch.random.fork_rng():
+        return np.stack([flat_of(_made_from(int(stream.integers(2**63)), make)) for stream in streams])
+
+
+def _made_from(seed: int, make: Callable[[], nn.Module]) -> nn.Module:
+    torch.manual_seed(seed)
+    return make()

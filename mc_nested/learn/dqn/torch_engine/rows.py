@@ -1,0 +1,63 @@
+"""Rows of networks of one form, whose parameters are one tensor: one row by autograd, several stacked by torch.func."""
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import torch
+from torch import Tensor, nn
+from torch.func import functional_call, vmap
+
+from mc_nested.arrays import Int64s
+from mc_nested.learn.dqn.torch_engine.layout import bind, laid_out, parts_of, slots_of
+
+
+class Values(NamedTuple):
+    """Values (k, batch, actions), and the parameters that they depend on, for autograd.
+
+    ``leaves`` are each parameter of all k rows (k, …), or those of one row after the other.
+    """
+
+    values: Tensor
+    leaves: Sequence[Tensor]
+
+
+class NetworkRows:
+    """Networks whose parameters are the rows of ``flat`` (rows, parameters): a change there is a change of them.
+
+    Args:
+        make: makes one network, on the device of ``flat``.
+        flat: the parameters.
+        stacks: whether several rows are computed at once, and not one after the other.
+    """
+
+    def __init__(self, make: Callable[[], nn.Module], flat: Tensor, stacks: bool = True) -> None:
+        self._flat = flat
+        self._stacks = stacks
+        self._modules = [make() for _ in flat]
+        for module, row in zip(self._modules, flat, strict=True):
+            bind(module, row)
+        self._slots = slots_of(self._modules[0])
+        names = [name for slot in self._slots for name in slot.names]
+        self._leaves = [[dict(module.named_parameters())[name] for name in names] for module in self._modules]
+        first = self._modules[0]
+        self._stacked = vmap(lambda parameters, inputs: functional_call(first, parameters, (inputs,)))
+
+    def values(self, rows: Int64s, inputs: Tensor) -> Values:
+        """The values of inputs (k, batch, …) in the named rows (k,)."""
+        if len(rows) == 1:
+            return Values(self._modules[rows[0]](inputs[0])[None], self._leaves[rows[0]])
+        if not self._stacks:
+            values = [self._modules[row](own) for row, own in zip(rows, inputs, strict=True)]
+            return Values(torch.stack(values), [leaf for row in rows for leaf in self._leaves[row]])
+        named = self._flat if len(rows) == len(self._flat) else self._flat[torch.from_numpy(rows)]
+        leaves = {name: part.detach().requires_grad_() for name, part in parts_of(named, self._slots).items()}
+        return Values(self._stacked(leaves, inputs), list(leaves.values()))
+
+    def gradient(self, loss: Tensor, leaves: Sequence[Tensor], rows: int) -> Tensor:
+        """The gradient of the loss in so many rows, (rows, parameters), from the leaves that ``values`` gave."""
+        slopes = torch.autograd.grad(loss, leaves)
+        a_row = len(self._leaves[0])
+        if len(slopes) == a_row:
+            return laid_out(slopes, self._slots, rows)
+        one_by_one = [slopes[start : start + a_row] for start in range(0, len(slopes), a_row)]
+        return torch.cat([laid_out(own, self._slots, 1) for own in one_by_one])

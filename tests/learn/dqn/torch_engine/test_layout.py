@@ -1,0 +1,51 @@
+"""Where parameters lie in a row: a dense layer's biases beside its weights, as the compiled engine has them."""
+
+import numpy as np
+import torch
+from torch import nn
+
+from mc_nested.learn.dqn.torch_engine.layout import Slot, bind, flat_of, laid_out, parts_of, slots_of
+
+
+def small() -> nn.Module:
+    return nn.Sequential(nn.Conv2d(1, 2, 2), nn.Flatten(), nn.Linear(2, 3), nn.Linear(3, 1, bias=False))
+
+
+def test_a_dense_layer_is_a_row_of_weights_and_a_bias_for_each_node() -> None:
+    module = nn.Linear(2, 3)
+    module.weight.data = torch.tensor([[1.0, 2.0], [4.0, 5.0], [7.0, 8.0]])
+    module.bias.data = torch.tensor([3.0, 6.0, 9.0])
+    assert flat_of(module).tolist() == [1, 2, 3, 4, 5, 6, 7, 8, 9]
+
+
+def test_other_layers_lie_one_parameter_after_the_other() -> None:
+    assert slots_of(small()) == (
+        Slot(("0.weight",), (2, 1, 2, 2)),
+        Slot(("0.bias",), (2,)),
+        Slot(("2.weight", "2.bias"), (3, 3)),
+        Slot(("3.weight",), (1, 3)),
+    )
+
+
+def test_a_change_of_the_row_is_a_change_of_the_module_that_is_bound_to_it() -> None:
+    module, states = small(), torch.ones(1, 1, 2, 2)
+    row = torch.from_numpy(flat_of(module).copy())
+    expected = module(states)
+    bind(module, row)
+    assert torch.equal(module(states), expected)
+    row.zero_()
+    assert module(states).item() == 0.0
+
+
+def test_parts_of_rows_are_laid_out_as_they_lay() -> None:
+    slots = slots_of(small())
+    rows = torch.arange(2.0 * 22).reshape(2, 22)
+    parts = parts_of(rows, slots)
+    assert {name: tuple(part.shape) for name, part in parts.items()} == {
+        "0.weight": (2, 2, 1, 2, 2),
+        "0.bias": (2, 2),
+        "2.weight": (2, 3, 2),
+        "2.bias": (2, 3),
+        "3.weight": (2, 1, 3),
+    }
+    np.testing.assert_array_equal(laid_out(list(parts.values()), slots, 2), rows)

@@ -1,0 +1,70 @@
+"""Boxes are in pixels; a GUI scale of 2 doubles all of the facts' lengths."""
+
+import numpy as np
+import pytest
+
+from mc_nested.live.devices import Frame
+from mc_nested.live.vision.debug_boxes import ALPHA, GREY, ink_of, line_boxes
+from mc_nested.live.vision.font import font_of
+from sim.client.drawing.f3_cases import WORLDS, random_world
+from sim.client.drawing.f3_layers import paint
+from sim.client.drawing.font import drawn_atlas
+from sim.client.game.f3_text import F3Screen, left_lines, right_lines
+
+FONT = font_of(drawn_atlas())
+SCREEN = F3Screen("1.19.3-1.21.8", 1, (0.5, 64.0, 0.5), 0.0, 65.0)
+
+
+def screen_at(scale: int) -> F3Screen:
+    return F3Screen("1.19.3-1.21.8", scale, (0.5, 64.0, 0.5), 0.0, 65.0)
+
+
+def bare(width: int, height: int) -> Frame:
+    return np.full((height, width, 3), 100, np.uint8)
+
+
+@pytest.mark.parametrize("scale", [1, 2, 3])
+def test_each_line_has_its_box_with_a_dot_around_the_text(scale: int) -> None:
+    size = (600 * scale, 300 * scale)
+    boxes = line_boxes(paint(bare(*size), screen_at(scale), FONT), scale)
+    lines = [line.text for lines in (left_lines(SCREEN), right_lines(SCREEN)) for line in lines if line.text]
+    assert len(boxes) == len(lines)
+    # The first line: from dot 1 in both directions, nine dots high.
+    assert boxes[0].left == boxes[0].top == scale
+    assert boxes[0].height == 9 * scale
+    assert {box.left + box.width for box in boxes if box.left > size[0] / 2} == {size[0] - scale}
+
+
+@pytest.mark.parametrize("kind", [*(kind for kind in WORLDS if kind != "specks"), "bright", "dark"])
+def test_a_box_reaches_from_side_to_side_of_what_was_drawn_whatever_is_behind(kind: str) -> None:
+    world = random_world(np.random.default_rng(1), kind, 854, 480)
+    frame = paint(world, SCREEN, FONT)
+    is_changed = (frame != world).any(2)
+    for box in line_boxes(frame, 1):
+        rows, columns = slice(box.top, box.top + 9), slice(box.left, box.left + box.width)
+        assert is_changed[rows, columns].mean() > 0.9
+
+
+def test_a_picture_without_a_debug_screen_has_no_boxes() -> None:
+    assert line_boxes(bare(400, 200), 1) == []
+
+
+def test_a_line_that_something_dark_lies_over_ends_there() -> None:
+    frame = paint(bare(600, 300), SCREEN, FONT)
+    whole = line_boxes(frame, 1)[0]
+    frame[0:12, 40:] = 0
+    ended = line_boxes(frame, 1)[0]
+    assert (ended.left, ended.top, ended.height) == (1, 1, 9)
+    assert 36 <= ended.width <= 42 < 60 < whole.width
+
+
+def test_under_a_box_the_world_is_a_mean_with_its_grey() -> None:
+    frame = paint(bare(600, 300), SCREEN, FONT)
+    box = line_boxes(frame, 1)[0]
+    under = frame[box.top, box.left]
+    assert under.tolist() == [round(GREY * ALPHA + 100 * (1 - ALPHA))] * 3
+
+
+def test_ink_is_white_green_or_red_as_the_game_writes() -> None:
+    picture = np.array([[(224, 224, 224), (221, 221, 221), (85, 255, 85), (85, 85, 255), (200, 200, 200)]], np.uint8)
+    assert ink_of(picture).tolist() == [[True, True, True, True, False]]

@@ -1,0 +1,127 @@
+"""The live path with two bodies in one virtual world: each its own client, window, devices and profile."""
+
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+
+import numpy as np
+import pytest
+
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.cooperative.team import Team, team_of
+from mc_nested.arena.cooperative.team_env import TeamEnv
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arena.vector import NO_ACTION
+from mc_nested.errors import LiveError
+from mc_nested.learn.cooperation.team_agent import TeamAgent
+from mc_nested.learn.cooperation.team_evaluation import play_team_greedily
+from mc_nested.learn.preset import load_preset
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.live_team import LiveTeam
+from mc_nested.live.profile.tables import GameVersion, Profile
+from sim.client.client import VirtualClient
+from sim.team_grid import TeamGrid
+from tests.arena.cooperative.team_game_contract import Ticks, Truth, check_team_game
+from tests.sim.client.playing import arena_of, connection_to
+
+LINE = load_scenario("line")
+STONE = 1
+F, B, L, R, FD, LD, RD, BD = Action
+
+
+@contextmanager
+def played(team: Team) -> Iterator[tuple[LiveTeam, list[VirtualClient]]]:
+    """A team on virtual clients that share a world."""
+    first = VirtualClient(seed=0)
+    clients = [first, *(VirtualClient(seed=number, joins=first) for number in range(1, team.builders))]
+    with ExitStack() as games:
+        yield LiveTeam(team, [games.enter_context(game_of(team, each, c)) for each, c in enumerate(clients)]), clients
+
+
+def game_of(team: Team, builder: int, client: VirtualClient) -> LiveGame:
+    profile = Profile(game=GameVersion(version=client.settings.version), arena=arena_of(client))
+    return LiveGame(team.scenario_of(builder), profile, connection_to(client, is_server_allowed=True))
+
+
+def truth_of(clients: list[VirtualClient]) -> Truth:
+    arena = arena_of(clients[0])
+
+    def truth() -> tuple[tuple[Cell, ...], set[Cell]]:
+        return tuple(client.cell(arena) for client in clients), clients[0].placed(arena)
+
+    return truth
+
+
+MET: Ticks = [(R, L), (RD, LD), (B, B), (BD, BD), (None, LD), (R, F), (F, FD), (L, None)]
+"""From neighbouring cells: into each other, onto each other, past each other's blocks."""
+
+
+def test_two_bodies_follow_the_rules_of_a_team() -> None:
+    team = Team(LINE, ((7, 12), (8, 12)))
+    with played(team) as (game, clients):
+        check_team_game(game, team, MET, truth_of(clients))
+        assert [client.window.strays for client in clients] == [[], []]
+    assert [client.window.down for client in clients] == [set(), set()]
+
+
+TOGETHER: Ticks = [(B, None), (B, None), *[(BD, None)] * 6, (R, RD), *[(None, BD)] * 4]
+"""Builder 0 builds the upper six blocks and steps aside; builder 1 comes in where it stood, and does the rest."""
+
+
+def test_two_bodies_build_the_line_together() -> None:
+    team = Team(LINE, ((7, 14), (6, 5)))
+    with played(team) as (game, clients):
+        env = TeamEnv(game, team)
+        env.reset(STONE)
+        steps = [env.step([NO_ACTION if action is None else action for action in tick]) for tick in TOGETHER]
+        cells, placed = truth_of(clients)()
+    assert placed == env.placed == LINE.design
+    assert cells == env.cells == ((8, 6), (7, 1))
+    assert np.sum([step.rewards for step in steps], axis=0).tolist() == [6.0, 5.0]
+    assert (steps[-1].terminated, steps[-1].score) == (True, LINE.optimum)
+
+
+def test_a_policy_plays_in_two_bodies_as_in_the_simulator() -> None:
+    team = team_of(LINE, 2)
+    agent = TeamAgent("own", team, load_preset("paper"), seed=5, runs=[0])
+    simulated = play_team_greedily(TeamEnv(TeamGrid(team), team), agent)
+    with played(team) as (game, _):
+        assert play_team_greedily(TeamEnv(game, team), agent) == simulated
+
+
+def test_the_same_ticks_take_the_same_time_again() -> None:
+    def clock_after() -> float:
+        team = Team(LINE, ((7, 12), (8, 12)))
+        with played(team) as (game, clients):
+            game.reset(STONE)
+            for tick in MET:
+                game.act(tick)
+            return clients[0].clock.now()
+
+    assert clock_after() == clock_after()
+
+
+def test_after_a_failed_tick_the_arena_must_be_reset_and_no_key_is_down() -> None:
+    team = Team(LINE, ((7, 12), (3, 3)))
+    with played(team) as (game, clients):
+        game.reset(STONE)
+        clients[1].set_front(is_in_front=False)
+        with pytest.raises(LiveError):
+            game.act((B, B))
+        assert [client.window.down for client in clients] == [set(), set()]
+        clients[1].set_front(is_in_front=True)
+        with pytest.raises(LiveError, match="the arena must be reset first"):
+            game.act((B, B))
+        assert game.reset(STONE) == team.starts
+
+
+def test_a_world_of_several_says_so_in_each_title_and_is_played_only_if_allowed() -> None:
+    first = VirtualClient()
+    second = VirtualClient(joins=first)
+    assert {first.display.title(), second.display.title()} == {"Minecraft 1.20.1 - Multiplayer (LAN)"}
+    with pytest.raises(Exception, match="so others may be playing there"):
+        connection_to(first).check_single_player()
+
+
+def test_there_is_a_game_for_each_builder() -> None:
+    with pytest.raises(LiveError, match=r"^2 builders and 0 running games: open one for each$"):
+        LiveTeam(Team(LINE, ((7, 12), (3, 3))), [])
