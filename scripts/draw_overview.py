@@ -17,7 +17,7 @@ from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.font import font_of
-from mc_nested.report.curve import MEAN, OPTIMUM, align_trials, bootstrap_interval
+from mc_nested.report.curve import MEAN, OPTIMUM, align_trials, t_interval
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.font import drawn_atlas
 from sim.client.game.f3_text import F3Screen
@@ -44,7 +44,7 @@ def draw_learnt(axes: Axes, folder: RunFolder) -> None:
     with (folder.path / "evaluations.csv").open(newline="") as file:
         rows = [(int(row["trial"]), int(row["episode"]), float(row["score"])) for row in csv.DictReader(file)]
     episodes, scores = align_trials(rows, folder.config.trials)
-    low, high = bootstrap_interval(scores)
+    low, high = t_interval(scores, folder.scenario.optimum)
     axes.axhline(folder.scenario.optimum, color=OPTIMUM, linestyle="--", linewidth=1.2, label="optimum")
     axes.fill_between(episodes, low, high, color=MEAN, alpha=0.2, linewidth=0, label="95 % interval")
     axes.plot(episodes, scores.mean(axis=0), color=MEAN, label=f"mean of {folder.config.trials} trials")

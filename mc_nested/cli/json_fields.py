@@ -81,7 +81,10 @@ JSON_FIELDS: Mapping[str, Mapping[str, str]] = {
         "networks": "of a trial",
         "parameters": "of a trial's networks",
     },
-    "reproduce": {**_EXPERIMENT, "claims": "letter, claim and verdict of each"},
+    "reproduce": {
+        **_EXPERIMENT,
+        "claims": "letter, claim and verdict of each; of --robustness also choices, each with its verdict",
+    },
     "sweep": _EXPERIMENT,
     "benchmark": {**_EXPERIMENT, "measures": "of each contestant: trials, solved, and its episodes to the optimum"},
     "evaluate": {

@@ -1,16 +1,11 @@
 """``mc-nested reproduce``: the paper's experiment, every agent on every design, and tests of its claims."""
 
-from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.table import Table
 from rich.text import Text
 
-from mc_nested.arena.builder import build_with_materials
-from mc_nested.arena.env import step_in
-from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import paper_scenarios, table_of
 from mc_nested.cli.experiment import (
     MOST_TRIALS,
@@ -24,21 +19,25 @@ from mc_nested.cli.experiment import (
     train_all,
 )
 from mc_nested.cli.experiment_end import say_end
+from mc_nested.cli.experiment_results import results_of_groups
 from mc_nested.cli.options import DeviceOption, EngineOption
 from mc_nested.cli.output import JsonOption, Output, QuietOption
 from mc_nested.cli.output_folder import output_folder
+from mc_nested.cli.robustness import is_robustness, run_robustness
 from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
 from mc_nested.cli.screen_states import check_window
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS, check_exploration, check_parts
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.learn.experiments.reproduction import LONGER, LONGER_AGENTS, LONGER_SCENARIOS, ReproduceConfig
+from mc_nested.learn.experiments.robustness import RobustnessConfig, shipped_choices
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
-from mc_nested.report.results import Cost, Evaluation, Results
-from sim.grid import arena_env
+from mc_nested.report.results import Results
 
 if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others doesn't need
+    from collections.abc import Sequence
+
     from mc_nested.report.verdicts import JudgedClaim
 
 VERB = "reproduce"
@@ -70,6 +69,10 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             help="also train nested and hierarchical on zigzag and diamond so many times as long [no]",
         ),
     ] = None,
+    robustness: Annotated[
+        bool,
+        typer.Option("--robustness", help="judge the claims again under each of the paper's open choices instead"),
+    ] = False,
     jobs: JobsOption = None,
     out: OutOption = None,
     resume: ResumeOption = None,
@@ -78,15 +81,23 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 ) -> None:
     """Repeat the paper's experiment and test its claims; Ctrl+C saves, and --resume goes on from there.
 
-    Writes figure5.png and figure5.svg, results.csv and report.md. The defaults take some minutes on two cores.
+    Writes figure5.png and figure5.svg, results.csv and report.md, or robustness.*. The defaults take some minutes on
+    two cores, those of --robustness more than an hour.
     """
     output = Output(quiet, as_json)
     if resume is not None:
         check_nothing_beside_resume(context.params)
+        if is_robustness(resume):
+            robust = ExperimentFolder.open(resume, RobustnessConfig, VERB)
+            with folder_lock(resume):
+                run_robustness(robust, output)
+            return
         folder = ExperimentFolder.open(resume, ReproduceConfig, VERB)
         with folder_lock(resume):
             _run(folder, output)
         return
+    if robustness and (agent or longer):
+        raise UserError("--robustness judges all three agents, and not claim (f): leave out --agent and --longer")
     for name in agent or ():
         if name not in AGENT_SPECS:
             raise UserError(f"no agent {name!r}: choose one of {', '.join(AGENT_SPECS)}")
@@ -94,8 +105,22 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     check_window(chosen.states, has_window=False)
     for name in agent or AGENT_SPECS:
         check_exploration(AGENT_SPECS[name], chosen)
+    chosen = chosen.model_copy(update={"episodes": episodes or chosen.episodes})
     scenarios = named_scenarios(scenario or paper_scenarios(), layer)
     check_parts(scenarios, chosen)
+    if robustness:
+        robustness_config = RobustnessConfig(
+            trials=trials or TRIALS,
+            seed=seed or 0,
+            jobs=jobs or cores(),
+            preset_name=preset or PRESET,
+            preset=chosen,
+            scenarios=[table_of(each) for each in scenarios],
+            choices=shipped_choices(chosen, scenarios),
+        )
+        with output_folder(out, "robustness") as path:
+            run_robustness(ExperimentFolder.new(path, robustness_config, VERB), output)
+        return
     config = ReproduceConfig(
         agents=[name for name in AGENT_SPECS if name in agent] if agent else list(AGENT_SPECS),
         trials=trials or TRIALS,
@@ -103,7 +128,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         jobs=jobs or cores(),
         longer=longer or 0,
         preset_name=preset or PRESET,
-        preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
+        preset=chosen,
         scenarios=[table_of(each) for each in scenarios],
     )
     if longer and not (config.longer_agents and config.longer_scenarios):
@@ -133,73 +158,13 @@ def _run(folder: ExperimentFolder[ReproduceConfig], output: Output) -> None:
 
 def results_of(config: ReproduceConfig, outcomes: Outcomes) -> tuple[Results, Results | None]:
     """The experiment's results, and those of its longer runs if there are any."""
-    usual = _results(config, config.agents, [table.name for table in config.scenarios], outcomes, "")
+    scenarios = config.loaded_scenarios()
+    usual = results_of_groups(config, config.preset, scenarios, {agent: agent for agent in config.agents}, outcomes)
     if not config.longer:
         return usual, None
-    return usual, _results(config, config.longer_agents, config.longer_scenarios, outcomes, LONGER)
-
-
-def _results(
-    config: ReproduceConfig, agents: Sequence[str], names: Sequence[str], outcomes: Outcomes, suffix: str
-) -> Results:
-    evaluations: dict[tuple[str, str, int], list[Evaluation]] = {}
-    costs: dict[tuple[str, str], list[Cost]] = {(agent, name): [] for agent in agents for name in names}
-    for job, outcome in outcomes:
-        updates = sum(run.updates for run in outcome.runs)
-        for group, scenario, trial, run in zip(job.groups, job.scenarios, job.trials, outcome.runs, strict=True):
-            agent = group.removesuffix(LONGER)
-            if group != agent + suffix:
-                continue
-            evaluations[agent, scenario.name, trial] = [
-                Evaluation(agent, scenario.name, trial, row.episode, row.score, row.material, row.steps)
-                for row in run.evaluations
-            ]
-            seconds = outcome.seconds * run.updates / updates if updates else 0.0
-            costs[agent, scenario.name].append(
-                Cost(agent, scenario.name, outcome.networks, outcome.parameters, run.updates, run.env_steps, seconds)
-            )
-    scenarios = [scenario for scenario in config.loaded_scenarios() if scenario.name in names]
-    preset = config.longer_preset if suffix else config.preset
-    return Results(
-        agents=agents,
-        scenarios=names,
-        trials=config.trials,
-        episodes=preset.episodes,
-        evaluate_every=preset.evaluate_every,
-        seed=config.seed,
-        preset=Path(config.preset_name).stem,
-        keeps_best=preset.keep == "best",
-        optimum={scenario.name: scenario.optimum for scenario in scenarios},
-        builder={scenario.name: builders_score(scenario) for scenario in scenarios},
-        # In an order that doesn't depend on how the runs were divided into jobs.
-        evaluations=[
-            row
-            for agent in agents
-            for name in names
-            for trial in range(config.trials)
-            for row in evaluations[agent, name, trial]
-        ],
-        costs=[_sum(own) for own in costs.values()],
-    )
-
-
-def _sum(costs: Sequence[Cost]) -> Cost:
-    return costs[0]._replace(
-        updates=sum(cost.updates for cost in costs),
-        env_steps=sum(cost.env_steps for cost in costs),
-        seconds=sum(cost.seconds for cost in costs),
-    )
-
-
-def builders_score(scenario: Scenario) -> float:
-    """The scripted builder's score within the step limit, with the best material of each part."""
-    env = arena_env(scenario)
-    env.reset(options={"material": scenario.materials[scenario.best_material].name})
-    for step in build_with_materials(scenario):
-        _, _, terminated, truncated, info = env.step(step_in(scenario, *step))
-        if terminated or truncated:
-            return float(info["score"])
-    raise AssertionError("the builder places every block, which ends the episode")
+    of_longer = [scenario for scenario in scenarios if scenario.name in config.longer_scenarios]
+    groups = {agent + LONGER: agent for agent in config.longer_agents}
+    return usual, results_of_groups(config, config.longer_preset, of_longer, groups, outcomes)
 
 
 def _verdicts(claims: "Sequence[JudgedClaim]") -> Table:

@@ -223,6 +223,13 @@ class Agent:
         """Updates done, over all runs and agents."""
         return sum(int(learner.engine.updates.sum()) for learner in self._learners().values())
 
+    @property
+    def replay_bytes(self) -> Int64s:
+        """Bytes of what each run's replays hold, all its agents' together, (runs,)."""
+        held = [learner.replay.bytes_held().reshape(len(self.runs), -1) for learner in self._learners().values()]
+        total: Int64s = np.hstack(held).sum(axis=1)
+        return total
+
     def last_figures(self) -> Arrays:
         """Loss and mean Q of each run's last updates, (runs,), by name; nan before an agent's first update.
 

@@ -15,8 +15,10 @@ import numpy as np
 
 from mc_nested.arrays import Float64s, Int64s
 from mc_nested.report.benchmark_results import Benchmark, BenchmarkRow
-from mc_nested.report.curve import RESAMPLES
 from mc_nested.report.inference import Interval
+
+RESAMPLES = 2000
+"""Bootstrap resamples behind an interval."""
 
 TRIMMED = 0.25
 """The share that an interquartile mean leaves out at either end."""

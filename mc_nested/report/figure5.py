@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 
 from mc_nested.atomic_file import atomic_write
-from mc_nested.report.curve import bootstrap_interval
+from mc_nested.report.curve import t_interval
 from mc_nested.report.measures import Curve, curves_of
 from mc_nested.report.results import Results
 
@@ -55,7 +55,7 @@ def _figure(results: Results) -> Figure:
     for axes, scenario in zip(panels, results.scenarios, strict=False):
         _draw_levels(axes, results, scenario)
         for agent in results.agents:
-            _draw_curve(axes, agent, curves[agent, scenario])
+            _draw_curve(axes, agent, curves[agent, scenario], results.optimum[scenario])
         axes.set_title(scenario, parse_math=False)  # users name scenarios, so dollar signs may appear
         axes.set_xlabel("training episodes")
         axes.set_xlim(0, results.episodes)
@@ -77,11 +77,11 @@ def _draw_levels(axes: Axes, results: Results, scenario: str) -> None:
     axes.axhline(results.builder[scenario], zorder=1, **BUILDER)
 
 
-def _draw_curve(axes: Axes, agent: str, curve: Curve) -> None:
+def _draw_curve(axes: Axes, agent: str, curve: Curve, optimum: float) -> None:
     if not len(curve.episodes):
         return
     if len(curve.scores) > 1:
-        low, high = bootstrap_interval(curve.scores)
+        low, high = t_interval(curve.scores, optimum)
         axes.fill_between(curve.episodes, low, high, color=CURVES[agent]["color"], alpha=BAND, linewidth=0)
     marker = "o" if len(curve.episodes) == 1 else ""
     axes.plot(curve.episodes, curve.scores.mean(axis=0), marker=marker, linewidth=1.5, **CURVES[agent])

@@ -1,16 +1,20 @@
-"""What is measured per trial: its early score, its final score, and the spread of its late evaluations."""
+"""What is measured per trial: its early score, its final score, the mean of its last ten, and its late spread."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
-from mc_nested.arrays import Float64s, Int64s
+from mc_nested.arrays import Bools, Float64s, Int64s
 from mc_nested.report.curve import align_trials
 from mc_nested.report.results import Results
 
 EARLY_EPISODES = 1000
 """Early is the first 1,000 episodes, or the first third of a training of fewer than 3,000."""
+
+
+LAST = 10
+"""Evaluations whose mean stands beside the final score, which is a single one."""
 
 
 def early_limit(episodes: int) -> int:
@@ -43,6 +47,15 @@ class Curve:
         return best if self.keeps_best else self.scores[:, -1]
 
     @property
+    def last_ten(self) -> Float64s:
+        """Each trial's mean over the last ten evaluations, (trials,); empty where none is late.
+
+        Over those of the last third of the training where they are fewer.
+        """
+        late = self.scores[:, self._late()][:, -LAST:]
+        return late.mean(axis=1) if late.shape[1] else np.empty(0)
+
+    @property
     def early(self) -> Float64s:
         """Each trial's mean score over the early evaluations, (trials,); empty where there are none."""
         early = self.episodes <= early_limit(self.trained)
@@ -51,8 +64,12 @@ class Curve:
     @property
     def spread(self) -> Float64s:
         """Each trial's standard deviation over the evaluations of the last third; empty where there are not two."""
-        late = 3 * self.episodes > 2 * self.trained
+        late = self._late()
         return self.scores[:, late].std(axis=1, ddof=1) if late.sum() > 1 else np.empty(0)
+
+    def _late(self) -> Bools:
+        is_late: Bools = 3 * self.episodes > 2 * self.trained
+        return is_late
 
 
 def curves_of(results: Results) -> Mapping[tuple[str, str], Curve]:

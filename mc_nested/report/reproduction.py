@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mc_nested.atomic_file import atomic_write
-from mc_nested.report.claims import judge
+from mc_nested.report.claims.judge import judge
 from mc_nested.report.figure5 import draw_figure5
 from mc_nested.report.report_text import report_text
 from mc_nested.report.results import Results, write_evaluations
@@ -14,7 +14,7 @@ def write_reproduction(folder: Path, results: Results, longer: Results | None = 
     """Write the files, each atomically, and return what was judged; OSError if the disk refuses.
 
     ``longer``, the same with ten times the episodes, is judged for claim (f) and kept in results_longer.csv. All but
-    report.md's line of seconds is the same for the same results, to the byte.
+    report.md's lines with seconds is the same for the same results, to the byte.
     """
     claims = judge(results, longer)
     write_evaluations(folder / "results.csv", results.evaluations)

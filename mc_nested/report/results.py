@@ -27,6 +27,7 @@ class Cost(NamedTuple):
 
     ``networks`` and ``parameters`` are those of one trial; ``updates``, ``env_steps`` and ``seconds`` are summed over
     all its trials. Seconds are their share where others were trained at once.
+    ``replay_bytes``: of what each trial's replays hold at its end; empty where it wasn't measured.
     """
 
     agent: str
@@ -36,6 +37,7 @@ class Cost(NamedTuple):
     updates: int
     env_steps: int
     seconds: float
+    replay_bytes: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)

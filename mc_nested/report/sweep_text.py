@@ -23,9 +23,9 @@ HEADER = (
 
 LEGEND = """\
 Final: the greedy score of the policy that a run keeps. Mean over the training: over all of a run's greedy evaluations,
-so it is high where learning is early and steady. Both are means over the trials. Intervals are percentile bootstraps of
-the difference from the same agent's base, somewhat narrow with few trials, and none is corrected for being one of many:
-of {many} intervals some {false:.0f} leave out 0 by chance alone. Best: the highest greedy score of any trial. At the
+so it is high where learning is early and steady. Both are means over the trials. Intervals are Welch's t of
+the difference from the same agent's base, and none is corrected for being one of many: of {many} intervals some
+{false:.0f} leave out 0 by chance alone. Best: the highest greedy score of any trial. At the
 optimum: trials that ever reached it. Episodes to it: the median over those."""
 
 

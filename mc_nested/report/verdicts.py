@@ -1,4 +1,12 @@
-"""From the evidence on a claim to its verdict: Holm's correction over the tests of all claims, then a rule."""
+"""From the evidence on a claim to its verdict.
+
+A claim holds where all its lines do. To say so wrongly, a line that isn't so must pass for one that is, and each line
+alone lets that happen with a probability below α: an intersection-union test (Berger, 1982), which needs no
+correction. A claim does not hold where the opposite of any line is shown. To say so wrongly, one error among all its
+lines is enough: so the tests of the opposites are corrected by Holm's method, within the claim.
+
+Each claim is a question of its own, and none is an alternative to another: nothing is corrected across claims.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -51,10 +59,10 @@ class Claim:
 
 @dataclass(frozen=True)
 class Finding:
-    """An evidence with its test's p after Holm, and its verdict."""
+    """An evidence, the p of its opposite after Holm's correction within the claim, and its verdict."""
 
     evidence: Evidence
-    adjusted: Tails | None
+    against: float | None
     verdict: Verdict
 
 
@@ -67,30 +75,25 @@ class JudgedClaim:
     verdict: Verdict
 
 
-def judged(claims: Sequence[Claim]) -> tuple[JudgedClaim, ...]:
-    """The claims with their verdicts. Every test counts in Holm's correction, those against a claim as those for it."""
-    tested = [evidence.tails for claim in claims for evidence in claim.evidence if evidence.tails]
-    adjusted = iter(holm([p for tails in tested for p in tails]))
-    judgements = []
-    for claim in claims:
-        findings = []
-        for evidence in claim.evidence:
-            tails = Tails(next(adjusted), next(adjusted)) if evidence.tails else None
-            findings.append(Finding(evidence, tails, verdict_of(evidence, tails)))
-        verdict = verdict_on_all([finding.verdict for finding in findings])
-        judgements.append(JudgedClaim(claim, tuple(findings), verdict))
-    return tuple(judgements)
+def judged(claim: Claim) -> JudgedClaim:
+    """The claim with its verdict."""
+    opposites = iter(holm([evidence.tails.against for evidence in claim.evidence if evidence.tails]))
+    findings = []
+    for evidence in claim.evidence:
+        against = next(opposites) if evidence.tails else None
+        findings.append(Finding(evidence, against, verdict_of(evidence, against)))
+    return JudgedClaim(claim, tuple(findings), verdict_on_all([finding.verdict for finding in findings]))
 
 
-def verdict_of(evidence: Evidence, adjusted: Tails | None) -> Verdict:
-    """A claim's evidence holds if its test says so; otherwise it fails if the opposite test says so."""
+def verdict_of(evidence: Evidence, against: float | None) -> Verdict:
+    """A claim's evidence holds if its own test says so; otherwise it fails if its opposite's corrected p does."""
     if evidence.counted:
         return evidence.counted
-    if adjusted is None:
+    if evidence.tails is None or against is None:
         return Verdict.UNDECIDED
-    if adjusted.claim < ALPHA:
+    if evidence.tails.claim < ALPHA:
         return Verdict.HOLDS
-    return Verdict.FAILS if adjusted.against < ALPHA else Verdict.UNDECIDED
+    return Verdict.FAILS if against < ALPHA else Verdict.UNDECIDED
 
 
 def verdict_on_all(verdicts: Sequence[Verdict]) -> Verdict:

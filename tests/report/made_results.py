@@ -6,6 +6,8 @@ from typing import NamedTuple
 from mc_nested.report.results import Cost, Evaluation, Results
 
 OPTIMUM = {"line": 21.0, "zigzag": 21.0, "diamond": 26.0, "hut": 15.0}
+SECONDS = {"nested": 6.6, "hierarchical": 10.0, "single": 4.6}
+REPLAY_BYTES = {"nested": 1_000_000, "hierarchical": 1_300_000, "single": 900_000}
 NETWORKS = {"nested": 2, "hierarchical": 3, "single": 1}
 PARAMETERS = {"nested": 3_000, "hierarchical": 4_500, "single": 1_500}
 EPISODES = 90
@@ -43,7 +45,17 @@ def made(trials: Mapping[tuple[str, str], Sequence[Trial]], episodes: int = EPIS
         builder={scenario: OPTIMUM[scenario] for scenario in scenarios},
         evaluations=rows,
         costs=[
-            Cost(agent, scenario, NETWORKS[agent], PARAMETERS[agent], 1200, 1000, 2.5) for agent, scenario in trials
+            Cost(
+                agent,
+                scenario,
+                NETWORKS[agent],
+                PARAMETERS[agent],
+                1200,
+                1000,
+                SECONDS[agent],
+                tuple(REPLAY_BYTES[agent] + 1000 * trial for trial in range(len(own))),
+            )
+            for (agent, scenario), own in trials.items()
         ],
     )
 
@@ -66,9 +78,9 @@ def the_papers(*scenarios: str) -> dict[tuple[str, str], list[Trial]]:
         ("single", "line"): level(13, early=2, spread=2),
         ("nested", "zigzag"): level(16, spread=0.5),
         ("hierarchical", "zigzag"): level(16, spread=1.5),
-        ("single", "zigzag"): level(8, spread=2),
+        ("single", "zigzag"): level(8, early=2, spread=2),
         ("nested", "diamond"): level(18, spread=0.5),
         ("hierarchical", "diamond"): level(18, spread=1.5),
-        ("single", "diamond"): level(9, spread=2),
+        ("single", "diamond"): level(9, early=2, spread=2),
     }
     return {key: own for key, own in trials.items() if not scenarios or key[1] in scenarios}

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from mc_nested.report.curve import align_trials, bootstrap_interval, draw_curve
+from mc_nested.report.curve import align_trials, draw_curve, t_interval
 
 
 def test_trials_are_aligned_by_episode() -> None:
@@ -29,15 +29,22 @@ def test_without_an_evaluation_of_every_trial_there_is_nothing_to_show() -> None
 
 def test_the_interval_holds_the_mean_and_narrows_to_it_where_all_agree() -> None:
     scores = np.array([[1.0, 5.0], [3.0, 5.0], [2.0, 5.0], [6.0, 5.0]])
-    low, high = bootstrap_interval(scores)
-    assert 1.0 <= low[0] < 3.0 < high[0] <= 6.0
+    low, high = t_interval(scores)
+    # Deviation sqrt(14 / 3) of four, and t with three degrees of freedom is 3.1824 at 0.975.
+    assert (low[0], high[0]) == pytest.approx((3 - 3.1824 * (14 / 12) ** 0.5, 3 + 3.1824 * (14 / 12) ** 0.5), abs=1e-3)
     assert (low[1], high[1]) == (pytest.approx(5.0), pytest.approx(5.0))
 
 
 def test_the_interval_is_about_two_standard_errors_wide() -> None:
     scores = np.random.default_rng(0).normal(0, 1, (400, 1))
-    low, high = bootstrap_interval(scores)
+    low, high = t_interval(scores)
     assert high[0] - low[0] == pytest.approx(2 * 1.96 / 20, rel=0.15)
+
+
+def test_the_interval_ends_at_the_highest_score() -> None:
+    _, high = t_interval(np.array([[19.0, 5.0], [21.0, 6.0]]), highest=21.0)
+    assert high[0] == 21.0
+    assert 6.0 < high[1] < 21.0
 
 
 @pytest.mark.parametrize("trials", [1, 5])

@@ -1,9 +1,14 @@
 """Tests and intervals against values worked out by hand."""
 
+import itertools
+import math
+import statistics
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy import stats
 
 from mc_nested.arrays import Float64s
 from mc_nested.report.inference import (
@@ -15,6 +20,7 @@ from mc_nested.report.inference import (
     mean_interval,
     mostly,
     share_interval,
+    studentised,
 )
 
 
@@ -28,13 +34,57 @@ def test_of_twenty_splits_only_the_one_at_hand_is_as_extreme() -> None:
 
 
 def test_splits_that_tie_count_as_extreme() -> None:
-    # Of the six pairs out of 1, 2, 2, 3, three sum to 4 or less and three to 4 or more, 1 + 3 and the two 2 + 2 alike.
+    # Of the six pairs out of 1, 2, 2, 3, two are (2, 3); (1, 3) and (2, 2) are level with the rest, (1, 2) below it.
     assert exceeds(of(2, 3), of(1, 2)) == pytest.approx(2 / 6)
+    # Here these two are as extreme as the pair at hand, and so are the two that are above.
     assert exceeds(of(2, 2), of(1, 3)) == pytest.approx(4 / 6)
 
 
-def test_identical_trials_decide_nothing() -> None:
-    assert exceeds(of(21, 21, 21), of(21, 21, 21)) == 1
+@pytest.mark.parametrize("score", [21.0, 20.1, 0.1 + 0.2, 0.0, -5.0])
+def test_identical_trials_decide_nothing(score: float) -> None:
+    assert exceeds(np.full(3, score), np.full(3, score)) == 1
+
+
+def test_rounding_is_no_difference() -> None:
+    # 0.1 + 0.2 isn't 0.3 to the last bit.
+    assert exceeds(np.full(4, 0.1 + 0.2), np.full(4, 0.3)) == 1
+
+
+def test_welchs_t_is_its_size_in_units_of_its_error() -> None:
+    # A difference of 2, variances 1 of three each: t = 2 / sqrt(2 / 3), so t / sqrt(1 + t²) = 2 / sqrt(4 + 2 / 3).
+    assert studentised(of(3, 4, 5), of(1, 2, 3)) == pytest.approx(2 / (4 + 2 / 3) ** 0.5)
+    assert studentised(of(1, 2, 3), of(3, 4, 5)) == pytest.approx(-2 / (4 + 2 / 3) ** 0.5)
+
+
+def test_without_any_spread_a_difference_is_as_large_as_can_be_and_none_is_none() -> None:
+    assert studentised(of(1, 1), of(0, 0)) == 1
+    assert studentised(of(0, 0), of(1, 1)) == -1
+    assert studentised(of(1, 1), of(1, 1)) == 0
+
+
+def test_of_two_splits_with_one_difference_the_steadier_counts_as_more() -> None:
+    assert studentised(of(5, 5, 5), of(4, 4, 4.5)) > studentised(of(2, 5, 8), of(1.5, 4, 7))
+
+
+@given(
+    st.lists(st.integers(0, 4), min_size=4, max_size=4),
+    st.lists(st.integers(0, 4), min_size=3, max_size=3),
+)
+def test_where_all_splits_are_gone_through_p_is_their_share(left: list[int], right: list[int]) -> None:
+    both = left + right
+    splits = [set(split) for split in itertools.combinations(range(7), 4)]
+    values = [
+        welchs_t([both[at] for at in split], [both[at] for at in range(7) if at not in split]) for split in splits
+    ]
+    as_extreme = sum(value >= values[0] - 1e-9 for value in values)  # the first is the one at hand
+    assert exceeds(of(*left), of(*right)) == pytest.approx(as_extreme / 35)
+
+
+def welchs_t(left: list[int], right: list[int]) -> float:
+    """As the books have it; a large number in the place of infinity."""
+    difference = statistics.mean(left) - statistics.mean(right)
+    error = (statistics.variance(left) / len(left) + statistics.variance(right) / len(right)) ** 0.5
+    return difference / error if error else math.copysign(1e6, difference) if difference else 0.0
 
 
 def test_the_smallest_p_of_drawn_permutations_counts_the_trials_at_hand() -> None:
@@ -44,7 +94,7 @@ def test_the_smallest_p_of_drawn_permutations_counts_the_trials_at_hand() -> Non
 def test_drawn_permutations_are_the_same_again() -> None:
     left, right = np.arange(3, 13.0), np.arange(10.0)
     assert exceeds(left, right) == exceeds(left, right)
-    # 4,520 of all 184,756 splits have as great a sum.
+    # 4,520 of all 184,756 splits have as great a sum, and with it as great a t.
     assert exceeds(left, right) == pytest.approx(0.02446, abs=0.004)
 
 
@@ -108,22 +158,34 @@ def test_holm_keeps_the_order_and_lies_between_no_correction_and_bonferroni(p_va
     assert adjusted[order[0]] == min(1.0, len(p_values) * p_values[order[0]])
 
 
-def test_the_interval_of_a_difference_holds_it_and_is_the_same_again() -> None:
-    left, right = of(18, 20, 21, 19), of(15, 14, 17, 16)
-    low, high = difference_interval(left, right)
-    assert 1.0 <= low < 4.0 < high <= 7.0
-    assert difference_interval(left, right) == (low, high)
+def test_the_interval_of_a_difference_is_welchs() -> None:
+    # Variances 1 and 4 of three each: error sqrt(5 / 3), freedom (5 / 3)² / ((1 / 3)² / 2 + (4 / 3)² / 2) = 50 / 17.
+    half = stats.t.ppf(0.975, 50 / 17) * (5 / 3) ** 0.5
+    assert difference_interval(of(4, 5, 6), of(0, 2, 4)) == pytest.approx((3 - half, 3 + half))
 
 
-def test_the_interval_of_a_difference_is_about_two_standard_errors_wide() -> None:
-    random = np.random.default_rng(1)
-    low, high = difference_interval(random.normal(0, 1, 200), random.normal(0, 1, 200))
-    assert high - low == pytest.approx(2 * 1.96 * (2 / 200) ** 0.5, rel=0.15)
+def test_the_interval_of_a_mean_is_students() -> None:
+    # Deviation 1, so an error of 1 / sqrt(3), and t with two degrees of freedom is 4.3027 at 0.975.
+    assert mean_interval(of(4, 5, 6)) == pytest.approx((5 - 4.3027 / 3**0.5, 5 + 4.3027 / 3**0.5), abs=1e-4)
 
 
-def test_trials_that_agree_have_an_interval_without_width() -> None:
-    assert difference_interval(of(21, 21), of(20, 20)) == (1, 1)
-    assert mean_interval(of(21, 21)) == (21, 21)
+def test_no_mean_is_above_the_highest_score() -> None:
+    found = mean_interval(of(19, 21, 21), highest=21)
+    assert found is not None
+    assert found.high == 21
+    assert found.low == pytest.approx(61 / 3 - 4.3027 * (4 / 3) ** 0.5 / 3**0.5, abs=1e-3)
+
+
+@pytest.mark.parametrize("score", [21.0, 20.1])
+def test_trials_that_agree_have_an_interval_without_width(score: float) -> None:
+    assert difference_interval(np.full(10, score), np.full(10, score - 1)) == pytest.approx((1, 1))
+    assert mean_interval(np.full(10, score), 21.0) == pytest.approx((score, score))
+
+
+def test_where_one_agents_trials_agree_the_others_spread_remains() -> None:
+    # Freedom 2: that of the one with a spread.
+    half = stats.t.ppf(0.975, 2) / 3**0.5
+    assert difference_interval(of(21, 21, 21), of(4, 5, 6)) == pytest.approx((16 - half, 16 + half))
 
 
 def test_a_single_trial_has_no_interval() -> None:

@@ -29,6 +29,17 @@ def test_where_the_best_policy_is_kept_the_final_score_is_its() -> None:
     assert curve([30, 60], [[21, 3], [5, 20]], trained=60, keeps_best=True).final.tolist() == [21.0, 20.0]
 
 
+def test_the_last_ten_are_averaged_whichever_policy_is_kept() -> None:
+    episodes = list(range(30, 3001, 30))
+    scores = [[0.0] * 90 + [20.0] * 9 + [10.0], [0.0] * 89 + [99.0] + [21.0] * 10]
+    for keeps_best in (False, True):
+        assert curve(episodes, scores, 3000, keeps_best).last_ten.tolist() == [19.0, 21.0]
+
+
+def test_where_the_last_third_has_fewer_than_ten_it_is_over_those() -> None:
+    assert curve([10, 20, 21, 30], [[-5, 50, 1, 2]], trained=30).last_ten.tolist() == [1.5]
+
+
 def test_the_spread_is_the_standard_deviation_over_the_last_third() -> None:
     seen = curve([10, 20, 21, 25, 30], [[-5, 50, 1, 2, 3], [0, 0, 7, 7, 7]], trained=30)
     assert seen.spread.tolist() == [1.0, 0.0]
@@ -36,9 +47,9 @@ def test_the_spread_is_the_standard_deviation_over_the_last_third() -> None:
 
 def test_what_was_not_evaluated_is_not_measured() -> None:
     nothing = curve([], [[], []], trained=3000)
-    assert [len(measure) for measure in (nothing.early, nothing.final, nothing.spread)] == [0, 0, 0]
+    assert [len(measure) for measure in (nothing.early, nothing.final, nothing.last_ten, nothing.spread)] == [0] * 4
     late = curve([3000], [[21], [20]], trained=3000)
-    assert [len(measure) for measure in (late.early, late.final, late.spread)] == [0, 2, 0]
+    assert [len(measure) for measure in (late.early, late.final, late.last_ten, late.spread)] == [0, 2, 2, 0]
 
 
 def test_every_agent_and_scenario_has_its_curve() -> None:

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from mc_nested.report.claims import judge
+from mc_nested.report.claims.judge import judge
 from mc_nested.report.reproduction import write_reproduction
 from mc_nested.report.results import read_evaluations
 from tests.report.made_results import made, the_papers

@@ -1,4 +1,4 @@
-"""Verdicts follow from the evidence: each can be reached, and Holm's correction is over all claims."""
+"""Verdicts follow from the evidence: each can be reached, and only the opposites within a claim are corrected."""
 
 import pytest
 
@@ -17,19 +17,24 @@ def p_of(for_it: float, against: float) -> Evidence:
 
 
 @pytest.mark.parametrize(
-    ("adjusted", "verdict"),
+    ("own", "against", "verdict"),
     [
-        (Tails(0.049, 1), HOLDS),
-        (Tails(0.05, 1), UNDECIDED),
-        (Tails(1, 0.049), FAILS),
-        (Tails(0.01, 0.01), HOLDS),
-        (None, UNDECIDED),
+        (0.049, 1, HOLDS),
+        (0.05, 1, UNDECIDED),
+        (1, 0.049, FAILS),
+        (1, 0.05, UNDECIDED),
+        (0.01, 0.01, HOLDS),
     ],
 )
 def test_a_test_decides_at_five_per_cent_and_the_one_for_the_claim_goes_first(
-    adjusted: Tails | None, verdict: Verdict
+    own: float, against: float, verdict: Verdict
 ) -> None:
-    assert verdict_of(Evidence("what"), adjusted) is verdict
+    # The opposite's own p is in the tails, its corrected one decides.
+    assert verdict_of(p_of(own, 0.001), against) is verdict
+
+
+def test_without_a_test_nothing_is_decided() -> None:
+    assert verdict_of(Evidence("what"), None) is UNDECIDED
 
 
 @pytest.mark.parametrize("verdict", list(Verdict))
@@ -53,11 +58,20 @@ def test_a_claim_holds_where_all_its_evidence_does(verdicts: list[Verdict], verd
     assert verdict_on_all(verdicts) is verdict
 
 
-def test_holm_counts_the_tests_of_all_claims_on_both_sides() -> None:
-    # Six p: 0.004 x 6, 0.008 x 5, 0.02 x 4; the rest are 1.
-    first, second = judged([claim(p_of(0.008, 1), Evidence("untested")), claim(p_of(0.004, 1), p_of(1, 0.02))])
-    assert first.findings[0].adjusted == pytest.approx((0.040, 1))
-    assert second.findings[0].adjusted == pytest.approx((0.024, 1))
-    assert second.findings[1].adjusted == pytest.approx((1, 0.080))
-    assert [finding.verdict for finding in first.findings] == [HOLDS, UNDECIDED]
-    assert [finding.verdict for finding in second.findings] == [HOLDS, UNDECIDED]
+def test_every_line_passes_by_its_own_p_however_many_there_are() -> None:
+    found = judged(claim(*(p_of(0.049, 1) for _ in range(20))))
+    assert found.verdict is HOLDS
+    assert judged(claim(p_of(0.049, 1), p_of(0.051, 1))).verdict is UNDECIDED
+
+
+def test_of_the_opposites_one_is_enough_so_they_are_corrected_within_the_claim() -> None:
+    # Three opposites: 0.01 x 3, 0.02 x 2, 0.9.
+    found = judged(claim(p_of(1, 0.02), p_of(1, 0.01), Evidence("untested"), p_of(0.5, 0.9)))
+    assert [finding.against for finding in found.findings] == pytest.approx([0.04, 0.03, None, 0.9])
+    assert [finding.verdict for finding in found.findings] == [FAILS, FAILS, UNDECIDED, UNDECIDED]
+    assert found.verdict is FAILS
+
+
+def test_an_opposite_that_would_do_alone_may_not_among_others() -> None:
+    assert judged(claim(p_of(1, 0.03))).verdict is FAILS
+    assert judged(claim(p_of(1, 0.03), p_of(1, 0.9))).verdict is UNDECIDED

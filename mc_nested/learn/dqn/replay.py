@@ -61,6 +61,11 @@ class Replay:
         """How many transitions each run holds, (runs,)."""
         return np.minimum(self.added, self.capacity)
 
+    def bytes_held(self) -> Int64s:
+        """Bytes of the transitions that each run holds, (runs,); room that isn't filled yet is not counted."""
+        held: Int64s = self.sizes() * sum(kept[0, 0].nbytes for kept in self._kept)
+        return held
+
     def add(self, rows: Int64s, transitions: Transitions) -> None:
         """Store one transition for each of the named runs (k,)."""
         if len(rows) and self.added[rows].max() >= self._room < self.capacity:

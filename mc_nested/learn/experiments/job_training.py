@@ -44,7 +44,10 @@ def evaluated(row: EvaluationRow, scenario: Scenario) -> Evaluated:
 
 
 class RunOutcome(BaseModel):
-    """The outcome of one run: its evaluations in order, the score of the policy it keeps, its updates and steps."""
+    """The outcome of one run: its evaluations in order, the score of the policy it keeps, its updates and steps.
+
+    ``replay_bytes``: of what its replays hold at its end; None where it wasn't measured, or practises in a learnt game.
+    """
 
     model_config = ConfigDict(frozen=True)
 
@@ -52,6 +55,7 @@ class RunOutcome(BaseModel):
     score: float
     updates: int
     env_steps: int
+    replay_bytes: int | None = None
 
 
 class JobOutcome(BaseModel):
@@ -195,6 +199,7 @@ class JobTraining:
         for trained in self.trainer.episode_rows:
             steps[trained.trial] += trained.steps
         updates = updates_by_run(agent)
+        held = None if self.job.preset.imagination else agent.replay_bytes
         return JobOutcome(
             identity=fingerprint(self.job.identity()),
             networks=agent.networks,
@@ -206,6 +211,7 @@ class JobTraining:
                     score=float(self.trainer.kept_scores[run]),
                     updates=int(updates[run]),
                     env_steps=int(steps[run]),
+                    replay_bytes=None if held is None else int(held[run]),
                 )
                 for run in range(runs)
             ],

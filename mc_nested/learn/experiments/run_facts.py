@@ -10,11 +10,13 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from mc_nested.errors import McNestedError, RunError
+from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.cooperation.team_run import TeamRun
 from mc_nested.learn.experiments.ablation import AblationConfig
 from mc_nested.learn.experiments.benchmark import BenchmarkConfig
 from mc_nested.learn.experiments.experiment_folder import CONFIG, JOBS_FOLDER, ExperimentConfig, ExperimentFolder
 from mc_nested.learn.experiments.reproduction import ReproduceConfig
+from mc_nested.learn.experiments.robustness import RobustnessConfig
 from mc_nested.learn.experiments.sweep import SweepConfig
 from mc_nested.learn.runs.folder_kind import VERB_OF_KEY
 from mc_nested.learn.runs.folder_lock import holder_of
@@ -25,6 +27,7 @@ State = Literal["finished", "can be resumed", "in use", "damaged"]
 
 MODELS: dict[str, type[ExperimentConfig]] = {
     "agents": ReproduceConfig,
+    "choices": RobustnessConfig,
     "variants": SweepConfig,
     "parts": AblationConfig,
     "contestants": BenchmarkConfig,
@@ -209,6 +212,8 @@ def _who(config: ExperimentConfig) -> tuple[list[str], list[str]]:
         return ["nested"], [part.base for part in config.parts]
     if isinstance(config, SweepConfig):
         return [variant.agent for variant in config.variants], [config.preset_name]
+    if isinstance(config, RobustnessConfig):
+        return list(AGENT_SPECS), [config.preset_name]
     if isinstance(config, ReproduceConfig):
         return config.agents, [config.preset_name]
     raise AssertionError(f"{type(config).__name__} is in MODELS, and not here")

@@ -81,18 +81,24 @@ class SweepConfig(OnePresetConfig):
     def runs(self) -> list[Run]:
         """Variant by variant, scenario by scenario, trial by trial; variants of one agent and preset are adjacent."""
         scenarios = self.loaded_scenarios()
-        runs = [
-            Run(variant.name, variant.spec(), preset, changed, trial)
-            for variant in self.variants
-            for preset in [variant.preset_from(self.preset)]
-            for changed in [variant.scenario_from(scenario) for scenario in scenarios]
-            for trial in range(self.trials)
-        ]
-        kinds: list[tuple[AgentSpec, Preset]] = []
-        for run in runs:
-            if (run.spec, run.preset) not in kinds:
-                kinds.append((run.spec, run.preset))
-        return sorted(runs, key=lambda run: kinds.index((run.spec, run.preset)))
+        return side_by_side(
+            [
+                Run(variant.name, variant.spec(), preset, changed, trial)
+                for variant in self.variants
+                for preset in [variant.preset_from(self.preset)]
+                for changed in [variant.scenario_from(scenario) for scenario in scenarios]
+                for trial in range(self.trials)
+            ]
+        )
+
+
+def side_by_side(runs: list[Run]) -> list[Run]:
+    """The runs in their order, but those of one agent and preset adjacent."""
+    kinds: list[tuple[AgentSpec, Preset]] = []
+    for run in runs:
+        if (run.spec, run.preset) not in kinds:
+            kinds.append((run.spec, run.preset))
+    return sorted(runs, key=lambda run: kinds.index((run.spec, run.preset)))
 
 
 def shipped_variants(preset: Preset, scenarios: list[Scenario]) -> list[Variant]:

@@ -10,6 +10,7 @@ from mc_nested.toml_file import parse_document
 VERB_OF_KEY = {
     "agent": "train",
     "agents": "reproduce",
+    "choices": "reproduce",
     "variants": "sweep",
     "parts": "sweep",
     "contestants": "benchmark",

@@ -55,5 +55,5 @@ def test_nobody_starts_outside() -> None:
 
 
 def test_a_team_builds_a_design_without_parts() -> None:
-    with pytest.raises(ScenarioError, match="^scenario flag has parts: several builders take one without$"):
+    with pytest.raises(ScenarioError, match=r"^scenario flag has parts: several builders take one without$"):
         team_of(load_scenario("flag"), 2)

@@ -43,6 +43,16 @@ def test_what_the_numbers_point_at_is_drawn() -> None:
     assert numbers(drawn_from(replay, np.array([0, 1]), uniforms)) == [[0, 0, 1, 2, 3], [103, 100, 102, 101, 101]]
 
 
+def test_what_a_run_holds_is_counted_in_bytes_and_not_the_room_for_more() -> None:
+    replay = replay_of(2, 3)
+    for step in range(5):
+        replay.add(np.array([0]), transition(step))
+    replay.add(np.array([1]), transition(9))
+    # Two indices below 256 and an action, a byte each, reward and discount, four each: 11. Run 0 is full with three.
+    assert replay.bytes_held().tolist() == [33, 11]
+    assert replay_of(1, 3, states=7650).bytes_held().tolist() == [0]
+
+
 def test_runs_fill_at_their_own_pace() -> None:
     replay = replay_of(3, 10)
     replay.add(np.array([2]), transition(7))

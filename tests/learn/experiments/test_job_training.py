@@ -1,5 +1,6 @@
 """Jobs that train: the same however they are cut and however often they are stopped, and saved before much is lost."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -55,6 +56,25 @@ def test_an_outcome_says_what_was_evaluated_and_what_it_took(tmp_path: Path) -> 
         assert 20 <= run.env_steps <= 20 * scenario.step_limit
         assert {row.material for row in run.evaluations} <= {"wood", "stone"}
         assert run.score == run.evaluations[-1].score
+        # Of each step, and of the main agent's each episode: two indices of two bytes, action 1, reward 4, discount 4.
+        assert run.replay_bytes == 13 * (run.env_steps + 20)
+
+
+def test_the_single_agent_holds_its_steps_alone(tmp_path: Path) -> None:
+    for run in train(one_job("single", [DOT, BAR], 1), tmp_path).runs:
+        assert run.replay_bytes == 13 * run.env_steps
+
+
+def test_an_outcome_of_an_earlier_version_says_nothing_of_bytes(tmp_path: Path) -> None:
+    job = one_job("nested", [DOT], 1)
+    train(job, tmp_path)
+    written = json.loads((tmp_path / OUTCOME).read_text("utf-8"))
+    for run in written["runs"]:
+        del run["replay_bytes"]
+    (tmp_path / OUTCOME).write_text(json.dumps(written), "utf-8")
+    outcome = outcome_of(job, tmp_path)
+    assert outcome
+    assert outcome.runs[0].replay_bytes is None
 
 
 def test_no_run_loses_more_than_an_evaluation_interval(tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.experiments.reproduction import LONGER_AGENTS, LONGER_SCENARIOS, ReproduceConfig
-from mc_nested.report import claims
+from mc_nested.report.claims import contests
 from tests.learn.made_experiments import small_preset
 
 
@@ -29,8 +29,8 @@ def test_three_agents_on_three_designs_in_ten_trials_are_ninety_runs() -> None:
 
 
 def test_what_is_trained_for_longer_is_what_claim_f_is_about() -> None:
-    assert LONGER_SCENARIOS == claims.UNSOLVED
-    assert LONGER_AGENTS == (claims.NESTED, claims.HIERARCHICAL)
+    assert LONGER_SCENARIOS == contests.UNSOLVED
+    assert LONGER_AGENTS == (contests.NESTED, contests.HIERARCHICAL)
     longer = config(list(AGENT_SPECS), ["line", "zigzag", "diamond"], longer=10).runs()[90:]
     assert {(run.group, run.scenario.name, run.preset.episodes) for run in longer} == {
         (f"{agent}-longer", scenario, 300) for agent in LONGER_AGENTS for scenario in LONGER_SCENARIOS

@@ -9,11 +9,13 @@ import pytest
 
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.errors import RunError
+from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.experiments.ablation import AblationConfig, shipped_parts
 from mc_nested.learn.experiments.benchmark import BenchmarkConfig, Contestant, baseline
 from mc_nested.learn.experiments.experiment_folder import ExperimentConfig, ExperimentFolder
 from mc_nested.learn.experiments.job_training import JobOutcome, RunOutcome, write_outcome
 from mc_nested.learn.experiments.reproduction import ReproduceConfig
+from mc_nested.learn.experiments.robustness import Choice, RobustnessConfig
 from mc_nested.learn.experiments.run_facts import facts_of, runs_in
 from mc_nested.learn.experiments.sweep import SweepConfig, Variant
 from mc_nested.learn.runs.checkpoint import FILE as STATE
@@ -136,6 +138,7 @@ def test_a_policies_file_that_is_gone_is_no_damage(trained: Path, tmp_path: Path
 
 BOTH = ["nested", "single"]
 SB3_TOO = ["nested", "sb3"]
+CHOICES = [Choice(), Choice(choice="γ", value="0.9", preset={"update": {"gamma": 0.9}})]
 VARIANTS = [Variant(agent="nested"), Variant(agent="single")]
 CONTESTANTS = [Contestant(agent="nested", preset_name="s.toml", preset=small_preset()), baseline()]
 BENCHMARK = BenchmarkConfig(**SMALL, designs=SCENARIOS, contestants=CONTESTANTS)
@@ -145,11 +148,12 @@ BENCHMARK = BenchmarkConfig(**SMALL, designs=SCENARIOS, contestants=CONTESTANTS)
     ("config", "verb", "agents", "presets", "episodes"),
     [
         (ReproduceConfig(**ONE_PRESET, agents=BOTH, longer=0), "reproduce", BOTH, ["small"], 160),
+        (RobustnessConfig(**ONE_PRESET, choices=CHOICES), "reproduce", list(AGENT_SPECS), ["small"], 480),
         (SweepConfig(**ONE_PRESET, variants=VARIANTS), "sweep", BOTH, ["small"], 160),
         (AblationConfig(**SMALL, scenarios=SCENARIOS, parts=shipped_parts(5)[:2]), "sweep", ["nested"], ["live"], 40),
         (BENCHMARK, "benchmark", SB3_TOO, ["s", "dqn"], 2080),
     ],
-    ids=["reproduce", "sweep", "ablation", "benchmark"],
+    ids=["reproduce", "robustness", "sweep", "ablation", "benchmark"],
 )
 def test_an_experiment_counts_the_episodes_of_finished_jobs(
     config: ExperimentConfig, verb: str, agents: list[str], presets: list[str], episodes: int, tmp_path: Path

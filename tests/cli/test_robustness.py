@@ -1,0 +1,115 @@
+"""``mc-nested reproduce --robustness``: its folder, its files, going on, and what it refuses."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+from mc_nested.arena.scenario_file import table_of
+from mc_nested.cli.robustness import FILES, is_robustness
+from mc_nested.errors import RunError
+from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
+from mc_nested.learn.experiments.robustness import Choice, RobustnessConfig, shipped_choices
+from mc_nested.learn.runs.folder_lock import folder_lock
+from tests.cli.running import run
+from tests.learn.made_experiments import BAR, DOT, scenario_text, small_preset, small_preset_text
+
+GAMMA = Choice(choice="γ", value="0.5", preset={"update": {"gamma": 0.5}})
+START = Choice(choice="start", value="beside", start=[6, 13])
+
+
+def config(*choices: Choice) -> RobustnessConfig:
+    return RobustnessConfig(
+        trials=2,
+        seed=0,
+        jobs=1,
+        preset_name="small",
+        preset=small_preset(20),
+        scenarios=[table_of(DOT), table_of(BAR)],
+        choices=[Choice(), *choices],
+    )
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Begun as by the command, and gone on with by --resume."""
+    out = tmp_path_factory.mktemp("robust") / "run"
+    ExperimentFolder.new(out, config(GAMMA, START), "reproduce").begin()
+    assert run("reproduce", "--resume", out, "--quiet") == 0
+    return out
+
+
+def test_a_folder_says_whether_it_is_a_robustness(tmp_path: Path) -> None:
+    ExperimentFolder.new(tmp_path / "one", config(), "reproduce").begin()
+    assert is_robustness(tmp_path / "one")
+    assert not is_robustness(tmp_path / "none")
+    (tmp_path / "config.toml").write_text("agents = []\n", "utf-8")
+    assert not is_robustness(tmp_path)
+    (tmp_path / "config.toml").write_text("choices = [\n", "utf-8")
+    with pytest.raises(RunError, match="not TOML"):
+        is_robustness(tmp_path)
+
+
+def test_it_goes_on_and_leaves_its_files(done: Path) -> None:
+    assert {*FILES.values()} <= {path.name for path in done.iterdir()}
+    with (done / "robustness.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert list(dict.fromkeys((row["choice"], row["value"]) for row in rows)) == [
+        ("", ""),
+        ("γ", "0.5"),
+        ("start", "beside"),
+    ]
+    assert {row["line"] for row in rows if row["claim"] == "c1"} == {"dot, final score", "bar, final score"}
+    assert "| start: beside |" in (done / "robustness.md").read_text("utf-8")
+
+
+def test_gone_on_with_when_it_is_finished_it_writes_the_same(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = {name: (done / name).read_bytes() for name in FILES.values()}
+    assert run("reproduce", "--resume", done, "--json") == 0
+    assert {name: (done / name).read_bytes() for name in FILES.values()} == before
+    found = json.loads(capsys.readouterr().out)
+    assert found["files"]["table"] == str(done / "robustness.md")
+    claim = next(each for each in found["claims"] if each["letter"] == "e1")
+    assert claim["verdict"] == "holds"
+    assert claim["choices"] == {"γ: 0.5": "holds", "start: beside": "holds"}
+    with folder_lock(done):
+        assert run("reproduce", "--resume", done) == 2
+    assert f"{done}: process " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--agent", "nested"], "--robustness judges all three agents, and not claim (f): leave out --agent"),
+        (["--longer", "10"], "leave out --agent and --longer"),
+        (["--preset", "tuned"], "is not for the single agent"),
+        (["--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
+        (["--resume", "OLD"], "leave out --robustness"),
+    ],
+)
+def test_what_can_not_be_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("reproduce", "--robustness", *words) == 2
+    error = capsys.readouterr().err.strip()
+    assert says in error
+    assert "\n" not in error
+
+
+@pytest.mark.slow
+def test_the_command_trains_every_choice_for_every_agent(tmp_path: Path) -> None:
+    (tmp_path / "dot.toml").write_text(scenario_text(DOT), "utf-8")
+    (tmp_path / "small.toml").write_text(small_preset_text(), "utf-8")
+    words: list[str | Path] = [
+        "--scenario",
+        tmp_path / "dot.toml",
+        "--preset",
+        tmp_path / "small.toml",
+        "--trials",
+        "2",
+    ]
+    out = tmp_path / "out"
+    assert run("reproduce", "--robustness", *words, "--episodes", "10", "--out", out) == 0
+    expected = shipped_choices(small_preset(10), [DOT])
+    with (out / "robustness.csv").open(newline="", encoding="utf-8") as file:
+        found = {(row["choice"], row["value"]) for row in csv.DictReader(file)}
+    assert found == {(choice.choice, choice.value) for choice in expected}
