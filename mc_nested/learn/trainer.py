@@ -201,8 +201,7 @@ class Trainer:
             self._imagination.observe(active, runs.observations, runs.materials, actions, rewards, observations)
         else:
             next_states = self.agent.low_level_states(observations, chosen)
-            over = terminated | self._handed_over(chosen)
-            self._learn(rows, states, actions, rewards, next_states, over, nested_draws)
+            self._learn(rows, states, actions, rewards, next_states, terminated, nested_draws)
 
         runs.observations = observations
         runs.materials = chosen if self.agent.main else self.agent.chosen_materials(observations)
@@ -242,12 +241,6 @@ class Trainer:
         of_rows = draws[rows].reshape(len(rows), preset.updates_a_step, preset.update.batch)
         for update in range(preset.updates_a_step):
             self.agent.low_level.learn(learners, of_rows[:, update])
-
-    def _handed_over(self, chosen: Int64s) -> Bools:
-        """Where another low-level agent goes on from here: what it earns is not the last one's."""
-        every = np.arange(len(chosen))
-        before, after = (self.agent.low_level_rows(every, materials) for materials in (self._runs.materials, chosen))
-        return np.asarray(before != after)
 
     def abandon_episodes(self) -> None:
         """Start every unfinished episode over: its env is gone or in an unknown state.

@@ -89,17 +89,19 @@ def test_each_choice_is_credited_with_what_its_own_part_earned_and_leads_to_the_
     assert kept[1][4] == gamma
 
 
-def test_another_low_level_agent_takes_over_where_the_choice_is_another(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("second", "steps"), [(WOOD, [1, 2]), (STONE, [0, 3])])
+def test_the_low_level_agent_of_the_material_goes_on_and_what_it_took_over_from_has_not_ended(
+    monkeypatch: pytest.MonkeyPatch, second: int, steps: list[int]
+) -> None:
     preset = small_preset(1).model_copy(update={"evaluate_every": 100})
-    for second, discount in ((WOOD, 0.0), (STONE, pytest.approx(preset.update.gamma))):
-        trainer = trainer_of([STRIPES], "hierarchical", preset)
-        monkeypatch.setattr(trainer.agent, "act", Follows([Action.FD, Action.RD, Action.B]))
-        choices = iter([STONE, second])
-        monkeypatch.setattr(main_of(trainer), "act", lambda states, *_, made=choices: np.full(len(states), next(made)))
-        for _ in range(3):
-            trainer.tick()
-        assert trainer.agent.low_level.replay.added.tolist() == ([1, 2] if second == WOOD else [0, 3])
-        assert [step[4] for step in transitions(trainer.agent.low_level, STONE)][1] == discount
+    trainer = trainer_of([STRIPES], "hierarchical", preset)
+    monkeypatch.setattr(trainer.agent, "act", Follows([Action.FD, Action.RD, Action.B]))
+    choices = iter([STONE, second])
+    monkeypatch.setattr(main_of(trainer), "act", lambda states, *_: np.full(len(states), next(choices)))
+    for _ in range(3):
+        trainer.tick()
+    assert trainer.agent.low_level.replay.added.tolist() == steps
+    assert [step[4] for step in transitions(trainer.agent.low_level, STONE)][1] == pytest.approx(preset.update.gamma)
 
 
 def test_the_return_of_an_episode_is_that_of_its_choices() -> None:
