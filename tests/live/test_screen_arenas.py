@@ -94,7 +94,7 @@ def test_the_same_seed_shows_the_same_pictures() -> None:
 
 
 def test_a_simulated_game_has_no_window() -> None:
-    with pytest.raises(UserError, match="add --backend virtual, or --backend live") as caught:
+    with pytest.raises(UserError, match="train with --backend virtual, or --backend live") as caught:
         ScreenArenas(ArenaVectorEnv([ArenaEnv(GridGame(SMALL), SMALL)]))
     assert str(caught.value) == NEEDS_A_WINDOW
 

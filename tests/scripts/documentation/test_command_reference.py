@@ -29,7 +29,7 @@ def test_arguments_choices_and_flags_are_named_as_they_are_typed() -> None:
     page = section("mc-nested play")
     assert "mc-nested play RUN [OPTIONS]" in page
     assert "| `RUN` | The folder of a training (its --out). |" in page
-    assert "`--backend sim|live`" in page
+    assert "`--backend sim|virtual|live`" in page
     assert "| `--screenshots` |" in page
 
 
