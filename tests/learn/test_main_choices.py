@@ -143,14 +143,17 @@ def test_a_run_learns_the_same_alone_in_a_batch_and_resumed(agent: str) -> None:
     alone = finished(trainer_of(scenarios[:1], agent))
     assert [row for row in both.episode_rows if row.trial == 0] == alone.episode_rows
     stopped = trainer_of(scenarios, agent)
-    for _ in range(57):
-        stopped.tick()
+    while stopped.ticks < 5 or (agent != "single" and not stopped.state()["choices.earned"].any()):
+        stopped.tick()  # until a run is in a later choice, before which something was earned
+    assert not stopped.finished
     state: Arrays = {name: kept.copy() for name, kept in stopped.state().items()}
     resumed = trainer_of(scenarios, agent)
     resumed.load(state, [stopped.journal(None)])
     finished(resumed)
     assert resumed.episode_rows == both.episode_rows
     assert resumed.evaluation_rows == both.evaluation_rows
+    for name, kept in both.agent.transitions_since(None).items():
+        np.testing.assert_array_equal(resumed.agent.transitions_since(None)[name], kept, err_msg=name)
 
 
 @pytest.mark.parametrize("agent", ["nested", "hierarchical"])
@@ -165,6 +168,26 @@ def test_the_policy_that_was_evaluated_plays_the_same_choices_afterwards() -> No
     (episode,) = play_greedily(GridVectorEnv([STRIPES]), [STRIPES], trainer.agent)
     last = trainer.evaluation_rows[-1]
     assert (episode.score, len(episode.actions), episode.material) == (last.score, last.steps, last.material)
+
+
+def test_greedy_play_chooses_again_for_the_next_part(monkeypatch: pytest.MonkeyPatch) -> None:
+    agent = Agent(AGENT_SPECS["nested"], [STRIPES], small_preset(), 0)
+    assert agent.main is not None
+    states: list[list[int]] = []
+
+    def chosen(seen: Int64s, *_: object) -> Int64s:
+        states.extend(seen.tolist())
+        return np.array([STONE if len(states) == 1 else WOOD])
+
+    monkeypatch.setattr(agent.main, "act", chosen)
+    monkeypatch.setattr(
+        agent, "act", Follows([Action.FD, Action.RD, Action.B, Action.RD, Action.L, Action.LD, Action.RD])
+    )
+    (episode,) = play_greedily(GridVectorEnv([STRIPES]), [STRIPES], agent)
+    assert states == [[1, 1, 5], [2, 2, 3]]
+    assert episode.score == STRIPES.optimum
+    assert episode.materials == [STONE] * 2 + [WOOD] * 5
+    assert episode.material_name(STRIPES) == "stone, then wood"
 
 
 def test_a_preset_that_imagines_its_game_takes_no_parts() -> None:

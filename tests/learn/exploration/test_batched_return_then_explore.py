@@ -124,3 +124,18 @@ def test_a_runs_first_episode_takes_nothing_from_another_run() -> None:
         explorer.observe(only, START[[run]], before, np.array([7]), np.ones(1), after, np.array([True]), only)
         explorer.end(only)
     assert imitated(agent) == [1, 1]
+
+
+def test_what_was_wasted_in_one_part_is_tried_in_another() -> None:
+    agent = Agent(AGENT_SPECS["nested"], [STRIPES], PRESET, 0)
+    explorer = BatchedReturnThenExplore(RULE, agent, [STRIPES])
+    only, far, near = np.array([0]), np.array([[1, 1, 5]]), np.array([[1, 1, 3]])
+    explorer.begin(only, np.zeros((1, NUMBERS)))
+    wasted = np.array([[1, 0, 4, 0]])
+    for action in (Action.F, Action.B):
+        seen = np.array([int(action)]), np.zeros(1), wasted, np.array([False])
+        explorer.observe(only, far, np.array([[1, 1, 5, 0]]), *seen, only)
+    explorer.end(only)
+    explorer.begin(only, np.zeros((1, NUMBERS)))
+    first = [explorer.act(only, seen, np.array([[*[0.0] * 3, 0.99, 0.99, 0.0]])).tolist() for seen in (far, near)]
+    assert first == [[Action.L], [Action.F]]
