@@ -79,7 +79,10 @@ FILES: dict[str, Callable[[], bytes]] = {
 }
 """Files that a reader has, as their own programs write them."""
 
-BEFORE = {"mc-nested calibrate arena": (CALIBRATE, "mc-nested calibrate arena --undo")}
+BEFORE = {
+    "mc-nested calibrate arena": (CALIBRATE, "mc-nested calibrate arena --undo"),
+    "mc-nested cooperate --resume runs/two": ("mc-nested cooperate --builders 2 --out runs/two",),
+}
 """What comes before a command that stands in a text."""
 
 _OF_NO_MATTER = re.compile(r"--(?:trials|episodes|designs|seed) \d+|--out|runs/\w+")

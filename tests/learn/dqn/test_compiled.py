@@ -80,7 +80,7 @@ def test_a_function_is_compiled_once_and_again_when_another_file_has_changed(cop
 def test_an_update_is_computed_by_the_adam_that_stands_in_the_file(copy: Path) -> None:
     before = run(copy, UPDATES)
     assert run(copy, UPDATES) == before
-    adam = copy / "learn/dqn/adam.py"
+    adam = copy / "learn/dqn/compiled_engine/adam.py"
     adam.write_text(adam.read_text().replace("BETA_1, BETA_2, EPSILON = 0.9", "BETA_1, BETA_2, EPSILON = 0.1"))
     after = run(copy, UPDATES)
     assert after != before
