@@ -100,9 +100,14 @@ class Tally:
         return due
 
     def total(self, ended: Bools) -> Float64s:
-        """r_M so far, (R,); in the episodes that have ended, the blocks that their part lacks count, too."""
+        """r_M so far, (R,); in the episodes that have ended, the blocks that their part lacks count, too.
+
+        But a part after the first of which no block was laid earns nothing.
+        """
         part = self._part_after[self._each, self._laid]
-        lacks = np.where(ended, self._laid_after[self._each, part] - self._laid, 0)
+        lacks = self._laid_after[self._each, part] - self._laid
+        is_begun = (part == 0) | (lacks < self._sizes[self._each, part])
+        lacks = np.where(ended & is_begun, lacks, 0)
         of = self._of.copy()
         of[self._each, part, self._counts_for[self._each, part, self._in_hand]] += lacks
         return main_return(self._on_part, of, self._worth, self._sizes)

@@ -112,11 +112,12 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         if self.scenario.parts:
             told |= {"earned": np.zeros(self.num_envs), "chooses": np.zeros(self.num_envs, dtype=np.bool_)}
         masks = {f"_{name}": np.zeros(self.num_envs, dtype=np.bool_) for name in told}
+        takes = actions if self.scenario.parts else taken_apart(actions)[0]
         running = ~(self._terminated | self._truncated) & (taken_apart(actions)[0] != NO_ACTION)
         for run in np.flatnonzero(running):
             self._observations[run], rewards[run], self._terminated[run], self._truncated[run], info = self.envs[
                 run
-            ].step(actions[run])
+            ].step(takes[run])
             for name in told.keys() & info.keys():
                 told[name][run], masks[f"_{name}"][run] = info[name], True
         flags = self._terminated.copy(), self._truncated.copy()

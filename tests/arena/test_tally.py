@@ -14,7 +14,7 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.parts import Part
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.arena.vector import NO_ACTION
+from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
 from sim.grid import GridVectorEnv, arena_env
 from tests.arena.made_parts import STONE, STRIPES, TO_FAR, TO_NEAR, WOOD, scenarios_with_parts
 
@@ -161,3 +161,20 @@ def test_scenarios_with_and_without_parts_go_side_by_side() -> None:
     for action in (*TO_FAR, *TO_NEAR):
         *_, info = arenas.step(np.array([[action, STONE]] * 2))
     assert info["score"].tolist() == [5 + 10 - 3, 5 + 10]
+
+
+def test_a_part_that_would_only_begin_as_the_episode_is_cut_earns_nothing() -> None:
+    env = begun(replace(STRIPES, step_limit=2))
+    (_, _, _, _, first), (_, _, _, truncated, last) = [env.step((action, STONE)) for action in TO_FAR]
+    assert truncated
+    assert not last["chooses"]
+    assert (first["earned"], last["score"]) == (1 + 5, 2 + 10), (
+        "and not what three blocks of stone would cost the second"
+    )
+
+
+def test_arenas_without_parts_take_no_material_beside_an_action() -> None:
+    for env in (GridVectorEnv([LINE]), ArenaVectorEnv([arena_env(LINE)])):
+        env.reset()
+        observations, *_ = env.step(np.array([[Action.B, STONE]]))
+        assert observations.tolist() == [[7, 13, 11]]
