@@ -51,7 +51,8 @@ DeviceOption = Annotated[
     str | None, typer.Option(metavar="NAME", help="where torch computes: cpu, cuda or mps [the preset's]")
 ]
 StatesOption = Annotated[
-    str | None, typer.Option(metavar="NAME", help="what the agent sees: numbers, or an image [the preset's]")
+    str | None,
+    typer.Option(metavar="NAME", help="what the agent sees: numbers, an image, or the screen [the preset's]"),
 ]
 
 ServerOption = Annotated[

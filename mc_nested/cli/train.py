@@ -31,7 +31,7 @@ from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
 MOST_TRIALS = 1000
 """More at once would only run out of memory."""
 
-BESIDE_RESUME = ("resume", "profile", "server_allowed", "record", "view", "quiet", "as_json")
+BESIDE_RESUME = ("resume", "device", "profile", "server_allowed", "record", "view", "quiet", "as_json")
 """The options that a run can be resumed with; all others are in its config.toml."""
 
 DEFAULTS: dict[str, Any] = {
@@ -90,6 +90,8 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             option = "--from" if beside[0] == "begin_from" else "--" + beside[0].replace("_", "-")
             raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
         folder = RunFolder.open(resume)
+        if device:
+            folder = RunFolder(resume, folder.config.on_device(device))
         where_played = profile or folder.config.profile
         with folder_lock(resume):
             run_training(folder, where_played, not folder.only_begun, how)

@@ -77,7 +77,7 @@ def run_training(
             journal=board,
             seed=config.seed,
         ) as (env, log):
-            agent = folder.new_agent(config.trials)
+            agent = folder.new_agent(config.trials, config.preset.device)
             arenas = agent.view_of(as_shown(env, config.preset.states), folder.scenarios)
             trainer = Trainer(arenas, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
             if resumed:

@@ -10,6 +10,7 @@ from typing import Any
 from mc_nested.arena.scenario_file import ScenarioTable, load_scenario, shipped_scenarios, table_of
 from mc_nested.cli.options import DEFAULT_PROFILE
 from mc_nested.cli.output import Output
+from mc_nested.learn.engine_fit import SCREEN
 from mc_nested.learn.preset import MOST, load_preset, shipped_presets
 from mc_nested.learn.runs.run_folder import RunConfig
 
@@ -47,7 +48,7 @@ def next_steps(path: Path, config: RunConfig, is_at_optimum: bool) -> list[str]:
     if config.backend == "live":
         return [*lines, f"next:       {play} builds it again"]
     lines.append(f"next:       {play} shows what it builds; in your game: with --backend live")
-    if config.trials > 1:
+    if config.trials > 1 and config.preset.states != SCREEN:
         lines.append(f"            {command_line(['mc-nested', 'evaluate', str(path)])} plays each of its trials")
     return lines
 

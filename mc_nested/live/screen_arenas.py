@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
+from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv, taken_apart
 from mc_nested.arrays import Bools, Float64s, Int64s
 from mc_nested.errors import LiveError, UserError
 from mc_nested.live.connection import GameConnection
@@ -80,7 +80,7 @@ class ScreenArenas(VectorWrapper[Pictures, Int64s, Int64s, Int64s, Any]):
 
     def step(self, actions: Int64s) -> tuple[Pictures, Float64s, Bools, Bools, dict[str, Any]]:
         """One action in every arena whose episode runs, and a picture of it; LiveError as for ``reset``."""
-        acts = ~self._has_ended & (np.asarray(actions) != NO_ACTION)
+        acts = ~self._has_ended & (taken_apart(np.asarray(actions))[0] != NO_ACTION)
         _, rewards, terminated, truncated, info = self._arenas.step(actions)
         for run in np.flatnonzero(acts).tolist():
             self._pictures[run, :-1] = self._pictures[run, 1:]

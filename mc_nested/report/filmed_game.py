@@ -53,6 +53,11 @@ class FilmedGame:
         self._box: Size | None = None
 
     @property
+    def connection(self) -> object:
+        """The filmed game's connection to its window; None if it has none."""
+        return getattr(self._game, "connection", None)
+
+    @property
     def resumable(self) -> None:
         """None: a film shows an episode from its beginning."""
         return None

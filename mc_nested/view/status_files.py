@@ -4,6 +4,7 @@ They lie in the folder ``view`` of a run. A reader sees either the old status or
 """
 
 import contextlib
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -22,6 +23,9 @@ MOST_KEPT = 600
 
 KEEP_EVERY_S = 0.3
 """Seconds between two statuses of a history, while it is short."""
+
+REPLACED_WITHIN_S = 1.0
+"""Longer than it takes to replace a small file: who may not read it for as long may not read it at all."""
 
 
 class History:
@@ -89,7 +93,9 @@ def status_now(folder: Path) -> Status:
     """The status of a run; RunError if there is none, or it can't be read."""
     path = folder / FOLDER / NOW
     try:
-        return _status_of(path.read_bytes(), path)
+        return _status_of(_read(path), path)
+    except PermissionError as error:
+        raise RunError(f"{path}: can't be read, {error.strerror}: let this account read it") from error
     except (FileNotFoundError, NotADirectoryError) as error:
         why = "name the folder of a training (its --out), mc-nested runs lists them"
         if (folder / "config.toml").is_file():
@@ -115,6 +121,16 @@ def remove_status(folder: Path) -> None:
             (path / name).unlink(missing_ok=True)
     with contextlib.suppress(OSError):  # it isn't there, or holds something else
         path.rmdir()
+
+
+def _read(path: Path) -> bytes:
+    """All of a file that another process replaces again and again: Windows refuses to open it in that moment."""
+    deadline = time.monotonic() + REPLACED_WITHIN_S
+    while time.monotonic() < deadline:
+        with contextlib.suppress(PermissionError):
+            return path.read_bytes()
+        time.sleep(0.01)
+    return path.read_bytes()
 
 
 def _lines(path: Path) -> list[str]:

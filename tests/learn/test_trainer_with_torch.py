@@ -61,6 +61,16 @@ def test_a_training_can_be_repeated_resumed_and_played(agent_name: str, preset: 
     ]
 
 
+@pytest.mark.parametrize("network", ["recurrent", "dropped"])
+@pytest.mark.parametrize("runs", [1, 2])
+def test_ones_own_network_is_trained_in_any_number_of_rows(network: str, runs: int) -> None:
+    own = PAPER.changed(network=f"tests.learn.dqn.torch_engine.own_networks:{network}")
+    agent = finish(trainer_of("nested", own, [SMALL] * runs)).agent
+    assert agent.updates > 0
+    first = trainer_of("nested", own, [SMALL] * runs).agent.low_level.engine.online
+    assert (np.abs(agent.low_level.engine.online - first).max(axis=1) > 0).all(), "each row has learnt"
+
+
 def test_a_run_alone_plays_its_first_episodes_as_beside_others() -> None:
     # Later they may differ: stacked products add up in another order.
     alone, both = trainer_of("nested", IMAGE, [SMALL]), trainer_of("nested", IMAGE, [SMALL] * 2)

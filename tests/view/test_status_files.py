@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.errors import RunError
+from mc_nested.view import status_files
 from mc_nested.view.status import FORMAT, Learning, Status
 from mc_nested.view.status_files import (
     FOLDER,
@@ -31,6 +32,26 @@ def test_what_is_written_is_read_again(tmp_path: Path) -> None:
 
     assert status_now(tmp_path) == LIVE
     assert list(history_of(tmp_path)) == [LIVE]
+
+
+def test_a_status_that_is_just_being_replaced_is_read_a_moment_later(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    StatusFiles(tmp_path).write(LIVE)
+    refused, read = [2], Path.read_bytes
+
+    def read_bytes(path: Path) -> bytes:
+        if refused[0]:
+            refused[0] -= 1
+            raise PermissionError(13, "Permission denied")
+        return read(path)
+
+    monkeypatch.setattr(Path, "read_bytes", read_bytes)
+    assert status_now(tmp_path) == LIVE
+    refused[0] = 1_000_000
+    monkeypatch.setattr(status_files, "REPLACED_WITHIN_S", 0.05)
+    with pytest.raises(RunError, match="can't be read, Permission denied: let this account read it"):
+        status_now(tmp_path)
 
 
 def test_the_status_now_is_the_last_one_and_the_history_has_every_one(tmp_path: Path) -> None:

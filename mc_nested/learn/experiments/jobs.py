@@ -69,7 +69,7 @@ class Job:
         """What is trained; a checkpoint fits only the same identity."""
         return {
             "form": _spec_on_disk(self.spec),
-            "preset": self.preset.model_dump(),
+            "preset": self.preset.model_dump(exclude={"device"}),
             "groups": list(self.groups),
             "scenarios": [table_of(scenario).model_dump() for scenario in self.scenarios],
             "trials": list(self.trials),

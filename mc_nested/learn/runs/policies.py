@@ -1,4 +1,4 @@
-"""The policies that a training keeps, in a file of their own: playing them needs no torch.
+"""The policies that a training keeps, in a file of their own: playing those of the compiled engine needs no torch.
 
 ``policies.npz`` stands beside the checkpoint that it was saved with, and names it by its hash. With another checkpoint,
 as after a process was killed between the two, or beside one of an older version, it doesn't count.

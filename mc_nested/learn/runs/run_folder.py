@@ -44,8 +44,15 @@ class RunConfig(BaseModel):
     scenario: ScenarioTable
 
     def identity(self) -> dict[str, Any]:
-        """What is trained: a checkpoint fits only the same. Without the profile, which may be moved or renamed."""
-        return self.model_dump(exclude={"format", "profile"})
+        """What is trained: a checkpoint fits only the same.
+
+        Without the profile, which may be moved or renamed, and the device.
+        """
+        return self.model_dump(exclude={"format": True, "profile": True, "preset": {"device"}})
+
+    def on_device(self, device: str) -> "RunConfig":
+        """The same training, computed elsewhere; PresetError if its engine can't."""
+        return self.model_copy(update={"preset": self.preset.changed(device=device)})
 
 
 class RunFolder:
@@ -80,9 +87,10 @@ class RunFolder:
         except ScenarioError as error:
             raise RunError(str(error)) from error
 
-    def new_agent(self, runs: int) -> Agent:
-        """An untrained agent as this training's, with that many runs."""
-        return Agent(AGENT_SPECS[self.config.agent], [self.scenario] * runs, self.config.preset, self.config.seed)
+    def new_agent(self, runs: int, device: str = "cpu") -> Agent:
+        """An untrained agent as this training's, with that many runs, on the processor or another device."""
+        preset = self.config.preset.model_copy(update={"device": device})
+        return Agent(AGENT_SPECS[self.config.agent], [self.scenario] * runs, preset, self.config.seed)
 
     @property
     def scenarios(self) -> list[Scenario]:

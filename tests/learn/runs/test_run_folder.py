@@ -11,7 +11,7 @@ import pytest
 
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.arrays import Arrays
-from mc_nested.errors import RunError
+from mc_nested.errors import PresetError, RunError
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.runs.policies import FILE as POLICIES
 from mc_nested.learn.runs.policies import save_policies
@@ -45,6 +45,17 @@ def begun(path: Path) -> RunFolder:
     folder = RunFolder.new(path, config_of())
     folder.begin()
     return folder
+
+
+def test_a_run_of_another_device_is_the_same_training_and_plays_on_the_processor(tmp_path: Path) -> None:
+    torch = config_of().preset.changed(engine="torch")
+    here = config_of().model_copy(update={"preset": torch})
+    there = here.on_device("cuda")
+    assert there.preset.device == "cuda"
+    assert there.identity() == here.identity()
+    assert RunFolder(tmp_path, there).new_agent(1).networks == 2, "no such device is needed to play it"
+    with pytest.raises(PresetError, match='device "cuda" needs engine "torch"'):
+        config_of().on_device("cuda")
 
 
 def test_a_folder_is_opened_as_it_was_begun(tmp_path: Path) -> None:

@@ -15,9 +15,9 @@ from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.engine import Batch, LastBatches, NetworkForm, UpdateRule, diverged
 from mc_nested.learn.dqn.states import States
 from mc_nested.learn.dqn.torch_engine.adam import adam_step
-from mc_nested.learn.dqn.torch_engine.inputs import inputs_of
+from mc_nested.learn.dqn.torch_engine.inputs import input_shape, inputs_of
 from mc_nested.learn.dqn.torch_engine.networks import MLP
-from mc_nested.learn.dqn.torch_engine.rows import NetworkRows
+from mc_nested.learn.dqn.torch_engine.rows import NetworkRows, can_be_stacked
 
 
 class TorchEngine:
@@ -54,7 +54,9 @@ class TorchEngine:
             self._first, self._second = torch.zeros_like(self._online), torch.zeros_like(self._online)
             self._inputs = inputs_of(states, device)
             # On a processor, stacked convolutions are slower than one after the other.
-            stacks = device.type != "cpu" or not any(isinstance(part, nn.Conv2d) for part in make().modules())
+            tried = make()
+            stacks = device.type != "cpu" or not any(isinstance(part, nn.Conv2d) for part in tried.modules())
+            stacks = stacks and can_be_stacked(tried, input_shape(states))
             self._values = NetworkRows(lambda: make().to(device), self._online, stacks)
             self._target_values = NetworkRows(lambda: make().to(device), self._target, stacks)
         self._last = LastBatches(len(online), rule)
@@ -121,7 +123,7 @@ class TorchEngine:
     def _step(self, rows: Int64s, gradient: Tensor) -> None:
         """One step of Adam in the named rows; DivergedError if a parameter is no number afterwards."""
         steps, rate = self.updates[rows], self.rule.learning_rate
-        if len(rows) == len(self._every_row):
+        if np.array_equal(rows, self._every_row):
             adam_step(self._online, self._first, self._second, gradient, steps, rate)
             after = self._online
         else:
@@ -183,7 +185,7 @@ def _enough_memory(device: torch.device) -> Iterator[None]:
     """PresetError, one line, where the device's memory is too small."""
     try:
         yield
-    except torch.OutOfMemoryError as error:
+    except torch.cuda.OutOfMemoryError as error:
         raise PresetError(
             f"device {device.type!r}: out of memory: lower the preset's batch or hidden, train fewer trials at once, "
             f"or take --device cpu"

@@ -12,6 +12,9 @@ from torch import Tensor, nn
 
 from mc_nested.arrays import Float32s
 
+BOTH = {"weight", "bias"}
+"""The parameters of a dense layer as it usually is."""
+
 
 class Slot(NamedTuple):
     """Parameters that lie together: one, or a dense layer's weights and biases."""
@@ -25,7 +28,7 @@ def slots_of(module: nn.Module) -> tuple[Slot, ...]:
     slots = []
     for path, part in module.named_modules():
         own = {f"{path}.{name}".lstrip("."): each for name, each in part.named_parameters(recurse=False)}
-        if isinstance(part, nn.Linear) and part.bias is not None:
+        if isinstance(part, nn.Linear) and {name for name, _ in part.named_parameters(recurse=False)} == BOTH:
             slots.append(Slot(tuple(own), (part.out_features, part.in_features + 1)))
         else:
             slots += [Slot((name,), tuple(each.shape)) for name, each in own.items()]

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import torch
-from torch import nn
+from torch import Tensor, nn
 
 from mc_nested.arrays import Float32s
 from mc_nested.errors import PresetError
@@ -73,28 +73,39 @@ def own_maker(network: str) -> Make:
         sys.path.insert(0, str(Path.cwd()))
     try:
         found: Any = getattr(importlib.import_module(module_name), name)
-    except (ImportError, AttributeError, SyntaxError) as error:
-        raise PresetError(f"network {network!r}: can't be loaded ({error}): name a module and its function") from error
+    except Exception as error:  # it is somebody's own code
+        reason = str(error).partition("\n")[0]
+        raise PresetError(f"network {network!r}: can't be loaded ({reason}): name a module and its function") from error
 
     def make(shape: tuple[int, ...], actions: int) -> nn.Module:
         try:
             made: nn.Module = found(shape, actions)
-            given = made(torch.zeros(2, *shape))
+            wrong = _misfit(made, made(torch.zeros(2, *shape)), actions)
         except Exception as error:
             reason = str(error).partition("\n")[0]
             raise PresetError(
                 f"network {network!r}: fails on states of {shape} ({reason}): mend it, or name another"
             ) from error
-        if given.shape != (2, actions):
-            raise PresetError(
-                f"network {network!r}: gives {tuple(given.shape)} for 2 states: it should give (2, {actions}), a value "
-                f"an action"
-            )
-        if next(made.buffers(), None) is not None:
-            raise PresetError(f"network {network!r}: has buffers, as BatchNorm does: use layers without, as LayerNorm")
+        if wrong:
+            raise PresetError(f"network {network!r}: {wrong}")
         return made
 
     return make
+
+
+def _misfit(module: object, values: object, actions: int) -> str | None:
+    """What keeps a module that gave these values for two states from being a network; None if it can be one."""
+    if not isinstance(module, nn.Module) or not isinstance(values, Tensor):
+        return "its function should give a torch module, and that a tensor"
+    if values.shape != (2, actions):
+        return f"gives {tuple(values.shape)} for 2 states: it should give (2, {actions}), a value an action"
+    if next(module.buffers(), None) is not None:
+        return "has buffers, as BatchNorm does: use layers without, as LayerNorm"
+    if len(list(module.named_parameters(remove_duplicate=False))) > len(list(module.parameters())):
+        return "has a parameter in two places: give each layer its own"
+    if not all(part.requires_grad for part in module.parameters()):
+        return "has a frozen parameter: all of a network is trained"
+    return None
 
 
 def form_of(network: str, shape: tuple[int, ...], hidden: Sequence[int], actions: int) -> NetworkForm:

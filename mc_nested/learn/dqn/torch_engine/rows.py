@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
+import numpy as np
 import torch
 from torch import Tensor, nn
 from torch.func import functional_call, vmap
@@ -36,6 +37,7 @@ class NetworkRows:
         self._modules = [make() for _ in flat]
         for module, row in zip(self._modules, flat, strict=True):
             bind(module, row)
+        self._every = np.arange(len(flat))
         self._slots = slots_of(self._modules[0])
         names = [name for slot in self._slots for name in slot.names]
         self._leaves = [[dict(module.named_parameters())[name] for name in names] for module in self._modules]
@@ -49,15 +51,29 @@ class NetworkRows:
         if not self._stacks:
             values = [self._modules[row](own) for row, own in zip(rows, inputs, strict=True)]
             return Values(torch.stack(values), [leaf for row in rows for leaf in self._leaves[row]])
-        named = self._flat if len(rows) == len(self._flat) else self._flat[torch.from_numpy(rows)]
+        named = self._flat if np.array_equal(rows, self._every) else self._flat[torch.from_numpy(rows)]
         leaves = {name: part.detach().requires_grad_() for name, part in parts_of(named, self._slots).items()}
         return Values(self._stacked(leaves, inputs), list(leaves.values()))
 
     def gradient(self, loss: Tensor, leaves: Sequence[Tensor], rows: int) -> Tensor:
         """The gradient of the loss in so many rows, (rows, parameters), from the leaves that ``values`` gave."""
-        slopes = torch.autograd.grad(loss, leaves)
+        found = torch.autograd.grad(loss, leaves, allow_unused=True)
+        slopes = [torch.zeros_like(leaf) if slope is None else slope for slope, leaf in zip(found, leaves, strict=True)]
         a_row = len(self._leaves[0])
         if len(slopes) == a_row:
             return laid_out(slopes, self._slots, rows)
         one_by_one = [slopes[start : start + a_row] for start in range(0, len(slopes), a_row)]
         return torch.cat([laid_out(own, self._slots, 1) for own in one_by_one])
+
+
+def can_be_stacked(module: nn.Module, shape: tuple[int, ...]) -> bool:
+    """Whether torch.func can compute several rows of such a module at once, from states of that shape.
+
+    It can't with a recurrent layer, or with one that draws random numbers.
+    """
+    rows = {name: torch.stack((part.detach(), part.detach())) for name, part in module.named_parameters()}
+    try:
+        vmap(lambda parameters, inputs: functional_call(module, parameters, (inputs,)))(rows, torch.zeros(2, 1, *shape))
+    except Exception:  # whatever torch or the module says
+        return False
+    return True

@@ -36,3 +36,47 @@ class Fails(nn.Module):
 def fails(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - it never gets that far
     """It can't be called."""
     return Fails()
+
+
+class Recurrent(nn.Module):
+    """A recurrent layer over the numbers of a state."""
+
+    def __init__(self, actions: int) -> None:
+        super().__init__()
+        self.memory = nn.GRU(1, 4, batch_first=True)
+        self.unused = nn.Linear(1, 1)
+        self.last = nn.Linear(4, actions)
+
+    def forward(self, states: Tensor) -> Tensor:
+        seen, _ = self.memory(states[..., None])
+        values: Tensor = self.last(seen[:, -1])
+        return values
+
+
+def recurrent(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - it takes numbers, however many
+    """It can't be stacked, and one layer is never used."""
+    return Recurrent(actions)
+
+
+def dropped(shape: tuple[int, ...], actions: int) -> nn.Module:
+    """It draws random numbers."""
+    return nn.Sequential(nn.Flatten(), nn.Dropout(0.1), nn.Linear(torch.zeros(shape).numel(), actions))
+
+
+def tied(shape: tuple[int, ...], actions: int) -> nn.Module:
+    """One parameter is in two layers."""
+    size = torch.zeros(shape).numel()
+    first, second = nn.Linear(size, size), nn.Linear(size, size)
+    second.weight = first.weight
+    return nn.Sequential(nn.Flatten(), first, second, nn.Linear(size, actions))
+
+
+def frozen(shape: tuple[int, ...], actions: int) -> nn.Module:
+    """A layer isn't to be trained."""
+    module = nn.Sequential(nn.Flatten(), nn.Linear(torch.zeros(shape).numel(), actions))
+    module[1].bias.requires_grad_(False)
+    return module
+
+
+def nothing(shape: tuple[int, ...], actions: int) -> None:
+    """It makes no module."""

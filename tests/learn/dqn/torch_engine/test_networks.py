@@ -73,6 +73,10 @@ def test_a_module_in_the_working_directory_is_found(tmp_path: Path, monkeypatch:
         (f"{OWN}:one_value", r"gives \(2, 1\) for 2 states: it should give \(2, 8\)"),
         (f"{OWN}:normed", "has buffers, as BatchNorm does"),
         (f"{OWN}:for_pictures", r"fails on states of \(4,\)"),
+        (f"{OWN}:tied", "has a parameter in two places"),
+        (f"{OWN}:frozen", "has a frozen parameter"),
+        (f"{OWN}:nothing", "fails on states"),
+        (":make", "can't be loaded"),
         (f"{OWN}:fails", r"fails on states of \(4,\) \(no idea\)"),
     ],
 )
