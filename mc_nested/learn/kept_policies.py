@@ -1,8 +1,25 @@
 """The policies that the runs keep: what plays afterwards."""
 
+from collections.abc import Sequence
+from typing import Protocol
+
 import numpy as np
 
-from mc_nested.learn.agents import Agent
+from mc_nested.arrays import Arrays
+
+
+class Plays(Protocol):
+    """An agent whose policies can be kept (agents.py, cooperation/team_agent.py)."""
+
+    @property
+    def runs(self) -> Sequence[int]:
+        """The numbers of its runs."""
+
+    def online(self) -> Arrays:
+        """The online networks' parameters, by role."""
+
+    def rows_of(self, run: int) -> dict[str, slice]:
+        """A run's rows, by role."""
 
 
 class KeptPolicies:
@@ -11,7 +28,7 @@ class KeptPolicies:
     ``online`` is by role; ``scores`` is (runs,), -inf before the first evaluation.
     """
 
-    def __init__(self, agent: Agent) -> None:
+    def __init__(self, agent: Plays) -> None:
         self._agent = agent
         self.scores = np.full(len(agent.runs), -np.inf)
         self.take_all()

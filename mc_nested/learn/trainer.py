@@ -22,7 +22,7 @@ from mc_nested.arena.vector import resumable_arenas
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
-from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
+from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.episode_rollback import EpisodeMemory, EpisodeRollback
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
 from mc_nested.learn.exploration.schedules import LinearDecay
@@ -34,6 +34,7 @@ from mc_nested.learn.main_choices import ChoiceStep, MainChoices
 from mc_nested.learn.preset import Exploration, Preset
 from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import Streams
+from mc_nested.learn.training_journal import TrainingJournal
 
 NEVER = LinearDecay(0.0, 0.0, 1.0)
 """ε where every real episode is the greedy policy's: exploration follows from the imagination."""
@@ -85,8 +86,8 @@ class Trainer:
         self.ticks = 0
         self.env_steps = 0
         self.evaluation_steps = 0
-        self.episode_rows: list[EpisodeRow] = []
-        self.evaluation_rows: list[EvaluationRow] = []
+        self._journal = TrainingJournal(agent)
+        self.episode_rows, self.evaluation_rows = self._journal.episodes, self._journal.evaluations
         self._env = env
         self._resumable = resumable_arenas(env)
         self._rollback: EpisodeRollback | None = None
@@ -265,17 +266,11 @@ class Trainer:
 
     def marks(self) -> Arrays:
         """The length of the journal now: how many rows there are, and how many transitions."""
-        rows = np.array([len(self.episode_rows), len(self.evaluation_rows)])
-        return {"rows": rows, **named_for("agent", self.agent.marks())}
+        return self._journal.marks()
 
     def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
         """The rows and transitions since those marks; all of them if there are none."""
-        episodes, evaluations = since["rows"] if since else (0, 0)
-        return {
-            "rows.episodes": table_of_rows(self.episode_rows[episodes:], EpisodeRow),
-            "rows.evaluations": table_of_rows(self.evaluation_rows[evaluations:], EvaluationRow),
-            **named_for("agent", self.agent.transitions_since(part_of(since, "agent") if since else None)),
-        }
+        return self._journal.since(since)
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: Sequence[Mapping[str, NDArray[Any]]]) -> None:
         """Continue from what ``state`` and ``journal`` returned; KeyError or ValueError if the shape differs."""
@@ -290,9 +285,7 @@ class Trainer:
         for name, recorder in self._recorders.items():
             recorder.load(part_of(state, name))
         for journal in journals:
-            self.episode_rows += rows_of_table(journal["rows.episodes"], EpisodeRow)
-            self.evaluation_rows += rows_of_table(journal["rows.evaluations"], EvaluationRow)
-            self.agent.store_again(part_of(journal, "agent"))
+            self._journal.extend(journal)
         arenas = part_of(state, "env")
         if self._resumable and arenas:
             self._resumable.restore(arenas)

@@ -1,12 +1,10 @@
 """The folder of a team's training: config.toml, episodes.csv, evaluations.csv, summary.json and checkpoint/."""
 
-import json
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Annotated, Any
 
-import tomlkit
 from pydantic import BaseModel, ConfigDict, Field
 
 from mc_nested.arena.cooperative.team import MOST_BUILDERS, Team
@@ -14,13 +12,11 @@ from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
 from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.cooperation.team_agent import Kind, TeamAgent
 from mc_nested.learn.cooperation.team_trainer import TeamArena, TeamTrainer
-from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.checkpoint import Checkpoint
-from mc_nested.learn.runs.folder_kind import FORMAT, check_config, check_free
-from mc_nested.learn.runs.run_files import write_table, write_text
+from mc_nested.learn.runs.folder_kind import FORMAT, check_free
+from mc_nested.learn.runs.run_files import begin_folder, read_config, wall_s_so_far, write_results, writing_in
 from mc_nested.learn.state_dict import part_of
-from mc_nested.toml_file import parse_toml, read_toml_text
 
 Coordinate = Annotated[int, Field(ge=0)]
 
@@ -76,12 +72,9 @@ class TeamRun:
     @classmethod
     def open(cls, path: Path) -> "TeamRun":
         """The folder of an earlier training; RunError if it isn't one."""
-        if not (path / "config.toml").is_file():
-            raise RunError(f"{path}: no config.toml there: name the folder of a cooperation (its --out)")
-        text = read_toml_text(path / "config.toml", RunError)
-        check_config(text, path, "cooperate")
+        config = read_config(path, TeamConfig, "cooperate", "cooperation")
         try:
-            return cls(path, parse_toml(TeamConfig, text, str(path / "config.toml"), RunError))
+            return cls(path, config)
         except ScenarioError as error:
             raise RunError(str(error)) from error
 
@@ -93,22 +86,11 @@ class TeamRun:
 
     def begin(self) -> None:
         """Make the folder and write config.toml; RunError if the disk refuses."""
-        try:
-            self.path.mkdir(parents=True, exist_ok=True)
-            write_text(self.path / "config.toml", tomlkit.dumps(self.config.model_dump(exclude_none=True)))
-        except OSError as error:
-            raise RunError(f"{self.path}: can't be written, {error.strerror}: name another folder") from error
+        begin_folder(self.path, self.config)
 
-    @contextmanager
-    def writing(self) -> Iterator[None]:
+    def writing(self) -> AbstractContextManager[None]:
         """Around writing here: RunError, one line that says how to resume, if the disk refuses."""
-        try:
-            yield
-        except (OSError, RuntimeError) as error:  # torch raises a RuntimeError if it can't write
-            raise RunError(
-                f"{self.path}: can't be written ({error}): make room, then mc-nested cooperate --resume {self.path} "
-                f"goes on from the last checkpoint"
-            ) from error
+        return writing_in(self.path, "cooperate")
 
     def save(self, trainer: TeamTrainer, wall_s: float) -> dict[str, Any]:
         """Write the checkpoint, the tables and the summary as they are now, and return the summary.
@@ -118,9 +100,7 @@ class TeamRun:
         summary = summarise(self.config, self.team, trainer, wall_s)
         with self.writing():
             self.checkpoint.save(trainer, finished=trainer.finished)
-            write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)
-            write_table(self.path / "evaluations.csv", EvaluationRow._fields, trainer.evaluation_rows)
-            write_text(self.path / "summary.json", json.dumps(summary, indent=2) + "\n")
+            write_results(self.path, trainer.episode_rows, trainer.evaluation_rows, summary)
         return summary
 
     def agent_of(self, trial: int) -> TeamAgent:
@@ -138,10 +118,7 @@ class TeamRun:
 
     def wall_s_so_far(self) -> float:
         """Seconds that the training took until its last save; 0 if the summary doesn't say."""
-        try:
-            return float(json.loads((self.path / "summary.json").read_text("utf-8"))["wall_s"])
-        except (OSError, ValueError, KeyError, TypeError):
-            return 0.0
+        return wall_s_so_far(self.path)
 
 
 def summarise(config: TeamConfig, team: Team, trainer: TeamTrainer, wall_s: float) -> dict[str, Any]:

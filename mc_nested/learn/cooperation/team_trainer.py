@@ -17,12 +17,15 @@ from mc_nested.arena.game import Resumable
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.cooperation.team_agent import TeamAgent
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
-from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
+from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.exploration.schedules import LinearDecay
+from mc_nested.learn.kept_policies import KeptPolicies
 from mc_nested.learn.learner import CHOICE_NUMBERS
+from mc_nested.learn.main_choices import ChoiceStep, MainChoices
 from mc_nested.learn.preset import Exploration, Preset
 from mc_nested.learn.state_dict import named_for, part_of
-from mc_nested.learn.streams import Streams, main_updates_stream
+from mc_nested.learn.streams import Streams
+from mc_nested.learn.training_journal import TrainingJournal
 
 
 class TeamArena(Protocol):
@@ -70,17 +73,17 @@ class TeamTrainer:
         self.ticks = 0
         self.env_ticks = 0
         self.evaluation_ticks = 0
-        self.episode_rows: list[EpisodeRow] = []
-        self.evaluation_rows: list[EvaluationRow] = []
+        self._journal = TrainingJournal(agent)
+        self.episode_rows, self.evaluation_rows = self._journal.episodes, self._journal.evaluations
         self._arenas = tuple(arenas)
         self._explore_main, self._explore_nested = _decay(preset.explore_main), _decay(preset.explore_nested)
-        self.kept_scores = np.full(runs, -np.inf)
-        self._kept = {role: online.copy() for role, online in agent.online().items()}
+        self._kept = KeptPolicies(agent)
+        scenarios, start = [agent.team.scenario] * runs, agent.main_states(runs)
+        self._choices = MainChoices(agent.main, scenarios, start, preset, seed, agent.runs) if agent.main else None
         batch = preset.update.batch
         widths = [CHOICE_NUMBERS, batch, CHOICE_NUMBERS * builders, batch * preset.updates_a_step * builders]
         ends = np.cumsum(widths).tolist()
         self._numbers = [slice(end - width, end) for width, end in zip(widths, ends, strict=True)]
-        self._seed = seed
         self._streams = Streams(seed, agent.runs, sum(widths))
         width = 3 + (agent.main is None)
         self._runs = _Runs(
@@ -110,9 +113,14 @@ class TeamTrainer:
         return self._runs.finished
 
     @property
+    def kept_scores(self) -> Float64s:
+        """The greedy score of the policy that each run keeps, (runs,); -inf before the first evaluation."""
+        return self._kept.scores
+
+    @property
     def kept(self) -> Arrays:
         """The networks of the policies that the runs keep, by role, and their ``scores``: what plays afterwards."""
-        return {**self._kept, "scores": self.kept_scores}
+        return {**self._kept.online, "scores": self._kept.scores}
 
     @property
     def epsilon(self) -> tuple[Float64s, Float64s]:
@@ -166,8 +174,8 @@ class TeamTrainer:
         done = runs.episodes[rows]
         due = (done % self.preset.evaluate_every == 0) | (done >= self.preset.episodes)
         runs.evaluating[rows] = due & (done > runs.evaluated_at[rows])
-        epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])[rows]
-        runs.materials[rows] = self.agent.choose(rows, epsilon, choice[rows])
+        epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
+        runs.materials[rows] = self._choices.begin(rows, epsilon, choice) if self._choices else 0
         for run in rows:
             runs.observations[run] = self._arenas[run].reset(int(runs.materials[run]))
         runs.ticks_in_episode[rows] = 0
@@ -183,22 +191,10 @@ class TeamTrainer:
             counts = int(runs.materials[run]), int(runs.ticks_in_episode[run])
             played = float(scores[run]), *counts, float(main[run]), float(nested[run])
             self.episode_rows.append(EpisodeRow(run, int(runs.episodes[run]), *played))
-        if self.agent.main is None:
-            return
-        # The main agent has one transition per episode: after its choice there is nothing left to decide.
-        ended, after = np.ones(len(rows), dtype=np.bool_), runs.observations[rows, 0]
-        before = self.agent.main_states(len(rows))
-        self.agent.main.store(rows, before, runs.materials[rows], scores[rows], after, ended)
-        for update in self._main_draws(rows, draws):
-            self.agent.main.learn(rows, update)
-
-    def _main_draws(self, rows: Int64s, draws: Float64s) -> Float64s:
-        """The numbers that select the batches of the main agent's updates now, (updates, n, batch)."""
-        if self.preset.main is None:
-            return draws[None, rows]
-        shape = self.preset.main.updates_an_episode, self.preset.update.batch
-        runs = [self.agent.runs[row] for row in rows]
-        return np.stack([main_updates_stream(self._seed, run, self.ticks).random(shape) for run in runs], axis=1)
+        if self._choices:
+            every = np.ones(len(scores), dtype=np.bool_)
+            step = ChoiceStep(runs.observations[:, 0], scores, every, ~every, draws, self.ticks)
+            self._choices.learn(rows, runs.materials, step)
 
     def _end_evaluations(self, rows: Int64s, scores: Float64s) -> None:
         runs = self._runs
@@ -207,15 +203,9 @@ class TeamTrainer:
             counts = int(runs.materials[run]), int(runs.ticks_in_episode[run])
             self.evaluation_rows.append(EvaluationRow(run, episode, score, *counts))
             runs.evaluated_at[run] = episode
-            if self.preset.keep == "last" or score > self.kept_scores[run]:
-                self._keep(run, score)
+            if self.preset.keep == "last" or score > self._kept.scores[run]:
+                self._kept.take(run, score)
             runs.finished[run] = episode >= self.preset.episodes
-
-    def _keep(self, run: int, score: float) -> None:
-        self.kept_scores[run] = score
-        rows = self.agent.rows_of(run)
-        for role, online in self.agent.online().items():
-            self._kept[role][rows[role]] = online[rows[role]]
 
     def abandon_episodes(self) -> None:
         """Start every unfinished episode over: its arena is gone or in an unknown state."""
@@ -235,17 +225,11 @@ class TeamTrainer:
 
     def marks(self) -> Arrays:
         """The length of the journal now: how many rows there are, and how many transitions."""
-        rows = np.array([len(self.episode_rows), len(self.evaluation_rows)])
-        return {"rows": rows, **named_for("agent", self.agent.marks())}
+        return self._journal.marks()
 
     def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
         """The rows and transitions since those marks; all of them if there are none."""
-        episodes, evaluations = since["rows"] if since else (0, 0)
-        return {
-            "rows.episodes": table_of_rows(self.episode_rows[episodes:], EpisodeRow),
-            "rows.evaluations": table_of_rows(self.evaluation_rows[evaluations:], EvaluationRow),
-            **named_for("agent", self.agent.transitions_since(part_of(since, "agent") if since else None)),
-        }
+        return self._journal.since(since)
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: Sequence[Mapping[str, NDArray[Any]]]) -> None:
         """Continue from what ``state`` and ``journal`` returned; KeyError or ValueError if the shape differs."""
@@ -256,9 +240,7 @@ class TeamTrainer:
         for name, kept in self.kept.items():
             kept[:] = state[f"kept.{name}"]
         for journal in journals:
-            self.episode_rows += rows_of_table(journal["rows.episodes"], EpisodeRow)
-            self.evaluation_rows += rows_of_table(journal["rows.evaluations"], EvaluationRow)
-            self.agent.store_again(part_of(journal, "agent"))
+            self._journal.extend(journal)
         self._restore_arenas(part_of(state, "arenas"))
 
     def _restore_arenas(self, saved: Arrays) -> None:

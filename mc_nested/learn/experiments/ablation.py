@@ -23,7 +23,7 @@ FILE = "ablation.toml"
 LIVE = "live"
 
 
-class Part(BaseModel):
+class AblatedPart(BaseModel):
     """What one line of an ablation trains: a complete preset, or a planner that plays as many episodes at most."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
@@ -39,7 +39,7 @@ class AblationConfig(ExperimentConfig):
     """An ablation of the nested agent; the first part is what the others of its base are compared with."""
 
     scenarios: Annotated[list[ScenarioTable], Field(min_length=1)]
-    parts: Annotated[list[Part], Field(min_length=1)]
+    parts: Annotated[list[AblatedPart], Field(min_length=1)]
 
     def loaded_scenarios(self) -> list[Scenario]:
         """The scenarios; RunError if two have the same name, ScenarioError if one can't be built."""
@@ -59,7 +59,7 @@ class AblationConfig(ExperimentConfig):
                     jobs.append(self._job(f"{len(jobs):04d}", part, scenario, together))
         return sorted(jobs, key=lambda job: -job.work)
 
-    def _job(self, name: str, part: Part, scenario: Scenario, trials: list[int]) -> Job:
+    def _job(self, name: str, part: AblatedPart, scenario: Scenario, trials: list[int]) -> Job:
         return Job(
             name=name,
             spec=AGENT_SPECS["nested"],
@@ -83,14 +83,14 @@ class _Row(BaseModel):
     without: list[str] = Field(default_factory=list)
     planner: bool = False
 
-    def part(self, episodes: int | None) -> Part:
+    def part(self, episodes: int | None) -> AblatedPart:
         base = load_preset(self.base).model_dump(exclude_none=True)
         kept = {key: value for key, value in base.items() if key not in self.without}
         changed = changed_tables(kept, self.preset)
         if episodes is not None:
             changed["episodes"] = episodes
         preset = parse_preset(tomlkit.dumps(changed), f"{FILE}, {self.name}")
-        return Part(name=self.name, base=self.base, what=self.what, preset=preset, planner=self.planner)
+        return AblatedPart(name=self.name, base=self.base, what=self.what, preset=preset, planner=self.planner)
 
 
 class _Rows(BaseModel):
@@ -100,7 +100,7 @@ class _Rows(BaseModel):
     rows: list[_Row]
 
 
-def shipped_parts(episodes: int | None = None) -> list[Part]:
+def shipped_parts(episodes: int | None = None) -> list[AblatedPart]:
     """The shipped parts, each with as many episodes as are asked for, or as its preset and ablation.toml say."""
     text = (resources.files("mc_nested.learn.experiments") / FILE).read_text("utf-8")
     read = parse_toml(_Rows, text, FILE, PresetError)

@@ -6,7 +6,7 @@ import tomlkit
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.errors import RunError
-from mc_nested.learn.experiments.ablation import AblationConfig, Part, shipped_parts
+from mc_nested.learn.experiments.ablation import AblatedPart, AblationConfig, shipped_parts
 from mc_nested.learn.experiments.jobs import PLANNER
 from mc_nested.learn.preset import load_preset
 from tests.learn.made_experiments import BAR, DOT
@@ -97,5 +97,5 @@ def test_two_designs_of_one_name_are_refused() -> None:
 
 def test_a_part_is_written_with_all_of_its_preset() -> None:
     part = PARTS["γ 0.93"]
-    assert Part.model_validate(part.model_dump()) == part
+    assert AblatedPart.model_validate(part.model_dump()) == part
     assert part.preset.update.gamma == 0.93
