@@ -37,6 +37,11 @@ class Standin:
         x, y, z = standin_oracle.ask(self.oracle, "/player")["position"]
         return x, y, z
 
+    def held(self) -> str | None:
+        """The item that the server has in the player's hand; None for an empty one."""
+        held = standin_oracle.ask(self.oracle, "/player")["held"]
+        return str(held["name"]) if held else None
+
     def blocks(self, low: Block, high: Block) -> dict[Block, str]:
         """The blocks, not air, that the server has between two corners, both inside, by position."""
         return standin_oracle.blocks(self.oracle, low, high)
@@ -44,6 +49,10 @@ class Standin:
     def is_playing(self) -> bool:
         """Whether the page shows the world, and neither a menu nor an error instead of it."""
         return bool(standin_oracle.ask(self.oracle, "/screen")["playing"])
+
+    def is_chatting(self) -> bool:
+        """Whether the page has its chat line open."""
+        return bool(standin_oracle.ask(self.oracle, "/screen")["chat"])
 
     def errors(self) -> list[str]:
         """The errors of the page since it was opened."""
