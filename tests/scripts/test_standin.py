@@ -139,6 +139,7 @@ def _say(standin: Standin, command: str) -> None:
 @pytest.mark.standin
 def test_a_block_that_the_server_refuses_changes_nothing_as_in_the_game(standin: Standin) -> None:
     _say(standin, "/item replace entity @s hotbar.0 with stone 1")
+    _say(standin, "/fill 8 5 8 8 6 8 air")
     _say(standin, "/tp @s 8.5 5 8.5 0 90")
     assert wait_until(lambda: standin.position() == (8.5, 5, 8.5), ANSWER_S)
     _do(standin, HOLD_A_KEY, "1", "0.1")
