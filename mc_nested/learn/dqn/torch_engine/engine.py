@@ -18,6 +18,7 @@ from mc_nested.learn.dqn.torch_engine.adam import adam_step
 from mc_nested.learn.dqn.torch_engine.inputs import input_shape, inputs_of
 from mc_nested.learn.dqn.torch_engine.networks import MLP
 from mc_nested.learn.dqn.torch_engine.rows import NetworkRows, can_be_stacked
+from mc_nested.learn.dqn.torch_engine.value_slopes import huber_slopes, margin_slopes
 
 
 class TorchEngine:
@@ -81,44 +82,41 @@ class TorchEngine:
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         self.updates[rows] += 1
         with _enough_memory(self._device):
-            states, following = self._inputs(batch.states, rows)
-            actions, rewards, discounts = (
-                self._tensor(part) for part in (batch.actions, batch.rewards, batch.discounts)
+            states = self._inputs(batch.states, rows)
+            actions, rewards, discounts, weights = (
+                self._tensor(part) for part in (batch.actions, batch.rewards, batch.discounts, batch.weights)
             )
-            values, following_values, leaves = self._both_values(rows, states, following)
+            taken = actions.unsqueeze(-1)
+            values, following_values, leaves = self._both_values(rows, states)
             with torch.no_grad():
                 best = following_values.argmax(-1, keepdim=True)
-                bootstrap = self._target_values.values(rows, following).values.gather(-1, best)[..., 0]
-                goal = torch.addcmul(rewards, discounts, bootstrap)
-            chosen = values.gather(-1, actions[..., None])[..., 0]
-            huber = nn.functional.huber_loss(chosen, goal, reduction="none", delta=self.rule.huber_delta)
-            loss = torch.mul(huber, self._tensor(batch.weights)).sum() / self.rule.batch
-            if batch.imitated.any():
-                loss = loss + self._imitation(values, chosen, actions, self._tensor(batch.imitated))
-            self._step(rows, self._values.gradient(loss, leaves, len(rows)))
-            before = chosen.detach()
-            self._last.values[rows], self._last.errors[rows] = _array(before), _array(before - goal)
+                bootstrap = self._target_values.values(rows, states[1]).values.gather(-1, best).squeeze(-1)
+                chosen = values.gather(-1, taken).squeeze(-1)
+                errors = torch.addcmul(rewards, discounts, bootstrap).neg_().add_(chosen)
+                slopes = huber_slopes(values, taken, errors, weights, self.rule)
+                if batch.imitated.any():
+                    slopes += margin_slopes(values, taken, self._tensor(batch.imitated), self.rule)
+            self._step(rows, self._values.gradient(values, slopes, leaves, len(rows)))
+            found = _array(errors)
+            self._last.values[rows], self._last.errors[rows] = _array(chosen), found
         due = rows[self.updates[rows] % self.rule.target_period == 0]
         if len(due):
             self._target[due] = self._online[due]
-        errors: Float32s = self._last.errors[rows]
-        return errors
+        return found
 
-    def _both_values(self, rows: Int64s, states: Tensor, following: Tensor) -> tuple[Tensor, Tensor, Sequence[Tensor]]:
-        """The online networks' values of s and of s', (k, batch, actions), and the leaves that those of s depend on."""
+    def _both_values(self, rows: Int64s, states: Tensor) -> tuple[Tensor, Tensor, Sequence[Tensor]]:
+        """The online networks' values of s and of s', (k, batch, actions), and the leaves that those of s depend on.
+
+        ``states`` are every s and every s', (2, k, batch, …).
+        """
         if self.form.network == MLP:  # a second pass takes longer than a slope of zero through twice the batch
-            both, leaves = self._values.values(rows, torch.cat((states, following), dim=1))
-            values, following_values = both.chunk(2, dim=1)
-            return values, following_values.detach(), leaves
+            both, leaves = self._values.values(rows, states.transpose(0, 1).flatten(1, 2))
+            batch = self.rule.batch
+            return both.narrow(1, 0, batch), both.detach().narrow(1, batch, batch), leaves
         with torch.no_grad():
-            following_values = self._values.values(rows, following).values
-        values, leaves = self._values.values(rows, states)
+            following_values = self._values.values(rows, states[1]).values
+        values, leaves = self._values.values(rows, states[0])
         return values, following_values, leaves
-
-    def _imitation(self, values: Tensor, chosen: Tensor, actions: Tensor, imitated: Tensor) -> Tensor:
-        """The mean large-margin loss of what is imitated, summed over the rows (self_imitation.py)."""
-        margin = torch.full_like(values, self.rule.margin).scatter_(-1, actions[..., None], 0.0)
-        return ((values + margin).amax(-1) - chosen).mul(imitated).sum() / self.rule.batch
 
     def _step(self, rows: Int64s, gradient: Tensor) -> None:
         """One step of Adam in the named rows; DivergedError if a parameter is no number afterwards."""

@@ -3,10 +3,10 @@
 So an mlp of one engine can be handed to the other, and a checkpoint or an optimiser step is one array.
 """
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-import numpy as np
 import torch
 from torch import Tensor, nn
 
@@ -39,7 +39,7 @@ def parts_of(rows: Tensor, slots: Sequence[Slot]) -> dict[str, Tensor]:
     """Views of each parameter in the rows (…, parameters), (…, *its shape), by name."""
     parts, start = {}, 0
     for slot in slots:
-        end = start + int(np.prod(slot.shape))
+        end = start + math.prod(slot.shape)
         lying = rows[..., start:end].view(*rows.shape[:-1], *slot.shape)
         if len(slot.names) == 1:
             parts[slot.names[0]] = lying

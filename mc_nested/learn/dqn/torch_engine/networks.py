@@ -29,10 +29,10 @@ Make = Callable[[tuple[int, ...], int], nn.Module]
 """Makes a network for states of that shape and so many actions."""
 
 
-def mlp(sizes: Sequence[int]) -> nn.Module:
-    """Dense layers of those widths: hidden ones with tanh, a linear output (paper, appendix: hyper-parameters)."""
-    layers: list[nn.Module] = [nn.Flatten()]
-    for inputs, outputs in pairwise(sizes):
+def mlp(shape: tuple[int, ...], hidden: Sequence[int], actions: int) -> nn.Module:
+    """Dense layers: hidden ones of those widths with tanh, a linear output (paper, appendix: hyper-parameters)."""
+    layers: list[nn.Module] = [nn.Flatten()] if len(shape) > 1 else []
+    for inputs, outputs in pairwise((int(np.prod(shape)), *hidden, actions)):
         layers += [nn.Linear(inputs, outputs), nn.Tanh()]
     return nn.Sequential(*layers[:-1])
 
@@ -60,7 +60,7 @@ def cnn(shape: tuple[int, ...], hidden: Sequence[int], actions: int) -> nn.Modul
 def network_maker(network: str, hidden: Sequence[int]) -> Make:
     """What makes the network of that name, with dense layers of those widths; PresetError if there is none."""
     if network == MLP:
-        return lambda shape, actions: mlp((int(np.prod(shape)), *hidden, actions))
+        return lambda shape, actions: mlp(shape, hidden, actions)
     if network == CNN:
         return lambda shape, actions: cnn(shape, hidden, actions)
     return own_maker(network)

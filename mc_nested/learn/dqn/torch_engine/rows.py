@@ -9,7 +9,7 @@ from torch import Tensor, nn
 from torch.func import functional_call, vmap
 
 from mc_nested.arrays import Int64s
-from mc_nested.learn.dqn.torch_engine.layout import bind, laid_out, parts_of, slots_of
+from mc_nested.learn.dqn.torch_engine.layout import bind, parts_of, slots_of
 
 
 class Values(NamedTuple):
@@ -41,6 +41,9 @@ class NetworkRows:
         self._slots = slots_of(self._modules[0])
         names = [name for slot in self._slots for name in slot.names]
         self._leaves = [[dict(module.named_parameters())[name] for name in names] for module in self._modules]
+        self._gradient = torch.zeros_like(flat)
+        self._slopes = list(parts_of(self._gradient, self._slots).values())
+        self._slopes_of = [list(parts_of(row, self._slots).values()) for row in self._gradient]
         first = self._modules[0]
         self._stacked = vmap(lambda parameters, inputs: functional_call(first, parameters, (inputs,)))
 
@@ -55,15 +58,20 @@ class NetworkRows:
         leaves = {name: part.detach().requires_grad_() for name, part in parts_of(named, self._slots).items()}
         return Values(self._stacked(leaves, inputs), list(leaves.values()))
 
-    def gradient(self, loss: Tensor, leaves: Sequence[Tensor], rows: int) -> Tensor:
-        """The gradient of the loss in so many rows, (rows, parameters), from the leaves that ``values`` gave."""
-        found = torch.autograd.grad(loss, leaves, allow_unused=True)
-        slopes = [torch.zeros_like(leaf) if slope is None else slope for slope, leaf in zip(found, leaves, strict=True)]
-        a_row = len(self._leaves[0])
-        if len(slopes) == a_row:
-            return laid_out(slopes, self._slots, rows)
-        one_by_one = [slopes[start : start + a_row] for start in range(0, len(slopes), a_row)]
-        return torch.cat([laid_out(own, self._slots, 1) for own in one_by_one])
+    def gradient(self, values: Tensor, slopes: Tensor, leaves: Sequence[Tensor], rows: int) -> Tensor:
+        """The gradient (rows, parameters) of a loss with these slopes in the values (rows, batch, actions).
+
+        ``leaves`` are as ``values`` gave them. The next call writes over what this one returns.
+        """
+        found = torch.autograd.grad(values, leaves, slopes, allow_unused=True)
+        stacked = rows > 1 and len(leaves) == len(self._leaves[0])
+        one_by_one = (part for row in self._slopes_of[:rows] for part in row)
+        for slope, part in zip(found, (part[:rows] for part in self._slopes) if stacked else one_by_one, strict=True):
+            if slope is None:
+                part.zero_()
+            else:
+                part.copy_(slope)
+        return self._gradient[:rows]
 
 
 def can_be_stacked(module: nn.Module, shape: tuple[int, ...]) -> bool:
