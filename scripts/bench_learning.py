@@ -3,7 +3,7 @@
 The same work: the line in the simulator, one environment step and one DDQN update of batch 32 per step, two hidden
 layers of 32, Adam. Each contestant uses all cores: our runs are divided over the cores as in ``mc-nested reproduce``,
 and each core runs one single-run loop. All take turns in short slices, so that a drift in the machine's speed affects
-them equally; quote the ratios.
+them equally; quote the ratios. The torch engine takes part with one run and with the most, its images with one and ten.
 
 Usage: python scripts/bench_learning.py [--runs 1 10 30 90] [--rounds 5] [--slice-s 2] [--json]
 stable-baselines3 takes part where the bench extra is installed.
@@ -23,6 +23,7 @@ from contextlib import ExitStack
 from itertools import pairwise
 from multiprocessing.connection import Connection
 from pathlib import Path
+from typing import Any
 
 import torch
 from rich.console import Console
@@ -31,7 +32,7 @@ from rich.table import Table
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.agents import AGENT_SPECS, Agent
-from mc_nested.learn.preset import load_preset
+from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 
@@ -40,15 +41,18 @@ from scripts.bench_learning_loops import Slices, plain_loop, sb3
 
 LINE, PAPER = load_scenario("line"), load_preset("paper")
 WARM_UP_S = 1.0
+PRESETS = {"compiled": PAPER, "torch": PAPER.changed(engine="torch"), "images": load_preset("image")}
+"""What this project's trainer is measured with, by the word before the number of runs."""
+IMAGE_RUNS = (1, 10)
 MOST_RUNS = 90
 """The runs of the paper's experiment: the ratios are quoted for this number if it is measured."""
 
 
-def ours(runs: int) -> Slices:
+def ours(runs: int, preset: Preset) -> Slices:
     """This project's trainer with that many runs; the main agent's updates are left out of the count."""
     scenarios = [LINE] * runs
-    agent = Agent(AGENT_SPECS["nested"], scenarios, PAPER, seed=0)
-    trainer = Trainer(GridVectorEnv(scenarios), scenarios, agent, PAPER, seed=0)
+    agent = Agent(AGENT_SPECS["nested"], scenarios, preset, seed=0)
+    trainer = Trainer(agent.view_of(GridVectorEnv(scenarios), scenarios), scenarios, agent, preset, seed=0)
 
     def work() -> int:
         before = int(agent.low_level.engine.updates.sum())
@@ -94,8 +98,9 @@ def contestant(name: str, core: int, cores: int) -> Slices | None:
         return matrix_products(MOST_RUNS // cores)
     if name == "plain loop, one":
         return plain_loop() if core == 0 else None
-    runs = int(name) // cores + (core < int(name) % cores)
-    return ours(runs) if runs else None
+    kind, count = name.split()
+    runs = int(count) // cores + (core < int(count) % cores)
+    return ours(runs, PRESETS[kind]) if runs else None
 
 
 def on_a_core(pipe: Connection, names: Sequence[str], core: int, cores: int) -> None:
@@ -116,9 +121,16 @@ def rate(work: Slices, seconds: float) -> float:
     return updates / took
 
 
+def ours_named(runs: Sequence[int]) -> list[str]:
+    """The contestants of this project: what it is measured with (PRESETS), and so many runs."""
+    torch_runs = sorted({1, max(runs)})
+    counts = {"compiled": runs, "torch": torch_runs, "images": [count for count in IMAGE_RUNS if count <= max(runs)]}
+    return [f"{kind} {count}" for kind, own in counts.items() for count in own]
+
+
 def measure(runs: Sequence[int], rounds: int, slice_s: float, cores: int) -> dict[str, list[float]]:
     """Updates a second of each contestant on all cores together, a figure a round."""
-    names = [*(str(count) for count in runs), "plain loop", "plain loop, one", "bmm"]
+    names = [*ours_named(runs), "plain loop", "plain loop, one", "bmm"]
     if importlib.util.find_spec("stable_baselines3"):
         names.append("stable-baselines3")
     context = multiprocessing.get_context("spawn")
@@ -151,21 +163,23 @@ def ratio(rates: dict[str, list[float]], one: str, other: str) -> float:
     return statistics.median(a / b for a, b in zip(rates[one], rates[other], strict=True))
 
 
-def summary(rates: dict[str, list[float]], runs: Sequence[int], cores: int) -> dict[str, object]:
+def summary(rates: dict[str, list[float]], runs: Sequence[int], cores: int) -> dict[str, Any]:
     """The figures as one JSON object; every ratio at the largest number of runs but ``ratio_one_run``."""
     medians = {name: statistics.median(found) for name, found in rates.items()}
-    most, has_sb3 = str(max(runs)), "stable-baselines3" in rates
+    most, has_sb3 = f"compiled {max(runs)}", "stable-baselines3" in rates
     limit = medians["bmm"] * 1000 / flops_of_an_update()
     return {
         "cores": cores,
-        "ours": {str(count): round(medians[str(count)]) for count in runs},
+        "ours": {name: round(medians[name]) for name in ours_named(runs)},
         "plain_loop": round(medians["plain loop"]),
         "sb3": round(medians["stable-baselines3"]) if has_sb3 else None,
         "limit": round(limit),
         "ratio_sb3": round(ratio(rates, most, "stable-baselines3"), 1) if has_sb3 else None,
         "ratio_plain_loop": round(ratio(rates, most, "plain loop"), 1),
         "ratio_limit": round(medians[most] / limit, 3),
-        "ratio_one_run": round(ratio(rates, "1", "plain loop, one"), 2) if 1 in runs else None,
+        "ratio_one_run": round(ratio(rates, "compiled 1", "plain loop, one"), 2) if 1 in runs else None,
+        "ratio_torch": round(ratio(rates, f"torch {max(runs)}", "plain loop"), 1),
+        "ratio_torch_one_run": round(ratio(rates, "torch 1", "plain loop, one"), 2),
     }
 
 
@@ -186,12 +200,16 @@ def main() -> None:
     table = Table("", "updates/s", "beside the plain loop", title=f"median over the rounds, {cores} cores")
     for name in rates:
         if name not in ("bmm", "plain loop, one"):
-            label = f"{name} runs" if name.isdigit() else name
             beside = ratio(rates, name, "plain loop")
-            table.add_row(label, f"{statistics.median(rates[name]):,.0f}", f"{beside:.1f} times")
+            table.add_row(
+                f"{name} runs" if name in found["ours"] else name,
+                f"{statistics.median(rates[name]):,.0f}",
+                f"{beside:.1f} times",
+            )
     table.add_row("the arithmetic limit", f"{found['limit']:,}", f"{found['ratio_limit']} of it are reached")
     Console().print(table)
-    print(f"one run beside one plain loop on one core: {found['ratio_one_run']} times")
+    one, torch_one = found["ratio_one_run"], found["ratio_torch_one_run"]
+    print(f"one run beside one plain loop on one core: compiled {one} times, torch {torch_one} times")
 
 
 if __name__ == "__main__":

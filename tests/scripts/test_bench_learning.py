@@ -22,9 +22,11 @@ def test_the_arithmetic_of_an_update_is_that_of_its_products() -> None:
 
 
 def test_ratios_are_medians_of_rounds_side_by_side() -> None:
-    rates = {"1": [10.0, 40.0, 30.0], "plain loop": [5.0, 10.0, 15.0], "plain loop, one": [5.0, 5.0, 5.0], "bmm": [1.0]}
-    found = summary(rates, [1], cores=2)
-    assert (found["ours"], found["plain_loop"]) == ({"1": 30}, 10)
+    loops = {"plain loop": [5.0, 10.0, 15.0], "plain loop, one": [5.0, 5.0, 5.0], "bmm": [1.0]}
+    ours = {"compiled 1": [10.0, 40.0, 30.0], "torch 1": [4.0, 4.0, 5.0], "images 1": [1.0, 2.0, 3.0]}
+    found = summary(loops | ours, [1], cores=2)
+    assert (found["ours"], found["plain_loop"]) == ({"compiled 1": 30, "torch 1": 4, "images 1": 2}, 10)
+    assert (found["ratio_torch"], found["ratio_torch_one_run"]) == (0.4, 0.8)
     assert (found["ratio_plain_loop"], found["ratio_one_run"], found["sb3"]) == (2.0, 6.0, None)
 
 
@@ -35,6 +37,6 @@ def test_it_leaves_nothing_in_the_temporary_folder(tmp_path: Path) -> None:
     command = [sys.executable, "scripts/bench_learning.py", *words]
     done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, check=False, timeout=600)
     assert done.returncode == 0, done.stderr
-    assert set(json.loads(done.stdout)["ours"]) == {"1", "2"}
+    assert set(json.loads(done.stdout)["ours"]) == {"compiled 1", "compiled 2", "torch 1", "torch 2", "images 1"}
     assert (json.loads(done.stdout)["sb3"] is not None) is (importlib.util.find_spec("stable_baselines3") is not None)
     assert list(tmp_path.iterdir()) == []
