@@ -1,4 +1,4 @@
-"""The slopes of an update's loss in the values Q(s, a), by hand: autograd's would take a quarter of an update."""
+"""The slopes of an update's loss in the values Q(s, a), by hand: autograd begins at the network's output."""
 
 import torch
 from torch import Tensor
