@@ -10,7 +10,6 @@ import cv2
 import numpy as np
 import typer
 
-from mc_nested.arena.cooperative.single_team import SingleTeamEnv
 from mc_nested.arena.cooperative.team import Team, team_of
 from mc_nested.arena.cooperative.team_env import TeamEnv
 from mc_nested.arena.cooperative.team_picture import draw_team_picture
@@ -28,7 +27,7 @@ from mc_nested.errors import UserError
 from mc_nested.learn.cooperation.team_agent import KINDS, Kind, check_team_preset
 from mc_nested.learn.cooperation.team_evaluation import play_team_greedily
 from mc_nested.learn.cooperation.team_run import TeamConfig, TeamRun
-from mc_nested.learn.cooperation.team_trainer import TeamTrainer
+from mc_nested.learn.cooperation.team_trainer import TeamArena, TeamTrainer, arena_of
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.curve import align_trials, draw_curve
@@ -140,14 +139,13 @@ def _kind(name: str) -> Kind:
 class _Arenas:
     """A simulated arena for each trial, as its agents see it, and the arena of the first within."""
 
-    seen: list[TeamEnv | SingleTeamEnv]
+    seen: list[TeamArena]
     within: TeamEnv
 
     @classmethod
     def of(cls, run: TeamRun, trials: int) -> "_Arenas":
         within = [TeamEnv(TeamGrid(run.team), run.team) for _ in range(trials)]
-        is_single = run.config.networks == "single"
-        return cls([SingleTeamEnv(env) if is_single else env for env in within], within[0])
+        return cls([arena_of(env, run.config.networks) for env in within], within[0])
 
 
 def _run(run: TeamRun, output: Output, *, resumed: bool) -> None:

@@ -13,13 +13,20 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from types import FrameType
 
+from mc_nested.arena.cooperative.team import Team
+from mc_nested.arena.cooperative.team_env import TeamEnv
 from mc_nested.errors import UserError
+from mc_nested.learn.cooperation.team_agent import Kind
+from mc_nested.learn.cooperation.team_trainer import TeamArena, arena_of
+from mc_nested.learn.experiments.job_trainers import agents_trainer, team_trainer
 from mc_nested.learn.experiments.job_training import JobTraining, Training, writing
 from mc_nested.learn.experiments.jobs import PLANNER, Job
 from mc_nested.learn.experiments.planner_training import PlannerTraining
 from mc_nested.learn.runs.folder_lock import folder_lock
+from mc_nested.learn.trainer import Trainer
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from sim.grid import GridVectorEnv
+from sim.team_grid import TeamGrid
 
 REPORT_EVERY_S = 0.25
 """Seconds between two reports, and between two looks whether to stop."""
@@ -87,9 +94,11 @@ def _train(pipe: Connection, job: Job, folder: Path, stop: _StopSignal) -> JobEn
 
 
 def _training_of(job: Job, folder: Path) -> Training:
+    if job.builders:
+        return JobTraining(job, folder, team_trainer(job, _team_arenas))
     arenas = GridVectorEnv(job.scenarios)
     if job.library is None:
-        return JobTraining(job, folder, arenas)
+        return JobTraining(job, folder, agents_trainer(job, arenas))
     if job.library == PLANNER:
         return PlannerTraining(job, folder, arenas)
     from mc_nested.learn.experiments.sb3_training import Sb3Training  # only where the library is asked for
@@ -97,8 +106,12 @@ def _training_of(job: Job, folder: Path) -> Training:
     return Sb3Training(job, folder, arenas, GridVectorEnv(job.scenarios))
 
 
+def _team_arenas(team: Team, networks: Kind, runs: int) -> list[TeamArena]:
+    return [arena_of(TeamEnv(TeamGrid(team), team), networks) for _ in range(runs)]
+
+
 def _events(training: Training, folder: Path) -> TensorBoard | None:
-    if not (isinstance(training, JobTraining) and is_installed()):
+    if not (isinstance(training, JobTraining) and isinstance(training.trainer, Trainer) and is_installed()):
         return None
     job = training.job
     names = (

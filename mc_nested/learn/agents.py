@@ -224,6 +224,13 @@ class Agent:
         return sum(int(learner.engine.updates.sum()) for learner in self._learners().values())
 
     @property
+    def updates_by_run(self) -> Int64s:
+        """Updates of all of a run's networks, (runs,)."""
+        done = [learner.engine.updates.reshape(len(self.runs), -1) for learner in self._learners().values()]
+        total: Int64s = np.hstack(done).sum(axis=1)
+        return total
+
+    @property
     def replay_bytes(self) -> Int64s:
         """Bytes of what each run's replays hold, all its agents' together, (runs,)."""
         held = [learner.replay.bytes_held().reshape(len(self.runs), -1) for learner in self._learners().values()]

@@ -12,10 +12,11 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arena.cooperative.team_env import TeamStep
+from mc_nested.arena.cooperative.single_team import SingleTeamEnv
+from mc_nested.arena.cooperative.team_env import TeamEnv, TeamStep
 from mc_nested.arena.game import Resumable
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
-from mc_nested.learn.cooperation.team_agent import TeamAgent
+from mc_nested.learn.cooperation.team_agent import Kind, TeamAgent
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.exploration.schedules import LinearDecay
@@ -40,6 +41,11 @@ class TeamArena(Protocol):
 
     def step(self, actions: Int64s) -> TeamStep:
         """One tick, an action of each builder, (k,)."""
+
+
+def arena_of(within: TeamEnv, networks: Kind) -> TeamArena:
+    """A team's arena as agents of that kind see it."""
+    return SingleTeamEnv(within) if networks == "single" else within
 
 
 @dataclass

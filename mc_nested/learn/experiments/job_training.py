@@ -8,26 +8,28 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
-from gymnasium.vector import VectorEnv
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arrays import Arrays, Int64s
+from mc_nested.arrays import Arrays, Float64s, Int64s
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError
-from mc_nested.learn.agents import Agent
-from mc_nested.learn.episode_log import EvaluationRow
+from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.evaluation import GreedyEpisode
 from mc_nested.learn.experiments.jobs import Job
+from mc_nested.learn.experiments.spent import Spent, Updated
 from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
-from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.state_dict import named_for, part_of
 
 OUTCOME = "outcome.json"
 
 
 class Evaluated(BaseModel):
-    """One greedy episode after ``episode`` training episodes; ``score`` is r_M."""
+    """One greedy episode after ``episode`` training episodes; ``score`` is r_M.
+
+    ``trained_steps`` and ``updates`` are what the run had spent by then, None where that wasn't counted.
+    """
 
     model_config = ConfigDict(frozen=True)
 
@@ -35,12 +37,22 @@ class Evaluated(BaseModel):
     score: float
     material: str
     steps: int
+    trained_steps: int | None = None
+    updates: int | None = None
 
 
-def evaluated(row: EvaluationRow, scenario: Scenario) -> Evaluated:
-    """What an outcome says about a greedy episode on that scenario."""
+def evaluated(row: EvaluationRow, scenario: Scenario, spent: tuple[int, int] | None = None) -> Evaluated:
+    """What an outcome says about a greedy episode on that scenario, and the (steps, updates) spent by then."""
     material = GreedyEpisode([row.material]).material_name(scenario)
-    return Evaluated(episode=row.episode, score=row.score, material=material, steps=row.steps)
+    steps, updates = spent or (None, None)
+    return Evaluated(
+        episode=row.episode,
+        score=row.score,
+        material=material,
+        steps=row.steps,
+        trained_steps=steps,
+        updates=updates,
+    )
 
 
 class RunOutcome(BaseModel):
@@ -108,20 +120,54 @@ class Training(Protocol):
         ...
 
 
+class Counted(Updated, Protocol):
+    """The agents of some runs, and what they take."""
+
+    @property
+    def networks(self) -> int: ...
+    @property
+    def parameters(self) -> int: ...
+    @property
+    def updates(self) -> int: ...
+    @property
+    def replay_bytes(self) -> Int64s: ...
+
+
+class Trains(Protocol):
+    """A trainer of this project's: of agents (trainer.py), or of teams (cooperation/team_trainer.py)."""
+
+    @property
+    def agent(self) -> Counted: ...
+    @property
+    def episode_rows(self) -> Sequence[EpisodeRow]: ...
+    @property
+    def evaluation_rows(self) -> Sequence[EvaluationRow]: ...
+    @property
+    def finished(self) -> bool: ...
+    @property
+    def episodes_done(self) -> Int64s: ...
+    @property
+    def kept_scores(self) -> Float64s: ...
+    def tick(self) -> None: ...
+    def state(self) -> Arrays: ...
+    def marks(self) -> Arrays: ...
+    def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays: ...
+    def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None: ...
+
+
 class JobTraining:
     """Trains a job in its folder, from where it was last saved.
 
     Args:
         job: what is trained.
         folder: the job's own; made at the first save.
-        env: an arena for each of its runs, as the simulator makes them.
+        trainer: an untrained one for the job's runs (job_trainers.py).
     """
 
-    def __init__(self, job: Job, folder: Path, env: VectorEnv[Int64s, Int64s, Any]) -> None:
+    def __init__(self, job: Job, folder: Path, trainer: Trains) -> None:
         self.job = job
-        agent = Agent(job.spec, job.scenarios, job.preset, job.seed, job.trials)
-        view = agent.view_of(env, job.scenarios)
-        self.trainer = Trainer(view, job.scenarios, agent, job.preset, job.seed, job.stop_at_optimum)
+        self.trainer = trainer
+        self._spent = Spent(len(job.trials))
         self._folder = folder
         self._checkpoint = Checkpoint(folder / "checkpoint", job.identity())
         self._seconds_before = 0.0
@@ -152,6 +198,7 @@ class JobTraining:
         RunError if the disk refuses; the last save is intact then.
         """
         self.trainer.tick()
+        self._spent.count(self.trainer)
         if (self.trainer.episodes_done - self._saved_at).max() >= self.job.preset.evaluate_every:
             self.save()
 
@@ -172,7 +219,8 @@ class JobTraining:
 
     def state(self) -> Arrays:
         """For the checkpoint: the trainer's, and the seconds so far."""
-        return {**self.trainer.state(), "unit.seconds": np.array([self._seconds()])}
+        spent = named_for("spent", self._spent.state())
+        return {**self.trainer.state(), "unit.seconds": np.array([self._seconds()]), **spent}
 
     def marks(self) -> Arrays:
         """For the checkpoint."""
@@ -186,6 +234,7 @@ class JobTraining:
         """For the checkpoint."""
         self.trainer.load(state, journals)
         self._seconds_before = float(state["unit.seconds"][0])
+        self._spent.load(part_of(state, "spent"), self.trainer)
 
     def _seconds(self) -> float:
         return self._seconds_before + time.process_time() - self._began
@@ -193,12 +242,12 @@ class JobTraining:
     def _outcome(self) -> JobOutcome:
         agent, runs = self.trainer.agent, len(self.job.trials)
         evaluations: list[list[Evaluated]] = [[] for _ in range(runs)]
-        for row in self.trainer.evaluation_rows:
-            evaluations[row.trial].append(evaluated(row, self.job.scenarios[row.trial]))
+        for row, spent in zip(self.trainer.evaluation_rows, self._spent.at, strict=True):
+            evaluations[row.trial].append(evaluated(row, self.job.scenarios[row.trial], spent))
         steps = np.zeros(runs, dtype=np.int64)
         for trained in self.trainer.episode_rows:
             steps[trained.trial] += trained.steps
-        updates = updates_by_run(agent)
+        updates = agent.updates_by_run
         held = None if self.job.preset.imagination else agent.replay_bytes
         return JobOutcome(
             identity=fingerprint(self.job.identity()),
@@ -216,13 +265,6 @@ class JobTraining:
                 for run in range(runs)
             ],
         )
-
-
-def updates_by_run(agent: Agent) -> Int64s:
-    """Updates of all of a run's networks, (runs,)."""
-    runs = len(agent.runs)
-    updates: Int64s = agent.low_level.engine.updates.reshape(runs, -1).sum(axis=1)
-    return updates + (agent.main.engine.updates if agent.main else 0)
 
 
 @contextmanager

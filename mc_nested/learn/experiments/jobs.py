@@ -4,15 +4,25 @@ What a run learns depends on its seed and its trial, not on its batch: the divis
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from itertools import accumulate, groupby
 from typing import Any
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.learn.agents import AgentSpec
+from mc_nested.learn.cooperation.team_agent import Kind
 from mc_nested.learn.engine_fit import NUMBERS
 from mc_nested.learn.preset import Preset
+
+
+@dataclass(frozen=True)
+class Builders:
+    """Several builders in one arena, spread along the scenario's start, and how they learn (team_agent.py)."""
+
+    count: int
+    networks: Kind
+
 
 PLANNER = "planner"
 """The ``library`` of a job that a script plays, without any network (planner.py)."""
@@ -42,7 +52,8 @@ class Job:
     """Runs of one agent with one preset that train as one batch; where they differ there is a tuple (runs,).
 
     ``stop_at_optimum``: a run ends at its first greedy episode at its scenario's optimum. ``library``: whose algorithm
-    trains it, or that a script plays it (PLANNER); None for this project's agents.
+    trains it, or that a script plays it (PLANNER); None for this project's agents. ``builders``: where several share
+    an arena; ``spec`` says nothing then.
     """
 
     name: str
@@ -54,6 +65,7 @@ class Job:
     seed: int
     stop_at_optimum: bool = False
     library: str | None = None
+    builders: Builders | None = None
 
     @property
     def episodes(self) -> int:
@@ -77,6 +89,7 @@ class Job:
             # Left out where they are as they always were, so that earlier folders still fit.
             **({"stop_at_optimum": True} if self.stop_at_optimum else {}),
             **({"library": self.library} if self.library else {}),
+            **({"builders": asdict(self.builders)} if self.builders else {}),
         }
 
 

@@ -20,6 +20,7 @@ from mc_nested.learn.experiments.benchmark import (
     trial_of,
 )
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
+from mc_nested.learn.experiments.job_trainers import agents_trainer
 from mc_nested.learn.experiments.job_training import JobTraining
 from mc_nested.learn.preset import load_preset
 from sim.grid import GridVectorEnv
@@ -61,8 +62,9 @@ def test_every_design_has_random_numbers_of_its_own_whatever_the_number_of_trial
 
 def test_a_trial_ends_at_its_first_greedy_episode_at_the_optimum(tmp_path: Path) -> None:
     job = config().cut()[0]
-    training = JobTraining(job, tmp_path, GridVectorEnv(job.scenarios))
-    training.trainer._optimum[:] = -1e9
+    trainer = agents_trainer(job, GridVectorEnv(job.scenarios))
+    trainer._optimum[:] = -1e9
+    training = JobTraining(job, tmp_path, trainer)
     while not training.finished:
         training.tick()
     assert training.episodes_done.tolist() == [5, 5]

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.errors import RunError
+from mc_nested.learn.experiments.job_trainers import agents_trainer
 from mc_nested.learn.experiments.job_training import OUTCOME, JobOutcome, JobTraining, RunOutcome, outcome_of
 from mc_nested.learn.experiments.jobs import Job, cut_into_jobs
 from sim.grid import GridVectorEnv
@@ -13,7 +14,7 @@ from tests.learn.made_experiments import BAR, DOT, one_job, runs_of, small_prese
 
 
 def training(job: Job, folder: Path) -> JobTraining:
-    return JobTraining(job, folder, GridVectorEnv(job.scenarios))
+    return JobTraining(job, folder, agents_trainer(job, GridVectorEnv(job.scenarios)))
 
 
 def train(job: Job, folder: Path) -> JobOutcome:
@@ -137,9 +138,10 @@ def test_a_full_disk_costs_one_line_and_not_the_last_save(tmp_path: Path, monkey
 
     while (own.trainer.episodes_done < 14).all():
         own.tick()
-    saved = training(job, tmp_path).trainer.ticks
+    saved = training(job, tmp_path).episodes_done.tolist()
     with monkeypatch.context() as patch:
         patch.setattr("os.fsync", full)
         with pytest.raises(RunError, match=r"No space left on device.*: make room"):
             own.save()
-    assert 0 < training(job, tmp_path).trainer.ticks == saved
+    assert training(job, tmp_path).episodes_done.tolist() == saved
+    assert min(saved) > 0
