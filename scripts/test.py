@@ -20,8 +20,8 @@ OTHERS = f"slow or {REAL}"
 """The markers of the tests that the unit suite leaves out."""
 
 KERNELS = [
-    "tests/learn/dqn/test_adam.py",
-    "tests/learn/dqn/test_cell_networks.py",
+    "tests/learn/dqn/compiled_engine/test_adam.py",
+    "tests/learn/dqn/compiled_engine/test_cell_networks.py",
     "tests/learn/imagination/test_arena_step.py",
     "tests/learn/imagination/test_built_values.py",
     "tests/learn/imagination/test_imagined_task.py",
