@@ -83,7 +83,8 @@ JSON_FIELDS: Mapping[str, Mapping[str, str]] = {
     },
     "reproduce": {
         **_EXPERIMENT,
-        "claims": "letter, claim and verdict of each; of --robustness also choices, each with its verdict",
+        "claims": "letter, claim and verdict of each; of --robustness also choices, each with its verdict; of --beyond "
+        "also trials, that would decide it",
     },
     "sweep": _EXPERIMENT,
     "benchmark": {**_EXPERIMENT, "measures": "of each contestant: trials, solved, and its episodes to the optimum"},

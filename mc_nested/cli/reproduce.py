@@ -1,12 +1,14 @@
 """``mc-nested reproduce``: the paper's experiment, every agent on every design, and tests of its claims."""
 
-from typing import TYPE_CHECKING, Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.table import Table
 from rich.text import Text
 
 from mc_nested.arena.scenario_file import paper_scenarios, table_of
+from mc_nested.cli.beyond import run_beyond
 from mc_nested.cli.experiment import (
     MOST_TRIALS,
     JobsOption,
@@ -23,17 +25,19 @@ from mc_nested.cli.experiment_results import results_of_groups
 from mc_nested.cli.options import DeviceOption, EngineOption
 from mc_nested.cli.output import JsonOption, Output, QuietOption
 from mc_nested.cli.output_folder import output_folder
-from mc_nested.cli.robustness import is_robustness, run_robustness
+from mc_nested.cli.robustness import run_robustness
 from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
 from mc_nested.cli.screen_states import check_window
-from mc_nested.errors import UserError
+from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import AGENT_SPECS, check_exploration, check_parts
-from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
+from mc_nested.learn.experiments.beyond import BeyondConfig, shipped_arms
+from mc_nested.learn.experiments.experiment_folder import CONFIG, ExperimentFolder
 from mc_nested.learn.experiments.reproduction import LONGER, LONGER_AGENTS, LONGER_SCENARIOS, ReproduceConfig
 from mc_nested.learn.experiments.robustness import RobustnessConfig, shipped_choices
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.results import Results
+from mc_nested.toml_file import parse_document, read_toml_text
 
 if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others doesn't need
     from collections.abc import Sequence
@@ -42,6 +46,9 @@ if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others 
 
 VERB = "reproduce"
 TRIALS, PRESET = 10, "paper"
+
+BESIDE_BEYOND = ("beyond", "trials", "episodes", "seed", "device", "jobs", "out", "quiet", "as_json")
+"""The options that --beyond takes."""
 
 FILES = {"report": "report.md", "figure": "figure5.png", "table": "results.csv"}
 
@@ -73,6 +80,12 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         bool,
         typer.Option("--robustness", help="judge the claims again under each of the paper's open choices instead"),
     ] = False,
+    beyond: Annotated[
+        bool,
+        typer.Option(
+            "--beyond", help="try what the paper says it could do instead: images, several and many main actions, teams"
+        ),
+    ] = False,
     jobs: JobsOption = None,
     out: OutOption = None,
     resume: ResumeOption = None,
@@ -81,20 +94,20 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 ) -> None:
     """Repeat the paper's experiment and test its claims; Ctrl+C saves, and --resume goes on from there.
 
-    Writes figure5.png and figure5.svg, results.csv and report.md, or robustness.*. The defaults take some minutes on
-    two cores, those of --robustness more than an hour.
+    Writes figure5.png and figure5.svg, results.csv and report.md, or robustness.*, or beyond.*. The defaults take some
+    minutes on two cores, those of --beyond half an hour, those of --robustness more than an hour.
     """
     output = Output(quiet, as_json)
     if resume is not None:
         check_nothing_beside_resume(context.params)
-        if is_robustness(resume):
-            robust = ExperimentFolder.open(resume, RobustnessConfig, VERB)
-            with folder_lock(resume):
-                run_robustness(robust, output)
-            return
-        folder = ExperimentFolder.open(resume, ReproduceConfig, VERB)
-        with folder_lock(resume):
-            _run(folder, output)
+        _resume(resume, output)
+        return
+    if beyond:
+        check_nothing_beside_beyond(context.params)
+        arms = shipped_arms(trials or TRIALS, episodes, device)
+        beyond_config = BeyondConfig(trials=trials or TRIALS, seed=seed or 0, jobs=jobs or cores(), arms=arms)
+        with output_folder(out, "beyond") as path:
+            run_beyond(ExperimentFolder.new(path, beyond_config, VERB), output)
         return
     if robustness and (agent or longer):
         raise UserError("--robustness judges all three agents, and not claim (f): leave out --agent and --longer")
@@ -138,6 +151,33 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         )
     with output_folder(out, "figure5") as path:
         _run(ExperimentFolder.new(path, config, VERB), output)
+
+
+def check_nothing_beside_beyond(options: dict[str, Any]) -> None:
+    """UserError if an option was given that --beyond doesn't take: its agents, designs and presets are its own."""
+    for name, value in options.items():
+        if name not in BESIDE_BEYOND and value is not False and value not in (None, [], ()):
+            raise UserError(
+                f"--beyond has agents, designs and presets of its own: leave out --{name.replace('_', '-')}"
+            )
+
+
+def _resume(path: Path, output: Output) -> None:
+    """Go on with any of the three kinds, which a key of config.toml tells apart."""
+    file = path / CONFIG
+    keys = parse_document(read_toml_text(file, RunError), str(file), RunError) if file.is_file() else {}
+    if "choices" in keys:
+        robustness = ExperimentFolder.open(path, RobustnessConfig, VERB)
+        with folder_lock(path):
+            run_robustness(robustness, output)
+    elif "arms" in keys:
+        beyond = ExperimentFolder.open(path, BeyondConfig, VERB)
+        with folder_lock(path):
+            run_beyond(beyond, output)
+    else:
+        folder = ExperimentFolder.open(path, ReproduceConfig, VERB)
+        with folder_lock(path):
+            _run(folder, output)
 
 
 def _run(folder: ExperimentFolder[ReproduceConfig], output: Output) -> None:

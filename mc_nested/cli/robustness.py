@@ -1,7 +1,6 @@
 """``mc-nested reproduce --robustness``: the paper's claims judged again under each of its open choices."""
 
 from collections import Counter
-from pathlib import Path
 
 from rich.table import Table
 from rich.text import Text
@@ -10,23 +9,12 @@ from mc_nested.cli.experiment import Outcomes, train_all
 from mc_nested.cli.experiment_end import say_end
 from mc_nested.cli.experiment_results import results_of_groups
 from mc_nested.cli.output import Output
-from mc_nested.errors import RunError
 from mc_nested.learn.agents import AGENT_SPECS
-from mc_nested.learn.experiments.experiment_folder import CONFIG, ExperimentFolder
+from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.learn.experiments.robustness import Choice, RobustnessConfig
 from mc_nested.report.results import Results
-from mc_nested.toml_file import parse_document, read_toml_text
 
 FILES = {"table": "robustness.md", "plot": "robustness.png", "rows": "robustness.csv"}
-
-OWN_KEY = "choices"
-"""The key of config.toml that only such a folder has, not that of a plain reproduce."""
-
-
-def is_robustness(folder: Path) -> bool:
-    """Whether that folder's config is that of a --robustness; RunError if it can't be read."""
-    file = folder / CONFIG
-    return file.is_file() and OWN_KEY in parse_document(read_toml_text(file, RunError), str(file), RunError)
 
 
 def run_robustness(folder: ExperimentFolder[RobustnessConfig], output: Output) -> None:

@@ -92,6 +92,34 @@ def mostly(successes: int, trials: int) -> Tails:
     return Tails(float(above), float(below))
 
 
+def no_worse(left: Float64s, right: Float64s, margin: float) -> Tails:
+    """Whether ``left`` is behind by less than ``margin``. For: the difference is above -margin. Against: below."""
+    return Tails(exceeds(left + margin, right), exceeds(right, left + margin))
+
+
+def contrast(groups: Sequence[Float64s], weights: Sequence[float]) -> tuple[Tails, Interval]:
+    """Whether a weighted sum of the groups' means is above 0, or below; and its 95 % interval.
+
+    Welch and Satterthwaite's t, since no permutation leaves a difference of differences as it was. At least two
+    trials of each. Trials that are all the same give 1.
+    """
+    found = sum(weight * float(group.mean()) for weight, group in zip(weights, groups, strict=True))
+    pairs = zip(weights, groups, strict=True)
+    parts = [weight**2 * float(group.var(ddof=1)) / len(group) for weight, group in pairs]
+    if not sum(parts):
+        return Tails(1.0, 1.0), Interval(found, found)
+    freedom = _freedom(parts, groups)
+    error = sum(parts) ** 0.5
+    half = float(stats.t.ppf(0.975, freedom)) * error
+    tails = Tails(float(stats.t.sf(found / error, freedom)), float(stats.t.cdf(found / error, freedom)))
+    return tails, Interval(found - half, found + half)
+
+
+def _freedom(parts: Sequence[float], groups: Sequence[Float64s]) -> float:
+    """Satterthwaite's degrees of freedom of a sum whose squared standard error has these parts, one of each group."""
+    return sum(parts) ** 2 / sum(part**2 / (len(group) - 1) for part, group in zip(parts, groups, strict=True))
+
+
 def difference_interval(left: Float64s, right: Float64s) -> Interval:
     """Welch's t interval of the difference of the means; at least two trials of both.
 
@@ -101,10 +129,7 @@ def difference_interval(left: Float64s, right: Float64s) -> Interval:
     parts = [float(trials.var(ddof=1)) / len(trials) for trials in (left, right)]
     if not sum(parts):
         return Interval(difference, difference)
-    freedom = sum(parts) ** 2 / sum(
-        part**2 / (len(trials) - 1) for part, trials in zip(parts, (left, right), strict=True)
-    )
-    half = float(stats.t.ppf(0.975, freedom)) * sum(parts) ** 0.5
+    half = float(stats.t.ppf(0.975, _freedom(parts, (left, right)))) * sum(parts) ** 0.5
     return Interval(difference - half, difference + half)
 
 

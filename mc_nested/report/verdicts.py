@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from mc_nested.report.inference import ALPHA, Interval, Tails, holm
+from mc_nested.report.power import Effect
 
 
 class Verdict(Enum):
@@ -35,6 +36,7 @@ class Evidence:
         tails: the p-values of the test; None if there was none.
         counted: the verdict, if the figures are counted and need no test.
         missing: why there is neither, for the reader.
+        effect: how large it is, where it is asked how many trials would decide it.
     """
 
     what: str
@@ -43,6 +45,7 @@ class Evidence:
     tails: Tails | None = None
     counted: Verdict | None = None
     missing: str = ""
+    effect: Effect | None = None
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.arena.scenario_file import table_of
-from mc_nested.cli.robustness import FILES, is_robustness
-from mc_nested.errors import RunError
+from mc_nested.cli.robustness import FILES
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.learn.experiments.robustness import Choice, RobustnessConfig, shipped_choices
 from mc_nested.learn.runs.folder_lock import folder_lock
@@ -38,17 +37,6 @@ def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ExperimentFolder.new(out, config(GAMMA, START), "reproduce").begin()
     assert run("reproduce", "--resume", out, "--quiet") == 0
     return out
-
-
-def test_a_folder_says_whether_it_is_a_robustness(tmp_path: Path) -> None:
-    ExperimentFolder.new(tmp_path / "one", config(), "reproduce").begin()
-    assert is_robustness(tmp_path / "one")
-    assert not is_robustness(tmp_path / "none")
-    (tmp_path / "config.toml").write_text("agents = []\n", "utf-8")
-    assert not is_robustness(tmp_path)
-    (tmp_path / "config.toml").write_text("choices = [\n", "utf-8")
-    with pytest.raises(RunError, match="not TOML"):
-        is_robustness(tmp_path)
 
 
 def test_it_goes_on_and_leaves_its_files(done: Path) -> None:

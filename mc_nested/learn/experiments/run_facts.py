@@ -14,6 +14,7 @@ from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.cooperation.team_run import TeamRun
 from mc_nested.learn.experiments.ablation import AblationConfig
 from mc_nested.learn.experiments.benchmark import BenchmarkConfig
+from mc_nested.learn.experiments.beyond import BeyondConfig
 from mc_nested.learn.experiments.experiment_folder import CONFIG, JOBS_FOLDER, ExperimentConfig, ExperimentFolder
 from mc_nested.learn.experiments.reproduction import ReproduceConfig
 from mc_nested.learn.experiments.robustness import RobustnessConfig
@@ -31,6 +32,7 @@ MODELS: dict[str, type[ExperimentConfig]] = {
     "variants": SweepConfig,
     "parts": AblationConfig,
     "contestants": BenchmarkConfig,
+    "arms": BeyondConfig,
 }
 """The config of each kind of experiment, by the key of config.toml that only it has."""
 
@@ -208,6 +210,8 @@ def _who(config: ExperimentConfig) -> tuple[list[str], list[str]]:
     """An experiment's agents, and its presets."""
     if isinstance(config, BenchmarkConfig):
         return [each.agent for each in config.contestants], [each.preset_name for each in config.contestants]
+    if isinstance(config, BeyondConfig):
+        return [arm.name for arm in config.arms], [arm.preset_name for arm in config.arms]
     if isinstance(config, AblationConfig):
         return ["nested"], [part.base for part in config.parts]
     if isinstance(config, SweepConfig):

@@ -14,6 +14,7 @@ VERB_OF_KEY = {
     "variants": "sweep",
     "parts": "sweep",
     "contestants": "benchmark",
+    "arms": "reproduce",
     "builders": "cooperate",
 }
 

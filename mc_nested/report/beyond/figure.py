@@ -1,0 +1,101 @@
+"""beyond.png: a panel for each design seen as an image, and one each for parts, many main actions and cooperation."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from mc_nested.arrays import Float64s
+from mc_nested.atomic_file import atomic_write
+from mc_nested.report.beyond.arms import ArmResults, Arms
+from mc_nested.report.beyond.claims import equal_budget, of_topic, scenarios_of
+from mc_nested.report.curve import align_trials, t_interval
+from mc_nested.report.figure5 import BAND, CURVES, OPTIMUM
+
+COLUMNS = 3
+
+LOOKS: Mapping[str, Mapping[str, Any]] = {
+    **CURVES,
+    "nested, tuned": {"color": "#56B4E9", "linestyle": "-."},
+    "images": {"color": "#0072B2", "linestyle": "-"},
+    "numbers": {"color": "#E69F00", "linestyle": (0, (4, 1.2))},
+    "shared": {"color": "#0072B2", "linestyle": "-"},
+    "own": {"color": "#D55E00", "linestyle": "-"},
+    "single team": {"color": "#009E73", "linestyle": (0, (4, 1.2))},
+}
+"""Okabe and Ito's colours; the same agent looks the same as in Figure 5."""
+
+
+def draw_beyond(path: Path, arms: Arms) -> None:
+    """Write it as a PNG, atomically; OSError if the disk refuses. The same results give the same bytes."""
+    images = of_topic(arms, "images")
+    figure = Figure(figsize=(13.0, 8.2), layout="constrained")
+    panels = list(figure.subplots(2, COLUMNS).flat)
+    for axes, design in zip(panels, scenarios_of(images), strict=False):
+        _draw_curves(axes, [arm for arm in images if arm.scenario == design], f"{design}, seen as an image")
+    parts = of_topic(arms, "parts")
+    _draw_curves(panels[3], parts, f"{parts[0].scenario}: a material for each part")
+    _draw_materials(panels[4], arms)
+    _draw_teams(panels[5], of_topic(arms, "cooperation"))
+    for axes in panels:
+        axes.grid(alpha=0.2)
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.legend(frameon=False, fontsize=8, loc="lower right")
+    with atomic_write(path) as unfinished:
+        figure.savefig(unfinished, format="png", dpi=140, metadata={"Software": None})
+
+
+def _draw_curves(axes: Axes, arms: Sequence[ArmResults], title: str) -> None:
+    axes.axhline(arms[0].optimum, zorder=1, **OPTIMUM)
+    for arm in arms:
+        rows = [(trial, each.episode, each.score) for trial, own in enumerate(arm.trials) for each in own]
+        episodes, scores = align_trials(rows, len(arm.trials))
+        trials = f"{len(arm.trials)} trials" if len(arm.trials) > 1 else "one trial"
+        if len(scores) > 1:
+            low, high = t_interval(scores, arm.optimum)
+            axes.fill_between(episodes, low, high, color=LOOKS[arm.name]["color"], alpha=BAND, linewidth=0)
+        ends = ", each until the optimum" if arm.stops else ""
+        label = f"{arm.name}, {trials}{ends}"
+        marker = "o" if len(episodes) == 1 else ""
+        axes.plot(episodes, scores.mean(axis=0), linewidth=1.5, marker=marker, label=label, **LOOKS[arm.name])
+    axes.set(title=title, xlabel="training episodes", ylabel="score of a greedy episode")
+
+
+def _draw_materials(axes: Axes, arms: Arms) -> None:
+    own, budget = of_topic(arms, "materials"), equal_budget(arms, "steps")
+    axes.axhline(own[0].optimum, zorder=1, **OPTIMUM)
+    for number, agent in enumerate(CURVES):
+        of_agent = [arm for arm in own if arm.name == agent]
+        counts = [arm.materials * 1.04 ** (number - 1) for arm in of_agent]
+        _draw_means(axes, counts, [arm.within(budget, "steps") for arm in of_agent], agent, agent)
+    axes.set_xscale("log", base=2)
+    counts = sorted({arm.materials for arm in own})
+    axes.set_xticks(counts, [str(count) for count in counts])
+    axes.set(title=f"main actions, after {budget:,} steps", xlabel="materials", ylabel="mean of the last ten")
+
+
+def _draw_teams(axes: Axes, own: Sequence[ArmResults]) -> None:
+    axes.axhline(own[0].optimum, zorder=1, **OPTIMUM)
+    alone, teams = own[0], own[1:]
+    _draw_means(axes, [1.0], [alone.last_ten], "nested", "alone")
+    for number, kind in enumerate(("shared", "own", "single")):
+        of_kind = [arm for arm in teams if arm.name.endswith(kind)]
+        counts = [int(arm.name.split()[0]) + 0.06 * (number - 1) for arm in of_kind]
+        look = "single team" if kind == "single" else kind
+        _draw_means(axes, counts, [arm.last_ten for arm in of_kind], look, f"networks: {kind}")
+    axes.set_xticks(range(1, 1 + max(int(arm.name.split()[0]) for arm in own)))
+    title = f"{alone.scenario}: builders in one arena"
+    axes.set(title=title, xlabel="builders", ylabel="mean of the last ten")
+
+
+def _draw_means(axes: Axes, at: Sequence[float], trials: Sequence[Float64s], look: str, label: str) -> None:
+    means = [float(own.mean()) for own in trials]
+    if len(trials[0]) > 1:
+        ends = [t_interval(own[:, None]) for own in trials]
+        errors = np.array([[mean - float(low[0]) for mean, (low, _) in zip(means, ends, strict=True)]] * 2)
+    else:
+        errors = np.zeros((2, len(means)))
+    axes.errorbar(at, means, yerr=errors, marker="o", markersize=4, capsize=3, label=label, **LOOKS[look])
