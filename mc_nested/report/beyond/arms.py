@@ -60,7 +60,7 @@ class ArmResults:
     @property
     def last_ten(self) -> Float64s:
         """Each trial's mean of its last ten greedy scores, (trials,)."""
-        return np.array([_mean_of_last(trial) for trial in self.trials])
+        return np.array([np.mean([each.score for each in trial[-LAST:]]) for trial in self.trials])
 
     @property
     def best(self) -> Float64s:
@@ -83,12 +83,15 @@ class ArmResults:
 
     def within(self, budget: int, of: Budget) -> Float64s:
         """As last_ten, of the evaluations until which no more was spent, (trials,); the first counts in any case."""
-        return np.array(
-            [
-                _mean_of_last([trial[0], *(each for each in trial[1:] if _spent(each, of) <= budget)])
-                for trial in self.trials
-            ]
-        )
+        return np.array([np.mean(self._until(trial, budget, of)[-LAST:]) for trial in self.trials])
+
+    def early(self, budget: int, of: Budget) -> Float64s:
+        """Each trial's mean greedy score until a third of the budget, (trials,); the first counts in any case."""
+        return np.array([np.mean(self._until(trial, budget // 3, of)) for trial in self.trials])
+
+    @staticmethod
+    def _until(trial: Sequence[Evaluated], budget: int, of: Budget) -> list[float]:
+        return [trial[0].score, *(each.score for each in trial[1:] if _spent(each, of) <= budget)]
 
 
 Arms = dict[tuple[str, str, str], ArmResults]
@@ -98,7 +101,3 @@ Arms = dict[tuple[str, str, str], ArmResults]
 def _spent(evaluated: Evaluated, of: Budget) -> int:
     found = evaluated.trained_steps if of == "steps" else evaluated.updates
     return found or 0
-
-
-def _mean_of_last(trial: Sequence[Evaluated]) -> float:
-    return float(np.mean([each.score for each in trial[-LAST:]]))

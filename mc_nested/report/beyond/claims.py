@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 from typing import get_args
 
+from mc_nested.arrays import Float64s
 from mc_nested.learn.cooperation.team_agent import KINDS
 from mc_nested.report.beyond.arms import ArmResults, Arms, Budget
-from mc_nested.report.beyond.lines import Pair, above, lead_grows, mostly_at_the_optimum, not_behind
+from mc_nested.report.beyond.lines import above, lead_grows, mostly_at_the_optimum, not_behind
 from mc_nested.report.claims.contests import HIERARCHICAL, NESTED, OUTPERFORMED, SINGLE
 from mc_nested.report.verdicts import Claim, Evidence, JudgedClaim, Verdict, judged
 
@@ -37,10 +38,11 @@ NOT_BEHIND = (
     "of applicable."
 )
 GROWS = (
-    "Nested's lead: the difference of the means of each trial's last ten evaluations until it had spent as many {of} "
-    "as every trial had in the end. Welch and Satterthwaite's t test of how much larger it is with the most main "
-    "actions than with the fewest. Holds: the change is above 0. Does not hold: it is below."
+    "Nested's lead: the difference of the means of {measure}. Welch and Satterthwaite's t test of how much larger it is "
+    "with the most main actions than with the fewest. Holds: the change is above 0. Does not hold: it is below."
 )
+AT_THE_END = "each trial's last ten evaluations until it had spent as many {of} as every trial had in the end"
+EARLY = "each trial's mean over its evaluations until it had spent a third of the {of} that every trial had in the end"
 GROWING = (
     "Counted, not tested. Holds: the hierarchy's are more with the most main actions than with the fewest, and "
     "nested's are not. Does not hold: otherwise."
@@ -125,39 +127,37 @@ def _of_parts(arms: Arms) -> list[Claim]:
 
 
 def _of_materials(arms: Arms) -> list[Claim]:
-    compared: list[tuple[str, Budget]] = [(other, of) for other in (HIERARCHICAL, SINGLE) for of in get_args(Budget)]
-    return [
-        *(
-            Claim(
-                f"l{number}",
-                f"nested's lead on {other} grows with the number of main actions, at equal {of}",
-                MANY,
-                "6",
-                GROWS.format(of=of),
-                (lead_grows(f"{NESTED} and {other}, equal {of}", _leads(arms, other, of)),),
-            )
-            for number, (other, of) in enumerate(compared, start=1)
-        ),
-        Claim(
-            "l5",
-            "the hierarchy's networks grow with the number of main actions, nested's don't",
-            MODELS,
-            "6",
-            GROWING,
-            (_networks(arms),),
-        ),
+    contests: list[tuple[str, Budget, bool]] = [
+        *((other, of, False) for other in (HIERARCHICAL, SINGLE) for of in get_args(Budget)),
+        *((other, "steps", True) for other in (HIERARCHICAL, SINGLE)),
     ]
+    grown = [_grows(arms, f"l{number}", *contest) for number, contest in enumerate(contests, start=1)]
+    networks = Claim(
+        f"l{len(grown) + 1}",
+        "the hierarchy's networks grow with the number of main actions, nested's don't",
+        MODELS,
+        "6",
+        GROWING,
+        (_networks(arms),),
+    )
+    return [*grown, networks]
 
 
-def _leads(arms: Arms, other: str, of: Budget) -> dict[int, Pair]:
-    """Scores of the nested agent and the other at equal steps or updates, by the number of main actions."""
-    budget = equal_budget(arms, of)
-    own = of_topic(arms, "materials")
-    return {
-        arm.materials: (arm.within(budget, of), arms["materials", arm.scenario, other].within(budget, of))
+def _grows(arms: Arms, letter: str, other: str, of: Budget, is_early: bool) -> Claim:
+    budget, own = equal_budget(arms, of), of_topic(arms, "materials")
+
+    def measure(arm: ArmResults) -> Float64s:
+        return arm.early(budget, of) if is_early else arm.within(budget, of)
+
+    leads = {
+        arm.materials: (measure(arm), measure(arms["materials", arm.scenario, other]))
         for arm in own
         if arm.name == NESTED
     }
+    when = "early" if is_early else "at the end"
+    title = f"nested's lead on {other} grows with the number of main actions, {when}, at equal {of}"
+    rule = GROWS.format(measure=(EARLY if is_early else AT_THE_END).format(of=of))
+    return Claim(letter, title, MANY, "6", rule, (lead_grows(f"{NESTED} and {other}, equal {of}", leads),))
 
 
 def _networks(arms: Arms) -> Evidence:

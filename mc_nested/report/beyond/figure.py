@@ -23,7 +23,8 @@ LOOKS: Mapping[str, Mapping[str, Any]] = {
     "images": {"color": "#0072B2", "linestyle": "-"},
     "numbers": {"color": "#E69F00", "linestyle": (0, (4, 1.2))},
     "shared": {"color": "#0072B2", "linestyle": "-"},
-    "own": {"color": "#D55E00", "linestyle": "-"},
+    "own": {"color": "#CC79A7", "linestyle": "-"},
+    "alone": {"color": "black", "linestyle": "-"},
     "single team": {"color": "#009E73", "linestyle": (0, (4, 1.2))},
 }
 """Okabe and Ito's colours; the same agent looks the same as in Figure 5."""
@@ -49,7 +50,8 @@ def draw_beyond(path: Path, arms: Arms) -> None:
 
 
 def _draw_curves(axes: Axes, arms: Sequence[ArmResults], title: str) -> None:
-    axes.axhline(arms[0].optimum, zorder=1, **OPTIMUM)
+    optimum, lowest = arms[0].optimum, 0.0
+    axes.axhline(optimum, zorder=1, **OPTIMUM)
     for arm in arms:
         rows = [(trial, each.episode, each.score) for trial, own in enumerate(arm.trials) for each in own]
         episodes, scores = align_trials(rows, len(arm.trials))
@@ -60,7 +62,10 @@ def _draw_curves(axes: Axes, arms: Sequence[ArmResults], title: str) -> None:
         ends = ", each until the optimum" if arm.stops else ""
         label = f"{arm.name}, {trials}{ends}"
         marker = "o" if len(episodes) == 1 else ""
-        axes.plot(episodes, scores.mean(axis=0), linewidth=1.5, marker=marker, label=label, **LOOKS[arm.name])
+        means = scores.mean(axis=0)
+        lowest = min(lowest, float(means.min()))
+        axes.plot(episodes, means, linewidth=1.5, marker=marker, label=label, **LOOKS[arm.name])
+    axes.set_ylim(1.1 * lowest, 1.1 * optimum)
     axes.set(title=title, xlabel="training episodes", ylabel="score of a greedy episode")
 
 
@@ -80,7 +85,7 @@ def _draw_materials(axes: Axes, arms: Arms) -> None:
 def _draw_teams(axes: Axes, own: Sequence[ArmResults]) -> None:
     axes.axhline(own[0].optimum, zorder=1, **OPTIMUM)
     alone, teams = own[0], own[1:]
-    _draw_means(axes, [1.0], [alone.last_ten], "nested", "alone")
+    _draw_means(axes, [1.0], [alone.last_ten], "alone", "1 builder")
     for number, kind in enumerate(("shared", "own", "single")):
         of_kind = [arm for arm in teams if arm.name.endswith(kind)]
         counts = [int(arm.name.split()[0]) + 0.06 * (number - 1) for arm in of_kind]

@@ -137,6 +137,7 @@ def _more(arms: Arms, topic: str) -> list[str]:
             arm.name,
             *_mean_and_interval(arm.within(steps, "steps"), arm.optimum),
             *_mean_and_interval(arm.within(updates, "updates"), arm.optimum),
+            mean(arm.early(steps, "steps")),
             str(arm.networks),
             f"{arm.parameters:,}",
             f"{arm.updates:,}",
@@ -153,6 +154,7 @@ def _more(arms: Arms, topic: str) -> list[str]:
         "95 % interval",
         f"last ten until {updates:,} updates",
         "95 % interval",
+        "early",
         "networks",
         "parameters",
         "updates, all trials",
@@ -160,4 +162,5 @@ def _more(arms: Arms, topic: str) -> list[str]:
         "replays, MB a trial",
         "seconds of a core, all trials",
     )
-    return [table(header, rows)]
+    early = f"Early: the mean over a trial's evaluations until {steps // 3:,} steps."
+    return [f"{table(header, rows)}\n\n{early}"]
