@@ -105,6 +105,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     if beyond:
         check_nothing_beside_beyond(context.params)
         arms = shipped_arms(trials or TRIALS, episodes, device)
+        check_device(device)
         beyond_config = BeyondConfig(trials=trials or TRIALS, seed=seed or 0, jobs=jobs or cores(), arms=arms)
         with output_folder(out, "beyond") as path:
             run_beyond(ExperimentFolder.new(path, beyond_config, VERB), output)
@@ -118,6 +119,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     check_window(chosen.states, has_window=False)
     for name in agent or AGENT_SPECS:
         check_exploration(AGENT_SPECS[name], chosen)
+    check_device(device)
     chosen = chosen.model_copy(update={"episodes": episodes or chosen.episodes})
     scenarios = named_scenarios(scenario or paper_scenarios(), layer)
     check_parts(scenarios, chosen)
@@ -160,6 +162,14 @@ def check_nothing_beside_beyond(options: dict[str, Any]) -> None:
             raise UserError(
                 f"--beyond has agents, designs and presets of its own: leave out --{name.replace('_', '-')}"
             )
+
+
+def check_device(device: str | None) -> None:
+    """PresetError if torch knows no such device here: before anything is written."""
+    if device:
+        from mc_nested.learn.dqn.torch_engine.engine import device_named  # torch takes seconds to load
+
+        device_named(device)
 
 
 def _resume(path: Path, output: Output) -> None:

@@ -12,13 +12,17 @@ from scipy import stats
 
 from mc_nested.arrays import Float64s
 from mc_nested.report.inference import (
+    Interval,
+    Tails,
     ahead,
     alike,
+    contrast,
     difference_interval,
     exceeds,
     holm,
     mean_interval,
     mostly,
+    no_worse,
     share_interval,
     studentised,
 )
@@ -190,3 +194,33 @@ def test_where_one_agents_trials_agree_the_others_spread_remains() -> None:
 
 def test_a_single_trial_has_no_interval() -> None:
     assert mean_interval(of(21)) is None
+
+
+def test_no_worse_is_less_than_the_margin_behind() -> None:
+    right = np.arange(10.0)
+    assert no_worse(right - 0.5, right, 1.0) == (exceeds(right + 0.5, right), exceeds(right, right + 0.5))
+    assert no_worse(right + 9, right, 1.0).claim < 0.001
+    assert no_worse(right - 9, right, 1.0).against < 0.001
+
+
+def test_a_contrast_of_two_groups_is_welchs_test() -> None:
+    random = np.random.default_rng(2)
+    left, right = random.normal(1, 1, 12), random.normal(0, 3, 9)
+    tails, interval = contrast([left, right], [1.0, -1.0])
+    above = stats.ttest_ind(left, right, equal_var=False, alternative="greater")
+    assert tails == pytest.approx((above.pvalue, 1 - above.pvalue))
+    assert interval == pytest.approx(difference_interval(left, right))
+
+
+def test_a_contrast_of_four_groups_is_a_difference_of_differences() -> None:
+    """By hand: leads of 4 and 1, each mean's squared error 1 / 3; t = 3 / sqrt(4 / 3) with 8 degrees of freedom."""
+    around = np.array([-1.0, 0.0, 1.0])
+    tails, interval = contrast([around + 7, around + 3, around + 2, around + 1], [1.0, -1.0, -1.0, 1.0])
+    assert tails.claim == pytest.approx(stats.t.sf(3 / (4 / 3) ** 0.5, 8))
+    assert sum(interval) / 2 == pytest.approx(3)
+    assert contrast([around, around], [1.0, 1.0])[0].claim == pytest.approx(0.5)
+
+
+def test_a_contrast_of_trials_that_are_all_the_same_decides_nothing() -> None:
+    same = np.full(10, 3.0)
+    assert contrast([same + 1, same], [1.0, -1.0]) == (Tails(1.0, 1.0), Interval(1.0, 1.0))

@@ -8,7 +8,7 @@ from scipy import stats
 
 from mc_nested.arrays import Float64s
 from mc_nested.report import inference
-from mc_nested.report.inference import ALPHA, exceeds
+from mc_nested.report.inference import ALPHA, contrast, exceeds
 
 pytestmark = pytest.mark.slow
 
@@ -86,3 +86,14 @@ def test_where_one_agent_is_skewed_ten_trials_are_too_few_for_either() -> None:
     # What the report says about p-values of such trials.
     for test in (exceeds, unstudentised):
         assert 2 * ALPHA < level(test, skewed(1), skewed(5)) < 3.5 * ALPHA
+
+
+@pytest.mark.parametrize(
+    "made", [normal(1), scores(6), peaked(1), skewed(1)], ids=["normal", "scores", "peaked", "skewed"]
+)
+def test_a_difference_of_differences_keeps_the_level_at_ten_trials(made: Made) -> None:
+    random = np.random.default_rng(12)
+    found = [
+        contrast([made(random) for _ in range(4)], [1.0, -1.0, -1.0, 1.0])[0].claim < ALPHA for _ in range(EXPERIMENTS)
+    ]
+    assert np.mean(found) <= ALPHA + ERROR

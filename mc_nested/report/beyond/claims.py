@@ -38,8 +38,8 @@ NOT_BEHIND = (
     "of applicable."
 )
 GROWS = (
-    "Nested's lead: the difference of the means of {measure}. Welch and Satterthwaite's t test of how much larger it is "
-    "with the most main actions than with the fewest. Holds: the change is above 0. Does not hold: it is below."
+    "Nested's lead: the difference of the means of {measure}. Welch and Satterthwaite's t test of how much larger it "
+    "is with the most main actions than with the fewest. Holds: the change is above 0. Does not hold: it is below."
 )
 AT_THE_END = "each trial's last ten evaluations until it had spent as many {of} as every trial had in the end"
 EARLY = "each trial's mean over its evaluations until it had spent a third of the {of} that every trial had in the end"

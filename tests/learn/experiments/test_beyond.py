@@ -1,0 +1,101 @@
+"""The arms of reproduce --beyond, and the jobs that they are cut into."""
+
+import pytest
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import PresetError
+from mc_nested.learn.experiments.beyond import BeyondConfig, shipped_arms, with_materials
+from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
+
+
+def config(trials: int = 10, jobs: int = 2) -> BeyondConfig:
+    return BeyondConfig(trials=trials, seed=0, jobs=jobs, arms=shipped_arms(trials))
+
+
+def test_materials_are_evenly_worth_and_the_optimum_stays() -> None:
+    line = load_scenario("line")
+    four = with_materials(line, 4)
+    assert [(m.name, m.p) for m in four.materials] == [("wood", -5), ("clay", 0), ("sandstone", 5), ("stone", 10)]
+    eight = with_materials(line, 8)
+    assert [m.p for m in eight.materials] == pytest.approx([-5 + 15 * number / 7 for number in range(8)])
+    assert len({m.block for m in eight.materials}) == 8
+    two = with_materials(line, 2)
+    assert two.materials == line.materials
+    assert line.optimum == two.optimum == four.optimum == eight.optimum == 21
+
+
+def test_every_arm_counts_for_itself() -> None:
+    arms = shipped_arms(10)
+    keys = [(arm.group, arm.scenario.name) for arm in arms]
+    assert len(set(keys)) == len(keys)
+    assert {arm.topic for arm in arms} == {"images", "parts", "materials", "cooperation"}
+    assert {arm.builders for arm in arms if arm.topic == "cooperation"} == {1, 2, 3, 4}
+
+
+def test_images_have_few_trials_where_they_take_long() -> None:
+    trials = {(arm.scenario.name, arm.name): arm.trials for arm in shipped_arms(10) if arm.topic == "images"}
+    assert trials == {
+        ("line", "images"): 10,
+        ("line", "numbers"): 10,
+        ("zigzag", "images"): 3,
+        ("zigzag", "numbers"): 3,
+        ("diamond", "images"): 3,
+        ("diamond", "numbers"): 3,
+    }
+
+
+def test_numbers_explore_as_long_as_images() -> None:
+    images, numbers = (arm.preset for arm in shipped_arms(1)[:2])
+    assert (images.states, numbers.states) == ("image", "numbers")
+    assert images.explore_nested == numbers.explore_nested
+    assert images.explore_main == numbers.explore_main
+
+
+def test_episodes_are_cut_and_never_raised() -> None:
+    assert {arm.preset.episodes for arm in shipped_arms(1)} == {1500, 3000}
+    assert {arm.preset.episodes for arm in shipped_arms(1, 2000)} == {1500, 2000}
+    assert {arm.preset.episodes for arm in shipped_arms(1, 7)} == {7}
+
+
+def test_a_device_that_is_not_there_is_refused() -> None:
+    with pytest.raises(PresetError, match="device"):
+        shipped_arms(1, device="nonsense")
+
+
+@pytest.mark.parametrize("jobs", [1, 2, 7])
+def test_every_trial_of_every_arm_is_in_one_job(jobs: int) -> None:
+    own = config(jobs=jobs)
+    trained = [
+        (group, scenario.name, trial)
+        for job in own.cut()
+        for group, scenario, trial in zip(job.groups, job.scenarios, job.trials, strict=True)
+    ]
+    wanted = [(arm.group, arm.scenario.name, trial) for arm in own.arms for trial in range(arm.trials)]
+    assert sorted(trained) == sorted(wanted)
+    assert len({job.name for job in own.cut()}) == len(own.cut())
+
+
+def test_what_torch_or_a_team_trains_at_once_does_not_depend_on_the_number_of_processes() -> None:
+    def together(jobs: int) -> list[tuple[tuple[str, ...], tuple[int, ...]]]:
+        return [
+            (job.groups, job.trials)
+            for job in config(jobs=jobs).cut()
+            if job.builders or job.preset.engine == "torch" or job.stop_at_optimum
+        ]
+
+    assert together(1) == together(2) == together(16)
+    assert max(len(trials) for _, trials in together(1)) == 5
+
+
+def test_images_come_first_since_they_take_longest() -> None:
+    states = [job.preset.states for job in config().cut()]
+    assert states == sorted(states, key=lambda each: each != "image")
+
+
+def test_a_folder_is_opened_with_the_same_jobs(tmp_path_factory: pytest.TempPathFactory) -> None:
+    path = tmp_path_factory.mktemp("beyond") / "new"
+    folder = ExperimentFolder.new(path, config(trials=2), "reproduce")
+    folder.begin()
+    again = ExperimentFolder.open(path, BeyondConfig, "reproduce")
+    assert again.config == folder.config
+    assert again.jobs == folder.jobs
