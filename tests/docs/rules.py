@@ -10,6 +10,7 @@ SIZES = {
     "mc-nested cooperate": "--trials 1 --episodes 20",
     "mc-nested reproduce": "--trials 1 --episodes 4 --scenario line",
     "mc-nested reproduce --robustness": "--trials 1 --episodes 1 --scenario line",
+    "mc-nested reproduce --beyond": "--trials 1 --episodes 4",
     "mc-nested sweep --ablation": "--trials 1 --episodes 1 --scenario line",
     "mc-nested sweep": "--trials 1 --episodes 2 --scenario line",
     "mc-nested benchmark": "--designs 1 --agents nested --presets live",
