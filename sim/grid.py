@@ -218,5 +218,8 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         return tally.pays(x - 1, np.minimum(y - 1, self._side - 3))
 
     def _observations(self) -> Int64s:
-        x, y = np.divmod(self._position - self._base, self._side)
-        return np.stack((x - 1, y - 1, self._blocks_left), axis=1)
+        seen = np.empty((self.num_envs, 3), dtype=np.int64)
+        np.divmod(self._position - self._base, self._side, out=(seen[:, 0], seen[:, 1]))
+        seen[:, :2] -= 1
+        seen[:, 2] = self._blocks_left
+        return seen

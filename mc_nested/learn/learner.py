@@ -81,7 +81,7 @@ class Learner:
         """Store one transition for each of the named rows (k,), states (k, …); no bootstrap after termination."""
         if self.priorities and len(rows):
             self.priorities.add(rows, self.replay.added[rows] % self.replay.capacity)
-        both = self.states.kept(np.stack((states, next_states)))
+        both = self.states.kept(np.array((states, next_states)))
         self.replay.add(rows, Transitions(both, actions, rewards, self.discounts(terminated)))
 
     def discounts(self, terminated: Bools) -> Float64s:
@@ -118,11 +118,11 @@ class Learner:
             indices = self.replay.sample(rows, uniforms)
         drawn = self.replay.gather(rows, indices)
         imitated = self.best.mix_in(rows, drawn, uniforms) if self.best else np.zeros(indices.shape, dtype=np.bool_)
-        weights = np.ones(indices.shape, np.float32)
+        weights = np.full(indices.shape, self._td_weight)
         if self.priorities:
             # What is imitated wasn't drawn: it has no part in the largest weight either.
             indices = np.where(imitated, indices[:, -1:], indices)
             weights = self.priorities.weights(rows, indices, self.replay.sizes()[rows])
             weights[imitated] = 1.0
-        weights *= self._td_weight
+            weights *= self._td_weight
         return indices, Batch(drawn.states, drawn.actions, drawn.rewards, drawn.discounts, imitated, weights)

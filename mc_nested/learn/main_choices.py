@@ -45,8 +45,8 @@ class ChoiceStep:
         cls, states: NDArray[Any], info: Mapping[str, Any], ended: Bools, draws: Float64s, tick: int
     ) -> "ChoiceStep":
         """The step whose ``info`` that is; where there are no parts, it only says what an ended episode scored."""
-        due = info.get("chooses", np.zeros(len(ended), dtype=np.bool_))
-        return cls(states, info.get("earned", info["score"]), ended, due & ~ended, draws, tick)
+        due = info["chooses"] & ~ended if "chooses" in info else np.zeros(len(ended), dtype=np.bool_)
+        return cls(states, info.get("earned", info["score"]), ended, due, draws, tick)
 
 
 class MainChoices:
@@ -90,12 +90,10 @@ class MainChoices:
         return np.stack((actions, materials), axis=1) if self._has_parts else actions
 
     def again(self, step: ChoiceStep, materials: Int64s, learning: Bools, epsilon: Float64s) -> Int64s:
-        """The materials after a step, (runs,): where a choice is due, the last one is learned from, and one is made.
+        """The materials after a step in which any choice is due, (runs,): the last is learned from, and one is made.
 
         Every array is of all runs. ``learning``: whose choices are learned from.
         """
-        if not self._has_parts or not step.due.any():
-            return materials
         self.learn(np.flatnonzero(step.due & learning), materials, step)
         rows = np.flatnonzero(step.due)
         self._chosen_in[rows] = step.states[rows]

@@ -195,7 +195,7 @@ class Trainer:
         )
         ended = (terminated | truncated) & ~runs.finished
         chosen, step = runs.materials, ChoiceStep.of(observations, info, ended, main_draws, self.ticks)
-        if self._choices:
+        if self._choices and step.due.any():
             chosen = self._choices.again(step, chosen, training, np.where(training, self.epsilon[0], 0.0))
         if self._imagination:
             active = np.flatnonzero(~runs.finished)
