@@ -61,7 +61,6 @@ def _results_of(arm: Arm, outcomes: Outcomes) -> ArmResults:
         optimum=scenario.optimum,
         episodes=arm.preset.episodes,
         stops=arm.stop_at_optimum,
-        preset=arm.preset_name,
         trials=[run.evaluations for run, _ in in_order],
         networks=in_order[0][1].networks,
         parameters=in_order[0][1].parameters,

@@ -26,7 +26,6 @@ class ArmResults:
         optimum: the design's highest score.
         episodes: of a training, at most.
         stops: whether a trial ends at its first greedy episode at the optimum.
-        preset: its name.
         trials: the greedy evaluations of each trial, in order.
         networks: of one trial.
         parameters: of one trial's networks, target networks not counted.
@@ -43,7 +42,6 @@ class ArmResults:
     optimum: float
     episodes: int
     stops: bool
-    preset: str
     trials: Sequence[Sequence[Evaluated]]
     networks: int
     parameters: int

@@ -40,7 +40,6 @@ def arm(
         optimum=OPTIMUM,
         episodes=360,
         stops=stops,
-        preset="paper",
         trials=trials,
         networks=networks,
         parameters=1000 * networks,
