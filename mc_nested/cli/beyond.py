@@ -19,7 +19,7 @@ def run_beyond(folder: ExperimentFolder[BeyondConfig], output: Output) -> None:
     outcomes = train_all(folder, output)
     # Tests and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.beyond.files import write_beyond
-    from mc_nested.report.beyond.text import trials_to_decide
+    from mc_nested.report.beyond.text import in_words, trials_to_decide
 
     arms = arms_of(folder.config, outcomes)
     with folder.writing():
@@ -34,8 +34,8 @@ def run_beyond(folder: ExperimentFolder[BeyondConfig], output: Output) -> None:
         for each in claims
     ]
     shown = Table("", "what the paper says it could do", "verdict", "trials to decide it", box=None, padding=(0, 1))
-    for each in found:
-        shown.add_row(f"({each['letter']})", Text(each["claim"]), each["verdict"], each["trials"])
+    for each in claims:
+        shown.add_row(f"({each.claim.letter})", Text(each.claim.title), each.verdict.value, in_words(each))
     say_end(output, folder.path, FILES, {"claims": found}, shown)
 
 

@@ -84,7 +84,7 @@ JSON_FIELDS: Mapping[str, Mapping[str, str]] = {
     "reproduce": {
         **_EXPERIMENT,
         "claims": "letter, claim and verdict of each; of --robustness also choices, each with its verdict; of --beyond "
-        "also trials, that would decide it",
+        "also trials, that would decide it, null of more than 1,000 or of what is counted",
     },
     "sweep": _EXPERIMENT,
     "benchmark": {**_EXPERIMENT, "measures": "of each contestant: trials, solved, and its episodes to the optimum"},

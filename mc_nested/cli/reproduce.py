@@ -30,7 +30,7 @@ from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_s
 from mc_nested.cli.screen_states import check_window
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import AGENT_SPECS, check_exploration, check_parts
-from mc_nested.learn.experiments.beyond import BeyondConfig, shipped_arms
+from mc_nested.learn.experiments.beyond import FEW, BeyondConfig, shipped_arms
 from mc_nested.learn.experiments.experiment_folder import CONFIG, ExperimentFolder
 from mc_nested.learn.experiments.reproduction import LONGER, LONGER_AGENTS, LONGER_SCENARIOS, ReproduceConfig
 from mc_nested.learn.experiments.robustness import RobustnessConfig, shipped_choices
@@ -104,7 +104,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         return
     if beyond:
         check_nothing_beside_beyond(context.params)
-        arms = shipped_arms(trials or TRIALS, episodes, device)
+        arms = shipped_arms(trials or TRIALS, trials or FEW, episodes, device)
         check_device(device)
         beyond_config = BeyondConfig(trials=trials or TRIALS, seed=seed or 0, jobs=jobs or cores(), arms=arms)
         with output_folder(out, "beyond") as path:

@@ -23,10 +23,6 @@ MOST_TRIALS = 1000
 class Effect(Protocol):
     """How large is what a line of a claim says, and how often so many trials would show it."""
 
-    @property
-    def speaks_for(self) -> bool:
-        """Whether it is as the claim says."""
-
     def power_for(self, trials: Int64s, alpha: float) -> Float64s:
         """The chance that a test at that level shows it, for each number of trials (n,)."""
 
@@ -38,19 +34,19 @@ class Effect(Protocol):
 class MeanEffect:
     """A sum of means beside what it is tested against, by Welch's t.
 
+    ``is_permuted``: whether a permutation test decides, which few trials don't allow. Without spread that is sure from
+    enough trials on, while a t test decides nothing.
+
     Args:
-        above: how far it is above what it has to be above.
-        below: how far it is below what it has to be below for the opposite.
+        above: how far it is above what the claim says, negative if it is below.
+        below: how far it is below what the opposite says, negative if it is above.
         spreads: the standard deviation of each group's trials, times its weight in the sum.
     """
 
     above: float
     below: float
     spreads: tuple[float, ...]
-
-    @property
-    def speaks_for(self) -> bool:
-        return self.above > 0
+    is_permuted: bool = True
 
     def power_for(self, trials: Int64s, alpha: float) -> Float64s:
         return self._power(self.above, trials, alpha)
@@ -60,10 +56,10 @@ class MeanEffect:
 
     def _power(self, distance: float, trials: Int64s, alpha: float) -> Float64s:
         # A permutation test can't be below the share of one split among all.
-        is_possible = 1 / comb(2 * trials, trials) < alpha
+        is_possible = 1 / comb(2 * trials, trials) < alpha if self.is_permuted else np.full(trials.shape, True)
         parts = np.array([spread**2 for spread in self.spreads])
         if not parts.sum():
-            return np.where(is_possible, float(distance > 0), 0.0)
+            return np.where(is_possible & self.is_permuted, float(distance > 0), 0.0)
         freedom = parts.sum() ** 2 / (parts**2).sum() * (trials - 1)
         distances = distance / np.sqrt(parts.sum() / trials)
         found = stats.nct.sf(stats.t.ppf(1 - alpha, freedom), freedom, distances)
@@ -78,10 +74,6 @@ class ShareEffect:
 
     share: float
 
-    @property
-    def speaks_for(self) -> bool:
-        return self.share > 0.5
-
     def power_for(self, trials: Int64s, alpha: float) -> Float64s:
         return _shown(self.share, trials, alpha)
 
@@ -90,22 +82,22 @@ class ShareEffect:
 
 
 def deciding_trials(effects: Sequence[Effect]) -> int | None:
-    """How many trials of each agent would decide a claim of these lines; None if more than MOST_TRIALS, or no line.
+    """From how many trials of each agent on a claim of these lines would be decided; None if more than MOST_TRIALS.
 
-    If all lines speak for it: so many that all of them are shown. Otherwise so many that the opposite of one is, at
-    the level that is left to each by Bonferroni's correction. The lines are taken to be independent.
+    It is decided where all lines are shown, or the opposite of any is, at the level that is left to each by
+    Bonferroni's correction. The lines are taken to be independent. None, too, of no line.
     """
     if not effects:
         return None
     trials = np.arange(2, MOST_TRIALS + 1)
-    if all(effect.speaks_for for effect in effects):
-        power = np.prod([effect.power_for(trials, ALPHA) for effect in effects], axis=0)
-    else:
-        level = ALPHA / len(effects)
-        against = [effect.power_against(trials, level) for effect in effects if not effect.speaks_for]
-        power = 1 - np.prod([1 - each for each in against], axis=0)
-    enough = np.flatnonzero(power >= POWER)
-    return int(trials[enough[0]]) if len(enough) else None
+    shown = np.prod([effect.power_for(trials, ALPHA) for effect in effects], axis=0)
+    level = ALPHA / len(effects)
+    opposed = 1 - np.prod([1 - effect.power_against(trials, level) for effect in effects], axis=0)
+    # A share's power rises in a saw-tooth: counted from where it stays.
+    too_few = np.flatnonzero(np.minimum(shown + opposed, 1.0) < POWER)
+    if not len(too_few):
+        return int(trials[0])
+    return int(trials[too_few[-1]]) + 1 if too_few[-1] + 1 < len(trials) else None
 
 
 def _shown(share: float, trials: Int64s, alpha: float) -> Float64s:

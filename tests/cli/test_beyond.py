@@ -22,7 +22,7 @@ def small(arm: Arm) -> Arm:
 
 
 def config() -> BeyondConfig:
-    return BeyondConfig(trials=2, seed=0, jobs=1, arms=[small(arm) for arm in shipped_arms(2)])
+    return BeyondConfig(trials=2, seed=0, jobs=1, arms=[small(arm) for arm in shipped_arms(2, 2)])
 
 
 @pytest.fixture(scope="module")
@@ -50,7 +50,7 @@ def test_gone_on_with_when_it_is_finished_it_writes_the_same(done: Path, capsys:
     found = json.loads(capsys.readouterr().out)
     assert found["files"]["report"] == str(done / "beyond.md")
     claim = next(each for each in found["claims"] if each["letter"] == "l7")
-    assert (claim["verdict"], claim["trials"]) == ("holds", "-")
+    assert (claim["verdict"], claim["trials"]) == ("holds", None)
     with folder_lock(done):
         assert run("reproduce", "--resume", done) == 2
     assert f"{done}: process " in capsys.readouterr().err
@@ -85,6 +85,17 @@ def test_what_it_has_of_its_own_is_refused(
     assert message.strip().endswith(f"leave out {option}")
     assert message.count("\n") == 1
     assert not out.exists()
+
+
+def test_a_folder_without_what_is_compared_is_refused_before_anything_is_trained(
+    done: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (done / "config.toml").read_text("utf-8")
+    (tmp_path / "config.toml").write_text(text.replace('name = "numbers"', 'name = "figures"'), "utf-8")
+    assert run("reproduce", "--resume", tmp_path) == 2
+    message = capsys.readouterr().err
+    assert "topic images needs images, numbers on each of its designs, each once" in message
+    assert message.count("\n") == 1
 
 
 def test_a_device_that_is_not_there_is_refused_before_anything_is_written(

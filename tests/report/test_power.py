@@ -62,13 +62,35 @@ def test_the_power_of_a_share_sums_what_its_test_finds_significant(trials: int) 
 
 
 def test_a_share_below_one_half_is_shown_against_the_claim() -> None:
-    assert not ShareEffect(0.0).speaks_for
     assert deciding_trials([ShareEffect(0.0)]) == 5
     assert deciding_trials([ShareEffect(0.5)]) is None
 
 
+def test_a_share_counts_from_where_its_power_stays() -> None:
+    """The power of 0.7 is above 0.8 at 37 trials, and below again until 42: it rises in a saw-tooth."""
+    power = ShareEffect(0.7).power_for(np.arange(37, 60), ALPHA)
+    assert power[0] >= 0.8 > power[4]
+    assert (power[5:] >= 0.8).all()
+    assert deciding_trials([ShareEffect(0.7)]) == 42
+
+
+def test_a_small_lead_is_decided_as_less_than_a_block() -> None:
+    """With a margin of one block, 0.1 ahead is shown to be below it long before it is shown to be above 0."""
+    ahead_a_little = MeanEffect(0.1, 0.9, (0.3, 0.3))
+    found = deciding_trials([ahead_a_little])
+    assert found == deciding_trials([MeanEffect(-0.9, 0.9, (0.3, 0.3))])
+    assert found
+    assert found < 10 < (deciding_trials([MeanEffect(0.1, -0.1, (0.3, 0.3))]) or 0)
+
+
+def test_a_t_test_takes_fewer_trials_than_a_permutation_test_and_none_without_spread() -> None:
+    assert deciding_trials([MeanEffect(50.0, -50.0, (1.0, 1.0), is_permuted=False)]) == 2
+    assert deciding_trials([MeanEffect(50.0, -50.0, (1.0, 1.0))]) == 4
+    assert deciding_trials([MeanEffect(2.0, -2.0, (0.0, 0.0), is_permuted=False)]) is None
+
+
 def test_all_lines_of_a_claim_have_to_be_shown() -> None:
-    alone, other = MeanEffect(1.0, 0.0, (1.0, 1.0)), MeanEffect(1.1, 0.0, (1.0, 1.0))
+    alone, other = MeanEffect(1.0, -1.0, (1.0, 1.0)), MeanEffect(1.1, -1.1, (1.0, 1.0))
     found, of_one = deciding_trials([alone, other]), deciding_trials([alone])
     assert found
     assert of_one

@@ -1,9 +1,10 @@
 """What the paper says it could do and didn't try, as runs: images, several main actions, many of them, cooperation."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
 from mc_nested.arena.cooperative.team import MOST_BUILDERS
 from mc_nested.arena.scenario import Material, Scenario
@@ -11,8 +12,7 @@ from mc_nested.arena.scenario_file import ScenarioTable, load_scenario, paper_sc
 from mc_nested.learn.agents import AGENT_SPECS, AgentName
 from mc_nested.learn.cooperation.team_agent import KINDS, Kind
 from mc_nested.learn.experiments.experiment_folder import ExperimentConfig
-from mc_nested.learn.experiments.jobs import Builders, Job, Run, cut_into_jobs
-from mc_nested.learn.experiments.sweep import side_by_side
+from mc_nested.learn.experiments.jobs import Builders, Job
 from mc_nested.learn.preset import Preset, load_preset
 
 Topic = Literal["images", "parts", "materials", "cooperation"]
@@ -27,11 +27,35 @@ COUNTS = (2, 4, 8)
 """Numbers of main actions that are compared."""
 
 TOGETHER = 5
-"""Trials of images, or of a team, that train as one job: the same however many processes there are."""
+"""Trials that train as one job: the same however many processes there are, so that seconds can be compared."""
 
 NAMES = ("wood", "dirt", "clay", "glass", "sandstone", "cobblestone", "bricks", "stone")
 BLOCKS = ("oak_planks", "dirt", "clay", "glass", "sandstone", "cobblestone", "bricks", "stone")
 """The most materials of the family; wood and stone are the paper's."""
+
+
+TEAMS: list[tuple[int, Kind]] = [
+    (1, "shared"),
+    *((count, kind) for count in range(2, MOST_BUILDERS + 1) for kind in KINDS),
+]
+"""Numbers of builders, and how they learn."""
+
+TUNED = "nested, tuned"
+"""The nested agent with settings that solve the flag."""
+
+
+def team_name(builders: int, networks: Kind) -> str:
+    """The name of a team's arm."""
+    return "1 builder" if builders == 1 else f"{builders} builders, {networks}"
+
+
+COMPARED: Mapping[Topic, Sequence[str]] = {
+    "images": ("images", "numbers"),
+    "parts": (TUNED, *AGENT_SPECS),
+    "materials": tuple(AGENT_SPECS),
+    "cooperation": [team_name(*team) for team in TEAMS],
+}
+"""The arms on each design of a topic, by name."""
 
 
 class Arm(BaseModel):
@@ -54,6 +78,12 @@ class Arm(BaseModel):
     trials: Annotated[int, Field(ge=1)]
     stop_at_optimum: bool = False
 
+    @model_validator(mode="after")
+    def _check_end(self) -> "Arm":
+        if self.builders and self.stop_at_optimum:
+            raise ValueError("builders in one arena train for all their episodes: leave out stop_at_optimum")
+        return self
+
     @property
     def group(self) -> str:
         """What its runs count for."""
@@ -64,24 +94,36 @@ class Arm(BaseModel):
         return scenario_of(self.scenario, self.scenario.name)
 
 
-class BeyondConfig(ExperimentConfig):
-    """The arms; what is reported of them is their order."""
+def _turn(arm: Arm) -> tuple[bool, bool, int, int]:
+    """The slowest arms come first."""
+    return (
+        arm.preset.states == "numbers",
+        not (arm.builders or arm.stop_at_optimum),
+        -arm.preset.episodes,
+        -(arm.builders or 1),
+    )
 
-    arms: Annotated[list[Arm], Field(min_length=1)]
+
+def _check_arms(arms: list[Arm]) -> list[Arm]:
+    """ValueError unless each topic's designs have all that are compared on them, each once."""
+    for topic, names in COMPARED.items():
+        own = [arm for arm in arms if arm.topic == topic]
+        designs = {arm.scenario.name for arm in own}
+        found = sorted((arm.scenario.name, arm.name) for arm in own)
+        if not designs or found != sorted((design, name) for design in designs for name in names):
+            raise ValueError(f"topic {topic} needs {', '.join(names)} on each of its designs, each once")
+    return arms
+
+
+class BeyondConfig(ExperimentConfig):
+    """Every arm that the report compares, in its order."""
+
+    arms: Annotated[list[Arm], AfterValidator(_check_arms)]
 
     def cut(self) -> list[Job]:
-        """Those of images and of teams in jobs of a few trials, the slowest first; the others as few batches."""
-        by_itself = [arm for arm in self.arms if arm.builders or arm.stop_at_optimum]
-        by_itself.sort(key=lambda arm: (arm.preset.states == "numbers", -arm.preset.episodes, -(arm.builders or 1)))
-        jobs = [job for arm in by_itself for job in self._jobs_of(arm)]
-        runs = [
-            Run(arm.group, AGENT_SPECS[arm.agent], arm.preset, arm.loaded_scenario(), trial)
-            for arm in self.arms
-            if arm not in by_itself
-            for trial in range(arm.trials)
-        ]
-        if runs:
-            jobs += cut_into_jobs(side_by_side(runs), self.jobs, self.seed)
+        """Every arm in jobs of a few trials; images first, which take longest."""
+        arms = sorted(self.arms, key=_turn)
+        jobs = [job for arm in arms for job in self._jobs_of(arm)]
         return [replace(job, name=f"{number:03d}") for number, job in enumerate(jobs)]
 
     def _jobs_of(self, arm: Arm) -> list[Job]:
@@ -119,14 +161,14 @@ def with_materials(scenario: Scenario, count: int) -> Scenario:
     return replace(scenario, name=f"{scenario.name}, {count} materials", materials=materials)
 
 
-def shipped_arms(trials: int, most_episodes: int | None = None, device: str | None = None) -> list[Arm]:
-    """All arms, of so many trials each; of images on two designs FEW at most.
+def shipped_arms(trials: int, few: int = FEW, most_episodes: int | None = None, device: str | None = None) -> list[Arm]:
+    """All arms, of so many trials each, and of images on the zigzag and the diamond of ``few``.
 
     ``most_episodes`` cuts every training; ``device`` is what images train on. PresetError if the device isn't there.
     """
     image, tuned, paper = (load_preset(name) for name in ("image", "tuned", "paper"))
     arms = [
-        *_images(image.changed(device=device), paper, trials),
+        *_images(image.changed(device=device), paper, trials, few),
         *_parts(paper, tuned, trials),
         *_materials(paper, trials),
         *_cooperation(paper, trials),
@@ -139,12 +181,12 @@ def shipped_arms(trials: int, most_episodes: int | None = None, device: str | No
     ]
 
 
-def _images(image: Preset, paper: Preset, trials: int) -> list[Arm]:
+def _images(image: Preset, paper: Preset, trials: int, few: int) -> list[Arm]:
     """Images, and beside them numbered states: the preset paper, which explores as the preset image here."""
     numbers = paper.model_copy(update={"explore_main": image.explore_main, "explore_nested": image.explore_nested})
     arms = []
     for design in paper_scenarios():
-        own = trials if design == "line" else min(FEW, trials)
+        own = trials if design == "line" else few
         for name, preset_name, preset in (("images", "image", image), ("numbers", "paper", numbers)):
             arms.append(
                 Arm(
@@ -165,7 +207,7 @@ def _parts(paper: Preset, tuned: Preset, trials: int) -> list[Arm]:
     flag = table_of(load_scenario("flag"))
     solved = Arm(
         topic="parts",
-        name="nested, tuned",
+        name=TUNED,
         preset_name="tuned",
         preset=tuned,
         scenario=flag,
@@ -194,10 +236,6 @@ def _each_agent(topic: Topic, paper: Preset, scenario: ScenarioTable, trials: in
 def _cooperation(paper: Preset, trials: int) -> list[Arm]:
     """Builders on the line: one alone, and two to four, learning in each way."""
     line, preset = table_of(load_scenario("line")), _cut(paper, TEAM_EPISODES)
-    teams: list[tuple[int, Kind]] = [
-        (1, "shared"),
-        *((count, kind) for count in range(2, MOST_BUILDERS + 1) for kind in KINDS),
-    ]
     return [
         Arm(
             topic="cooperation",
@@ -209,13 +247,8 @@ def _cooperation(paper: Preset, trials: int) -> list[Arm]:
             scenario=line,
             trials=trials,
         )
-        for count, kind in teams
+        for count, kind in TEAMS
     ]
-
-
-def team_name(builders: int, networks: Kind) -> str:
-    """The name of a team's arm."""
-    return "1 builder" if builders == 1 else f"{builders} builders, {networks}"
 
 
 def _cut(preset: Preset, episodes: int) -> Preset:

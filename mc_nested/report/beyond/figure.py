@@ -36,7 +36,7 @@ def draw_beyond(path: Path, arms: Arms) -> None:
     figure = Figure(figsize=(13.0, 8.2), layout="constrained")
     panels = list(figure.subplots(2, COLUMNS).flat)
     for axes, design in zip(panels, scenarios_of(images), strict=False):
-        _draw_curves(axes, [arm for arm in images if arm.scenario == design], f"{design}, seen as an image")
+        _draw_curves(axes, [arm for arm in images if arm.scenario == design], f"{design}: images and numbers")
     parts = of_topic(arms, "parts")
     _draw_curves(panels[3], parts, f"{parts[0].scenario}: a material for each part")
     _draw_materials(panels[4], arms)
@@ -70,12 +70,13 @@ def _draw_curves(axes: Axes, arms: Sequence[ArmResults], title: str) -> None:
 
 
 def _draw_materials(axes: Axes, arms: Arms) -> None:
-    own, budget = of_topic(arms, "materials"), equal_budget(arms, "steps")
+    own = of_topic(arms, "materials")
+    budget, optimum = equal_budget(own, "steps"), own[0].optimum
     axes.axhline(own[0].optimum, zorder=1, **OPTIMUM)
     for number, agent in enumerate(CURVES):
         of_agent = [arm for arm in own if arm.name == agent]
         counts = [arm.materials * 1.04 ** (number - 1) for arm in of_agent]
-        _draw_means(axes, counts, [arm.within(budget, "steps") for arm in of_agent], agent, agent)
+        _draw_means(axes, counts, [arm.within(budget, "steps") for arm in of_agent], optimum, agent, agent)
     axes.set_xscale("log", base=2)
     counts = sorted({arm.materials for arm in own})
     axes.set_xticks(counts, [str(count) for count in counts])
@@ -85,22 +86,25 @@ def _draw_materials(axes: Axes, arms: Arms) -> None:
 def _draw_teams(axes: Axes, own: Sequence[ArmResults]) -> None:
     axes.axhline(own[0].optimum, zorder=1, **OPTIMUM)
     alone, teams = own[0], own[1:]
-    _draw_means(axes, [1.0], [alone.last_ten], "alone", "1 builder")
+    _draw_means(axes, [1.0], [alone.last_ten], alone.optimum, "alone", "1 builder")
     for number, kind in enumerate(("shared", "own", "single")):
         of_kind = [arm for arm in teams if arm.name.endswith(kind)]
         counts = [int(arm.name.split()[0]) + 0.06 * (number - 1) for arm in of_kind]
         look = "single team" if kind == "single" else kind
-        _draw_means(axes, counts, [arm.last_ten for arm in of_kind], look, f"networks: {kind}")
+        _draw_means(axes, counts, [arm.last_ten for arm in of_kind], alone.optimum, look, f"networks: {kind}")
     axes.set_xticks(range(1, 1 + max(int(arm.name.split()[0]) for arm in own)))
     title = f"{alone.scenario}: builders in one arena"
     axes.set(title=title, xlabel="builders", ylabel="mean of the last ten")
 
 
-def _draw_means(axes: Axes, at: Sequence[float], trials: Sequence[Float64s], look: str, label: str) -> None:
+def _draw_means(
+    axes: Axes, at: Sequence[float], trials: Sequence[Float64s], optimum: float, look: str, label: str
+) -> None:
     means = [float(own.mean()) for own in trials]
     if len(trials[0]) > 1:
-        ends = [t_interval(own[:, None]) for own in trials]
-        errors = np.array([[mean - float(low[0]) for mean, (low, _) in zip(means, ends, strict=True)]] * 2)
+        ends = [t_interval(own[:, None], optimum) for own in trials]
+        below = [mean - float(low[0]) for mean, (low, _) in zip(means, ends, strict=True)]
+        errors = np.array([below, [float(high[0]) - mean for mean, (_, high) in zip(means, ends, strict=True)]])
     else:
         errors = np.zeros((2, len(means)))
     axes.errorbar(at, means, yerr=errors, marker="o", markersize=4, capsize=3, label=label, **LOOKS[look])

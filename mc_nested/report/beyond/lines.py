@@ -55,7 +55,7 @@ def lead_grows(what: str, leads: Mapping[int, Pair]) -> Evidence:
         return Evidence(what, figures, missing=ONE_TRIAL)
     tails, interval = contrast(groups, weights)
     spreads = tuple(float(group.std(ddof=1)) for group in groups)
-    return Evidence(what, figures, interval, tails, effect=MeanEffect(change, -change, spreads))
+    return Evidence(what, figures, interval, tails, effect=MeanEffect(change, -change, spreads, is_permuted=False))
 
 
 def _compared(

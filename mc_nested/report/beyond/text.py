@@ -32,16 +32,17 @@ ABOUT = {
     "trial at its first greedy episode at the optimum; the other agents have the preset `paper`.",
     "materials": "One design, with 2, 4 and 8 materials, whose p are evenly spaced between the paper's two: the "
     "optimum is the same. Every agent does one update for each step that it trains, and its main agent one for each "
-    "episode: so equal steps are nearly equal updates.",
-    "cooperation": "Several builders in one arena, preset `paper`. shared: one nested agent plays all of them; own: "
-    "each has one; single: independent single agents. An episode of several builders is shorter, since they share the "
-    "blocks.",
+    "episode: so equal steps are nearly equal updates. Below, scores within what every trial of all nine had spent in "
+    "the end; the claims compare two agents each, within what both had spent.",
+    "cooperation": "Several builders in one arena, preset `paper`, with half its episodes. shared: one nested agent "
+    "plays all of them; own: each has one; single: independent single agents. An episode of several builders is "
+    "shorter, since they share the blocks.",
 }
 
 MORE = """\
 - The trials that would decide a claim are so many that its tests would decide it with a power of {power:g}, if means,
-  spreads and shares were what these trials had. Where all lines speak for it, all have to be shown; otherwise the
-  opposite of one, at α divided by the number of its lines. An estimate from few trials is rough, and so is this.
+  spreads and shares were what these trials had: all lines shown, or the opposite of one, at α divided by the number of
+  lines. An estimate from few trials is rough, and so is this.
 - A difference of differences has no permutation that leaves it as it was: (l) is tested by Welch and Satterthwaite's t.
 - The states "screen" are not among these: they need a game's window (`python scripts/bench_screen.py`)."""
 
@@ -57,7 +58,7 @@ def beyond_text(arms: Arms, claims: Sequence[JudgedClaim], trials: int, seed: in
     ]
     for topic, title in TOPICS.items():
         own = of_topic(arms, topic)
-        parts += [f"## {title}", ABOUT[topic], _scores(own), *_more(arms, topic)]
+        parts += [f"## {title}", ABOUT[topic], *_too_few(own), _scores(own), *_more(arms, topic)]
         parts += [claim_section(each) for each in claims if each.claim.letter.startswith(LETTERS[topic])]
     parts += [
         "## How it was computed",
@@ -67,19 +68,30 @@ def beyond_text(arms: Arms, claims: Sequence[JudgedClaim], trials: int, seed: in
     return "\n\n".join(parts) + "\n"
 
 
-def trials_to_decide(judged: JudgedClaim) -> str:
-    """How many trials of each agent would decide the claim, in words."""
-    effects = [line.effect for line in judged.claim.evidence if line.effect]
-    if not effects:
+def trials_to_decide(judged: JudgedClaim) -> int | None:
+    """How many trials of each agent would decide the claim; None where more than MOST_TRIALS, or it is counted."""
+    return deciding_trials([line.effect for line in judged.claim.evidence if line.effect])
+
+
+def in_words(judged: JudgedClaim) -> str:
+    """The same for a reader."""
+    if not any(line.tails for line in judged.claim.evidence):
         return NONE
-    found = deciding_trials(effects)
+    found = trials_to_decide(judged)
     return f"more than {MOST_TRIALS:,}" if found is None else str(found)
+
+
+def _too_few(arms: Sequence[ArmResults]) -> list[str]:
+    """What so few trials can't show, where an arm has fewer than the binomial test needs."""
+    few = min(len(arm.trials) for arm in arms)
+    if few == max(len(arm.trials) for arm in arms) or 0.5**few < ALPHA:
+        return []
+    return [f"{few} trials are too few for any test: a claim with a line of so few stays undecided."]
 
 
 def _verdicts(claims: Sequence[JudgedClaim]) -> str:
     rows = [
-        (f"({each.claim.letter})", each.claim.title, f"**{each.verdict.value}**", trials_to_decide(each))
-        for each in claims
+        (f"({each.claim.letter})", each.claim.title, f"**{each.verdict.value}**", in_words(each)) for each in claims
     ]
     header = ("claim", "", f"verdict at α = {ALPHA:g}", f"trials that would decide it, power {POWER:g}")
     return table(header, rows)
@@ -92,7 +104,7 @@ def _scores(arms: Sequence[ArmResults]) -> str:
             arm.name,
             str(len(arm.trials)),
             f"{arm.episodes:,}",
-            *_mean_and_interval(arm.last_ten, arm.optimum),
+            *((NONE, NONE) if arm.stops else _mean_and_interval(arm.last_ten, arm.optimum)),
             *_mean_and_interval(arm.best, arm.optimum),
             *_reached(arm),
         )
@@ -112,7 +124,8 @@ def _scores(arms: Sequence[ArmResults]) -> str:
         "episodes before, median",
     )
     optimum = ", ".join(dict.fromkeys(f"{arm.scenario} {arm.optimum:g}" for arm in arms))
-    return f"{table(header, rows)}\n\nOptimum: {optimum}."
+    ends = " A trial that ends at the optimum has no last ten." if any(arm.stops for arm in arms) else ""
+    return f"{table(header, rows)}\n\nOptimum: {optimum}.{ends}"
 
 
 def _mean_and_interval(trials: Float64s, optimum: float) -> tuple[str, str]:
@@ -130,7 +143,7 @@ def _more(arms: Arms, topic: str) -> list[str]:
     if topic != "materials":
         return []
     own = of_topic(arms, topic)
-    steps, updates = equal_budget(arms, "steps"), equal_budget(arms, "updates")
+    steps, updates = equal_budget(own, "steps"), equal_budget(own, "updates")
     rows = [
         (
             str(arm.materials),
@@ -162,5 +175,8 @@ def _more(arms: Arms, topic: str) -> list[str]:
         "replays, MB a trial",
         "seconds of a core, all trials",
     )
-    early = f"Early: the mean over a trial's evaluations until {steps // 3:,} steps."
+    early = (
+        f"Early: the mean over a trial's evaluations until {steps // 3:,} steps. Seconds are of the whole training, "
+        "the simulator too; another run won't repeat them."
+    )
     return [f"{table(header, rows)}\n\n{early}"]

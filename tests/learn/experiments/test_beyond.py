@@ -1,10 +1,11 @@
 """The arms of reproduce --beyond, and the jobs that they are cut into."""
 
 import pytest
+from pydantic import ValidationError
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import PresetError
-from mc_nested.learn.experiments.beyond import BeyondConfig, shipped_arms, with_materials
+from mc_nested.learn.experiments.beyond import Arm, BeyondConfig, shipped_arms, with_materials
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 
 
@@ -53,8 +54,8 @@ def test_numbers_explore_as_long_as_images() -> None:
 
 def test_episodes_are_cut_and_never_raised() -> None:
     assert {arm.preset.episodes for arm in shipped_arms(1)} == {1500, 3000}
-    assert {arm.preset.episodes for arm in shipped_arms(1, 2000)} == {1500, 2000}
-    assert {arm.preset.episodes for arm in shipped_arms(1, 7)} == {7}
+    assert {arm.preset.episodes for arm in shipped_arms(1, most_episodes=2000)} == {1500, 2000}
+    assert {arm.preset.episodes for arm in shipped_arms(1, most_episodes=7)} == {7}
 
 
 def test_a_device_that_is_not_there_is_refused() -> None:
@@ -75,16 +76,24 @@ def test_every_trial_of_every_arm_is_in_one_job(jobs: int) -> None:
     assert len({job.name for job in own.cut()}) == len(own.cut())
 
 
-def test_what_torch_or_a_team_trains_at_once_does_not_depend_on_the_number_of_processes() -> None:
-    def together(jobs: int) -> list[tuple[tuple[str, ...], tuple[int, ...]]]:
-        return [
-            (job.groups, job.trials)
-            for job in config(jobs=jobs).cut()
-            if job.builders or job.preset.engine == "torch" or job.stop_at_optimum
-        ]
+def test_what_trains_at_once_does_not_depend_on_the_number_of_processes() -> None:
+    one, many = config(jobs=1).cut(), config(jobs=16).cut()
+    assert one == many
+    assert max(len(job.trials) for job in one) == 5
+    assert all(len(set(job.groups)) == len({scenario.name for scenario in job.scenarios}) == 1 for job in one)
 
-    assert together(1) == together(2) == together(16)
-    assert max(len(trials) for _, trials in together(1)) == 5
+
+def test_an_arm_too_many_or_too_few_is_refused() -> None:
+    arms = shipped_arms(1)
+    for wrong in ([], arms[1:], [*arms, arms[0]], [arm for arm in arms if arm.topic != "parts"]):
+        with pytest.raises(ValidationError, match="on each of its designs, each once"):
+            BeyondConfig(trials=1, seed=0, jobs=1, arms=wrong)
+
+
+def test_builders_train_for_all_their_episodes() -> None:
+    team = next(arm for arm in shipped_arms(1) if arm.builders)
+    with pytest.raises(ValidationError, match="leave out stop_at_optimum"):
+        Arm.model_validate({**dict(team), "stop_at_optimum": True})
 
 
 def test_images_come_first_since_they_take_longest() -> None:

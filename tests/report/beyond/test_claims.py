@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from mc_nested.report.beyond.claims import equal_budget, judge_beyond
+from mc_nested.report.beyond.claims import equal_budget, judge_beyond, of_topic
 from mc_nested.report.verdicts import Verdict
 from tests.report.beyond.made_arms import OPTIMUM, arm, trial_of, whole
 
@@ -83,11 +83,25 @@ def test_networks_that_do_not_grow_speak_against_it() -> None:
 
 def test_the_budget_is_what_the_poorest_trial_of_any_number_of_materials_had() -> None:
     arms = whole()
-    assert equal_budget(arms, "steps") == 1200
+    assert equal_budget(of_topic(arms, "materials"), "steps") == 1200
     poor = arm("materials", "single", [trial_of([3.0] * 12), trial_of([3.0] * 7)], "line, 8 materials", 8, 1)
     arms[poor.key] = poor
-    assert equal_budget(arms, "steps") == 700
-    assert equal_budget(arms, "updates") == 630
+    assert equal_budget(of_topic(arms, "materials"), "steps") == 700
+    assert equal_budget(of_topic(arms, "materials"), "updates") == 630
+
+
+def test_a_third_agents_budget_does_not_cut_a_contest() -> None:
+    """Hierarchical is behind at the end alone: seen, however few steps the single agent had."""
+    arms = whole()
+    for count in (2, 8):
+        late = [trial_of([15.0] * 2 + [15.0 - count + 0.1 * trial] * 10) for trial in range(10)]
+        poor = [trial_of([15.0 + 0.1 * trial] * 2) for trial in range(10)]
+        for name, trials, networks in (("hierarchical", late, 1 + count), ("single", poor, 1)):
+            own = arm("materials", name, trials, f"line, {count} materials", count, networks)
+            arms[own.key] = own
+    found = {each.claim.letter: each.verdict for each in judge_beyond(arms)}
+    assert (found["l1"], found["l2"]) == (Verdict.HOLDS, Verdict.HOLDS)
+    assert (found["l3"], found["l4"]) == (Verdict.UNDECIDED, Verdict.UNDECIDED)
 
 
 def test_all_but_what_is_counted_says_how_many_trials_would_decide_it() -> None:

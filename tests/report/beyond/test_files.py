@@ -6,7 +6,7 @@ from pathlib import Path
 import cv2
 
 from mc_nested.report.beyond.files import write_beyond
-from mc_nested.report.beyond.text import trials_to_decide
+from mc_nested.report.beyond.text import in_words
 from tests.report.beyond.made_arms import whole
 
 
@@ -24,11 +24,21 @@ def test_the_report_has_every_claim_with_its_verdict_and_its_trials(tmp_path: Pa
     assert "Seed 7: 10 trials" in text
     for judged in claims:
         claim = judged.claim
-        row = f"| ({claim.letter}) | {claim.title} | **{judged.verdict.value}** | {trials_to_decide(judged)} |"
+        row = f"| ({claim.letter}) | {claim.title} | **{judged.verdict.value}** | {in_words(judged)} |"
         assert row in text
         assert f'The paper, section {claim.section}: "{claim.paper}".' in text
     assert "last ten until 1,200 steps" in text
     assert "last ten until 1,080 updates" in text
+
+
+def test_arms_that_end_at_the_optimum_have_no_last_ten_and_few_trials_are_said(tmp_path: Path) -> None:
+    write_beyond(tmp_path, whole(), 10, 0)
+    text = (tmp_path / "beyond.md").read_text("utf-8")
+    assert "| zigzag | images | 3 | 360 | - | - | 14.83 |" in text
+    assert "| flag | nested | 10 | 360 | 15.00 |" in text
+    assert text.count("3 trials are too few for any test") == 1
+    write_beyond(tmp_path, whole(image_trials=10), 10, 0)
+    assert "too few for any test" not in (tmp_path / "beyond.md").read_text("utf-8")
 
 
 def test_every_evaluation_is_a_row(tmp_path: Path) -> None:
