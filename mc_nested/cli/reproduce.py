@@ -95,7 +95,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     """Repeat the paper's experiment and test its claims; Ctrl+C saves, and --resume goes on from there.
 
     Writes figure5.png and figure5.svg, results.csv and report.md, or robustness.*, or beyond.*. The defaults take some
-    minutes on two cores, those of --beyond half an hour, those of --robustness more than an hour.
+    minutes on two cores, those of --beyond about an hour, those of --robustness somewhat more.
     """
     output = Output(quiet, as_json)
     if resume is not None:
