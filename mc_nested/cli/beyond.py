@@ -8,7 +8,6 @@ from mc_nested.cli.experiment_end import say_end
 from mc_nested.cli.output import Output
 from mc_nested.learn.experiments.beyond import Arm, BeyondConfig
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
-from mc_nested.learn.experiments.job_training import JobOutcome, RunOutcome
 from mc_nested.report.beyond.arms import ArmResults, Arms
 
 FILES = {"report": "beyond.md", "plot": "beyond.png", "rows": "beyond.csv"}
@@ -47,11 +46,12 @@ def arms_of(config: BeyondConfig, outcomes: Outcomes) -> Arms:
 
 def _results_of(arm: Arm, outcomes: Outcomes) -> ArmResults:
     scenario = arm.loaded_scenario()
-    runs: dict[int, tuple[RunOutcome, JobOutcome]] = {}
-    for job, outcome in outcomes:
-        for group, own, trial, run in zip(job.groups, job.scenarios, job.trials, outcome.runs, strict=True):
-            if (group, own) == (arm.group, scenario):
-                runs[trial] = run, outcome
+    runs = {
+        trial: (run, outcome)
+        for job, outcome in outcomes
+        for group, own, trial, run in zip(job.groups, job.scenarios, job.trials, outcome.runs, strict=True)
+        if (group, own) == (arm.group, scenario)
+    }
     in_order = [runs[trial] for trial in range(arm.trials)]
     return ArmResults(
         topic=arm.topic,
@@ -61,17 +61,12 @@ def _results_of(arm: Arm, outcomes: Outcomes) -> ArmResults:
         optimum=scenario.optimum,
         episodes=arm.preset.episodes,
         stops=arm.stop_at_optimum,
+        team=arm.team,
         trials=[run.evaluations for run, _ in in_order],
         networks=in_order[0][1].networks,
         parameters=in_order[0][1].parameters,
         updates=sum(run.updates for run, _ in in_order),
         env_steps=sum(run.env_steps for run, _ in in_order),
-        seconds=sum(_share_of_seconds(run, outcome) for run, outcome in in_order),
+        seconds=sum(outcome.seconds_of(run) for run, outcome in in_order),
         replay_bytes=[run.replay_bytes or 0 for run, _ in in_order],
     )
-
-
-def _share_of_seconds(run: RunOutcome, outcome: JobOutcome) -> float:
-    """A run's seconds where others were trained at once: by its updates."""
-    updates = sum(each.updates for each in outcome.runs)
-    return outcome.seconds * run.updates / updates if updates else 0.0

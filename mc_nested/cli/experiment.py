@@ -1,6 +1,7 @@
 """What the verbs that train many runs share: options, --resume, and training all jobs under one progress view."""
 
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -43,9 +44,14 @@ def cores() -> int:
 
 def check_nothing_beside_resume(options: dict[str, Any]) -> None:
     """UserError if anything but --resume, or how to print, was given: a resumed experiment keeps its own config."""
+    check_nothing_beside(options, BESIDE_RESUME, "--resume goes on with its own config.toml")
+
+
+def check_nothing_beside(options: dict[str, Any], beside: Sequence[str], why: str) -> None:
+    """UserError, which says why, if an option was given that isn't one of those."""
     for name, value in options.items():
-        if name not in BESIDE_RESUME and value is not False and value not in (None, [], ()):
-            raise UserError(f"--resume goes on with its own config.toml: leave out --{name.replace('_', '-')}")
+        if name not in beside and value is not False and value not in (None, [], ()):
+            raise UserError(f"{why}: leave out --{name.replace('_', '-')}")
 
 
 def train_all(folder: ExperimentFolder[Config], output: Output) -> Outcomes:

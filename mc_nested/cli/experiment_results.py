@@ -24,7 +24,6 @@ def results_of_groups(
     evaluations: dict[tuple[str, str, int], list[Evaluation]] = {}
     costs: dict[tuple[str, str, int], Cost] = {}
     for job, outcome in outcomes:
-        updates = sum(run.updates for run in outcome.runs)
         for group, scenario, trial, run in zip(job.groups, job.scenarios, job.trials, outcome.runs, strict=True):
             if group not in agents:
                 continue
@@ -33,10 +32,16 @@ def results_of_groups(
                 Evaluation(agent, scenario.name, trial, row.episode, row.score, row.material, row.steps)
                 for row in run.evaluations
             ]
-            seconds = outcome.seconds * run.updates / updates if updates else 0.0
             held = () if run.replay_bytes is None else (run.replay_bytes,)
             costs[agent, scenario.name, trial] = Cost(
-                agent, scenario.name, outcome.networks, outcome.parameters, run.updates, run.env_steps, seconds, held
+                agent,
+                scenario.name,
+                outcome.networks,
+                outcome.parameters,
+                run.updates,
+                run.env_steps,
+                outcome.seconds_of(run),
+                held,
             )
     names, trials = [scenario.name for scenario in scenarios], range(config.trials)
     return Results(

@@ -1,7 +1,7 @@
 """``mc-nested reproduce``: the paper's experiment, every agent on every design, and tests of its claims."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.table import Table
@@ -16,6 +16,7 @@ from mc_nested.cli.experiment import (
     OutOption,
     ResumeOption,
     SeedOption,
+    check_nothing_beside,
     check_nothing_beside_resume,
     cores,
     train_all,
@@ -103,7 +104,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         _resume(resume, output)
         return
     if beyond:
-        check_nothing_beside_beyond(context.params)
+        check_nothing_beside(context.params, BESIDE_BEYOND, "--beyond has agents, designs and presets of its own")
         arms = shipped_arms(trials or TRIALS, trials or FEW, episodes, device)
         check_device(device)
         beyond_config = BeyondConfig(trials=trials or TRIALS, seed=seed or 0, jobs=jobs or cores(), arms=arms)
@@ -153,15 +154,6 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         )
     with output_folder(out, "figure5") as path:
         _run(ExperimentFolder.new(path, config, VERB), output)
-
-
-def check_nothing_beside_beyond(options: dict[str, Any]) -> None:
-    """UserError if an option was given that --beyond doesn't take: its agents, designs and presets are its own."""
-    for name, value in options.items():
-        if name not in BESIDE_BEYOND and value is not False and value not in (None, [], ()):
-            raise UserError(
-                f"--beyond has agents, designs and presets of its own: leave out --{name.replace('_', '-')}"
-            )
 
 
 def check_device(device: str | None) -> None:

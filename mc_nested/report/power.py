@@ -20,7 +20,7 @@ MOST_TRIALS = 1000
 """Nobody trains more."""
 
 
-class Effect(Protocol):
+class TestedEffect(Protocol):
     """How large is what a line of a claim says, and how often so many trials would show it."""
 
     def power_for(self, trials: Int64s, alpha: float) -> Float64s:
@@ -81,7 +81,7 @@ class ShareEffect:
         return _shown(1 - self.share, trials, alpha)
 
 
-def deciding_trials(effects: Sequence[Effect]) -> int | None:
+def deciding_trials(effects: Sequence[TestedEffect]) -> int | None:
     """From how many trials of each agent on a claim of these lines would be decided; None if more than MOST_TRIALS.
 
     It is decided where all lines are shown, or the opposite of any is, at the level that is left to each by

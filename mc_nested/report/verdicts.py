@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from mc_nested.report.inference import ALPHA, Interval, Tails, holm
-from mc_nested.report.power import Effect
+from mc_nested.report.power import TestedEffect
 
 
 class Verdict(Enum):
@@ -45,7 +45,7 @@ class Evidence:
     tails: Tails | None = None
     counted: Verdict | None = None
     missing: str = ""
-    effect: Effect | None = None
+    effect: TestedEffect | None = None
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.state_space import StateSpace
 from mc_nested.learn.engine_fit import NUMBERS
-from mc_nested.learn.learner import CHOICE_NUMBERS, Learner
+from mc_nested.learn.learner import CHOICE_NUMBERS, Learner, summed_by_run
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import initial_stream
@@ -156,16 +156,12 @@ class TeamAgent:
     @property
     def updates_by_run(self) -> Int64s:
         """Updates of all of a run's networks, (runs,)."""
-        done = [learner.engine.updates.reshape(len(self.runs), -1) for learner in self._learners().values()]
-        total: Int64s = np.hstack(done).sum(axis=1)
-        return total
+        return summed_by_run((learner.engine.updates for learner in self._learners().values()), len(self.runs))
 
     @property
     def replay_bytes(self) -> Int64s:
         """Bytes of what each run's replays hold, all its agents' together, (runs,)."""
-        held = [learner.replay.bytes_held().reshape(len(self.runs), -1) for learner in self._learners().values()]
-        total: Int64s = np.hstack(held).sum(axis=1)
-        return total
+        return summed_by_run((learner.replay.bytes_held() for learner in self._learners().values()), len(self.runs))
 
     def online(self) -> Arrays:
         """The online networks' parameters, by role: what acting needs."""

@@ -85,6 +85,11 @@ class Arm(BaseModel):
         return self
 
     @property
+    def team(self) -> Builders | None:
+        """Who shares an arena; None where an agent builds alone."""
+        return Builders(self.builders, self.networks) if self.builders else None
+
+    @property
     def group(self) -> str:
         """What its runs count for."""
         return f"{self.topic}: {self.name}"
@@ -128,7 +133,6 @@ class BeyondConfig(ExperimentConfig):
 
     def _jobs_of(self, arm: Arm) -> list[Job]:
         scenario = arm.loaded_scenario()
-        builders = Builders(arm.builders, arm.networks) if arm.builders else None
         together = [range(first, min(first + TOGETHER, arm.trials)) for first in range(0, arm.trials, TOGETHER)]
         return [
             Job(
@@ -140,7 +144,7 @@ class BeyondConfig(ExperimentConfig):
                 trials=tuple(trials),
                 seed=self.seed,
                 stop_at_optimum=arm.stop_at_optimum,
-                builders=builders,
+                builders=arm.team,
             )
             for trials in together
         ]

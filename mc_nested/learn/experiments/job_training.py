@@ -18,7 +18,7 @@ from mc_nested.errors import RunError
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.evaluation import GreedyEpisode
 from mc_nested.learn.experiments.jobs import Job
-from mc_nested.learn.experiments.spent import Spent, Updated
+from mc_nested.learn.experiments.spent import SpentSoFar, Updated
 from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
 from mc_nested.learn.state_dict import named_for, part_of
 
@@ -80,6 +80,11 @@ class JobOutcome(BaseModel):
     parameters: int
     seconds: float
     runs: list[RunOutcome]
+
+    def seconds_of(self, run: RunOutcome) -> float:
+        """One run's share of the seconds, by its updates."""
+        updates = sum(each.updates for each in self.runs)
+        return self.seconds * run.updates / updates if updates else 0.0
 
 
 class Training(Protocol):
@@ -167,7 +172,7 @@ class JobTraining:
     def __init__(self, job: Job, folder: Path, trainer: Trains) -> None:
         self.job = job
         self.trainer = trainer
-        self._spent = Spent(len(job.trials))
+        self._spent = SpentSoFar(len(job.trials))
         self._folder = folder
         self._checkpoint = Checkpoint(folder / "checkpoint", job.identity())
         self._seconds_before = 0.0

@@ -32,7 +32,7 @@ class Logged(Protocol):
     def evaluation_rows(self) -> Sequence[EvaluationRow]: ...
 
 
-class Spent:
+class SpentSoFar:
     """Counts beside a trainer of so many runs.
 
     ``at``: (steps, updates) of each evaluation, in their order; None for those of a version that didn't count them.

@@ -8,6 +8,7 @@ import numpy as np
 
 from mc_nested.arrays import Float64s
 from mc_nested.learn.experiments.job_training import Evaluated
+from mc_nested.learn.experiments.jobs import Builders
 from mc_nested.report.measures import LAST
 
 Budget = Literal["steps", "updates"]
@@ -26,6 +27,7 @@ class ArmResults:
         optimum: the design's highest score.
         episodes: of a training, at most.
         stops: whether a trial ends at its first greedy episode at the optimum.
+        team: who shares an arena; None where an agent builds alone.
         trials: the greedy evaluations of each trial, in order.
         networks: of one trial.
         parameters: of one trial's networks, target networks not counted.
@@ -42,6 +44,7 @@ class ArmResults:
     optimum: float
     episodes: int
     stops: bool
+    team: Builders | None
     trials: Sequence[Sequence[Evaluated]]
     networks: int
     parameters: int

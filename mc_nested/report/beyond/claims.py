@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import get_args
 
 from mc_nested.arrays import Float64s
-from mc_nested.learn.cooperation.team_agent import KINDS
+from mc_nested.learn.cooperation.team_agent import KINDS, Kind
 from mc_nested.report.beyond.arms import ArmResults, Arms, Budget
 from mc_nested.report.beyond.lines import above, lead_grows, mostly_at_the_optimum, not_behind
 from mc_nested.report.claims.contests import HIERARCHICAL, NESTED, OUTPERFORMED, SINGLE
@@ -67,7 +67,18 @@ def of_topic(arms: Arms, topic: str) -> list[ArmResults]:
     return [arm for arm in arms.values() if arm.topic == topic]
 
 
-def scenarios_of(arms: Sequence[ArmResults]) -> list[str]:
+def teams_of(arms: Sequence[ArmResults], networks: Kind) -> dict[int, ArmResults]:
+    """The teams whose builders learn in that way, by how many they are: two or more."""
+    teams = {arm.team.count: arm for arm in arms if arm.team and arm.team.networks == networks}
+    return {count: arm for count, arm in teams.items() if count > 1}
+
+
+def alone_among(arms: Sequence[ArmResults]) -> ArmResults:
+    """The arm of one builder."""
+    return next(arm for arm in arms if arm.team and arm.team.count == 1)
+
+
+def designs_of(arms: Sequence[ArmResults]) -> list[str]:
     """The names of their designs, each once."""
     return list(dict.fromkeys(arm.scenario for arm in arms))
 
@@ -78,7 +89,7 @@ def equal_budget(arms: Sequence[ArmResults], of: Budget) -> int:
 
 
 def _of_images(arms: Arms) -> list[Claim]:
-    designs = scenarios_of(of_topic(arms, "images"))
+    designs = designs_of(of_topic(arms, "images"))
     images = [arms["images", design, "images"] for design in designs]
     numbers = [arms["images", design, "numbers"] for design in designs]
     return [
@@ -184,8 +195,8 @@ def _networks(arms: Arms) -> Evidence:
 
 def _of_teams(arms: Arms) -> list[Claim]:
     own = of_topic(arms, "cooperation")
-    alone = own[0]
-    teams = {kind: [arm for arm in own[1:] if arm.name.endswith(kind)] for kind in KINDS}
+    alone = alone_among(own)
+    teams = {kind: list(teams_of(own, kind).values()) for kind in KINDS}
     return [
         Claim(
             "m1",

@@ -10,8 +10,9 @@ from matplotlib.figure import Figure
 
 from mc_nested.arrays import Float64s
 from mc_nested.atomic_file import atomic_write
+from mc_nested.learn.cooperation.team_agent import KINDS
 from mc_nested.report.beyond.arms import ArmResults, Arms
-from mc_nested.report.beyond.claims import equal_budget, of_topic, scenarios_of
+from mc_nested.report.beyond.claims import alone_among, designs_of, equal_budget, of_topic, teams_of
 from mc_nested.report.curve import align_trials, t_interval
 from mc_nested.report.figure5 import BAND, CURVES, OPTIMUM
 
@@ -25,7 +26,6 @@ LOOKS: Mapping[str, Mapping[str, Any]] = {
     "shared": {"color": "#0072B2", "linestyle": "-"},
     "own": {"color": "#CC79A7", "linestyle": "-"},
     "alone": {"color": "black", "linestyle": "-"},
-    "single team": {"color": "#009E73", "linestyle": (0, (4, 1.2))},
 }
 """Okabe and Ito's colours; the same agent looks the same as in Figure 5."""
 
@@ -35,7 +35,7 @@ def draw_beyond(path: Path, arms: Arms) -> None:
     images = of_topic(arms, "images")
     figure = Figure(figsize=(13.0, 8.2), layout="constrained")
     panels = list(figure.subplots(2, COLUMNS).flat)
-    for axes, design in zip(panels, scenarios_of(images), strict=False):
+    for axes, design in zip(panels, designs_of(images), strict=False):
         _draw_curves(axes, [arm for arm in images if arm.scenario == design], f"{design}: images and numbers")
     parts = of_topic(arms, "parts")
     _draw_curves(panels[3], parts, f"{parts[0].scenario}: a material for each part")
@@ -85,14 +85,13 @@ def _draw_materials(axes: Axes, arms: Arms) -> None:
 
 def _draw_teams(axes: Axes, own: Sequence[ArmResults]) -> None:
     axes.axhline(own[0].optimum, zorder=1, **OPTIMUM)
-    alone, teams = own[0], own[1:]
+    alone = alone_among(own)
     _draw_means(axes, [1.0], [alone.last_ten], alone.optimum, "alone", "1 builder")
-    for number, kind in enumerate(("shared", "own", "single")):
-        of_kind = [arm for arm in teams if arm.name.endswith(kind)]
-        counts = [int(arm.name.split()[0]) + 0.06 * (number - 1) for arm in of_kind]
-        look = "single team" if kind == "single" else kind
-        _draw_means(axes, counts, [arm.last_ten for arm in of_kind], alone.optimum, look, f"networks: {kind}")
-    axes.set_xticks(range(1, 1 + max(int(arm.name.split()[0]) for arm in own)))
+    for number, kind in enumerate(KINDS):
+        teams = teams_of(own, kind)
+        counts = [count + 0.06 * (number - 1) for count in teams]
+        _draw_means(axes, counts, [arm.last_ten for arm in teams.values()], alone.optimum, kind, f"networks: {kind}")
+    axes.set_xticks(sorted({arm.team.count for arm in own if arm.team}))
     title = f"{alone.scenario}: builders in one arena"
     axes.set(title=title, xlabel="builders", ylabel="mean of the last ten")
 

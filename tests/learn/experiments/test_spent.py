@@ -9,7 +9,7 @@ from mc_nested.arrays import Int64s
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.experiments.job_trainers import agents_trainer
 from mc_nested.learn.experiments.job_training import JobTraining, outcome_of
-from mc_nested.learn.experiments.spent import Spent
+from mc_nested.learn.experiments.spent import SpentSoFar
 from sim.grid import GridVectorEnv
 from tests.learn.made_experiments import BAR, DOT, one_job
 
@@ -37,7 +37,7 @@ class FakeTrainer:
 
 
 def test_each_evaluation_has_its_own_runs_steps_and_updates() -> None:
-    trainer, spent = FakeTrainer(), Spent(2)
+    trainer, spent = FakeTrainer(), SpentSoFar(2)
     trainer.train(0, steps=10, updates=7)
     trainer.train(1, steps=20, updates=17)
     spent.count(trainer)
@@ -50,11 +50,11 @@ def test_each_evaluation_has_its_own_runs_steps_and_updates() -> None:
 
 
 def test_it_goes_on_from_what_was_saved() -> None:
-    trainer, spent = FakeTrainer(), Spent(2)
+    trainer, spent = FakeTrainer(), SpentSoFar(2)
     trainer.train(0, steps=10, updates=7)
     trainer.evaluate(0)
     spent.count(trainer)
-    again = Spent(2)
+    again = SpentSoFar(2)
     again.load(spent.state(), trainer)
     trainer.train(0, steps=4, updates=4)
     trainer.evaluate(0)
@@ -63,12 +63,12 @@ def test_it_goes_on_from_what_was_saved() -> None:
 
 
 def test_what_an_earlier_version_did_not_count_is_unknown_and_what_follows_is_counted() -> None:
-    trainer, spent = FakeTrainer(), Spent(2)
+    trainer, spent = FakeTrainer(), SpentSoFar(2)
     trainer.train(1, steps=10, updates=7)
     trainer.evaluate(1)
     spent.load({}, trainer)
     assert spent.at == [None]
-    again = Spent(2)
+    again = SpentSoFar(2)
     again.load(spent.state(), trainer)
     assert again.at == [None]
     trainer.evaluate(1)

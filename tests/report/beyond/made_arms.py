@@ -2,7 +2,9 @@
 
 from collections.abc import Callable, Sequence
 
+from mc_nested.learn.cooperation.team_agent import KINDS
 from mc_nested.learn.experiments.job_training import Evaluated
+from mc_nested.learn.experiments.jobs import Builders
 from mc_nested.report.beyond.arms import ArmResults, Arms
 
 OPTIMUM = 21.0
@@ -31,6 +33,7 @@ def arm(
     materials: int = 2,
     networks: int = 2,
     stops: bool = False,
+    team: Builders | None = None,
 ) -> ArmResults:
     return ArmResults(
         topic=topic,
@@ -40,6 +43,7 @@ def arm(
         optimum=OPTIMUM,
         episodes=360,
         stops=stops,
+        team=team,
         trials=trials,
         networks=networks,
         parameters=1000 * networks,
@@ -83,10 +87,10 @@ def whole(means: Callable[[str, str, int], float] = lambda *_: 15.0, trials: int
             )
             for name in networks
         ]
-    arms.append(arm("cooperation", "1 builder", around(means("cooperation", "alone", 1), trials)))
+    alone = around(means("cooperation", "alone", 1), trials)
+    arms.append(arm("cooperation", "1 builder", alone, team=Builders(1, "shared")))
     for count in (2, 3, 4):
-        arms += [
-            arm("cooperation", f"{count} builders, {kind}", around(means("cooperation", kind, count), trials))
-            for kind in ("shared", "own", "single")
-        ]
+        for kind in KINDS:
+            scores = around(means("cooperation", kind, count), trials)
+            arms.append(arm("cooperation", f"{count} builders, {kind}", scores, team=Builders(count, kind)))
     return {each.key: each for each in arms}
