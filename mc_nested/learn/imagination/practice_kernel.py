@@ -22,7 +22,7 @@ from mc_nested.learn.dqn.compiled_engine.cell_networks import (
     by_node,
     forward_cells,
 )
-from mc_nested.learn.dqn.compiled_engine.engine import td_target
+from mc_nested.learn.dqn.compiled_engine.engine import greedy_actions, td_target
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, step
 from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask, epsilon_from, is_wasted, state_at
 
@@ -221,9 +221,11 @@ def _update(
     forward_cells(row.target, work.sizes, next_states, work.numbers, work.batch)
     targets = np.empty(batch, np.float32)
     chooser = work.next_batch.values if rule.double else work.batch.values
+    greedy = np.empty(batch, np.int32)
+    greedy_actions(chooser, greedy)
     for column in range(batch):
-        values = work.batch.values[:, column]
-        targets[column] = td_target(rewards[column], discounts[column], chooser[:, column], values)
+        next_value = work.batch.values[greedy[column], column]
+        targets[column] = td_target(rewards[column], discounts[column], next_value)
     forward_cells(row.online, work.sizes, states, work.numbers, work.batch)
     work.slope[:] = np.float32(0)
     for column in range(batch):

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arrays import Float32s, Int64s
+from mc_nested.arrays import Float32s, Int32s, Int64s
 from mc_nested.learn.dqn.compiled import compiled
 from mc_nested.learn.dqn.compiled_engine.adam import adam_step
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for, parameter_count
@@ -21,7 +21,7 @@ from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.dqn.self_imitation import rival
 from mc_nested.learn.dqn.state_space import StateParts, StateSpace
 
-EXPONENT = np.int32(0x7F800000)
+EXPONENT = np.uint32(0x7F800000)
 """The bits of a 32-bit float's exponent: all are set in what is infinite or no number."""
 
 
@@ -59,7 +59,7 @@ class _Workspace(NamedTuple):
 
 
 class _Estimates(NamedTuple):
-    """What an update writes down of its batch, (k, batch): Q(s, a) before it, and the TD errors."""
+    """What an update writes down of each row's batch, (rows, batch): Q(s, a) before it, and the TD errors."""
 
     values: Float32s
     errors: Float32s
@@ -114,9 +114,7 @@ class CompiledEngine:
 
     @on_one_blas_thread
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
-        self.updates[rows] += 1
-        estimates = _Estimates(np.empty_like(batch.rewards), np.empty_like(batch.rewards))
-        finite = _update(
+        finite, renews = _update(
             rows,
             _Networks(self.online, self._first_moment, self._second_moment, self.updates),
             batch,
@@ -124,16 +122,15 @@ class CompiledEngine:
             self._widths,
             self.rule,
             self._learning,
-            estimates,
+            _Estimates(self._last.values, self._last.errors),
         )
         if not finite:
             raise diverged(self.rule, self.updates[rows])
-        self._last.values[rows], self._last.errors[rows] = estimates
-        due = rows[self.updates[rows] % self.rule.target_period == 0]
-        if len(due):
+        if renews:
+            due = rows[self.updates[rows] % self.rule.target_period == 0]
             self.target[due] = self.online[due]
             self._target_values.renew(due, self.target[due])
-        return estimates.errors
+        return self._last.errors[rows]
 
     def row(self, row: int) -> tuple[Float32s, Float32s, Float32s, Float32s, Int64s]:
         """One row's online and target network, Adam's moments, (parameters,) each, and its updates (1,): no copies.
@@ -189,14 +186,29 @@ def _workspace(sizes: Sizes, batch: int) -> _Workspace:
     )
 
 
-@compiled()
-def td_target(reward: float, discount: float, next_online: Float32s, next_target: Float32s) -> float:
+@compiled(nogil=True)
+def greedy_actions(values: Float32s, greedy: Int32s) -> None:
+    """Write the first action of the highest value in each column of ``values`` (actions, batch): ``greedy``, (batch,).
+
+    Action after action, all columns at once: that vectorises, where an argmax of each column doesn't.
+    """
+    greedy[:] = 0
+    highest = values[0].copy()
+    for action in range(1, len(values)):
+        own, number = values[action], np.int32(action)
+        for column in range(len(greedy)):
+            higher = own[column] > highest[column]
+            highest[column] = own[column] if higher else highest[column]
+            greedy[column] = number if higher else greedy[column]
+
+
+@compiled(nogil=True)
+def td_target(reward: float, discount: float, next_value: float) -> float:
     """Y = r + γ Q(s', argmax Q(s'; θ); θ⁻), the bootstrap dropped where the episode terminated (paper, equation 4).
 
-    ``next_online`` and ``next_target`` are the two networks' values of s', (actions,).
+    ``next_value`` is the target network's value, θ⁻, of the online network's greedy action in s'.
     """
-    target: float = reward + discount * next_target[np.argmax(next_online)]
-    return target
+    return reward + discount * next_value
 
 
 @compiled()
@@ -239,12 +251,16 @@ def _update(
     rule: UpdateRule,
     work: _Workspace,
     estimates: _Estimates,
-) -> bool:
-    """``CompiledEngine.update``, row by row; returns whether all parameters are numbers afterwards."""
-    finite = True
+) -> tuple[bool, bool]:
+    """``CompiledEngine.update``, row by row.
+
+    Returns whether all parameters are numbers afterwards, and whether any row's target is due.
+    """
+    finite, renews = True, False
     count = batch.actions.shape[1]
     slope = work.slope
     next_values, values, next_targets = np.empty_like(slope), np.empty_like(slope), np.empty_like(slope)
+    greedy = np.empty(count, np.int32)
     tabulated = states.target_values.shape[1] > 0
     for at in range(len(rows)):
         row = rows[at]
@@ -255,15 +271,17 @@ def _update(
             forward(states.target[row], sizes, work.next_inputs, work.next_hidden, next_targets)
         forward(online, sizes, work.next_inputs, work.next_hidden, next_values)
         forward(online, sizes, work.inputs, work.hidden, values)
+        greedy_actions(next_values, greedy)
         slope[:] = np.float32(0)
         for column in range(count):
-            action = batch.actions[at, column]
+            action, best = batch.actions[at, column], greedy[column]
             if tabulated:
-                next_targets[:, column] = states.target_values[row, batch.states[1, at, column]]
-            discount, reward = batch.discounts[at, column], batch.rewards[at, column]
-            target = td_target(reward, discount, next_values[:, column], next_targets[:, column])
+                next_value = states.target_values[row, batch.states[1, at, column], best]
+            else:
+                next_value = next_targets[best, column]
+            target = td_target(batch.rewards[at, column], batch.discounts[at, column], next_value)
             error = values[action, column] - target
-            estimates.values[at, column], estimates.errors[at, column] = values[action, column], error
+            estimates.values[row, column], estimates.errors[row, column] = values[action, column], error
             clipped = min(max(error, -rule.huber_delta), rule.huber_delta)
             slope[action, column] = clipped * batch.weights[at, column] / count
             if batch.imitated[at, column]:
@@ -272,16 +290,19 @@ def _update(
                     slope[other, column] += np.float32(1 / count)
                     slope[action, column] -= np.float32(1 / count)
         backward(online, sizes, work.inputs, work.hidden, slope, work.gradient, work.scratch)
+        networks.updates[row] += 1
+        renews = renews or networks.updates[row] % rule.target_period == 0
         moments = networks.first_moment[row], networks.second_moment[row]
         adam_step(online, *moments, work.gradient, networks.updates[row], rule.learning_rate)
         finite = finite and all_finite(online)
-    return finite
+    return finite, renews
 
 
 @compiled()
 def all_finite(values: Float32s) -> bool:
     """Whether all of the values are numbers, by their bits: fast mathematics may take for granted that they are."""
-    highest = np.int32(0)
-    for bits in values.view(np.int32):
-        highest = max(highest, bits & EXPONENT)
+    bits = values.view(np.uint32)
+    highest = np.uint32(0)
+    for at in range(len(bits)):
+        highest = max(highest, np.uint32(bits[at] & EXPONENT))  # of 32 bits at each step: that vectorises
     return bool(highest != EXPONENT)

@@ -6,6 +6,7 @@ from typing import Any
 import torch
 from numpy.typing import NDArray
 from torch import Tensor
+from torch.nn.functional import embedding
 
 from mc_nested.arrays import Int64s
 from mc_nested.learn.dqn.state_space import StateSpace
@@ -31,6 +32,6 @@ def _features(space: StateSpace, device: torch.device) -> Inputs:
     table = torch.from_numpy(space.table[:, :-1].copy()).to(device)
 
     def look_up(kept: NDArray[Any], rows: Int64s) -> Tensor:
-        return table[torch.from_numpy(kept + space.first_of(rows)[:, None]).to(device)]
+        return embedding(torch.from_numpy(kept + space.first_of(rows)[:, None]).to(device), table)
 
     return look_up

@@ -3,10 +3,14 @@
 import numpy as np
 import pytest
 import torch
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 from torch import Tensor, nn
 
+from mc_nested.arrays import Float32s, Int32s
 from mc_nested.errors import DivergedError
-from mc_nested.learn.dqn.compiled_engine.engine import CompiledEngine, all_finite, td_target
+from mc_nested.learn.dqn.compiled_engine.engine import CompiledEngine, all_finite, greedy_actions, td_target
 from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
 from mc_nested.learn.dqn.engine import Batch, UpdateRule
 from mc_nested.learn.dqn.state_space import StateSpace
@@ -19,14 +23,28 @@ SIZES = (4, 32, 32, 8)
 def test_the_target_takes_the_online_networks_choice_and_the_target_networks_value() -> None:
     # The online network prefers action 1; plain DQN would take the target network's own best, action 2:
     # 1 + 0.5 · 7 = 4.5. Double DQN takes the target network's value of action 1 (paper, equation 4).
-    online, target = np.array([2.0, 5.0, 3.0], np.float32), np.array([1.0, 4.0, 7.0], np.float32)
-    assert td_target(1.0, 0.5, online, target) == 1.0 + 0.5 * 4.0
+    online, target = np.array([[2.0], [5.0], [3.0]], np.float32), np.array([1.0, 4.0, 7.0], np.float32)
+    assert td_target(1.0, 0.5, target[greedy_of(online)[0]]) == 1.0 + 0.5 * 4.0
 
 
 def test_a_terminated_transition_is_worth_its_reward_alone() -> None:
-    assert td_target(1.0, 0.0, np.array([0.0, 1.0], np.float32), np.array([9.0, 9.0], np.float32)) == 1.0
-    found = td_target(0.0, 0.95, np.array([3.0, 1.0], np.float32), np.array([-2.0, 8.0], np.float32))
-    assert found == pytest.approx(-1.9)
+    assert td_target(1.0, 0.0, 9.0) == 1.0
+    assert td_target(0.0, 0.95, -2.0) == pytest.approx(-1.9)
+
+
+def test_the_greedy_action_of_a_state_is_the_first_of_the_highest_value() -> None:
+    assert greedy_of(np.array([[1.0, 4.0], [3.0, 4.0], [3.0, -1.0]], np.float32)).tolist() == [1, 0]
+
+
+@given(arrays(np.float32, st.tuples(st.integers(1, 10), st.integers(1, 40)), elements=st.integers(-3, 3)))
+def test_greedy_actions_are_the_argmax_of_each_column(values: Float32s) -> None:
+    assert greedy_of(values).tolist() == values.argmax(axis=0).tolist()
+
+
+def greedy_of(values: Float32s) -> Int32s:
+    greedy = np.full(values.shape[1], 7, np.int32)
+    greedy_actions(values, greedy)
+    return greedy
 
 
 def learners(rows: int, rule: UpdateRule = RULE) -> CompiledEngine:
