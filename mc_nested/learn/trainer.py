@@ -207,8 +207,8 @@ class Trainer:
         runs.observations = observations
         runs.materials = chosen if self.agent.main else self.agent.chosen_materials(observations)
         runs.steps_in_episode += ~runs.finished
-        self.env_steps += int(training.sum())
-        self.evaluation_steps += int((runs.evaluating & ~runs.finished).sum())
+        self.env_steps += len(rows)
+        self.evaluation_steps += int(np.count_nonzero(runs.evaluating & ~runs.finished))
         if ended.any():
             if self._explorer:
                 self._explorer.end(np.flatnonzero(ended))

@@ -215,10 +215,12 @@ def td_target(reward: float, discount: float, next_value: float) -> float:
 def _look_up(states: Int64s, parts: StateParts, inputs: Float32s) -> None:
     """Write the features of the states (batch,) into a network's inputs, (…, batch)."""
     cells, rest = parts.cells, parts.rest
+    # A division of 32 bits takes a fraction of the time of one of 64.
+    a_cell, a_kind = np.uint32(parts.a_cell), np.uint32(parts.a_kind)
     for column in range(len(states)):
-        state = states[column]
-        of_cell, of_kind = state // parts.a_cell, state // parts.a_kind * parts.a_cell
-        of_rest = of_kind + state % parts.a_cell
+        state = np.uint32(states[column])
+        of_cell = state // a_cell
+        of_rest = state // a_kind * a_cell + (state - of_cell * a_cell)
         for feature in range(cells.shape[1]):
             inputs[feature, column] = cells[of_cell, feature]
         for feature in range(rest.shape[1]):
