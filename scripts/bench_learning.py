@@ -11,6 +11,7 @@ stable-baselines3 takes part where the bench extra is installed.
 
 import argparse
 import importlib.util
+import itertools
 import json
 import multiprocessing
 import os
@@ -20,7 +21,6 @@ import tempfile
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
-from itertools import pairwise
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
@@ -49,18 +49,30 @@ MOST_RUNS = 90
 
 
 def ours(runs: int, preset: Preset) -> Slices:
-    """This project's trainer with that many runs; the main agent's updates are left out of the count."""
-    scenarios = [LINE] * runs
-    agent = Agent(AGENT_SPECS["nested"], scenarios, preset, seed=0)
-    trainer = Trainer(agent.view_of(GridVectorEnv(scenarios), scenarios), scenarios, agent, preset, seed=0)
+    """This project's trainer with that many runs; the main agent's updates are left out of the count.
+
+    Where all runs have had their episodes, others begin.
+    """
+    seeds = itertools.count()
+    trainer = trainer_of(runs, preset, next(seeds))
 
     def work() -> int:
-        before = int(agent.low_level.engine.updates.sum())
+        nonlocal trainer
+        if trainer.finished:
+            trainer = trainer_of(runs, preset, next(seeds))
+        before = int(trainer.agent.low_level.engine.updates.sum())
         for _ in range(20):
             trainer.tick()
-        return int(agent.low_level.engine.updates.sum()) - before
+        return int(trainer.agent.low_level.engine.updates.sum()) - before
 
     return work
+
+
+def trainer_of(runs: int, preset: Preset, seed: int) -> Trainer:
+    """That many runs of the nested agent on the line."""
+    scenarios = [LINE] * runs
+    agent = Agent(AGENT_SPECS["nested"], scenarios, preset, seed)
+    return Trainer(agent.view_of(GridVectorEnv(scenarios), scenarios), scenarios, agent, preset, seed)
 
 
 def matrix_products(runs: int) -> Slices:
@@ -83,7 +95,7 @@ def flops_of_an_update() -> int:
     Forward s and s' in the online network and s' in the target network, back the gradient of every weight, and of every
     layer's input but the first.
     """
-    layers = list(pairwise((4, *PAPER.hidden, 8)))
+    layers = list(itertools.pairwise((4, *PAPER.hidden, 8)))
     passes = sum((5 if layer else 4) * inputs * outputs for layer, (inputs, outputs) in enumerate(layers))
     return 2 * PAPER.update.batch * passes
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts.bench_learning import flops_of_an_update, summary
+from scripts.bench_learning import PAPER, flops_of_an_update, ours, summary
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -28,6 +28,12 @@ def test_ratios_are_medians_of_rounds_side_by_side() -> None:
     assert (found["ours"], found["plain_loop"]) == ({"compiled 1": 30, "torch 1": 4, "images 1": 2}, 10)
     assert (found["ratio_torch"], found["ratio_torch_one_run"]) == (0.4, 0.8)
     assert (found["ratio_plain_loop"], found["ratio_one_run"], found["sb3"]) == (2.0, 6.0, None)
+
+
+def test_where_all_runs_have_had_their_episodes_others_begin() -> None:
+    work = ours(2, PAPER.changed(episodes=1))
+    updates = [work() for _ in range(100)]
+    assert sum(updates[50:]) > 0
 
 
 @pytest.mark.slow
