@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.env import ArenaEnv, highest_observation, rendered, space_up_to
 from mc_nested.arena.game import Outcome, PlayLog, Resumable
-from mc_nested.arena.rules import PLACES, STEP, cells_of, grid_of, landing, moved
+from mc_nested.arena.rules import STEP, cells_of, grid_of, landing, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.tally import Tally, tally_of
 from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options, seeds_of, shared_action_space, taken_apart
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
+from sim.grid_step import step_all
 
 
 class GridGame:
@@ -66,16 +67,11 @@ def arena_env(scenario: str | Scenario = "line", render_mode: str | None = None)
     return ArenaEnv(GridGame(loaded), loaded, render_mode)
 
 
-_PLACES = np.array([action in PLACES for action in Action])
-_FRONT = 1
-
-
 class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     """R arenas in NumPy arrays, each with its own scenario and size; as ArenaVectorEnv over GridGames, faster.
 
-    A border of solid cells stops every move and every block at each arena's edge, so nothing has to test for it. The
-    arenas are one flat array, so that one index names a cell of a run, and a move is one addition to it. All have the
-    room of the largest; in a smaller one everything beyond its edge is solid.
+    A border of solid cells stops every move and every block at each arena's edge. The arenas are one flat array
+    (grid_step.py). All have the room of the largest; in a smaller one everything beyond its edge is solid.
     """
 
     metadata = METADATA
@@ -142,11 +138,9 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         running = ~(self._terminated | self._truncated) & (actions != NO_ACTION)
         if self._tally and materials is not None:
             self._tally.take(running, materials)
-        ahead = self._position + self._move[actions]
-        self._position = np.where(self._solid[ahead] | ~running, self._position, ahead)
-        front = self._position + _FRONT
-        lands = _PLACES[actions] & ~self._solid[front] & running
-        self._solid[front[lands]] = True
+        front, lands = np.empty_like(self._position), np.empty_like(running)
+        if not step_all(actions, running, self._move, self._solid, self._position, front, lands):
+            raise ValueError("actions: a number that is no action")
         pays = lands & (self._pays(self._tally, front) if self._tally else self._design[front])
         rewards = pays.astype(np.float64)
         self._score += rewards

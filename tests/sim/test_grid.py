@@ -180,3 +180,14 @@ def test_the_last_block_on_the_last_step_terminates_and_does_not_truncate() -> N
     for action in build(tight):
         _, _, terminated, truncated, _ = envs.step(np.array([action]))
     assert (terminated.tolist(), truncated.tolist()) == ([True], [False])
+
+
+@pytest.mark.parametrize("action", [-2, len(Action)])
+def test_a_number_that_is_no_action_changes_nothing(action: int) -> None:
+    envs = GridVectorEnv([LINE] * 2)
+    envs.reset()
+    before = envs.snapshot()
+    with pytest.raises(ValueError, match="no action"):
+        envs.step(np.array([Action.FD, action]))
+    for name, kept in envs.snapshot().items():
+        np.testing.assert_array_equal(kept, before[name])

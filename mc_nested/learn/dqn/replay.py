@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arrays import Float64s, Int64s, Integers
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 from mc_nested.learn.dqn.states import States
 
 FIRST_ROOM = 4096

@@ -7,7 +7,7 @@ own best episode: max_a [Q(s, a) + margin · (a ≠ a*)] - Q(s, a*).
 import numpy as np
 
 from mc_nested.arrays import Bools, Float32s, Float64s, Int64s
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 from mc_nested.learn.dqn.replay import Transitions
 
 

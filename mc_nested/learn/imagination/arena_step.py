@@ -10,7 +10,7 @@ import numpy as np
 
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Bools, Float32s, Int64s
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 from mc_nested.learn.imagination.beliefs import Beliefs
 from mc_nested.learn.imagination.learnt_rules import LearntRules
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.random import Generator
 
 from mc_nested.arrays import Float32s, Int64s
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 
 NAME_BITS = 62
 """So many that two of a practice's states share a name less than once in a million practices."""

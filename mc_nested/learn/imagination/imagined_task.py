@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mc_nested.arrays import Int64s
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena
 
 GREEDY_EVERY = 10

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mc_nested.arrays import Bools, Float32s, Float64s, Int64s, Integers
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 from mc_nested.learn.dqn.compiled_engine.adam import adam_step
 from mc_nested.learn.dqn.compiled_engine.cell_networks import (
     CellPasses,

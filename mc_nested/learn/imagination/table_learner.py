@@ -17,7 +17,7 @@ import numpy as np
 from numpy.random import Generator
 
 from mc_nested.arrays import Bools, Float32s, Float64s, Int8s, Int64s
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, step
 from mc_nested.learn.imagination.built_values import (
     BuiltValues,

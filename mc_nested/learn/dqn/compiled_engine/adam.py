@@ -3,7 +3,7 @@
 import numpy as np
 
 from mc_nested.arrays import Float32s
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 
 BETA_1, BETA_2, EPSILON = 0.9, 0.999, 1e-8
 """The constants that its authors propose."""

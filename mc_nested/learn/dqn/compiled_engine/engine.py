@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arrays import Float32s, Int32s, Int64s
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 from mc_nested.learn.dqn.compiled_engine.adam import adam_step
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for, parameter_count
 from mc_nested.learn.dqn.compiled_engine.target_values import TargetValues, table_pays

@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 
 from mc_nested.arrays import Float32s, Int64s
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 
 Sizes = tuple[int, ...]
 """Widths from the input to the output: (4, 32, 32, 8) has two hidden layers of 32."""

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 from numba import njit
 from numba.core.caching import CompileResultCacheImpl, FunctionCache
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[1]
 """The folder that holds the package; of an installed one, all other packages too."""
 
 PACKAGE = __name__.partition(".")[0]

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mc_nested.learn.dqn.compiled import PACKAGE, ROOT, _imported_by, compiled, fingerprint_of
+from mc_nested.compiled import PACKAGE, ROOT, _imported_by, compiled, fingerprint_of
 
 STEP_BY_HALF = """
 import numpy as np
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 from mc_nested.learn.half import half
 
 @compiled(nogil=True)
@@ -24,7 +24,7 @@ print(step(8.0), sum(step.stats.cache_hits.values()))
 """
 
 HALF = """
-from mc_nested.learn.dqn.compiled import compiled
+from mc_nested.compiled import compiled
 
 @compiled()
 def half(value):
