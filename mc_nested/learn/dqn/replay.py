@@ -68,15 +68,14 @@ class Replay:
 
     def add(self, rows: Int64s, transitions: Transitions) -> None:
         """Store one transition for each of the named runs (k,)."""
-        if len(rows) and self.added[rows].max() >= self._room < self.capacity:
-            self._grow()
-        _store(rows, self.added, self.capacity, self._kept, transitions)
+        if _store(rows, self.added, self.capacity, self._kept, transitions):
+            self._make_room_for(self._room + 1)
 
     def sample(self, rows: Int64s, uniforms: Float64s) -> Int64s:
         """Indices (k, batch) of transitions of the named runs (k,), uniformly, by numbers in [0, 1)."""
-        sizes = self.sizes()[rows, None]
-        # The product can round up to the size itself.
-        return np.minimum((uniforms * sizes).astype(np.int64), np.maximum(sizes - 1, 0))
+        indices = np.empty(uniforms.shape, np.int64)
+        _sample(rows, uniforms, self.added, self.capacity, indices)
+        return indices
 
     def gather(self, rows: Int64s, indices: Int64s) -> Transitions:
         """The transitions at those indices (k, batch) of the named runs (k,); blank ones of a run that holds none."""
@@ -112,8 +111,7 @@ class Replay:
     def extend(self, added: Mapping[str, NDArray[Any]]) -> None:
         """Add what ``added_since`` returned; KeyError or ValueError if the shape differs."""
         begins, counts = added["begins"], added["counts"]
-        while self._room < min(int((begins + counts).max(initial=0)), self.capacity):
-            self._grow()
+        self._make_room_for(int((begins + counts).max(initial=0)) + 1)
         spans = self._spans(begins, counts)
         ends = np.cumsum([span.stop - span.start for _, span in spans])[:-1]
         for name, kept in self._kept._asdict().items():
@@ -153,12 +151,16 @@ class Replay:
             spans += [(run, slice(int(begin), int(begin + count - behind))), (run, slice(0, int(behind)))]
         return spans
 
-    def _grow(self) -> None:
-        room = min(2 * self._room, self.capacity)
-        larger = self._memory(len(self.added), room)
-        for old, new in zip(self._kept, larger, strict=True):
-            new[:, : self._room] = old
-        self._kept, self._room = larger, room
+    def _make_room_for(self, added: int) -> None:
+        """Room for so many additions to a run, as far as the capacity allows."""
+        room = self._room
+        while room < min(added, self.capacity):
+            room = min(2 * room, self.capacity)
+        if room > self._room:
+            larger = self._memory(len(self.added), room)
+            for old, new in zip(self._kept, larger, strict=True):
+                new[:, : self._room] = old
+            self._kept, self._room = larger, room
 
     def _memory(self, runs: int, room: int) -> Transitions:
         return Transitions(
@@ -170,7 +172,9 @@ class Replay:
 
 
 @compiled()
-def _store(rows: Int64s, added: Int64s, capacity: int, kept: Transitions, new: Transitions) -> None:
+def _store(rows: Int64s, added: Int64s, capacity: int, kept: Transitions, new: Transitions) -> bool:
+    """``Replay.add``, where there is room; returns whether a run fills its room now."""
+    full = False
     for at in range(len(rows)):
         row = rows[at]
         index = added[row] % capacity
@@ -180,6 +184,17 @@ def _store(rows: Int64s, added: Int64s, capacity: int, kept: Transitions, new: T
         kept.rewards[row, index] = new.rewards[at]
         kept.discounts[row, index] = new.discounts[at]
         added[row] += 1
+        full = full or added[row] == kept.actions.shape[1]
+    return full
+
+
+@compiled()
+def _sample(rows: Int64s, uniforms: Float64s, added: Int64s, capacity: int, indices: Int64s) -> None:
+    for at in range(len(rows)):
+        size = min(added[rows[at]], capacity)
+        for column in range(uniforms.shape[1]):
+            # The product can round up to the size itself.
+            indices[at, column] = min(int(uniforms[at, column] * size), max(size - 1, 0))
 
 
 @compiled()

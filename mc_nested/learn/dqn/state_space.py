@@ -60,7 +60,7 @@ class StateSpace:
 
     def index(self, states: Integers) -> Int64s:
         """The index (…) of each state (…, width)."""
-        indices: Int64s = np.einsum("...w,w->...", states, self.strides)
+        indices: Int64s = states @ self.strides
         return indices
 
     @property
