@@ -174,7 +174,7 @@ def reset_options(options: dict[str, Any] | None, scenarios: Sequence[Scenario])
     materials = np.asarray(materials, dtype=np.int64)
     if mask.shape != (runs,) or materials.shape != (runs,):
         raise ValueError(f"reset_mask and material need one entry for each of the {runs} runs")
-    begun = np.flatnonzero(mask).tolist()
+    begun = mask.nonzero()[0].tolist()
     if any(not 0 <= materials[run] < len(scenarios[run].materials) for run in begun):
         raise ValueError("material: an index that the scenario doesn't have")
     return mask, materials

@@ -69,7 +69,7 @@ class Learner:
     def act(self, states: NDArray[Any], epsilon: Float64s, uniforms: Float64s, rows: Int64s | None = None) -> Int64s:
         """ε-greedy actions (k,) for states (k, …), ε (k,) and uniform numbers (k, 2); all rows unless named."""
         actions = (uniforms[:, 1] * self.states.actions).astype(np.int64)
-        greedy = np.flatnonzero(uniforms[:, 0] >= epsilon)
+        greedy = (uniforms[:, 0] >= epsilon).nonzero()[0]
         if len(greedy):
             named = greedy if rows is None else rows[greedy]
             actions[greedy] = self.engine.q_values(self.states.kept(states[greedy]), named).argmax(-1)

@@ -185,7 +185,7 @@ class Trainer:
         states = self.agent.low_level_states(runs.observations, runs.materials)
         epsilon = np.where(training, self._explore_nested.epsilon(runs.episodes, self.preset.episodes), 0.0)
         actions = self.agent.act(states, runs.materials, epsilon, nested_choice)
-        rows = np.flatnonzero(training)
+        rows = training.nonzero()[0]
         if self._explorer:
             actions[rows] = self._explorer.act(rows, runs.observations, exploring)
         if self._imagination:
@@ -214,8 +214,8 @@ class Trainer:
                 self._explorer.end(np.flatnonzero(ended))
             if self._imagination:
                 self._imagination.end(np.flatnonzero(ended), runs.materials, info["score"])
-            self._end_training_episodes(np.flatnonzero(ended & training), info["score"], step)
-            self._end_evaluations(np.flatnonzero(ended & runs.evaluating), info["score"])
+            self._end_training_episodes((ended & training).nonzero()[0], info["score"], step)
+            self._end_evaluations((ended & runs.evaluating).nonzero()[0], info["score"])
             runs.between_episodes |= ended
         self.ticks += 1
 
@@ -300,7 +300,7 @@ class Trainer:
         due = (runs.episodes % self.preset.evaluate_every == 0) | (runs.episodes >= self.preset.episodes)
         runs.evaluating = np.where(begins, due & (runs.episodes > runs.evaluated_at), runs.evaluating)
         epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
-        rows = np.flatnonzero(begins)
+        rows = begins.nonzero()[0]
         begun_from = runs.evaluated_at < 0  # a policy from elsewhere is evaluated as it is
         self._learn_choices(rows[~begun_from[rows]])
         if self._choices:
@@ -354,18 +354,8 @@ class Trainer:
         runs = self._runs
         epsilon_main, epsilon_nested = self.epsilon
         runs.episodes[rows] += 1
-        for run in rows:
-            self.episode_rows.append(
-                EpisodeRow(
-                    int(run),
-                    int(runs.episodes[run]),
-                    float(scores[run]),
-                    int(runs.materials[run]),
-                    int(runs.steps_in_episode[run]),
-                    float(epsilon_main[run]),
-                    float(epsilon_nested[run]),
-                )
-            )
+        told = runs.episodes, scores, runs.materials, runs.steps_in_episode, epsilon_main, epsilon_nested
+        self.episode_rows += map(EpisodeRow, rows.tolist(), *(of_all[rows].tolist() for of_all in told))
         if self._choices and not self._imagination:
             self._choices.learn(rows, runs.materials, step)
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from mc_nested.arrays import Float32s, Int32s, Int64s
 from mc_nested.compiled import compiled
 from mc_nested.learn.dqn.compiled_engine.adam import adam_step
-from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for, parameter_count
+from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for
 from mc_nested.learn.dqn.compiled_engine.target_values import TargetValues, table_pays
 from mc_nested.learn.dqn.engine import Batch, Engine, LastBatches, NetworkForm, UpdateRule, diverged
 from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
@@ -47,15 +47,11 @@ class _StateTable(NamedTuple):
 
 
 class _Workspace(NamedTuple):
-    """Arrays that one network's passes over one batch reuse."""
+    """The hidden nodes of a network's passes over one batch, and room for its backward pass."""
 
-    inputs: Float32s
-    next_inputs: Float32s
     hidden: tuple[Float32s, ...]
     next_hidden: tuple[Float32s, ...]
     scratch: tuple[Float32s, ...]
-    slope: Float32s
-    gradient: Float32s
 
 
 class _Estimates(NamedTuple):
@@ -89,8 +85,10 @@ class CompiledEngine:
         self._last = LastBatches(len(online), rule)
         self._every_row = np.arange(len(online))
         self._widths = np.array(sizes, dtype=np.int64)
-        self._acting = _workspace(sizes, 1)
-        self._learning = _workspace(sizes, rule.batch)
+        self._acting = hidden_for(sizes, 1)
+        self._learning = _Workspace(*(hidden_for(sizes, rule.batch) for _ in _Workspace._fields))
+        self._networks = _Networks(self.online, self._first_moment, self._second_moment, self.updates)
+        self._estimates = _Estimates(self._last.values, self._last.errors)
 
     @property
     def form(self) -> NetworkForm:
@@ -107,22 +105,21 @@ class CompiledEngine:
     def q_values(self, states: Int64s, rows: Int64s | None = None) -> Float32s:
         named = self._every_row if rows is None else rows
         values = np.empty((len(named), self.space.actions), np.float32)
-        work = self._acting
         firsts = self.space.first_of(named)
-        _value(named, states + firsts, self.online, self._widths, self.space.parts, work.inputs, work.hidden, values)
+        _value(named, states + firsts, self.online, self._widths, self.space.parts, self._acting, values)
         return values
 
     @on_one_blas_thread
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         finite, renews = _update(
             rows,
-            _Networks(self.online, self._first_moment, self._second_moment, self.updates),
+            self._networks,
             batch,
             _StateTable(self.space.parts, self.space.first_of(rows), self._target_values.values, self.target),
             self._widths,
             self.rule,
             self._learning,
-            _Estimates(self._last.values, self._last.errors),
+            self._estimates,
         )
         if not finite:
             raise diverged(self.rule, self.updates[rows])
@@ -174,18 +171,6 @@ def compiled_engine(engine: Engine) -> CompiledEngine:
     return engine
 
 
-def _workspace(sizes: Sizes, batch: int) -> _Workspace:
-    return _Workspace(
-        inputs=np.empty((sizes[0] + 1, batch), np.float32),
-        next_inputs=np.empty((sizes[0] + 1, batch), np.float32),
-        hidden=hidden_for(sizes, batch),
-        next_hidden=hidden_for(sizes, batch),
-        scratch=hidden_for(sizes, batch),
-        slope=np.empty((sizes[-1], batch), np.float32),
-        gradient=np.empty(parameter_count(sizes), np.float32),
-    )
-
-
 @compiled(nogil=True)
 def greedy_actions(values: Float32s, greedy: Int32s) -> None:
     """Write the first action of the highest value in each column of ``values`` (actions, batch): ``greedy``, (batch,).
@@ -234,10 +219,10 @@ def _value(
     online: Float32s,
     sizes: Int64s,
     parts: StateParts,
-    inputs: Float32s,
     hidden: Sequence[Float32s],
     values: Float32s,
 ) -> None:
+    inputs = np.empty((sizes[0] + 1, 1), np.float32)
     for at in range(len(rows)):
         _look_up(states[at : at + 1], parts, inputs)
         forward(online[rows[at]], sizes, inputs, hidden, values[at].reshape(-1, 1))
@@ -260,19 +245,22 @@ def _update(
     """
     finite, renews = True, False
     count = batch.actions.shape[1]
-    slope = work.slope
-    next_values, values, next_targets = np.empty_like(slope), np.empty_like(slope), np.empty_like(slope)
+    inputs = np.empty((sizes[0] + 1, count), np.float32)
+    next_inputs = np.empty_like(inputs)
+    values = np.empty((sizes[-1], count), np.float32)
+    next_values, next_targets, slope = np.empty_like(values), np.empty_like(values), np.empty_like(values)
+    gradient = np.empty(networks.online.shape[1], np.float32)
     greedy = np.empty(count, np.int32)
     tabulated = states.target_values.shape[1] > 0
     for at in range(len(rows)):
         row = rows[at]
         online = networks.online[row]
-        _look_up(batch.states[0, at] + states.first[at], states.parts, work.inputs)
-        _look_up(batch.states[1, at] + states.first[at], states.parts, work.next_inputs)
+        _look_up(batch.states[0, at] + states.first[at], states.parts, inputs)
+        _look_up(batch.states[1, at] + states.first[at], states.parts, next_inputs)
         if not tabulated:
-            forward(states.target[row], sizes, work.next_inputs, work.next_hidden, next_targets)
-        forward(online, sizes, work.next_inputs, work.next_hidden, next_values)
-        forward(online, sizes, work.inputs, work.hidden, values)
+            forward(states.target[row], sizes, next_inputs, work.next_hidden, next_targets)
+        forward(online, sizes, next_inputs, work.next_hidden, next_values)
+        forward(online, sizes, inputs, work.hidden, values)
         greedy_actions(next_values, greedy)
         slope[:] = np.float32(0)
         for column in range(count):
@@ -291,11 +279,11 @@ def _update(
                 if other != action:
                     slope[other, column] += np.float32(1 / count)
                     slope[action, column] -= np.float32(1 / count)
-        backward(online, sizes, work.inputs, work.hidden, slope, work.gradient, work.scratch)
+        backward(online, sizes, inputs, work.hidden, slope, gradient, work.scratch)
         networks.updates[row] += 1
         renews = renews or networks.updates[row] % rule.target_period == 0
         moments = networks.first_moment[row], networks.second_moment[row]
-        adam_step(online, *moments, work.gradient, networks.updates[row], rule.learning_rate)
+        adam_step(online, *moments, gradient, networks.updates[row], rule.learning_rate)
         finite = finite and all_finite(online)
     return finite, renews
 
