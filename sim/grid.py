@@ -17,7 +17,7 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.tally import Tally, tally_of
 from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options, seeds_of, shared_action_space, taken_apart
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
-from sim.grid_step import step_all
+from sim.grid_step import Episodes, Layout, Stepped, observe_all, step_all
 
 
 class GridGame:
@@ -89,11 +89,12 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
 
         self._side = max(scenario.size for scenario in self.scenarios) + 2
         area = self._side * self._side
-        self._move = np.array([STEP[action][0] * self._side + STEP[action][1] for action in Action])
+        move = np.array([STEP[action][0] * self._side + STEP[action][1] for action in Action])
         self._base = np.arange(runs) * area
         self._start = self._base + [self._index(scenario.start) for scenario in self.scenarios]
         self._blocks = np.array([scenario.blocks for scenario in self.scenarios])
-        self._step_limit = np.array([scenario.step_limit for scenario in self.scenarios])
+        step_limit = np.array([scenario.step_limit for scenario in self.scenarios])
+        self._layout = Layout(move, self._base, step_limit, self._side)
         self._design = np.zeros(runs * area, dtype=np.bool_)
         for run, scenario in enumerate(self.scenarios):
             self._design[self._base[run] + [self._index(cell) for cell in scenario.design]] = True
@@ -112,6 +113,9 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         self._score = np.zeros(runs)
         self._terminated = np.zeros(runs, dtype=np.bool_)
         self._truncated = np.zeros(runs, dtype=np.bool_)
+        self._episodes = Episodes(
+            self._solid, self._position, self._blocks_left, self._steps, self._terminated, self._truncated
+        )
 
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
@@ -138,17 +142,14 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         running = ~(self._terminated | self._truncated) & (actions != NO_ACTION)
         if self._tally and materials is not None:
             self._tally.take(running, materials)
-        front, lands = np.empty_like(self._position), np.empty_like(running)
-        if not step_all(actions, running, self._move, self._solid, self._position, front, lands):
+        front, lands, ended = stepped = Stepped(
+            np.empty(self.num_envs, np.int64), *np.empty((2, self.num_envs), np.bool_)
+        )
+        if not step_all(actions, running, self._layout, self._episodes, stepped):
             raise ValueError("actions: a number that is no action")
         pays = lands & (self._pays(self._tally, front) if self._tally else self._design[front])
         rewards = pays.astype(np.float64)
         self._score += rewards
-        self._blocks_left -= lands
-        self._steps += running
-        self._terminated |= self._blocks_left == 0
-        self._truncated |= ~self._terminated & (self._steps >= self._step_limit)
-        ended = running & (self._terminated | self._truncated)
         info = {"score": np.where(ended, self._score, 0.0), "_score": ended}
         if self._tally:
             self._tally.lay(lands, pays)
@@ -191,7 +192,7 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
         """Put every arena back as it stood at ``snapshot``."""
         for name in self._STATE:
-            setattr(self, name, snapshot[name].copy())
+            getattr(self, name)[:] = snapshot[name]
         if self._tally:
             self._tally.restore(snapshot)
 
@@ -213,7 +214,5 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
 
     def _observations(self) -> Int64s:
         seen = np.empty((self.num_envs, 3), dtype=np.int64)
-        np.divmod(self._position - self._base, self._side, out=(seen[:, 0], seen[:, 1]))
-        seen[:, :2] -= 1
-        seen[:, 2] = self._blocks_left
+        observe_all(self._layout, self._episodes, seen)
         return seen

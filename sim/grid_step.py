@@ -4,6 +4,8 @@ The arenas are one flat array with a border of solid cells, so that one index na
 addition to it, and nothing has to test for the edge (grid.py).
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from mc_nested.arena.action import Action
@@ -16,31 +18,66 @@ FRONT = 1
 """From a cell's index to that of the cell in front of it."""
 
 
-@compiled()
-def step_all(
-    actions: Int64s,
-    runs: Bools,
-    move: Int64s,
-    solid: Bools,
-    position: Int64s,
-    front: Int64s,
-    lands: Bools,
-) -> bool:
-    """Move, and place the block, in every arena that ``runs``, (R,); an action (R,) is an index of ``move``.
+class Layout(NamedTuple):
+    """What stays: what each move adds to an index (actions,), the runs' first index (R,) and step limit (R,)."""
 
-    Changes ``solid`` (R x cells,) and ``position`` (R,); writes the index in ``front``, and where a block ``lands``.
-    Returns False, and changes nothing, if an arena that runs has an action that there isn't.
+    move: Int64s
+    base: Int64s
+    step_limit: Int64s
+    side: int
+
+
+class Episodes(NamedTuple):
+    """The episodes as they stand, (R,) each; ``solid`` is all cells of all runs."""
+
+    solid: Bools
+    position: Int64s
+    blocks_left: Int64s
+    steps: Int64s
+    terminated: Bools
+    truncated: Bools
+
+
+class Stepped(NamedTuple):
+    """What a step did, (R,) each: the index in front of the agent, whether a block landed there, what has ended."""
+
+    front: Int64s
+    lands: Bools
+    ended: Bools
+
+
+@compiled()
+def step_all(actions: Int64s, runs: Bools, layout: Layout, episodes: Episodes, stepped: Stepped) -> bool:
+    """Move, and place the block, in every arena that ``runs`` (R,), and write what that did into ``stepped``.
+
+    An action (R,) is an index of ``layout.move``. Returns False, and changes nothing, if there is no such action.
     """
     for run in range(len(actions)):
-        if runs[run] and not 0 <= actions[run] < len(move):
+        if runs[run] and not 0 <= actions[run] < len(layout.move):
             return False
     for run in range(len(actions)):
-        lands[run] = False
+        stepped.lands[run] = stepped.ended[run] = False
         if runs[run]:
-            ahead = position[run] + move[actions[run]]
-            if not solid[ahead]:
-                position[run] = ahead
-        front[run] = position[run] + FRONT
-        if runs[run] and PLACING[actions[run]] and not solid[front[run]]:
-            solid[front[run]] = lands[run] = True
+            ahead = episodes.position[run] + layout.move[actions[run]]
+            if not episodes.solid[ahead]:
+                episodes.position[run] = ahead
+            front = episodes.position[run] + FRONT
+            if PLACING[actions[run]] and not episodes.solid[front]:
+                episodes.solid[front] = stepped.lands[run] = True
+                episodes.blocks_left[run] -= 1
+            episodes.steps[run] += 1
+            episodes.terminated[run] = episodes.blocks_left[run] == 0
+            episodes.truncated[run] = not episodes.terminated[run] and episodes.steps[run] >= layout.step_limit[run]
+            stepped.ended[run] = episodes.terminated[run] or episodes.truncated[run]
+        stepped.front[run] = episodes.position[run] + FRONT
     return True
+
+
+@compiled()
+def observe_all(layout: Layout, episodes: Episodes, observations: Int64s) -> None:
+    """Write (x, y, b) of every arena into ``observations``, (R, 3)."""
+    for run in range(len(observations)):
+        at = episodes.position[run] - layout.base[run]
+        observations[run, 0] = at // layout.side - 1
+        observations[run, 1] = at % layout.side - 1
+        observations[run, 2] = episodes.blocks_left[run]
