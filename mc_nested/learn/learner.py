@@ -59,6 +59,8 @@ class Learner:
         self._gamma = update.gamma
         self._learning_starts = update.learning_starts
         self._td_weight = np.float32(imitation[0].td_weight if imitation else 1.0)
+        self._of_equal_weight = np.full((states.rows, update.batch), self._td_weight)
+        self._not_imitated = np.zeros((states.rows, update.batch), dtype=np.bool_)
         self.best = BestEpisodes(states.rows, imitation[1], imitation[0].batch) if imitation else None
 
     @property
@@ -123,8 +125,8 @@ class Learner:
         else:
             indices = self.replay.sample(rows, uniforms)
         drawn = self.replay.gather(rows, indices)
-        imitated = self.best.mix_in(rows, drawn, uniforms) if self.best else np.zeros(indices.shape, dtype=np.bool_)
-        weights = np.full(indices.shape, self._td_weight)
+        imitated = self.best.mix_in(rows, drawn, uniforms) if self.best else self._not_imitated[: len(rows)]
+        weights = self._of_equal_weight[: len(rows)]
         if self.priorities:
             # What is imitated wasn't drawn: it has no part in the largest weight either.
             indices = np.where(imitated, indices[:, -1:], indices)

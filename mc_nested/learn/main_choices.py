@@ -7,8 +7,7 @@ the paper there is one choice, and its r_M is the episode's score.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +19,7 @@ from mc_nested.learn.preset import Preset
 from mc_nested.learn.streams import choice_stream, main_updates_stream
 
 
-@dataclass(frozen=True)
-class ChoiceStep:
+class ChoiceStep(NamedTuple):
     """A step of all runs, as the main agent sees it; every array is (runs, ...).
 
     Args:

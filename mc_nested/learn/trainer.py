@@ -183,7 +183,7 @@ class Trainer:
         runs = self._runs
         training = ~(runs.finished | runs.evaluating)
         states = self.agent.low_level_states(runs.observations, runs.materials)
-        epsilon = np.where(training, self._explore_nested.epsilon(runs.episodes, self.preset.episodes), 0.0)
+        epsilon = self._explore_nested.epsilon(runs.episodes, self.preset.episodes) * training
         actions = self.agent.act(states, runs.materials, epsilon, nested_choice)
         rows = training.nonzero()[0]
         if self._explorer:
@@ -195,7 +195,7 @@ class Trainer:
         )
         ended = (terminated | truncated) & ~runs.finished
         chosen, step = runs.materials, ChoiceStep.of(observations, info, ended, main_draws, self.ticks)
-        if self._choices and step.due.any():
+        if self._choices and "chooses" in info and step.due.any():
             chosen = self._choices.again(step, chosen, training, np.where(training, self.epsilon[0], 0.0))
         if self._imagination:
             active = np.flatnonzero(~runs.finished)
