@@ -27,6 +27,7 @@ KERNELS = [
     "tests/learn/imagination/test_imagined_task.py",
     "tests/learn/imagination/test_practice_kernel.py",
     "tests/learn/imagination/test_table_learner.py",
+    "tests/sim/test_grid.py",
 ]
 """Tests of compiled code that is quick enough in plain Python, where an index out of bounds is an error."""
 

@@ -104,10 +104,11 @@ class Learner:
         if len(rows):
             indices, batch = self._batch(rows, uniforms)
             errors = self.engine.update(rows, batch)
-            drew = ~batch.imitated[:, -1]  # what is imitated comes first in its row, and wasn't drawn
-            if self.priorities and drew.any():
-                own = np.where(batch.imitated, errors[:, -1:], errors)
-                self.priorities.update_priorities(rows[drew], indices[drew], own[drew])
+            if self.priorities:
+                drew = ~batch.imitated[:, -1]  # what is imitated comes first in its row, and wasn't drawn
+                if drew.any():
+                    own = np.where(batch.imitated, errors[:, -1:], errors)
+                    self.priorities.update_priorities(rows[drew], indices[drew], own[drew])
 
     def state(self) -> Arrays:
         """The networks, optimisers and priorities, by name: with the replay, all that later updates depend on."""
