@@ -154,8 +154,9 @@ def test_an_env_that_is_dropped_closes_its_game() -> None:
 
 def test_an_env_that_nobody_closed_is_closed_as_the_program_ends() -> None:
     program = (
-        "import gymnasium, mc_nested\nfrom tests.test_entry_point import Opened\ngame = Opened()\n"
+        # Registered before anything else, it is asked after all that others have registered.
         "import atexit; atexit.register(lambda: print('open' if game.is_open else 'closed'))\n"
+        "import gymnasium, mc_nested\nfrom tests.test_entry_point import Opened\ngame = Opened()\n"
         f"env = gymnasium.make('{ID}', backend='live', open_live=game.open)\nenv.reset()\n"
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, cwd=ROOT)
