@@ -17,7 +17,7 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.tally import Tally, tally_of
 from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options, seeds_of, shared_action_space, taken_apart
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
-from sim.grid_step import Episodes, Layout, Stepped, observe_all, step_all
+from sim.grid_step import Episodes, Layout, Stepped, all_exist, observe_all, step_all
 
 
 class GridGame:
@@ -138,15 +138,16 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
 
         With parts, the actions may be (R, 2): each beside the material to take in hand, and ``info`` says more (Info).
         """
-        actions, materials = taken_apart(actions)
+        actions, materials = taken_apart(actions, self.num_envs)
         running = ~(self._terminated | self._truncated) & (actions != NO_ACTION)
+        if not all_exist(actions, running, len(self._layout.move)):
+            raise ValueError("actions: a number that is no action")
         if self._tally and materials is not None:
             self._tally.take(running, materials)
         front, lands, ended = stepped = Stepped(
             np.empty(self.num_envs, np.int64), *np.empty((2, self.num_envs), np.bool_)
         )
-        if not step_all(actions, running, self._layout, self._episodes, stepped):
-            raise ValueError("actions: a number that is no action")
+        step_all(actions, running, self._layout, self._episodes, stepped)
         pays = lands & (self._pays(self._tally, front) if self._tally else self._design[front])
         rewards = pays.astype(np.float64)
         self._score += rewards

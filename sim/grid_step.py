@@ -47,14 +47,20 @@ class Stepped(NamedTuple):
 
 
 @compiled()
-def step_all(actions: Int64s, runs: Bools, layout: Layout, episodes: Episodes, stepped: Stepped) -> bool:
+def all_exist(actions: Int64s, runs: Bools, count: int) -> bool:
+    """Whether each action (R,) of an arena that ``runs`` (R,) is one of so many."""
+    exist = True
+    for run in range(len(actions)):
+        exist = exist and (not runs[run] or 0 <= actions[run] < count)
+    return exist
+
+
+@compiled()
+def step_all(actions: Int64s, runs: Bools, layout: Layout, episodes: Episodes, stepped: Stepped) -> None:
     """Move, and place the block, in every arena that ``runs`` (R,), and write what that did into ``stepped``.
 
-    An action (R,) is an index of ``layout.move``. Returns False, and changes nothing, if there is no such action.
+    An action (R,) is an index of ``layout.move``.
     """
-    for run in range(len(actions)):
-        if runs[run] and not 0 <= actions[run] < len(layout.move):
-            return False
     for run in range(len(actions)):
         stepped.lands[run] = stepped.ended[run] = False
         if runs[run]:
@@ -70,7 +76,6 @@ def step_all(actions: Int64s, runs: Bools, layout: Layout, episodes: Episodes, s
             episodes.truncated[run] = not episodes.terminated[run] and episodes.steps[run] >= layout.step_limit[run]
             stepped.ended[run] = episodes.terminated[run] or episodes.truncated[run]
         stepped.front[run] = episodes.position[run] + FRONT
-    return True
 
 
 @compiled()

@@ -13,7 +13,7 @@ import numpy as np
 from gymnasium.spaces import Space
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.env import RENDERING, ArenaEnv, action_space_of, blank_observations
@@ -112,8 +112,9 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         if self.scenario.parts:
             told |= {"earned": np.zeros(self.num_envs), "chooses": np.zeros(self.num_envs, dtype=np.bool_)}
         masks = {f"_{name}": np.zeros(self.num_envs, dtype=np.bool_) for name in told}
-        takes = actions if self.scenario.parts else taken_apart(actions)[0]
-        running = ~(self._terminated | self._truncated) & (taken_apart(actions)[0] != NO_ACTION)
+        acts, _ = taken_apart(actions, self.num_envs)
+        takes = np.asarray(actions) if self.scenario.parts else acts
+        running = ~(self._terminated | self._truncated) & (acts != NO_ACTION)
         for run in np.flatnonzero(running):
             self._observations[run], rewards[run], self._terminated[run], self._truncated[run], info = self.envs[
                 run
@@ -133,9 +134,16 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
             env.close()
 
 
-def taken_apart(actions: Int64s) -> tuple[Int64s, Int64s | None]:
-    """The actions (R,), and the materials to take in hand before them (R,) where (R, 2) name them."""
-    return (actions[:, 0], actions[:, 1]) if actions.ndim == 2 else (actions, None)
+def taken_apart(actions: ArrayLike, runs: int) -> tuple[Int64s, Int64s | None]:
+    """The actions (R,), and the materials to take in hand before them (R,) where (R, 2) name them.
+
+    ValueError unless they are whole numbers, of every run.
+    """
+    found = np.asarray(actions)
+    if found.dtype.kind not in "iu" or found.shape not in ((runs,), (runs, 2)):
+        raise ValueError(f"actions: a whole number for each of the {runs} arenas; with parts a pair, material second")
+    whole = found.astype(np.int64, copy=False)
+    return (whole[:, 0], whole[:, 1]) if whole.ndim == 2 else (whole, None)
 
 
 def shared_action_space(scenarios: Sequence[Scenario]) -> Space[Any]:

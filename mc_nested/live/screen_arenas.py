@@ -80,7 +80,7 @@ class ScreenArenas(VectorWrapper[Pictures, Int64s, Int64s, Int64s, Any]):
 
     def step(self, actions: Int64s) -> tuple[Pictures, Float64s, Bools, Bools, dict[str, Any]]:
         """One action in every arena whose episode runs, and a picture of it; LiveError as for ``reset``."""
-        acts = ~self._has_ended & (taken_apart(np.asarray(actions))[0] != NO_ACTION)
+        acts = ~self._has_ended & (taken_apart(actions, len(self._has_ended))[0] != NO_ACTION)
         _, rewards, terminated, truncated, info = self._arenas.step(actions)
         for run in np.flatnonzero(acts).tolist():
             self._pictures[run, :-1] = self._pictures[run, 1:]

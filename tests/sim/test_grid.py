@@ -1,6 +1,7 @@
 """The simulator in arrays: it is R ArenaEnvs over GridGame, to the last flag; masks, materials and snapshots."""
 
 import dataclasses
+from typing import Any
 
 import numpy as np
 import pytest
@@ -182,12 +183,39 @@ def test_the_last_block_on_the_last_step_terminates_and_does_not_truncate() -> N
     assert (terminated.tolist(), truncated.tolist()) == ([True], [False])
 
 
-@pytest.mark.parametrize("action", [-2, len(Action)])
-def test_a_number_that_is_no_action_changes_nothing(action: int) -> None:
-    envs = GridVectorEnv([LINE] * 2)
-    envs.reset()
+def refused(envs: GridVectorEnv, actions: Any) -> str:
+    """What is said of these actions, which change nothing."""
     before = envs.snapshot()
-    with pytest.raises(ValueError, match="no action"):
-        envs.step(np.array([Action.FD, action]))
+    with pytest.raises(ValueError, match="actions: ") as caught:
+        envs.step(actions)
     for name, kept in envs.snapshot().items():
         np.testing.assert_array_equal(kept, before[name])
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("action", [-2, len(Action)])
+def test_a_number_that_is_no_action_changes_nothing(action: int) -> None:
+    line, flag = GridVectorEnv([LINE] * 2), GridVectorEnv([load_scenario("flag")] * 2)
+    line.reset()
+    flag.reset(options={"material": np.array([0, 0])})
+    assert "no action" in refused(line, np.array([Action.FD, action]))
+    assert "no action" in refused(flag, np.array([[Action.FD, 1], [action, 1]]))
+
+
+@pytest.mark.parametrize("actions", [7, [7], [7] * 3, [[7]] * 2, [7.0, 7.0], [True, True], ["7", "7"], [[7, 0, 0]] * 2])
+def test_actions_that_are_not_a_whole_number_for_each_arena_are_refused(actions: Any) -> None:
+    arrays, singles = GridVectorEnv([LINE] * 2), ArenaVectorEnv([arena_env(LINE) for _ in range(2)])
+    for envs in (arrays, singles):
+        envs.reset()
+        with pytest.raises(ValueError, match="a whole number for each of the 2 arenas"):
+            envs.step(np.array(actions))
+    refused(arrays, np.array(actions))
+
+
+@pytest.mark.parametrize("dtype", ["i1", "<i4", ">i8", "u8"])
+def test_actions_may_be_whole_numbers_of_any_type(dtype: str) -> None:
+    usual, other = GridVectorEnv([LINE] * 2), GridVectorEnv([LINE] * 2)
+    usual.reset()
+    other.reset()
+    seen, *_ = usual.step(np.array([Action.FD, Action.LD]))
+    np.testing.assert_array_equal(other.step(np.array([Action.FD, Action.LD], dtype))[0], seen)

@@ -121,7 +121,9 @@ class Checkpoint:
     def _write(self, name: str, arrays: Mapping[str, NDArray[Any]], beside: Mapping[str, Any]) -> None:
         import torch  # it takes 200 MB, which a process that only waits for others doesn't need
 
-        tensors = {key: torch.from_numpy(np.ascontiguousarray(kept)) for key, kept in arrays.items()}
+        # torch saves no two tensors of different types that begin at one address, as an empty array may beside another.
+        own = {key: np.ascontiguousarray(kept) if kept.size else kept.copy() for key, kept in arrays.items()}
+        tensors = {key: torch.from_numpy(kept) for key, kept in own.items()}
         with atomic_write(self._folder / name) as path, path.open("wb") as file:
             torch.save({**beside, "arrays": tensors}, file)
 

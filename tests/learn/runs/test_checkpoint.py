@@ -58,6 +58,16 @@ def test_what_was_saved_is_read_back(tmp_path: Path) -> None:
     assert loaded(tmp_path / "checkpoint") == [0, 3, 6, 9, 12, 15]
 
 
+def test_an_empty_array_at_the_address_of_another_of_another_type_is_saved(tmp_path: Path) -> None:
+    class Overlapping(Counts):
+        def state(self) -> Arrays:
+            now = np.array([len(self.numbers)])
+            return {"now": now, "none": now.view(np.float64)[:0]}
+
+    Checkpoint(tmp_path / "checkpoint", IDENTITY).save(Overlapping().count(2))
+    assert loaded(tmp_path / "checkpoint") == [0, 3]
+
+
 def test_a_save_writes_only_what_was_added(tmp_path: Path) -> None:
     checkpoint, counts = Checkpoint(tmp_path, IDENTITY), Counts()
     checkpoint.save(counts.count(50_000))

@@ -25,6 +25,9 @@ MLP, CNN = "mlp", "cnn"
 LARGEST_SIDE_OF_SMALL = 40
 """Planes of more cells a side are pictures: they get the deep Q-network's layers for pictures (Mnih et al., 2013)."""
 
+TRIED_WITH = (2, 3)
+"""Numbers of states that somebody's own network is tried with: it has to take any."""
+
 Make = Callable[[tuple[int, ...], int], nn.Module]
 """Makes a network for states of that shape and so many actions."""
 
@@ -73,15 +76,18 @@ def own_maker(network: str) -> Make:
         sys.path.insert(0, str(Path.cwd()))
     try:
         found: Any = getattr(importlib.import_module(module_name), name)
-    except Exception as error:  # it is somebody's own code
+    except (Exception, SystemExit) as error:  # it is somebody's own code
         reason = str(error).partition("\n")[0]
-        raise PresetError(f"network {network!r}: can't be loaded ({reason}): name a module and its function") from error
+        raise PresetError(
+            f"network {network!r}: can't be loaded ({reason}): name a module of this folder and its function"
+        ) from error
 
     def make(shape: tuple[int, ...], actions: int) -> nn.Module:
         try:
             made: nn.Module = found(shape, actions)
-            wrong = _misfit(made, made(torch.zeros(2, *shape)), actions)
-        except Exception as error:
+            tried = ((count, made(torch.zeros(count, *shape))) for count in TRIED_WITH)
+            wrong = next((why for count, values in tried if (why := _misfit(made, values, count, actions))), None)
+        except (Exception, SystemExit) as error:
             reason = str(error).partition("\n")[0]
             raise PresetError(
                 f"network {network!r}: fails on states of {shape} ({reason}): mend it, or name another"
@@ -93,12 +99,23 @@ def own_maker(network: str) -> Make:
     return make
 
 
-def _misfit(module: object, values: object, actions: int) -> str | None:
-    """What keeps a module that gave these values for two states from being a network; None if it can be one."""
+def _misfit(module: object, values: object, states: int, actions: int) -> str | None:
+    """What keeps a module that gave these values for so many states from being a network; None if it can be one."""
     if not isinstance(module, nn.Module) or not isinstance(values, Tensor):
         return "its function should give a torch module, and that a tensor"
-    if values.shape != (2, actions):
-        return f"gives {tuple(values.shape)} for 2 states: it should give (2, {actions}), a value an action"
+    if values.shape != (states, actions):
+        return (
+            f"gives {tuple(values.shape)} for {states} states: it should give ({states}, {actions}), a value an action"
+        )
+    if values.dtype != torch.float32 or not values.isfinite().all():
+        return "gives values that are no finite 32-bit floats"
+    return _untrainable(module)
+
+
+def _untrainable(module: nn.Module) -> str | None:
+    """What keeps the module's parameters from being trained as rows of networks are; None if nothing does."""
+    if next(module.parameters(), None) is None:
+        return "has no parameter: there is nothing to train"
     if next(module.buffers(), None) is not None:
         return "has buffers, as BatchNorm does: use layers without, as LayerNorm"
     if len(list(module.named_parameters(remove_duplicate=False))) > len(list(module.parameters())):

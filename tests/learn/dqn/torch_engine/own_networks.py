@@ -1,5 +1,7 @@
 """Networks as somebody brings them: one that fits, and some that don't."""
 
+import sys
+
 import torch
 from torch import Tensor, nn
 
@@ -36,6 +38,40 @@ class Fails(nn.Module):
 def fails(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - it never gets that far
     """It can't be called."""
     return Fails()
+
+
+class Halves(nn.Linear):
+    """It gives floats of 16 bits."""
+
+    def forward(self, states: Tensor) -> Tensor:
+        return super().forward(states).half()
+
+
+def halves(shape: tuple[int, ...], actions: int) -> nn.Module:
+    """Its values can't be compared with the rewards."""
+    return Halves(shape[0], actions)
+
+
+class ForTwo(nn.Linear):
+    """It takes two states, and no other number of them."""
+
+    def forward(self, states: Tensor) -> Tensor:
+        return super().forward(states.reshape(2, -1))
+
+
+def for_two(shape: tuple[int, ...], actions: int) -> nn.Module:
+    """It fails on a batch."""
+    return ForTwo(shape[0], actions)
+
+
+def without_parameters(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - it takes any
+    """There is nothing to train in it."""
+    return nn.AdaptiveAvgPool1d(actions)
+
+
+def leaves(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - it never gets that far
+    """It ends the program."""
+    sys.exit(5)
 
 
 class Recurrent(nn.Module):

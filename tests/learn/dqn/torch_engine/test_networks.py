@@ -77,6 +77,10 @@ def test_a_module_in_the_working_directory_is_found(tmp_path: Path, monkeypatch:
         (f"{OWN}:frozen", "has a frozen parameter"),
         (f"{OWN}:nothing", "fails on states"),
         (":make", "can't be loaded"),
+        (f"{OWN}:halves", "no finite 32-bit floats"),
+        (f"{OWN}:for_two", "fails on states"),
+        (f"{OWN}:without_parameters", "has no parameter"),
+        (f"{OWN}:leaves", r"fails on states of \(4,\) \(5\)"),
         (f"{OWN}:fails", r"fails on states of \(4,\) \(no idea\)"),
     ],
 )
