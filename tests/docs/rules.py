@@ -20,7 +20,7 @@ SIZES = {
     "mc-nested train --scenario zigzag --trials 90": "--trials 2 --episodes 2",
     "mc-nested train --preset tuned --trials": "--trials 1 --episodes 20",
     "mc-nested train --scenario line --preset image": "--trials 1 --episodes 30",
-    "mc-nested train --preset image --states screen --backend virtual --scenario row.toml": "--trials 1 --episodes 2",
+    "mc-nested train --preset image --states screen --backend virtual": "--trials 1 --episodes 2",
     "mc-nested train --scenario flag --preset tuned": "--trials 1 --episodes 20",
     "mc-nested train --trials 10": "--trials 1 --episodes 30",
     "mc-nested train --scenario line --trials 10": "--episodes 1000",
