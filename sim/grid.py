@@ -144,10 +144,9 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
             raise ValueError("actions: a number that is no action")
         if self._tally and materials is not None:
             self._tally.take(running, materials)
-        front, lands, ended = stepped = Stepped(
-            np.empty(self.num_envs, np.int64), *np.empty((2, self.num_envs), np.bool_)
-        )
+        stepped = Stepped(np.empty_like(actions), np.empty_like(running), np.empty_like(running))
         step_all(actions, running, self._layout, self._episodes, stepped)
+        front, lands, ended = stepped
         pays = lands & (self._pays(self._tally, front) if self._tally else self._design[front])
         rewards = pays.astype(np.float64)
         self._score += rewards

@@ -19,7 +19,10 @@ FRONT = 1
 
 
 class Layout(NamedTuple):
-    """What stays: what each move adds to an index (actions,), the runs' first index (R,) and step limit (R,)."""
+    """What stays: what each move adds to an index (actions,), the runs' first index (R,) and step limit (R,).
+
+    ``side`` is how many cells there are in a row, the border included.
+    """
 
     move: Int64s
     base: Int64s
