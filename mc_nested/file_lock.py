@@ -3,6 +3,7 @@
 import contextlib
 import os
 import sys
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -13,6 +14,9 @@ if sys.platform == "win32":
 
     _FAR_BEHIND = 1 << 20
     """The byte that is locked: nobody else can read it then, and everybody may read the process id at the beginning."""
+    _BEING_REMOVED_S = 2.0
+    """Seconds after which a file that can't be opened is one that may not be opened."""
+    _AGAIN_S = 0.01
 
     def _take(file: int) -> None:
         os.lseek(file, _FAR_BEHIND, os.SEEK_SET)
@@ -22,6 +26,17 @@ if sys.platform == "win32":
         # Windows lifts the lock of a file that is closed, but not at once.
         os.lseek(file, _FAR_BEHIND, os.SEEK_SET)
         msvcrt.locking(file, msvcrt.LK_UNLCK, 1)
+
+    def _open(path: Path) -> int:
+        """Open or make it. While another process removes it, Windows refuses that, as if it were not permitted."""
+        until = time.monotonic() + _BEING_REMOVED_S
+        while True:
+            try:
+                return os.open(path, os.O_RDWR | os.O_CREAT)
+            except PermissionError:
+                if time.monotonic() > until:
+                    raise
+                time.sleep(_AGAIN_S)
 else:
     import fcntl
 
@@ -30,6 +45,9 @@ else:
 
     def _give_back(file: int) -> None:
         fcntl.flock(file, fcntl.LOCK_UN)
+
+    def _open(path: Path) -> int:
+        return os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
 
 
 _LONGEST_ID = 20
@@ -74,7 +92,7 @@ def file_lock(path: Path) -> Iterator[Lock]:
 def _opened(path: Path) -> tuple[int, bool]:
     """The open file, and whether it is locked by this process."""
     while True:
-        file = os.open(path, os.O_RDWR | os.O_CREAT, 0o600)
+        file = _open(path)
         try:
             _take(file)
         except (BlockingIOError, PermissionError):  # another process has it: POSIX's error, and Windows's

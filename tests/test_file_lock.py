@@ -1,5 +1,6 @@
 """A lock by a file: one at a time, free again after the block, and after the process that held it is killed."""
 
+import ctypes
 import os
 import subprocess
 import sys
@@ -81,6 +82,27 @@ def test_who_is_refused_leaves_the_file_to_who_has_it(tmp_path: Path) -> None:
         with file_lock(path):
             pass
         assert path.read_text() == str(os.getpid())
+
+
+@pytest.mark.skipif(sys.platform != "win32", reason="only Windows refuses to open a file that is being removed")
+def test_it_waits_while_another_process_removes_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "one.lock"
+    path.touch()
+    kernel = ctypes.WinDLL("kernel32")  # type: ignore[attr-defined,unused-ignore]  # there is none elsewhere
+    delete, shared_with_nobody, existing = 0x10000, 0, 3
+    removing = kernel.CreateFileW(str(path), delete, shared_with_nobody, None, existing, 0, None)
+    with pytest.raises(PermissionError):
+        path.read_bytes()
+    threading.Timer(0.2, kernel.CloseHandle, [removing]).start()
+    with file_lock(path) as lock:
+        assert lock.is_mine
+
+
+@pytest.mark.skipif(sys.platform != "win32", reason="elsewhere, root may write everywhere")
+def test_a_file_that_may_not_be_opened_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(PermissionError), file_lock(tmp_path / "folder"):
+        pass
 
 
 def test_many_at_once_never_have_it_together(tmp_path: Path) -> None:
