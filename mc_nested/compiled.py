@@ -13,13 +13,16 @@ from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
-from numba import njit
+from numba import config, njit
 from numba.core.caching import CompileResultCacheImpl, FunctionCache
 
 ROOT = Path(__file__).parents[1]
 """The folder that holds the package; of an installed one, all other packages too."""
 
 PACKAGE = __name__.partition(".")[0]
+
+IN_PYTHON = bool(config.DISABLE_JIT)  # type: ignore[attr-defined]  # Numba makes it from the environment
+"""Whether Numba is told to leave everything to Python: for debuggers, and for tests of indices."""
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 

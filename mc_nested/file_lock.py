@@ -33,7 +33,7 @@ if sys.platform == "win32":
         while True:
             try:
                 return os.open(path, os.O_RDWR | os.O_CREAT)
-            except PermissionError:
+            except PermissionError:  # noqa: PERF203 - it is tried again
                 if time.monotonic() > until:
                     raise
                 time.sleep(_AGAIN_S)

@@ -22,6 +22,7 @@ OTHERS = f"slow or {REAL}"
 KERNELS = [
     "tests/learn/dqn/compiled_engine/test_adam.py",
     "tests/learn/dqn/compiled_engine/test_cell_networks.py",
+    "tests/learn/dqn/compiled_engine/test_products.py",
     "tests/learn/imagination/test_arena_step.py",
     "tests/learn/imagination/test_built_values.py",
     "tests/learn/imagination/test_imagined_task.py",

@@ -21,7 +21,6 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import resumable_arenas
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.agents import Agent
-from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.episode_rollback import EpisodeMemory, EpisodeRollback
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
@@ -95,9 +94,9 @@ class Trainer:
         self._optimum = np.array([scenario.optimum for scenario in scenarios])
         start = agent.start_states(scenarios)
         self._choices = MainChoices(agent.main, scenarios, start, preset, seed, agent.runs) if agent.main else None
-        self._explore_main = _decay(preset.explore_main) if preset.explore_main else NEVER
         without = EXCURSIONS_ONLY if preset.excursions else NEVER
-        self._explore_nested = _decay(preset.explore_nested) if preset.explore_nested else without
+        self._epsilon_main = _epsilon_by_episode(preset.explore_main, NEVER, preset.episodes)
+        self._epsilon_nested = _epsilon_by_episode(preset.explore_nested, without, preset.episodes)
         self._explorer = BatchedReturnThenExplore(preset.excursions, agent, scenarios) if preset.excursions else None
         self._imagination = agent.imagination(scenarios, preset, seed)
         plays_on = self._imagination is not None and self._resumable is None
@@ -153,8 +152,7 @@ class Trainer:
     @property
     def epsilon(self) -> tuple[Float64s, Float64s]:
         """The main and the nested agent's ε of the training episodes now, (runs,) each."""
-        done, episodes = self._runs.episodes, self.preset.episodes
-        return self._explore_main.epsilon(done, episodes), self._explore_nested.epsilon(done, episodes)
+        return self._epsilon_main[self._runs.episodes], self._epsilon_nested[self._runs.episodes]
 
     @property
     def imagination(self) -> Imagination | None:
@@ -171,7 +169,6 @@ class Trainer:
         self._kept.take_all()
         self._runs.evaluated_at[:] = -1 if evaluated_first else 0
 
-    @on_one_blas_thread
     def tick(self) -> None:
         """One step of every run that isn't finished.
 
@@ -183,7 +180,7 @@ class Trainer:
         runs = self._runs
         training = ~(runs.finished | runs.evaluating)
         states = self.agent.low_level_states(runs.observations, runs.materials)
-        epsilon = self._explore_nested.epsilon(runs.episodes, self.preset.episodes) * training
+        epsilon = self._epsilon_nested[runs.episodes] * training
         actions = self.agent.act(states, runs.materials, epsilon, nested_choice)
         rows = training.nonzero()[0]  # a quarter of flatnonzero's time, which counts in every tick
         if self._explorer:
@@ -196,7 +193,8 @@ class Trainer:
         ended = (terminated | truncated) & ~runs.finished
         chosen, step = runs.materials, ChoiceStep.of(observations, info, ended, main_draws, self.ticks)
         if self._choices and "chooses" in info and step.due.any():
-            chosen = self._choices.again(step, chosen, training, np.where(training, self.epsilon[0], 0.0))
+            epsilon = np.where(training, self._epsilon_main[runs.episodes], 0.0)
+            chosen = self._choices.again(step, chosen, training, epsilon)
         if self._imagination:
             active = np.flatnonzero(~runs.finished)
             self._imagination.observe(active, runs.observations, runs.materials, actions, rewards, observations)
@@ -299,7 +297,7 @@ class Trainer:
             return
         due = (runs.episodes % self.preset.evaluate_every == 0) | (runs.episodes >= self.preset.episodes)
         runs.evaluating = np.where(begins, due & (runs.episodes > runs.evaluated_at), runs.evaluating)
-        epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
+        epsilon = np.where(runs.evaluating, 0.0, self._epsilon_main[runs.episodes])
         rows = begins.nonzero()[0]
         begun_from = runs.evaluated_at < 0  # a policy from elsewhere is evaluated as it is
         self._learn_choices(rows[~begun_from[rows]])
@@ -372,5 +370,7 @@ class Trainer:
             runs.finished[run] = episode >= self.preset.episodes or reached
 
 
-def _decay(exploration: Exploration) -> LinearDecay:
-    return LinearDecay(exploration.start, exploration.floor, exploration.share)
+def _epsilon_by_episode(exploration: Exploration | None, without: LinearDecay, episodes: int) -> Float64s:
+    """ε after so many episodes, (episodes + 1,): every tick looks it up for every run."""
+    decay = LinearDecay(exploration.start, exploration.floor, exploration.share) if exploration else without
+    return decay.epsilon(np.arange(episodes + 1), episodes)

@@ -17,7 +17,6 @@ from mc_nested.arena.cooperative.team_env import TeamEnv, TeamStep
 from mc_nested.arena.game import Resumable
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.cooperation.team_agent import Kind, TeamAgent
-from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.exploration.schedules import LinearDecay
 from mc_nested.learn.kept_policies import KeptPolicies
@@ -134,7 +133,6 @@ class TeamTrainer:
         done, episodes = self._runs.episodes, self.preset.episodes
         return self._explore_main.epsilon(done, episodes), self._explore_nested.epsilon(done, episodes)
 
-    @on_one_blas_thread
     def tick(self) -> None:
         """One step of every builder of every run that isn't finished; an error of an arena passes through."""
         main_choice, main_draws, choice, draws = (self._streams.at(self.ticks)[:, part] for part in self._numbers)

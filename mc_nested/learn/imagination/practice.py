@@ -11,7 +11,6 @@ from mc_nested.arrays import Bools, Float64s, Int64s
 from mc_nested.learn.dqn.compiled_engine.cell_networks import passes_for
 from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
 from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters, parameter_count
-from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.dqn.state_space import numbered
 from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, index_of
 from mc_nested.learn.imagination.imagined_task import ImaginedTask
@@ -119,7 +118,6 @@ class PracticeSession:
         """Compile what it runs, if that isn't done: a compiler doesn't leave Python's lock to other threads."""
         self._practise(np.empty(0), self._parts, self._progress)
 
-    @on_one_blas_thread
     def run(self, goes_on: Callable[[], bool] = lambda: True) -> None:
         """Practise until it is over, or ``goes_on``, which is asked about ten times a second, says no.
 

@@ -12,6 +12,7 @@ import numpy as np
 from mc_nested.arrays import Float32s, Int64s
 from mc_nested.compiled import compiled
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for, tanh_in_place
+from mc_nested.learn.dqn.compiled_engine.products import multiply
 
 
 class CellPasses(NamedTuple):
@@ -97,7 +98,7 @@ def backward_cells(
     backward(parameters[upper:], sizes[1:], passes.first, passes.hidden, slope, gradient[upper:], scratch.hidden)
     second = sizes[2]
     weights = parameters[upper : upper + second * (nodes + 1)].reshape(second, nodes + 1)
-    np.dot(weights.T, scratch.hidden[0][:second], scratch.first)
+    multiply(weights.T[:nodes], scratch.hidden[0][:second], scratch.first[:nodes])
     rest, others = numbers.shape
     cells = width - others
     first = gradient[:upper].reshape(width, nodes)

@@ -17,7 +17,6 @@ from mc_nested.learn.dqn.compiled_engine.adam import adam_step
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for
 from mc_nested.learn.dqn.compiled_engine.target_values import TargetValues, table_pays
 from mc_nested.learn.dqn.engine import Batch, Engine, LastBatches, NetworkForm, UpdateRule, diverged
-from mc_nested.learn.dqn.one_blas_thread import on_one_blas_thread
 from mc_nested.learn.dqn.self_imitation import rival
 from mc_nested.learn.dqn.state_space import StateParts, StateSpace
 
@@ -71,7 +70,6 @@ class CompiledEngine:
         online: initial parameters, (rows, parameters).
     """
 
-    @on_one_blas_thread
     def __init__(self, space: StateSpace, sizes: Sizes, rule: UpdateRule, online: Float32s) -> None:
         self.space = space
         self.sizes = sizes
@@ -94,22 +92,19 @@ class CompiledEngine:
     def form(self) -> NetworkForm:
         return NetworkForm("mlp", self.sizes)
 
-    @on_one_blas_thread
     def load_online(self, online: Float32s) -> None:
         if online.shape != self.online.shape:
             raise ValueError(f"networks of {online.shape}, not {self.online.shape}")
         self.online[:] = self.target[:] = online
         self._target_values.renew(self._every_row, self.target)
 
-    @on_one_blas_thread
     def q_values(self, states: Int64s, rows: Int64s | None = None) -> Float32s:
         named = self._every_row if rows is None else rows
         values = np.empty((len(named), self.space.actions), np.float32)
         firsts = self.space.first_of(named)
-        _value(named, states + firsts, self.online, self._widths, self.space.parts, self._acting, values)
+        _value(named, states, firsts, self.online, self._widths, self.space.parts, self._acting, values)
         return values
 
-    @on_one_blas_thread
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         finite, renews = _update(
             rows,
@@ -157,7 +152,6 @@ class CompiledEngine:
             "updates": self.updates,
         }
 
-    @on_one_blas_thread
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         for name, own in self.state().items():
             own[:] = state[name]
@@ -197,15 +191,18 @@ def td_target(reward: float, discount: float, next_value: float) -> float:
 
 
 @compiled()
-def _look_up(states: Int64s, parts: StateParts, inputs: Float32s) -> None:
-    """Write the features of the states (batch,) into a network's inputs, (…, batch)."""
-    cells, rest = parts.cells, parts.rest
-    # A division of 32 bits takes a fraction of the time of one of 64.
-    a_cell, a_kind = np.uint32(parts.a_cell), np.uint32(parts.a_kind)
+def _look_up(states: Int64s, first: int, parts: StateParts, inputs: Float32s) -> None:
+    """Write the features of a row's states (batch,) into its network's inputs, (…, batch).
+
+    ``first`` is where the row's states begin in the table of all states.
+    """
+    first_cell, first_rest = first // parts.a_cell, first // parts.a_kind * parts.a_cell
+    cells, rest = parts.cells[first_cell:], parts.rest[first_rest:]
+    a_cell = np.uint32(parts.a_cell)  # a division of 32 bits takes a fraction of the time of one of 64
     for column in range(len(states)):
         state = np.uint32(states[column])
         of_cell = state // a_cell
-        of_rest = state // a_kind * a_cell + (state - of_cell * a_cell)
+        of_rest = state - of_cell * a_cell
         for feature in range(cells.shape[1]):
             inputs[feature, column] = cells[of_cell, feature]
         for feature in range(rest.shape[1]):
@@ -216,6 +213,7 @@ def _look_up(states: Int64s, parts: StateParts, inputs: Float32s) -> None:
 def _value(
     rows: Int64s,
     states: Int64s,
+    firsts: Int64s,
     online: Float32s,
     sizes: Int64s,
     parts: StateParts,
@@ -224,7 +222,7 @@ def _value(
 ) -> None:
     inputs = np.empty((sizes[0] + 1, 1), np.float32)
     for at in range(len(rows)):
-        _look_up(states[at : at + 1], parts, inputs)
+        _look_up(states[at : at + 1], firsts[at], parts, inputs)
         forward(online[rows[at]], sizes, inputs, hidden, values[at].reshape(-1, 1))
 
 
@@ -255,8 +253,8 @@ def _update(
     for at in range(len(rows)):
         row = rows[at]
         online = networks.online[row]
-        _look_up(batch.states[0, at] + states.first[at], states.parts, inputs)
-        _look_up(batch.states[1, at] + states.first[at], states.parts, next_inputs)
+        _look_up(batch.states[0, at], states.first[at], states.parts, inputs)
+        _look_up(batch.states[1, at], states.first[at], states.parts, next_inputs)
         if not tabulated:
             forward(states.target[row], sizes, next_inputs, work.next_hidden, next_targets)
         forward(online, sizes, next_inputs, work.next_hidden, next_values)

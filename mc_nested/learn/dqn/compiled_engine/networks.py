@@ -15,6 +15,7 @@ import numpy as np
 
 from mc_nested.arrays import Float32s, Int64s
 from mc_nested.compiled import compiled
+from mc_nested.learn.dqn.compiled_engine.products import multiply
 
 Sizes = tuple[int, ...]
 """Widths from the input to the output: (4, 32, 32, 8) has two hidden layers of 32."""
@@ -46,11 +47,11 @@ def forward(
     for layer in range(len(hidden)):
         outputs, width = sizes[layer + 1], sizes[layer] + 1
         nodes = hidden[layer][:outputs]
-        np.dot(parameters[start : start + outputs * width].reshape(outputs, width), below, nodes)
+        multiply(parameters[start : start + outputs * width].reshape(outputs, width), below, nodes)
         tanh_in_place(nodes)
         start += outputs * width
         below = hidden[layer]
-    np.dot(parameters[start:].reshape(sizes[-1], sizes[-2] + 1), below, values)
+    multiply(parameters[start:].reshape(sizes[-1], sizes[-2] + 1), below, values)
 
 
 @compiled(fastmath=True)
@@ -73,14 +74,15 @@ def backward(
         outputs, width = sizes[layer + 1], sizes[layer] + 1
         start = end - outputs * width
         below = hidden[layer - 1] if layer else inputs
-        np.dot(above, below.T, gradient[start:end].reshape(outputs, width))
+        multiply(above, below.T, gradient[start:end].reshape(outputs, width))
         if layer:
-            through = scratch[layer - 1]
-            np.dot(parameters[start:end].reshape(outputs, width).T, above, through)
+            through = scratch[layer - 1][: width - 1]
+            weights = parameters[start:end].reshape(outputs, width)
+            multiply(weights.T[: width - 1], above, through)
             for node in range(width - 1):
                 for column in range(through.shape[1]):
                     through[node, column] *= np.float32(1) - below[node, column] ** 2
-            above = through[: width - 1]
+            above = through
         end = start
 
 
@@ -90,19 +92,19 @@ def tanh_in_place(values: Float32s) -> None:
 
     Beyond ±7.9 it is ±1 in 32 bits. The coefficients are those of the minimax approximation in the library Eigen.
     """
-    for row in range(values.shape[0]):
-        for column in range(values.shape[1]):
-            x = min(max(values[row, column], np.float32(-7.9)), np.float32(7.9))
-            s = x * x
-            above = np.float32(-2.76076847742355e-16)
-            above = above * s + np.float32(2.00018790482477e-13)
-            above = above * s + np.float32(-8.60467152213735e-11)
-            above = above * s + np.float32(5.12229709037114e-08)
-            above = above * s + np.float32(1.48572235717979e-05)
-            above = above * s + np.float32(6.37261928875436e-04)
-            above = above * s + np.float32(4.89352455891786e-03)
-            below = np.float32(1.19825839466702e-06)
-            below = below * s + np.float32(1.18534705686654e-04)
-            below = below * s + np.float32(2.26843463243900e-03)
-            below = below * s + np.float32(4.89352518554385e-03)
-            values[row, column] = x * above / below
+    flat = values.reshape(-1)
+    for at in range(len(flat)):
+        x = min(max(flat[at], np.float32(-7.9)), np.float32(7.9))
+        s = x * x
+        above = np.float32(-2.76076847742355e-16)
+        above = above * s + np.float32(2.00018790482477e-13)
+        above = above * s + np.float32(-8.60467152213735e-11)
+        above = above * s + np.float32(5.12229709037114e-08)
+        above = above * s + np.float32(1.48572235717979e-05)
+        above = above * s + np.float32(6.37261928875436e-04)
+        above = above * s + np.float32(4.89352455891786e-03)
+        below = np.float32(1.19825839466702e-06)
+        below = below * s + np.float32(1.18534705686654e-04)
+        below = below * s + np.float32(2.26843463243900e-03)
+        below = below * s + np.float32(4.89352518554385e-03)
+        flat[at] = x * above / below

@@ -1,0 +1,37 @@
+"""Matrix products of any small shape, against numpy's in 64 bits."""
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.arrays import Float32s
+from mc_nested.learn.dqn.compiled_engine.products import multiply
+
+GUARD = np.float32(-7)
+SIZES = st.integers(1, 40)
+
+
+def product(a: Float32s, b: Float32s) -> Float32s:
+    """It, written between two columns that must stay as they are."""
+    wide = np.full((len(a), b.shape[1] + 2), GUARD, np.float32)
+    multiply(a, b, wide[:, 1:-1])
+    np.testing.assert_array_equal(wide[:, [0, -1]], GUARD)
+    return np.ascontiguousarray(wide[:, 1:-1])
+
+
+@given(SIZES, SIZES, SIZES, st.booleans(), st.booleans())
+def test_it_is_the_product_whatever_the_shape_and_however_the_matrices_lie(
+    rows: int, terms: int, columns: int, a_turned: bool, b_turned: bool
+) -> None:
+    random = np.random.default_rng([rows, terms, columns])
+    a = random.standard_normal((terms, rows)).T if a_turned else random.standard_normal((rows, terms))
+    b = random.standard_normal((columns, terms)).T if b_turned else random.standard_normal((terms, columns))
+    found = product(a.astype(np.float32), b.astype(np.float32))
+    np.testing.assert_allclose(found, a @ b, rtol=0, atol=2e-5)
+
+
+def test_it_takes_parts_of_larger_matrices() -> None:
+    random = np.random.default_rng(0)
+    a, b = (random.standard_normal((50, 50)).astype(np.float32) for _ in range(2))
+    expected = a[3:12, 5:25].astype(np.float64) @ b[7:27, 1:34].astype(np.float64)
+    np.testing.assert_allclose(product(a[3:12, 5:25], b[7:27, 1:34]), expected, rtol=0, atol=2e-5)
