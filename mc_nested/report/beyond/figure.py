@@ -17,6 +17,8 @@ from mc_nested.report.curve import align_trials, t_interval
 from mc_nested.report.figure5 import BAND, CURVES, OPTIMUM
 
 COLUMNS = 3
+CURVE_PANELS = 4
+"""Panels of scores against episodes: three of images, one of parts. The others are of means."""
 
 LOOKS: Mapping[str, Mapping[str, Any]] = {
     **CURVES,
@@ -41,10 +43,11 @@ def draw_beyond(path: Path, arms: Arms) -> None:
     _draw_curves(panels[3], parts, f"{parts[0].scenario}: a material for each part")
     _draw_materials(panels[4], arms)
     _draw_teams(panels[5], of_topic(arms, "cooperation"))
-    for axes in panels:
+    for at, axes in enumerate(panels):
         axes.grid(alpha=0.2)
         axes.spines[["top", "right"]].set_visible(False)
-        axes.legend(frameon=False, fontsize=8, loc="lower right")
+        corner = "lower right" if at < CURVE_PANELS else "lower left"  # curves rise to the right, means fall
+        axes.legend(frameon=False, fontsize=8, loc=corner)
     with atomic_write(path) as unfinished:
         figure.savefig(unfinished, format="png", dpi=140, metadata={"Software": None})
 
