@@ -95,8 +95,7 @@ class Trainer:
         start = agent.start_states(scenarios)
         self._choices = MainChoices(agent.main, scenarios, start, preset, seed, agent.runs) if agent.main else None
         without = EXCURSIONS_ONLY if preset.excursions else NEVER
-        self._epsilon_main = _epsilon_by_episode(preset.explore_main, NEVER, preset.episodes)
-        self._epsilon_nested = _epsilon_by_episode(preset.explore_nested, without, preset.episodes)
+        self._explore = _decay(preset.explore_main, NEVER), _decay(preset.explore_nested, without)
         self._explorer = BatchedReturnThenExplore(preset.excursions, agent, scenarios) if preset.excursions else None
         self._imagination = agent.imagination(scenarios, preset, seed)
         plays_on = self._imagination is not None and self._resumable is None
@@ -117,6 +116,7 @@ class Trainer:
             evaluating=np.zeros(runs, dtype=np.bool_),
             finished=np.zeros(runs, dtype=np.bool_),
         )
+        self._epsilon = self._epsilon_now()
 
     @property
     def _recorders(self) -> dict[str, EpisodeMemory]:
@@ -152,7 +152,7 @@ class Trainer:
     @property
     def epsilon(self) -> tuple[Float64s, Float64s]:
         """The main and the nested agent's ε of the training episodes now, (runs,) each."""
-        return self._epsilon_main[self._runs.episodes], self._epsilon_nested[self._runs.episodes]
+        return self._epsilon
 
     @property
     def imagination(self) -> Imagination | None:
@@ -180,7 +180,7 @@ class Trainer:
         runs = self._runs
         training = ~(runs.finished | runs.evaluating)
         states = self.agent.low_level_states(runs.observations, runs.materials)
-        epsilon = self._epsilon_nested[runs.episodes] * training
+        epsilon = self.epsilon[1] * training
         actions = self.agent.act(states, runs.materials, epsilon, nested_choice)
         rows = training.nonzero()[0]  # a quarter of flatnonzero's time, which counts in every tick
         if self._explorer:
@@ -193,7 +193,7 @@ class Trainer:
         ended = (terminated | truncated) & ~runs.finished
         chosen, step = runs.materials, ChoiceStep.of(observations, info, ended, main_draws, self.ticks)
         if self._choices and "chooses" in info and step.due.any():
-            epsilon = np.where(training, self._epsilon_main[runs.episodes], 0.0)
+            epsilon = np.where(training, self.epsilon[0], 0.0)
             chosen = self._choices.again(step, chosen, training, epsilon)
         if self._imagination:
             active = np.flatnonzero(~runs.finished)
@@ -275,6 +275,7 @@ class Trainer:
         self.ticks, self.env_steps, self.evaluation_steps = (int(count) for count in state["counts"])
         for name, kept in part_of(state, "runs").items():
             getattr(self._runs, name)[:] = kept
+        self._epsilon = self._epsilon_now()
         self.agent.load(part_of(state, "agent"))
         for name, kept in self.kept.items():
             kept[:] = state[f"kept.{name}"]
@@ -297,7 +298,7 @@ class Trainer:
             return
         due = (runs.episodes % self.preset.evaluate_every == 0) | (runs.episodes >= self.preset.episodes)
         runs.evaluating = np.where(begins, due & (runs.episodes > runs.evaluated_at), runs.evaluating)
-        epsilon = np.where(runs.evaluating, 0.0, self._epsilon_main[runs.episodes])
+        epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
         rows = begins.nonzero()[0]
         begun_from = runs.evaluated_at < 0  # a policy from elsewhere is evaluated as it is
         self._learn_choices(rows[~begun_from[rows]])
@@ -352,10 +353,17 @@ class Trainer:
         runs = self._runs
         epsilon_main, epsilon_nested = self.epsilon
         runs.episodes[rows] += 1
+        self._epsilon = self._epsilon_now()
         told = runs.episodes, scores, runs.materials, runs.steps_in_episode, epsilon_main, epsilon_nested
         self.episode_rows += map(EpisodeRow, rows.tolist(), *(of_all[rows].tolist() for of_all in told))
         if self._choices and not self._imagination:
             self._choices.learn(rows, runs.materials, step)
+
+    def _epsilon_now(self) -> tuple[Float64s, Float64s]:
+        """``epsilon``, for as long as no training episode ends: every tick needs it."""
+        main, nested = self._explore
+        done, episodes = self._runs.episodes, self.preset.episodes
+        return main.epsilon(done, episodes), nested.epsilon(done, episodes)
 
     def _end_evaluations(self, rows: Int64s, scores: Float64s) -> None:
         runs = self._runs
@@ -370,7 +378,5 @@ class Trainer:
             runs.finished[run] = episode >= self.preset.episodes or reached
 
 
-def _epsilon_by_episode(exploration: Exploration | None, without: LinearDecay, episodes: int) -> Float64s:
-    """ε after so many episodes, (episodes + 1,): every tick looks it up for every run."""
-    decay = LinearDecay(exploration.start, exploration.floor, exploration.share) if exploration else without
-    return decay.epsilon(np.arange(episodes + 1), episodes)
+def _decay(exploration: Exploration | None, without: LinearDecay) -> LinearDecay:
+    return LinearDecay(exploration.start, exploration.floor, exploration.share) if exploration else without

@@ -52,6 +52,25 @@ def finish(trainer: Trainer) -> Trainer:
     return trainer
 
 
+def test_epsilon_falls_with_the_episodes_of_each_run_and_is_the_same_after_loading() -> None:
+    trainer = finish(trainer_of([LINE, DIAMOND]))
+    # The paper's: the nested agent's reaches its floor after 60 % of the episodes, the main agent's after 18 %.
+    assert [row.epsilon_nested for row in trainer.episode_rows if row.trial == 1][:13] == pytest.approx(
+        [max(1 - 0.999 * done / 12, 0.001) for done in range(13)]
+    )
+    resumed = trainer_of([LINE, DIAMOND])
+    assert resumed.epsilon[1].tolist() == [1.0, 1.0]
+    resumed.load(trainer.state(), [])
+    np.testing.assert_array_equal(resumed.epsilon, trainer.epsilon)
+    assert resumed.epsilon[0] == pytest.approx([0.01, 0.01])
+
+
+def test_a_training_of_a_billion_episodes_needs_no_more_memory() -> None:
+    trainer = trainer_of([LINE], SHORT.model_copy(update={"episodes": 10**9}))
+    trainer.tick()
+    assert trainer.epsilon[1].tolist() == [1.0]
+
+
 def _learners(agent: Agent) -> list[Learner]:
     return [learner for learner in (agent.main, agent.low_level) if learner is not None]
 

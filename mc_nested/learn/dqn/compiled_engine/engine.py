@@ -106,6 +106,8 @@ class CompiledEngine:
         return values
 
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
+        if batch.actions.shape != (len(rows), self.rule.batch):
+            raise ValueError(f"batches of {batch.actions.shape}, not {(len(rows), self.rule.batch)}")
         finite, renews = _update(
             rows,
             self._networks,

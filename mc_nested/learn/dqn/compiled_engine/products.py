@@ -1,6 +1,6 @@
 """Matrix products of the size of these networks, compiled.
 
-A BLAS is made for matrices of thousands of rows. With one, the paper's network was updated 0.7 times as often
+A BLAS is made for matrices of thousands of rows. With one, the paper's experiment took 1.4 times as long
 (CHANGELOG.md), and how many threads it took changed the last digits.
 """
 

@@ -7,6 +7,7 @@ sum and load it again. LLVM divides a vector of sixteen numbers into those that 
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from llvmlite import ir
 from numba.core import cgutils, types
 from numba.extending import intrinsic
@@ -28,7 +29,8 @@ Tile = Callable[[Float32s, int, Float32s, int, Float32s, tuple[int, int]], None]
 """``tile(a, row, b, column, out, to)``: some rows of ``a``, from that one on, times WIDTH columns of ``b``, from that
 one on, are written into ``out`` at ``to``.
 
-``a`` is (…, terms), ``b`` (terms, …); a row of ``b`` and of ``out`` lies in one piece. Nothing checks the bounds.
+``a`` is (…, terms), ``b`` (terms, …); a row of ``b`` and of ``out`` lies in one piece. The bounds are checked in
+plain Python only.
 """
 
 
@@ -36,7 +38,8 @@ def _tile_of(rows: int) -> Tile:
     """The tile of so many rows, for compiled code."""
 
     def in_python(a: Float32s, row: int, b: Float32s, column: int, out: Float32s, to: tuple[int, int]) -> None:
-        out[to[0] : to[0] + rows, to[1] : to[1] + WIDTH] = a[row : row + rows] @ b[:, column : column + WIDTH]
+        factors, vectors = a.take(range(row, row + rows), axis=0), b.take(range(column, column + WIDTH), axis=1)
+        out[np.ix_(range(to[0], to[0] + rows), range(to[1], to[1] + WIDTH))] = factors @ vectors
 
     def compiled(_: Any, a: Any, row: Any, b: Any, column: Any, out: Any, to: Any) -> Any:
         return types.void(a, row, b, column, out, to), generate

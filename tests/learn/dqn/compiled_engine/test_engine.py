@@ -135,6 +135,11 @@ def test_rows_of_other_scenarios_take_their_own_features() -> None:
     np.testing.assert_allclose(values[1], expected, rtol=1e-5, atol=1e-6)
 
 
+def test_a_batch_of_another_width_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"batches of \(1, 32\), not \(1, 64\)"):
+        learners(1, RULE._replace(batch=64)).update(np.arange(1), batch_of(1, seed=0))
+
+
 def test_q_values_are_the_online_networks() -> None:
     engine = learners(3)
     states = np.array([5, 77, 1234])

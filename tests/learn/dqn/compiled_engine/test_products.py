@@ -1,11 +1,14 @@
 """Matrix products of any small shape, against numpy's in 64 bits."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arrays import Float32s
+from mc_nested.compiled import IN_PYTHON
 from mc_nested.learn.dqn.compiled_engine.products import multiply
+from mc_nested.learn.dqn.compiled_engine.tiles import ROWS, WIDTH, multiply_rows
 
 GUARD = np.float32(-7)
 SIZES = st.integers(1, 40)
@@ -35,3 +38,12 @@ def test_it_takes_parts_of_larger_matrices() -> None:
     a, b = (random.standard_normal((50, 50)).astype(np.float32) for _ in range(2))
     expected = a[3:12, 5:25].astype(np.float64) @ b[7:27, 1:34].astype(np.float64)
     np.testing.assert_allclose(product(a[3:12, 5:25], b[7:27, 1:34]), expected, rtol=0, atol=2e-5)
+
+
+@pytest.mark.skipif(not IN_PYTHON, reason="compiled code checks no bounds")
+@pytest.mark.parametrize(("row", "column", "to"), [(1, 0, (0, 0)), (0, 1, (0, 0)), (0, 0, (1, 0)), (0, 0, (0, 1))])
+def test_in_plain_python_a_tile_beyond_a_matrix_is_an_error(row: int, column: int, to: tuple[int, int]) -> None:
+    a, b, out = (np.zeros(shape, np.float32) for shape in ((ROWS, 2), (2, WIDTH), (ROWS, WIDTH)))
+    multiply_rows(a, 0, b, 0, out, (0, 0))
+    with pytest.raises(IndexError):
+        multiply_rows(a, row, b, column, out, to)
