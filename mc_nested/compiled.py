@@ -27,16 +27,16 @@ IN_PYTHON = bool(config.DISABLE_JIT)  # type: ignore[attr-defined]  # Numba make
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 
-def compiled(*, fastmath: bool = False, nogil: bool = False) -> Callable[[Function], Function]:
+def compiled(*, fused: bool = False, nogil: bool = False) -> Callable[[Function], Function]:
     """Compile the function when it is first called, and keep that on disk until a file that it needs changes.
 
     Args:
-        fastmath: whether the order of sums and products may be changed.
+        fused: whether a product and a sum may become one instruction, which rounds once.
         nogil: whether other threads go on while it runs.
     """
 
     def compile_it(function: Function) -> Function:
-        dispatcher: Any = njit(fastmath=fastmath, nogil=nogil, error_model="numpy")(function)
+        dispatcher: Any = njit(fastmath={"contract"} if fused else False, nogil=nogil, error_model="numpy")(function)
         if hasattr(dispatcher, "enable_caching"):  # otherwise Numba is told to leave everything to Python
             dispatcher._cache = _Cache(function)  # type: ignore[no-untyped-call]  # Numba's
         made: Function = dispatcher

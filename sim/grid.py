@@ -145,7 +145,7 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         if self._tally and materials is not None:
             self._tally.take(running, materials)
         stepped = Stepped(np.empty_like(actions), np.empty_like(running), np.empty_like(running))
-        step_all(actions, running, self._layout, self._episodes, stepped)
+        step_all(actions, running, tuple(self._layout), tuple(self._episodes), tuple(stepped))
         front, lands, ended = stepped
         pays = lands & (self._pays(self._tally, front) if self._tally else self._design[front])
         rewards = pays.astype(np.float64)
@@ -214,5 +214,5 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
 
     def _observations(self) -> Int64s:
         seen = np.empty((self.num_envs, 3), dtype=np.int64)
-        observe_all(self._layout, self._episodes, seen)
+        observe_all(tuple(self._layout), tuple(self._episodes), seen)
         return seen

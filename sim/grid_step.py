@@ -4,7 +4,7 @@ The arenas are one flat array with a border of solid cells, so that one index na
 addition to it, and nothing has to test for the edge (grid.py).
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -59,11 +59,15 @@ def all_exist(actions: Int64s, runs: Bools, count: int) -> bool:
 
 
 @compiled()
-def step_all(actions: Int64s, runs: Bools, layout: Layout, episodes: Episodes, stepped: Stepped) -> None:
-    """Move, and place the block, in every arena that ``runs`` (R,), and write what that did into ``stepped``.
+def step_all(
+    actions: Int64s, runs: Bools, arenas: tuple[Any, ...], as_they_stand: tuple[Any, ...], done: tuple[Any, ...]
+) -> None:
+    """Move, and place the block, in every arena that ``runs`` (R,), and write what that did into ``done``.
 
-    An action (R,) is an index of ``layout.move``.
+    An action (R,) is an index of ``Layout.move``. The others are a Layout, Episodes and Stepped as plain tuples, which
+    compiled code takes over in a third of the time that named ones take.
     """
+    layout, episodes, stepped = Layout(*arenas), Episodes(*as_they_stand), Stepped(*done)
     for run in range(len(actions)):
         stepped.lands[run] = stepped.ended[run] = False
         if runs[run]:
@@ -82,8 +86,9 @@ def step_all(actions: Int64s, runs: Bools, layout: Layout, episodes: Episodes, s
 
 
 @compiled()
-def observe_all(layout: Layout, episodes: Episodes, observations: Int64s) -> None:
-    """Write (x, y, b) of every arena into ``observations``, (R, 3)."""
+def observe_all(arenas: tuple[Any, ...], as_they_stand: tuple[Any, ...], observations: Int64s) -> None:
+    """Write (x, y, b) of every arena into ``observations``, (R, 3), from a Layout and Episodes as plain tuples."""
+    layout, episodes = Layout(*arenas), Episodes(*as_they_stand)
     for run in range(len(observations)):
         at = episodes.position[run] - layout.base[run]
         observations[run, 0] = at // layout.side - 1

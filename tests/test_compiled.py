@@ -136,10 +136,10 @@ def test_nothing_is_compiled_by_numbas_own_decorator() -> None:
 
 
 def test_a_compiled_function_takes_the_flags_of_its_own() -> None:
-    @compiled(fastmath=True, nogil=True)
+    @compiled(fused=True, nogil=True)
     def doubled(values: np.ndarray) -> np.ndarray:
         return values * 2
 
     assert doubled(np.ones(2)).tolist() == [2.0, 2.0]
     flags = doubled.targetoptions  # type: ignore[attr-defined]  # a dispatcher's
-    assert (flags["fastmath"], flags["nogil"], flags["error_model"]) == (True, True, "numpy")
+    assert (flags["fastmath"], flags["nogil"], flags["error_model"]) == ({"contract"}, True, "numpy")

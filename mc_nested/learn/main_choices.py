@@ -78,10 +78,10 @@ class MainChoices:
         self._earned = np.zeros(len(scenarios))
 
     def begin(self, rows: Int64s, epsilon: Float64s, numbers: Float64s) -> Int64s:
-        """The choices with which the episodes of the named runs (k,) begin; ε (runs,), numbers (runs, 2)."""
+        """The choices with which the episodes of the named runs (k,) begin; ε (k,), numbers (runs, 2)."""
         self._chosen_in[rows] = self._start[rows]
         self._earned[rows] = 0.0
-        return self._main.act(self._start[rows], epsilon[rows], numbers[rows], rows)
+        return self._main.act(self._start[rows], epsilon, numbers[rows], rows)
 
     def in_hand(self, actions: Int64s, materials: Int64s) -> Int64s:
         """The actions as the arenas take them, (runs,); with parts, each beside its run's material, (runs, 2)."""

@@ -237,7 +237,7 @@ class Trainer:
             before, seen_after = runs.observations[active], (rewards[active], next_states[active], terminated[active])
             acted = self.agent.low_level_rows(active, runs.materials)
             self._explorer.observe(active, before, states[active], actions[active], *seen_after, acted)
-        of_rows = draws[rows].reshape(len(rows), preset.updates_a_step, preset.update.batch)
+        of_rows = draws.take(rows, axis=0).reshape(len(rows), preset.updates_a_step, preset.update.batch)
         for update in range(preset.updates_a_step):
             self.agent.low_level.learn(learners, of_rows[:, update])
 
@@ -294,20 +294,21 @@ class Trainer:
     def _begin_episodes(self, choice: Float64s, exploring: Float64s) -> None:
         runs = self._runs
         begins = runs.between_episodes & ~runs.finished
-        if not begins.any():
-            return
-        due = (runs.episodes % self.preset.evaluate_every == 0) | (runs.episodes >= self.preset.episodes)
-        runs.evaluating = np.where(begins, due & (runs.episodes > runs.evaluated_at), runs.evaluating)
-        epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
         rows = begins.nonzero()[0]
-        begun_from = runs.evaluated_at < 0  # a policy from elsewhere is evaluated as it is
-        self._learn_choices(rows[~begun_from[rows]])
+        if not len(rows):
+            return
+        episodes, evaluated_at = runs.episodes[rows], runs.evaluated_at[rows]
+        due = (episodes % self.preset.evaluate_every == 0) | (episodes >= self.preset.episodes)
+        runs.evaluating[rows] = due & (episodes > evaluated_at)
+        begun_from = evaluated_at < 0  # a policy from elsewhere is evaluated as it is
+        self._learn_choices(rows[~begun_from])
         if self._choices:
+            epsilon = np.where(runs.evaluating[rows], 0.0, self.epsilon[0][rows])
             runs.materials[rows] = self._choices.begin(rows, epsilon, choice)
         if self._imagination:
             builds_it_all = self._practise_and_reset(self._imagination, rows, begins)
-            anyway = (runs.episodes[rows] >= self.preset.episodes) | begun_from[rows]
-            runs.evaluating[rows] = builds_it_all & (runs.episodes > runs.evaluated_at)[rows] | anyway
+            anyway = (episodes >= self.preset.episodes) | begun_from
+            runs.evaluating[rows] = builds_it_all & (episodes > evaluated_at) | anyway
         else:
             self._reset(begins)
         if self._beside_the_game:

@@ -178,7 +178,7 @@ class TeamTrainer:
         done = runs.episodes[rows]
         due = (done % self.preset.evaluate_every == 0) | (done >= self.preset.episodes)
         runs.evaluating[rows] = due & (done > runs.evaluated_at[rows])
-        epsilon = np.where(runs.evaluating, 0.0, self.epsilon[0])
+        epsilon = np.where(runs.evaluating[rows], 0.0, self.epsilon[0][rows])
         runs.materials[rows] = self._choices.begin(rows, epsilon, choice) if self._choices else 0
         for run in rows:
             runs.observations[run] = self._arenas[run].reset(int(runs.materials[run]))

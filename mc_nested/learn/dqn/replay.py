@@ -68,7 +68,7 @@ class Replay:
 
     def add(self, rows: Int64s, transitions: Transitions) -> None:
         """Store one transition for each of the named runs (k,)."""
-        if _store(rows, self.added, self.capacity, self._kept, transitions):
+        if _store(rows, self.added, self.capacity, tuple(self._kept), tuple(transitions)):
             self._make_room_for(self._room + 1)
 
     def sample(self, rows: Int64s, uniforms: Float64s) -> Int64s:
@@ -85,7 +85,7 @@ class Replay:
             rewards=np.empty(indices.shape, dtype=np.float32),
             discounts=np.empty(indices.shape, dtype=np.float32),
         )
-        _gather(rows, indices, self._kept, drawn)
+        _gather(rows, indices, tuple(self._kept), tuple(drawn))
         return drawn
 
     def marks(self) -> dict[str, Int64s]:
@@ -172,8 +172,12 @@ class Replay:
 
 
 @compiled()
-def _store(rows: Int64s, added: Int64s, capacity: int, kept: Transitions, new: Transitions) -> bool:
-    """``Replay.add``, where there is room; returns whether a run fills its room now."""
+def _store(rows: Int64s, added: Int64s, capacity: int, memory: tuple[Any, ...], given: tuple[Any, ...]) -> bool:
+    """``Replay.add`` of Transitions, where there is room; returns whether a run fills its room now.
+
+    Compiled code takes over a plain tuple in a third of the time that a named one takes.
+    """
+    kept, new = Transitions(*memory), Transitions(*given)
     full = False
     for at in range(len(rows)):
         row = rows[at]
@@ -198,7 +202,8 @@ def _sample(rows: Int64s, uniforms: Float64s, added: Int64s, capacity: int, indi
 
 
 @compiled()
-def _gather(rows: Int64s, indices: Int64s, kept: Transitions, drawn: Transitions) -> None:
+def _gather(rows: Int64s, indices: Int64s, memory: tuple[Any, ...], wanted: tuple[Any, ...]) -> None:
+    kept, drawn = Transitions(*memory), Transitions(*wanted)
     for at in range(len(rows)):
         row = rows[at]
         for column in range(indices.shape[1]):

@@ -9,7 +9,7 @@ BETA_1, BETA_2, EPSILON = 0.9, 0.999, 1e-8
 """The constants that its authors propose."""
 
 
-@compiled(fastmath=True)
+@compiled(fused=True)
 def adam_step(
     parameters: Float32s, first: Float32s, second: Float32s, gradient: Float32s, steps: int, rate: float
 ) -> None:

@@ -50,7 +50,7 @@ def by_node(parameters: Float32s, sizes: Int64s) -> None:
     first[:] = first.copy().reshape(width, nodes).T.copy().ravel()
 
 
-@compiled(fastmath=True, nogil=True)
+@compiled(fused=True, nogil=True)
 def forward_cells(parameters: Float32s, sizes: Int64s, states: Int64s, numbers: Float32s, passes: CellPasses) -> None:
     """Write the values (actions, batch) of the states (batch,) and their hidden nodes into ``passes``.
 
@@ -78,7 +78,7 @@ def forward_cells(parameters: Float32s, sizes: Int64s, states: Int64s, numbers: 
     forward(parameters[nodes * width :], sizes[1:], passes.first, passes.hidden, passes.values)
 
 
-@compiled(fastmath=True, nogil=True)
+@compiled(fused=True, nogil=True)
 def backward_cells(
     parameters: Float32s,
     sizes: Int64s,

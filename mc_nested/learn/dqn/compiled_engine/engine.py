@@ -84,9 +84,10 @@ class CompiledEngine:
         self._every_row = np.arange(len(online))
         self._widths = np.array(sizes, dtype=np.int64)
         self._acting = hidden_for(sizes, 1)
-        self._learning = _Workspace(*(hidden_for(sizes, rule.batch) for _ in _Workspace._fields))
-        self._networks = _Networks(self.online, self._first_moment, self._second_moment, self.updates)
-        self._estimates = _Estimates(self._last.values, self._last.errors)
+        self._parts = tuple(space.parts)
+        self._networks = self.online, self._first_moment, self._second_moment, self.updates
+        self._learning = tuple(hidden_for(sizes, rule.batch) for _ in _Workspace._fields)
+        self._estimates = self._last.values, self._last.errors
 
     @property
     def form(self) -> NetworkForm:
@@ -102,19 +103,19 @@ class CompiledEngine:
         named = self._every_row if rows is None else rows
         values = np.empty((len(named), self.space.actions), np.float32)
         firsts = self.space.first_of(named)
-        _value(named, states, firsts, self.online, self._widths, self.space.parts, self._acting, values)
+        _value(named, states, firsts, self.online, self._widths, self._parts, self._acting, values)
         return values
 
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         if batch.actions.shape != (len(rows), self.rule.batch):
             raise ValueError(f"batches of {batch.actions.shape}, not {(len(rows), self.rule.batch)}")
-        finite, renews = _update(
+        finite, renews = _update_rows(
             rows,
             self._networks,
-            batch,
-            _StateTable(self.space.parts, self.space.first_of(rows), self._target_values.values, self.target),
+            tuple(batch),
+            (self._parts, self.space.first_of(rows), self._target_values.values, self.target),
             self._widths,
-            self.rule,
+            tuple(self.rule),
             self._learning,
             self._estimates,
         )
@@ -124,7 +125,7 @@ class CompiledEngine:
             due = rows[self.updates[rows] % self.rule.target_period == 0]
             self.target[due] = self.online[due]
             self._target_values.renew(due, self.target[due])
-        return self._last.errors[rows]
+        return self._last.errors.take(rows, axis=0)  # a third of the time of an index of many rows
 
     def row(self, row: int) -> tuple[Float32s, Float32s, Float32s, Float32s, Int64s]:
         """One row's online and target network, Adam's moments, (parameters,) each, and its updates (1,): no copies.
@@ -218,14 +219,39 @@ def _value(
     firsts: Int64s,
     online: Float32s,
     sizes: Int64s,
-    parts: StateParts,
+    parts: tuple[Any, ...],
     hidden: Sequence[Float32s],
     values: Float32s,
 ) -> None:
+    """``CompiledEngine.q_values``; ``parts`` are those of StateParts."""
     inputs = np.empty((sizes[0] + 1, 1), np.float32)
     for at in range(len(rows)):
-        _look_up(states[at : at + 1], firsts[at], parts, inputs)
+        _look_up(states[at : at + 1], firsts[at], StateParts(*parts), inputs)
         forward(online[rows[at]], sizes, inputs, hidden, values[at].reshape(-1, 1))
+
+
+@compiled()
+def _update_rows(
+    rows: Int64s,
+    networks: tuple[Any, ...],
+    batch: tuple[Any, ...],
+    states: tuple[Any, ...],
+    sizes: Int64s,
+    rule: tuple[Any, ...],
+    work: tuple[Any, ...],
+    estimates: tuple[Any, ...],
+) -> tuple[bool, bool]:
+    """``_update`` of plain tuples: compiled code takes them over in a third of the time that named ones take."""
+    return _update(
+        rows,
+        _Networks(*networks),
+        Batch(*batch),
+        _StateTable(StateParts(*states[0]), states[1], states[2], states[3]),
+        sizes,
+        UpdateRule(*rule),
+        _Workspace(*work),
+        _Estimates(*estimates),
+    )
 
 
 @compiled()
@@ -251,6 +277,7 @@ def _update(
     next_values, next_targets, slope = np.empty_like(values), np.empty_like(values), np.empty_like(values)
     gradient = np.empty(networks.online.shape[1], np.float32)
     greedy = np.empty(count, np.int32)
+    bootstrap = np.empty(count, np.float32)
     tabulated = states.target_values.shape[1] > 0
     for at in range(len(rows)):
         row = rows[at]
@@ -262,13 +289,15 @@ def _update(
         forward(online, sizes, next_inputs, work.next_hidden, next_values)
         forward(online, sizes, inputs, work.hidden, values)
         greedy_actions(next_values, greedy)
+        for column in range(count):
+            best = greedy[column]
+            if tabulated:
+                bootstrap[column] = states.target_values[row, batch.states[1, at, column], best]
+            else:
+                bootstrap[column] = next_targets[best, column]
         slope[:] = np.float32(0)
         for column in range(count):
-            action, best = batch.actions[at, column], greedy[column]
-            if tabulated:
-                next_value = states.target_values[row, batch.states[1, at, column], best]
-            else:
-                next_value = next_targets[best, column]
+            action, next_value = batch.actions[at, column], bootstrap[column]
             target = td_target(batch.rewards[at, column], batch.discounts[at, column], next_value)
             error = values[action, column] - target
             estimates.values[row, column], estimates.errors[row, column] = values[action, column], error

@@ -8,9 +8,11 @@ import numpy as np
 
 from mc_nested.arrays import Float32s
 from mc_nested.compiled import compiled
+from mc_nested.learn.dqn.compiled_engine.lanes import LANES, sum_in_lanes
 from mc_nested.learn.dqn.compiled_engine.tiles import ROWS, WIDTH, multiply_a_row, multiply_rows
+from mc_nested.learn.dqn.compiled_engine.turning import SIDE, turn_block
 
-FEW = 6
+FEW = 2
 """Up to so many columns, a sum after the other takes less time than a tile."""
 
 
@@ -28,9 +30,7 @@ def multiply(a: Float32s, b: Float32s, out: Float32s) -> None:
     elif whole:
         packed = np.empty((terms, WIDTH), np.float32)
         for first in range(0, whole, WIDTH):
-            for term in range(terms):
-                for column in range(WIDTH):
-                    packed[term, column] = b[term, first + column]
+            _turn(b.T, first, packed)
             _multiply_columns(a, packed, 0, out, first)
     if columns - whole > FEW:
         _multiply_rest(a, b, whole, out)
@@ -40,30 +40,51 @@ def multiply(a: Float32s, b: Float32s, out: Float32s) -> None:
 
 @compiled(nogil=True)
 def _multiply_rest(a: Float32s, b: Float32s, first: int, out: Float32s) -> None:
-    """The product with the columns of ``b`` from that one on, fewer than WIDTH: zeros make a tile of them."""
+    """The product with the columns of ``b`` from that one on, fewer than WIDTH, as that of both turned round."""
+    rows, terms = a.shape
     rest = b.shape[1] - first
-    packed, product = np.zeros((b.shape[0], WIDTH), np.float32), np.empty((out.shape[0], WIDTH), np.float32)
-    for column in range(rest):
-        for term in range(b.shape[0]):
-            packed[term, column] = b[term, first + column]
-    _multiply_columns(a, packed, 0, product, 0)
-    for row in range(out.shape[0]):
+    room = np.zeros((terms + rest, WIDTH), np.float32)
+    packed, product = room[:terms], room[terms:]
+    for row in range(0, rows, WIDTH):
+        _turn(a, row, packed)
+        _multiply_columns(b.T[first:], packed, 0, product, 0)
         for column in range(rest):
-            out[row, first + column] = product[row, column]
+            for each in range(min(WIDTH, rows - row)):
+                out[row + each, first + column] = product[column, each]
 
 
-@compiled(fastmath=True, nogil=True)
+@compiled(nogil=True)
 def _multiply_few(a: Float32s, b: Float32s, first: int, out: Float32s) -> None:
     """The product with the columns of ``b`` from that one on, one sum at a time."""
-    factors = np.empty(b.shape[0], np.float32)
+    terms = b.shape[0]
+    in_lanes = terms // LANES * LANES if a.strides[1] == a.itemsize else 0
+    factors = np.empty((1, terms), np.float32)
     for column in range(first, b.shape[1]):
-        for term in range(len(factors)):
-            factors[term] = b[term, column]
+        for term in range(terms):
+            factors[0, term] = b[term, column]
         for row in range(out.shape[0]):
-            total = np.float32(0)
-            for term in range(len(factors)):
-                total += a[row, term] * factors[term]
+            total = sum_in_lanes(a, row, factors, in_lanes)
+            for term in range(in_lanes, terms):
+                total += a[row, term] * factors[0, term]
             out[row, column] = total
+
+
+@compiled(nogil=True)
+def _turn(a: Float32s, row: int, out: Float32s) -> None:
+    """Write WIDTH rows of ``a`` (…, numbers) from that one on, or what there is, into the columns of ``out``."""
+    rows, numbers = min(WIDTH, len(a) - row), a.shape[1]
+    of_rows, of_numbers = rows // SIDE * SIDE, numbers // SIDE * SIDE
+    if a.strides[1] != a.itemsize:
+        of_rows = of_numbers = 0
+    for number in range(0, of_numbers, SIDE):
+        for column in range(0, of_rows, SIDE):
+            turn_block(a, (row + column, number), out, (number, column))
+    for column in range(of_rows, rows):
+        for number in range(of_numbers):
+            out[number, column] = a[row + column, number]
+    for number in range(of_numbers, numbers):
+        for column in range(rows):
+            out[number, column] = a[row + column, number]
 
 
 @compiled(nogil=True)

@@ -7,8 +7,10 @@ from hypothesis import strategies as st
 
 from mc_nested.arrays import Float32s
 from mc_nested.compiled import IN_PYTHON
+from mc_nested.learn.dqn.compiled_engine.lanes import LANES, sum_in_lanes
 from mc_nested.learn.dqn.compiled_engine.products import multiply
 from mc_nested.learn.dqn.compiled_engine.tiles import ROWS, WIDTH, multiply_rows
+from mc_nested.learn.dqn.compiled_engine.turning import SIDE, turn_block
 
 GUARD = np.float32(-7)
 SIZES = st.integers(1, 40)
@@ -47,3 +49,24 @@ def test_in_plain_python_a_tile_beyond_a_matrix_is_an_error(row: int, column: in
     multiply_rows(a, 0, b, 0, out, (0, 0))
     with pytest.raises(IndexError):
         multiply_rows(a, row, b, column, out, to)
+
+
+@pytest.mark.skipif(not IN_PYTHON, reason="compiled code checks no bounds")
+@pytest.mark.parametrize(("at", "to"), [((1, 0), (0, 0)), ((0, 1), (0, 0)), ((0, 0), (1, 0)), ((0, 0), (0, 1))])
+def test_in_plain_python_a_block_beyond_a_matrix_is_an_error(at: tuple[int, int], to: tuple[int, int]) -> None:
+    matrix = np.arange(SIDE * SIDE, dtype=np.float32).reshape(SIDE, SIDE)
+    turned = np.zeros_like(matrix)
+    turn_block(matrix, (0, 0), turned, (0, 0))
+    assert (turned == matrix.T).all()
+    with pytest.raises(IndexError):
+        turn_block(matrix, at, turned, to)
+
+
+@pytest.mark.skipif(not IN_PYTHON, reason="compiled code checks no bounds")
+def test_in_plain_python_a_sum_beyond_a_row_is_an_error() -> None:
+    ones = np.ones((1, LANES), np.float32)
+    assert sum_in_lanes(ones, 0, ones, LANES) == LANES
+    with pytest.raises(IndexError):
+        sum_in_lanes(ones, 0, ones, 2 * LANES)
+    with pytest.raises(IndexError):
+        sum_in_lanes(ones, 1, ones, LANES)
