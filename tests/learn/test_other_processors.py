@@ -1,0 +1,48 @@
+"""A training's bytes as they are on processors whose vectors hold other numbers of 32-bit floats."""
+
+import hashlib
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from llvmlite import binding
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.learn.agents import AGENT_SPECS, Agent
+from mc_nested.learn.preset import load_preset
+from mc_nested.learn.trainer import Trainer
+from sim.grid import GridVectorEnv
+
+ROOT = Path(__file__).parents[2]
+FUSES = binding.get_host_cpu_features().get("fma", False)
+OF_FOUR = "+sse4.2,+avx,+fma,+prefer-128-bit"
+"""Features of an x86-64 processor as a compiler may use them: fused multiply-adds, and vectors of four numbers."""
+
+
+def trained() -> str:
+    """A hash of the networks of three runs after 1,500 ticks, in which targets were renewed and policies evaluated."""
+    scenarios, preset = [load_scenario("line")] * 3, load_preset("paper")
+    agent = Agent(AGENT_SPECS["nested"], scenarios, preset, seed=1)
+    trainer = Trainer(agent.view_of(GridVectorEnv(scenarios), scenarios), scenarios, agent, preset, seed=1)
+    for _ in range(1500):
+        trainer.tick()
+    assert agent.updates > 3000
+    assert trainer.evaluation_rows
+    return hashlib.sha256(b"".join(networks.tobytes() for networks in agent.online().values())).hexdigest()
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not FUSES, reason="a processor without fused multiply-adds rounds otherwise")
+def test_a_training_is_the_same_to_the_bit_with_vectors_of_four_numbers(tmp_path: Path) -> None:
+    as_there = {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": OF_FOUR, "NUMBA_CACHE_DIR": str(tmp_path)}
+    code = f"import runpy; print(runpy.run_path({__file__!r})['trained']())"
+    there = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, **as_there, "PYTHONPATH": str(ROOT)},
+        stdout=subprocess.PIPE,
+        text=True,
+        check=True,
+    )
+    assert there.stdout.split() == [trained()]
