@@ -3,8 +3,9 @@
     python scripts/windows.py setup                   fetch what is missing; a second run takes a second
     python scripts/windows.py test [-- ARGUMENTS]     set up, then pytest under Wine, on a screen of its own
 
-Without arguments, pytest runs the unit suite of arena, live, sim, calibration and view. Programs come with apt, the
-rest with pip, pinned with hashes (windows_parts.py); all of it stays in .windows/ (1.4 GB). Nothing is left running.
+Without arguments, pytest runs the unit suite of arena, live, sim, calibration and view, and a training. Programs come
+with apt, the rest with pip, pinned with hashes (windows_parts.py); all of it stays in .windows/ (1.4 GB). Nothing is
+left running.
 Exit code 2: the machine lacks something that the message names; 1: Wine did not start, or a test failed.
 """
 
@@ -35,10 +36,10 @@ LOOK_S = 1.0
 _UNIT = ("-q", "-m", "not (slow or standin or realtime or window or wine)")
 SUITES = (
     (*_UNIT, "tests/arena", "tests/live", "tests/sim"),
-    (*_UNIT, "tests/calibration", "tests/view", "tests/test_file_lock.py"),
+    (*_UNIT, "tests/calibration", "tests/view", "tests/test_file_lock.py", "tests/learn/test_other_processors.py"),
 )
 """What pytest is given, in two processes of about the same duration: the tests of what plays and calibrates, of the
-view, and of the lock, which differs on Windows."""
+view, of the lock, which differs on Windows, and of a training's bytes, which do not."""
 
 PYTEST = ("-m", "pytest", "-p", "no:cacheprovider")
 
