@@ -36,7 +36,7 @@ LOOK_S = 1.0
 _UNIT = ("-q", "-m", "not (slow or standin or realtime or window or wine)")
 SUITES = (
     (*_UNIT, "tests/arena", "tests/live", "tests/sim"),
-    (*_UNIT, "tests/calibration", "tests/view", "tests/test_file_lock.py", "tests/learn/test_other_processors.py"),
+    (*_UNIT, "tests/calibration", "tests/view", "tests/test_file_lock.py", "tests/test_other_processors.py"),
 )
 """What pytest is given, in two processes of about the same duration: the tests of what plays and calibrates, of the
 view, of the lock, which differs on Windows, and of a training's bytes, which do not."""

@@ -5,18 +5,23 @@ Run as a module it plays in the window of DISPLAY: a process of its own, since p
 
 import subprocess
 import sys
+from collections.abc import Callable
 
 import pytest
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import build_with_materials
 from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import NotConfirmedError
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.session import open_live_game
 from scripts import standin_oracle
 from scripts.standin import ROOT
 from tests.arena.game_contract import BUMPS, check_game, check_materials
 from tests.standin_fixture import Standin
+
+TRIES = 3
+"""Times that a check is begun."""
 
 
 @pytest.mark.standin
@@ -31,7 +36,7 @@ def play_in_the_window(profile: str, oracle: str) -> None:
     """AssertionError or LiveError where the game in the profile's window doesn't keep the contract."""
     line, flag = load_scenario("line"), load_scenario("flag")
     with open_live_game(line, profile, print) as (game, _):
-        check_game(game, line, BUMPS)
+        start_over_after_a_stall(lambda: check_game(game, line, BUMPS))
     arena = load_profile(profile).marked_arena()
 
     def kinds() -> dict[Cell, str]:
@@ -40,7 +45,18 @@ def play_in_the_window(profile: str, oracle: str) -> None:
         return {cells[block]: name for block, name in standin_oracle.blocks(oracle, *arena.region).items()}
 
     with open_live_game(flag, profile, print) as (game, _):
-        check_materials(game, flag, build_with_materials(flag), kinds)
+        start_over_after_a_stall(lambda: check_materials(game, flag, build_with_materials(flag), kinds))
+
+
+def start_over_after_a_stall(check: Callable[[], None], tries: int = TRIES) -> None:
+    """Begin the check again where nothing could be confirmed, as a trainer does: the stand-in's frames stall."""
+    try:
+        check()
+    except NotConfirmedError as error:
+        if tries == 1:
+            raise
+        print(f"starts over: {error}")
+        start_over_after_a_stall(check, tries - 1)
 
 
 if __name__ == "__main__":

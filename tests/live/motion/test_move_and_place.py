@@ -125,6 +125,19 @@ def test_what_is_built_on_the_way_is_right_or_an_error_however_late_the_game_tak
     assert _off(game, cell) < 0.5
 
 
+def test_an_agent_carried_on_in_its_cell_while_it_clicked_walks_back_and_finds_its_block() -> None:
+    game = _game(off=(0.077, 0.135))
+    body = _body(game)
+    body.arrive((7, 7))
+    game.late_from, game.late_until = game.clock.now() + 0.173, game.clock.now() + 0.346
+    assert body.build((7, 6), {}, "minecraft:stone") == (7, 7)
+    assert game.built == {SOUTH.marked_arena().block_of((7, 7))}
+    assert game.presses[0] == "s"
+    assert game.presses[1] == "right button"
+    assert set(game.presses[2:]) == {"w"}
+    assert _off(game, (7, 6)) <= 0.15
+
+
 @pytest.mark.parametrize("cell", [(6, 7), (8, 7)])
 def test_a_block_beside_is_clicked_before_it_is_certain_where_the_agent_stops(cell: Cell) -> None:
     on_the_way, one_by_one = _game(), _game()

@@ -15,7 +15,7 @@ from mc_nested.learn.preset import load_preset
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[1]
 FUSES = binding.get_host_cpu_features().get("fma", False)
 OF_FOUR = "+sse4.2,+avx,+fma,+prefer-128-bit"
 """Features of an x86-64 processor as a compiler may use them: fused multiply-adds, and vectors of four numbers."""
