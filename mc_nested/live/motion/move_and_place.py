@@ -100,7 +100,7 @@ class Body:
 
         The click goes out while the agent still moves if it is right wherever the agent comes to a stop. The game gets
         it after the release of the key, in order. So it finds the agent between where it was seen last and its end. An
-        agent that was carried on in its cell walks back and looks whether the block is there.
+        agent that was carried on, but is still in the cell, walks back before it looks whether the block is there.
 
         Args:
             cell: where to stand.
@@ -126,18 +126,15 @@ class Body:
             pose = self.move_to(cell, tries_made=0 if is_there else 1)
             self.check_front(pose, built)
             return self.place(cell, shown_id, pose)
-        if hits_floor(state.end, cell):
-            is_placed = self._is_placed(cell, block, shown_id)
-            return front if is_placed else self.place(cell, shown_id)
-        carried_to = pose
-        if cell_at(state.end) == cell:
-            # One click places one block at most: seen in front of the cell, it is nowhere else.
-            self.move_to(cell)
-            if self._is_placed(cell, block, shown_id):
-                return front
-        raise NotConfirmedError(
-            f"the agent was carried on while it clicked, past cell {cell}, to {carried_to}: does something push it?"
-        )
+        if cell_at(state.end) != cell:
+            raise NotConfirmedError(
+                f"the agent was carried on while it clicked, past cell {cell}, to {pose}: does something push it?"
+            )
+        if not hits_floor(state.end, cell):
+            # A click from within the cell places the block in front or none: the game refuses one in its own cell.
+            self.move_to(cell, tries_made=1)
+        is_placed = self._is_placed(cell, block, shown_id)
+        return front if is_placed else self.place(cell, shown_id)
 
     def check_front(self, pose: PoseEstimate, built: Mapping[Cell, str]) -> None:
         """Check that the agent looks at what should be there: one of its own blocks in the next cell, or the floor.
@@ -227,7 +224,7 @@ class Body:
         pose = watch()
         if may_walk and not self._may_click(pose, cell):
             # It is known where this walk ends while the agent still coasts there.
-            self.move_to(cell)
+            self.move_to(cell, tries_made=1)
             pose = watch()
         if not self._looks_at_floor(pose, block):
             raise NotConfirmedError(

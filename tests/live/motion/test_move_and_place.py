@@ -8,6 +8,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.errors import NotConfirmedError, NotInFrontError, UnreadableError
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.model.reading import Reading, Target
+from mc_nested.live.motion.effort import Effort
 from mc_nested.live.motion.move_and_place import Body
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import Profile, WalkTable
@@ -125,17 +126,27 @@ def test_what_is_built_on_the_way_is_right_or_an_error_however_late_the_game_tak
     assert _off(game, cell) < 0.5
 
 
-def test_an_agent_carried_on_in_its_cell_while_it_clicked_walks_back_and_finds_its_block() -> None:
+@pytest.mark.parametrize("refused", [0, 1])
+def test_an_agent_carried_on_in_its_cell_while_it_clicked_walks_back_and_clicks_again_if_it_must(refused: int) -> None:
     game = _game(off=(0.077, 0.135))
+    game.refuse_clicks = refused
     body = _body(game)
     body.arrive((7, 7))
     game.late_from, game.late_until = game.clock.now() + 0.173, game.clock.now() + 0.346
     assert body.build((7, 6), {}, "minecraft:stone") == (7, 7)
     assert game.built == {SOUTH.marked_arena().block_of((7, 7))}
-    assert game.presses[0] == "s"
-    assert game.presses[1] == "right button"
-    assert set(game.presses[2:]) == {"w"}
+    assert game.presses == ["s", "right button", "w", *["right button"] * refused]
+    assert body.effort == Effort(moves=1, corrections=1, clicks=1 + refused)
     assert _off(game, (7, 6)) <= 0.15
+
+
+def test_an_agent_carried_past_its_cell_while_it_clicked_is_an_error() -> None:
+    game = _game()
+    body = _body(game)
+    body.arrive((7, 7))
+    game.late_from, game.late_until = game.clock.now() + 0.141, game.clock.now() + 0.5
+    with pytest.raises(NotConfirmedError, match=r"carried on while it clicked, past cell \(8, 7\), to"):
+        body.build((8, 7), {}, "minecraft:stone")
 
 
 @pytest.mark.parametrize("cell", [(6, 7), (8, 7)])

@@ -90,8 +90,8 @@ def backward(
 def tanh_in_place(values: Float32s) -> None:
     """The hyperbolic tangent as a quotient of polynomials, which vectorises; within 3e-7.
 
-    Beyond ±7.9 it is ±1 in 32 bits. The coefficients are those of the minimax approximation in the library Eigen. The
-    terms are added in pairs (Estrin's scheme), which need not wait for each other.
+    Beyond ±7.9 it stays at its value there. The coefficients are those of the minimax approximation in the library
+    Eigen. The terms are added in pairs (Estrin's scheme), which need not wait for each other.
     """
     flat = values.reshape(-1)
     for at in range(len(flat)):

@@ -1,7 +1,6 @@
 """Matrix products of the size of these networks, compiled.
 
-A BLAS is made for matrices of thousands of rows. With one, the paper's experiment took 1.4 times as long, and how
-many threads it took changed the last digits.
+A BLAS is made for matrices of thousands of rows. How many threads it takes changes the last digits.
 """
 
 import numpy as np
