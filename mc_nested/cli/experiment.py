@@ -10,12 +10,13 @@ import typer
 from mc_nested.cli.experiment_progress import ExperimentProgress
 from mc_nested.cli.experiment_status import ExperimentStatus
 from mc_nested.cli.interrupt import Stopped, catch_interrupts
-from mc_nested.cli.job_processes import JobProcesses
 from mc_nested.cli.output import Output
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.experiments.experiment_folder import Config, ExperimentFolder
 from mc_nested.learn.experiments.job_training import JobOutcome
 from mc_nested.learn.experiments.jobs import Job
+from mc_nested.workers.executor import train_jobs
+from mc_nested.workers.processes import JobProcesses
 
 MOST_JOBS, MOST_TRIALS = 256, 1000
 """More would only run out of memory."""
@@ -68,7 +69,7 @@ def train_all(folder: ExperimentFolder[Config], output: Output) -> Outcomes:
         with catch_interrupts() as interrupt, JobProcesses(min(folder.config.jobs, len(missing))) as processes:
             try:
                 with progress:
-                    processes.train(missing, interrupt, progress.watch)
+                    train_jobs(processes, missing, lambda: interrupt.requested, progress.watch)
             except RunError as error:
                 raise RunError(f"{error}; {folder.resume_command} goes on from what was saved") from error
         if interrupt.requested:

@@ -10,8 +10,8 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from mc_nested.cli.experiment_status import ExperimentStatus
-from mc_nested.cli.job_process import JobEnded, JobReport
 from mc_nested.cli.progress_line import print_line
+from mc_nested.workers.messages import JobEnded, JobReport
 
 REFRESH_S = 0.25
 """No more often than an eye can follow."""

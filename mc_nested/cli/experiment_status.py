@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
-from mc_nested.cli.job_process import JobEnded, JobReport
 from mc_nested.learn.experiments.job_training import JobOutcome
 from mc_nested.learn.experiments.jobs import Job
+from mc_nested.workers.messages import JobEnded, JobReport
 
 
 class ExperimentStatus:

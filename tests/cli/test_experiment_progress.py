@@ -9,7 +9,7 @@ from rich.console import Console
 from mc_nested.cli import experiment_progress as progress_module
 from mc_nested.cli.experiment_progress import ExperimentProgress
 from mc_nested.cli.experiment_status import ExperimentStatus
-from mc_nested.cli.job_process import JobReport
+from mc_nested.workers.messages import JobReport
 from tests.learn.made_experiments import BAR, DOT, one_job
 
 JOB = one_job("nested", [DOT, BAR], 2)

@@ -1,9 +1,9 @@
 """How far an experiment is, from what its processes report."""
 
 from mc_nested.cli.experiment_status import ExperimentStatus
-from mc_nested.cli.job_process import JobEnded, JobReport
 from mc_nested.learn.experiments.job_training import Evaluated, JobOutcome, RunOutcome
 from mc_nested.learn.experiments.jobs import Job, cut_into_jobs
+from mc_nested.workers.messages import JobEnded, JobReport
 from tests.learn.made_experiments import BAR, DOT, runs_of, small_preset
 
 

@@ -11,9 +11,10 @@ from threading import Thread, Timer
 
 import pytest
 
-from mc_nested.cli.job_process import JobEnded, JobReport, train_jobs
 from mc_nested.learn.experiments.job_training import OUTCOME, outcome_of
 from mc_nested.learn.runs.folder_lock import folder_lock
+from mc_nested.workers.messages import JobEnded, JobReport
+from mc_nested.workers.process import serve_jobs
 from tests.learn.made_experiments import DOT, one_job
 
 JOB = one_job("nested", [DOT], 2)
@@ -51,7 +52,7 @@ def test_units_are_trained_one_after_the_other(pipe: tuple[Connection, Connectio
 
     thread = Thread(target=parent)
     thread.start()
-    train_jobs(theirs)
+    serve_jobs(theirs)
     thread.join()
     assert said.count(JobEnded(JOB.name, finished=True)) == 2
     one, two = (outcome_of(JOB, tmp_path / name) for name in ("one", "two"))
@@ -64,7 +65,7 @@ def test_asked_to_stop_it_saves_and_ends(pipe: tuple[Connection, Connection], tm
     ours, theirs = pipe
     ours.send((JOB, tmp_path))
     ours.send(None)
-    train_jobs(theirs)
+    serve_jobs(theirs)
     report, ended = heard(ours)
     assert isinstance(report, JobReport)
     assert ended == JobEnded(JOB.name, finished=False)
@@ -75,7 +76,7 @@ def test_without_its_parent_it_saves_and_ends(pipe: tuple[Connection, Connection
     ours, theirs = pipe
     ours.send((JOB, tmp_path))
     ours.close()
-    train_jobs(theirs)
+    serve_jobs(theirs)
     assert (tmp_path / "checkpoint").exists()
     assert not (tmp_path / OUTCOME).exists()
 
@@ -90,7 +91,7 @@ def test_a_job_that_a_process_without_its_parent_still_saves_waits_for_that(
         other.enter_context(folder_lock(tmp_path))
         saved = Timer(0.2, other.close)
         saved.start()
-        train_jobs(theirs)
+        serve_jobs(theirs)
         saved.join()
     assert heard(ours)[-1] == JobEnded(JOB.name, finished=False)
 
@@ -98,12 +99,12 @@ def test_a_job_that_a_process_without_its_parent_still_saves_waits_for_that(
 def test_a_job_that_another_process_keeps_is_reported(
     pipe: tuple[Connection, Connection], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("mc_nested.cli.job_process.PATIENCE_S", 0.1)
+    monkeypatch.setattr("mc_nested.workers.training.PATIENCE_S", 0.1)
     ours, theirs = pipe
     ours.send((JOB, tmp_path))
     ours.send(None)
     with folder_lock(tmp_path):
-        train_jobs(theirs)
+        serve_jobs(theirs)
     (ended,) = heard(ours)
     assert isinstance(ended, JobEnded)
     assert ended.failed.startswith(f"{tmp_path}: process {os.getpid()} is writing there")
@@ -112,7 +113,7 @@ def test_a_job_that_another_process_keeps_is_reported(
 def test_ctrl_c_is_left_to_the_parent(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
     ours, theirs = pipe
     ours.send(None)
-    train_jobs(theirs)
+    serve_jobs(theirs)
     signal.raise_signal(signal.SIGINT)
     assert list(tmp_path.iterdir()) == []
 
@@ -121,12 +122,12 @@ def test_a_checkpoint_of_something_else_is_reported(pipe: tuple[Connection, Conn
     ours, theirs = pipe
     ours.send((one_job("nested", [DOT], 3), tmp_path))
     ours.send(None)
-    train_jobs(theirs)
+    serve_jobs(theirs)
     heard(ours)
     saved = {path.name: path.read_bytes() for path in (tmp_path / "checkpoint").iterdir()}
     ours.send((JOB, tmp_path))
     ours.send(None)
-    train_jobs(theirs)
+    serve_jobs(theirs)
     (ended,) = heard(ours)
     assert isinstance(ended, JobEnded)
     assert "belongs to another scenario, agent or preset" in ended.failed
@@ -136,7 +137,7 @@ def test_a_checkpoint_of_something_else_is_reported(pipe: tuple[Connection, Conn
 def test_a_job_that_is_soon_over_is_reported_at_its_beginning_and_at_its_end(
     pipe: tuple[Connection, Connection], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("mc_nested.cli.job_process.REPORT_EVERY_S", 1e9)
+    monkeypatch.setattr("mc_nested.workers.process.REPORT_EVERY_S", 1e9)
     ours, theirs = pipe
     said: list[JobReport | JobEnded] = []
 
@@ -148,7 +149,7 @@ def test_a_job_that_is_soon_over_is_reported_at_its_beginning_and_at_its_end(
 
     thread = Thread(target=parent)
     thread.start()
-    train_jobs(theirs)
+    serve_jobs(theirs)
     thread.join()
     first, last, ended = said
     assert isinstance(first, JobReport)

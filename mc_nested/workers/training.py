@@ -1,17 +1,9 @@
-"""A process that trains an experiment's jobs, one after the other, until it has to stop.
-
-It talks to its parent through a pipe. The parent sends jobs; any message while a job trains, and the pipe's end, mean:
-save and stop. The process sends JobReports, and one JobEnded for each job.
-"""
+"""Training one job in its folder, tick by tick, until it is finished or nobody wants it to go on."""
 
 import re
-import signal
 import time
-from collections.abc import Sequence
-from dataclasses import dataclass
-from multiprocessing.connection import Connection
+from collections.abc import Callable
 from pathlib import Path
-from types import FrameType
 
 from mc_nested.arena.cooperative.team import Team
 from mc_nested.arena.cooperative.team_env import TeamEnv
@@ -25,63 +17,27 @@ from mc_nested.learn.experiments.planner_training import PlannerTraining
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.trainer import Trainer
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
+from mc_nested.workers.messages import JobEnded, JobReport
 from sim.grid import GridVectorEnv
 from sim.team_grid import TeamGrid
-
-REPORT_EVERY_S = 0.25
-"""Seconds between two reports, and between two looks whether to stop."""
 
 PATIENCE_S = 10.0
 """Seconds that a process whose parent was killed may take to save the job that another goes on with."""
 
-
-@dataclass(frozen=True)
-class JobReport:
-    """How far a job has got: training episodes and last greedy score of each run, None before the first; updates."""
-
-    job: str
-    episodes: Sequence[int]
-    scores: Sequence[float | None]
-    updates: int
+Report = Callable[[JobReport], bool]
+"""Is told how far a job has got; returns whether the job shall go on."""
 
 
-@dataclass(frozen=True)
-class JobEnded:
-    """A job is finished, or was saved unfinished because it had to stop, or ``failed`` says why it failed."""
+def train_job(job: Job, folder: Path, report: Report, report_every_s: float) -> JobEnded:
+    """Train the job from where its folder has it, until it is finished, or saved because ``report`` returned False.
 
-    job: str
-    finished: bool
-    failed: str = ""
-
-
-def train_jobs(pipe: Connection) -> None:
-    """The process's main function: receives jobs and their folders, one by one, until None or the pipe's end."""
-    stop = _StopSignal()
-    try:
-        while (task := pipe.recv()) is not None and not stop.came:
-            job, folder = task
-            pipe.send(_train(pipe, job, folder, stop))
-    except (EOFError, ConnectionError):
-        return  # the parent was killed; the job is saved
-
-
-class _StopSignal:
-    """Ctrl+C reaches every process of a terminal and is left to the parent; SIGTERM is meant for this process."""
-
-    def __init__(self) -> None:
-        self.came = False
-        signal.signal(signal.SIGINT, signal.SIG_IGN)
-        signal.signal(signal.SIGTERM, self._take_note)
-
-    def _take_note(self, _number: int, _frame: FrameType | None) -> None:
-        self.came = True
-
-
-def _train(pipe: Connection, job: Job, folder: Path, stop: _StopSignal) -> JobEnded:
+    It is reported at its beginning, at its end, and every ``report_every_s`` seconds. What a user can mend, a full disk
+    or too little memory, is said in what is returned.
+    """
     try:
         with folder_lock(folder, PATIENCE_S):
             training = _training_of(job, folder)
-            _tick_until_done(pipe, training, folder, stop)
+            _tick_until_done(training, folder, report, report_every_s)
             if training.finished:
                 training.finish()
             else:
@@ -122,33 +78,23 @@ def _events(training: Training, folder: Path) -> TensorBoard | None:
         return TensorBoard([folder.parent.parent / FOLDER / name for name in names], training.trainer)
 
 
-def _tick_until_done(pipe: Connection, training: Training, folder: Path, stop: _StopSignal) -> None:
+def _tick_until_done(training: Training, folder: Path, report: Report, report_every_s: float) -> None:
     report_at = time.monotonic()
     events = _events(training, folder)
     scores: list[float | None] = [None] * len(training.job.trials)
     seen = 0
     while True:
         # Reported before the first tick and after the last, too: a job may be over before a report is due.
-        is_over = training.finished or stop.came
-        if is_over or time.monotonic() >= report_at:
-            report_at = time.monotonic() + REPORT_EVERY_S
+        if training.finished or time.monotonic() >= report_at:
+            report_at = time.monotonic() + report_every_s
             rows = training.evaluation_rows
             for row in rows[seen:]:
                 scores[row.trial] = row.score
             seen = len(rows)
-            report = JobReport(training.job.name, training.episodes_done.tolist(), tuple(scores), training.updates)
-            if not _report(pipe, report) or is_over:
+            now = JobReport(training.job.name, training.episodes_done.tolist(), tuple(scores), training.updates)
+            if not report(now) or training.finished:
                 return
         training.tick()
         if events:
             with writing(folder):
                 events.write()
-
-
-def _report(pipe: Connection, report: JobReport) -> bool:
-    """Send the report; return whether to go on."""
-    try:
-        pipe.send(report)
-        return not pipe.poll()
-    except (EOFError, ConnectionError):
-        return False

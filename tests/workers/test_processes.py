@@ -16,12 +16,12 @@ from types import SimpleNamespace
 
 import pytest
 
-from mc_nested.cli import job_processes
-from mc_nested.cli.interrupt import Interrupt
-from mc_nested.cli.job_process import JobEnded, JobReport
-from mc_nested.cli.job_processes import ONE_THREAD_EACH, JobProcesses
 from mc_nested.errors import RunError
 from mc_nested.learn.experiments.jobs import Job
+from mc_nested.workers import processes as job_processes
+from mc_nested.workers.executor import train_jobs
+from mc_nested.workers.messages import JobEnded, JobReport
+from mc_nested.workers.processes import ONE_THREAD_EACH, JobProcesses
 from tests.learn.made_experiments import DOT, one_job
 
 JOB = one_job("nested", [DOT], 1)
@@ -73,6 +73,7 @@ class ThreadProcess:
     def kill(self) -> None:
         self.was_killed = True
         self.exitcode = -9
+        self._pipe.close()
 
 
 class Workers:
@@ -85,7 +86,7 @@ class Workers:
         context = SimpleNamespace(Pipe=self._pipe, Process=self._process)
         made = SimpleNamespace(get_context=lambda kind: {"spawn": context}[kind])
         monkeypatch.setattr(job_processes, "multiprocessing", made)
-        monkeypatch.setattr(job_processes, "train_jobs", self._work)
+        monkeypatch.setattr(job_processes, "serve_jobs", self._work)
 
     def _pipe(self) -> tuple[Connection, KeptEnd]:
         ours, theirs = Pipe()
@@ -118,21 +119,24 @@ def jobs_of(*names: str) -> list[tuple[Job, Path]]:
     return [(dataclasses.replace(JOB, name=name), Path(name)) for name in names]
 
 
-def train(count: int, *names: str, interrupt: Interrupt | None = None) -> list[JobReport | JobEnded]:
+def train(count: int, *names: str, stopped: threading.Event | None = None) -> list[JobReport | JobEnded]:
     """What is heard of these jobs, until all is over."""
     heard: list[JobReport | JobEnded] = []
+    is_stopped = (stopped or threading.Event()).is_set
     with JobProcesses(count) as processes:
-        processes.train(
-            jobs_of(*names), interrupt or Interrupt(), lambda message: heard.append(message) if message else None
-        )
+        train_jobs(processes, jobs_of(*names), is_stopped, lambda message: heard.append(message) if message else None)
     return heard
+
+
+def never() -> bool:
+    return False
 
 
 def until_asked(name: str) -> Act:
     """Trains until it is asked to stop, and saves."""
 
     def act(pipe: Connection) -> Ending:
-        assert pipe.recv() is None
+        assert pipe.poll(10)
         return JobEnded(name, finished=False)
 
     return act
@@ -172,13 +176,12 @@ def test_all_that_a_process_says_is_passed_on_and_now_and_then_nothing(workers: 
     workers.acts["a"] = act
     heard: list[JobReport | JobEnded | None] = []
     with JobProcesses(1) as processes:
-        processes.train(jobs_of("a"), Interrupt(), heard.append)
+        train_jobs(processes, jobs_of("a"), never, heard.append)
     assert [message for message in heard if message] == [report, JobEnded("a", finished=True)]
     assert None in heard
 
 
 def test_a_job_that_fails_ends_it_and_the_others_are_saved(workers: Workers) -> None:
-    # The process that was started last takes the first job.
     workers.acts = {"a": lambda _: JobEnded("a", finished=False, failed="the disk is full"), "b": until_asked("b")}
     with pytest.raises(RunError, match=r"^the disk is full$"):
         train(2, "a", "b", "c")
@@ -207,7 +210,7 @@ def test_a_process_that_is_lost_ends_it_and_the_others_are_saved(ending: Ending,
 
 def test_a_failure_is_reported_before_a_loss(workers: Workers) -> None:
     def fail_when_asked(pipe: Connection) -> Ending:
-        pipe.recv()
+        pipe.poll(10)
         return JobEnded("b", finished=False, failed="the disk is full")
 
     workers.acts = {"a": lambda _: 3, "b": fail_when_asked}
@@ -216,26 +219,26 @@ def test_a_failure_is_reported_before_a_loss(workers: Workers) -> None:
 
 
 def test_asked_to_stop_all_are_saved_and_that_is_no_error(workers: Workers) -> None:
-    interrupt = Interrupt()
+    stopped = threading.Event()
 
     def interrupted(pipe: Connection) -> Ending:
-        interrupt.requested = True
+        stopped.set()
         return until_asked("a")(pipe)
 
     workers.acts = {"a": interrupted, "b": until_asked("b")}
-    heard = train(2, "a", "b", "c", interrupt=interrupt)
+    heard = train(2, "a", "b", "c", stopped=stopped)
     assert sorted(heard, key=lambda ended: ended.job) == [JobEnded(name, finished=False) for name in "ab"]
 
 
 def test_a_process_that_is_lost_while_all_are_asked_to_stop_is_no_error(workers: Workers) -> None:
-    interrupt = Interrupt()
+    stopped = threading.Event()
 
     def stopped_with_its_parent(_: Connection) -> Ending:
-        interrupt.requested = True
+        stopped.set()
         return -2
 
     workers.acts["a"] = stopped_with_its_parent
-    assert train(1, "a", "b", interrupt=interrupt) == []
+    assert train(1, "a", "b", stopped=stopped) == []
     assert workers.trained == [("a", Path("a"))]
 
 
@@ -253,7 +256,7 @@ def test_a_process_that_does_not_end_is_killed(workers: Workers, monkeypatch: py
 
     workers.acts["a"] = never_saves
     with pytest.raises(KeyboardInterrupt), JobProcesses(2) as processes:
-        processes.train(jobs_of("a"), Interrupt(), give_up)
+        train_jobs(processes, jobs_of("a"), never, give_up)
     end.set()
     assert sorted(process.was_killed for process in workers.processes) == [False, True]
     assert all(process.exitcode is not None for process in workers.processes)

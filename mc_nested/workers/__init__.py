@@ -1,0 +1,1 @@
+"""Who does an experiment's work: processes of this computer, or the workers of a cluster (Dask)."""

@@ -1,0 +1,86 @@
+"""JobExecutor: the seam between an experiment and whoever trains its jobs, and the loop that waits for them all."""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
+from pathlib import Path
+from typing import Protocol
+
+from mc_nested.errors import RunError
+from mc_nested.learn.experiments.jobs import Job
+from mc_nested.workers.messages import JobEnded, JobReport
+
+LOOK_EVERY_S = 0.2
+"""Seconds that a Ctrl+C may go unnoticed while no job ends."""
+
+Watch = Callable[[JobReport | JobEnded | None], None]
+"""Called with each message of a job, and with None now and then."""
+
+
+class JobExecutor(Protocol):
+    """Whoever trains jobs: processes here (processes.py), or a cluster's workers (cluster/dask_jobs.py)."""
+
+    def submit(self, job: Job, folder: Path) -> Future[JobEnded]:
+        """Let the job be trained, from where its folder has it; as ``concurrent.futures.Executor.submit``.
+
+        By the time the future is done, the folder holds the outcome, or what a stopped job goes on from. Its exception
+        is a UserError where the job was lost with its worker.
+        """
+
+    def reports(self) -> list[JobReport]:
+        """What was reported since the last call, oldest first."""
+
+    def stop(self) -> None:
+        """Let what trains be saved; what hasn't begun is cancelled."""
+
+    def in_words(self) -> str:
+        """How many workers there are, what they do and which were lost; empty where there is nothing to say."""
+
+
+def train_jobs(
+    executor: JobExecutor, jobs: Sequence[tuple[Job, Path]], is_stopped: Callable[[], bool], watch: Watch
+) -> None:
+    """Train the jobs, each in its folder, until all are finished, or somebody asks to stop and all are saved.
+
+    RunError if a job fails, or is lost with what trained it and doesn't go elsewhere; the others are saved.
+    """
+    waiting = {executor.submit(job, folder) for job, folder in jobs}
+    found = _Found()
+    stopping = False
+    while waiting:
+        if not stopping and (is_stopped() or found.failed or found.lost):
+            stopping = True
+            executor.stop()
+        # wait() would wait for ever for a future that was cancelled before it ran.
+        done, waiting = wait({each for each in waiting if not each.cancelled()}, LOOK_EVERY_S, FIRST_COMPLETED)
+        for report in executor.reports():
+            watch(report)
+        for future in done:
+            if ended := found.of(future, stopping):
+                watch(ended)
+        watch(None)
+    if found.failed:
+        raise RunError(found.failed)
+    if found.lost and not is_stopped():  # stopping everything may stop the processes, too
+        raise RunError(found.lost)
+
+
+class _Found:
+    """Why the first job failed, and why the first was lost, in words; empty as long as none was."""
+
+    def __init__(self) -> None:
+        self.failed = ""
+        self.lost = ""
+
+    def of(self, future: Future[JobEnded], stopping: bool) -> JobEnded | None:
+        """How that future's job ended; None if it was cancelled or lost. An error that isn't a RunError is a bug."""
+        try:
+            ended = future.result()
+        except CancelledError:
+            return None
+        except RunError as error:
+            self.lost = self.lost or str(error)
+            return None
+        self.failed = self.failed or ended.failed
+        if not (ended.finished or ended.failed or stopping):
+            self.lost = self.lost or "a training process was asked to stop"
+        return ended
