@@ -11,6 +11,7 @@ McNestedError
 │   ├── DivergedError    a training whose networks hold what is no number
 │   ├── RecordingError   a recording that can't be used
 │   ├── RunError         an output folder, a run or a checkpoint that can't be used
+│   ├── ClusterError     a cluster that can't be reached, or whose workers can't be used
 │   └── DesktopError     no display, a Wayland session without Xwayland, a window that can't be used
 │       ├── NoWindowError     no window of that title is there
 │       ├── SeveralWindowsError  several windows of that title are there
@@ -66,6 +67,10 @@ class RecordingError(UserError):
 
 class RunError(UserError):
     """An output folder, a run or a checkpoint that can't be used."""
+
+
+class ClusterError(UserError):
+    """A scheduler that can't be reached or may not be, keys that don't fit, or workers with other versions."""
 
 
 class DesktopError(UserError):

@@ -11,6 +11,7 @@ from mc_nested.learn.experiments.experiment_folder import CONFIG, ExperimentFold
 from mc_nested.report.ablation_results import Ablation, AblationPart, AblationRow
 from mc_nested.report.benchmark_results import played_to_optimum
 from mc_nested.toml_file import parse_document, read_toml_text
+from mc_nested.workers.cluster.address import SchedulerAddress
 
 TRIALS = 10
 
@@ -26,9 +27,9 @@ def is_ablation(folder: Path) -> bool:
     return file.is_file() and OWN_KEY in parse_document(read_toml_text(file, RunError), str(file), RunError)
 
 
-def run_ablation(folder: ExperimentFolder[AblationConfig], output: Output) -> None:
+def run_ablation(folder: ExperimentFolder[AblationConfig], output: Output, scheduler: SchedulerAddress | None) -> None:
     """Train what is missing, and write the report; errors as train_all's."""
-    found = ablation_of(folder.config, train_all(folder, output))
+    found = ablation_of(folder.config, train_all(folder, output, scheduler))
     # Statistics and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.ablation import write_ablation
 

@@ -42,6 +42,7 @@ VERBS = (
     "recordings",
     "replay",
     "bug-report",
+    "cluster-keys",
 )
 """Each is a module of this package; in the order of the help."""
 

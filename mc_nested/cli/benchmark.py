@@ -14,6 +14,7 @@ from mc_nested.arena.design_kind import kind_of_design
 from mc_nested.arena.random_designs import random_scenario
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario, table_of
+from mc_nested.cli.cluster_options import ClusterOption, InsecureOption, KeysOption, cluster_of
 from mc_nested.cli.experiment import (
     MOST_TRIALS,
     JobsOption,
@@ -22,7 +23,7 @@ from mc_nested.cli.experiment import (
     ResumeOption,
     SeedOption,
     check_nothing_beside_resume,
-    cores,
+    jobs_at_once,
     train_all,
 )
 from mc_nested.cli.experiment_end import say_end
@@ -43,6 +44,7 @@ from mc_nested.learn.experiments.sb3_model import HOW_TO_INSTALL, LIBRARY, is_in
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.benchmark_results import Benchmark, BenchmarkRow, played_to_optimum
+from mc_nested.workers.cluster.address import SchedulerAddress
 
 if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others doesn't need
     from mc_nested.report.benchmark_measures import Measures
@@ -75,6 +77,9 @@ def benchmark(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     trials: Annotated[int | None, typer.Option(min=1, max=MOST_TRIALS, help=f"on each design [{TRIALS}]")] = None,
     seed: SeedOption = None,
     jobs: JobsOption = None,
+    cluster: ClusterOption = None,
+    keys: KeysOption = None,
+    insecure: InsecureOption = False,
     out: OutOption = None,
     resume: ResumeOption = None,
     quiet: QuietOption = False,
@@ -85,11 +90,12 @@ def benchmark(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     Writes benchmark.png, benchmark.md and benchmark.csv. sb3 is stable-baselines3's DQN, for comparison.
     """
     output = Output(quiet, as_json)
+    scheduler = cluster_of(cluster, keys, insecure)
     if resume is not None:
         check_nothing_beside_resume(context.params)
         folder = ExperimentFolder.open(resume, BenchmarkConfig, VERB)
         with folder_lock(resume):
-            _run(folder, output)
+            _run(folder, output, scheduler)
         return
     if corpus is not None and designs is not None:
         raise UserError("--designs is how many are drawn at random: leave it out, or leave out --corpus")
@@ -103,13 +109,13 @@ def benchmark(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     config = BenchmarkConfig(
         trials=trials or TRIALS,
         seed=seed or 0,
-        jobs=jobs or cores(),
+        jobs=jobs or jobs_at_once(scheduler, output),
         corpus=corpus.name if corpus else None,
         designs=[table_of(scenario) for scenario in scenarios],
         contestants=contestants,
     )
     with output_folder(out, VERB) as path:
-        _run(ExperimentFolder.new(path, config, VERB), output)
+        _run(ExperimentFolder.new(path, config, VERB), output, scheduler)
 
 
 def _listed(options: Sequence[str] | None) -> list[str]:
@@ -139,8 +145,8 @@ def _scenarios(corpus: Path | None, designs: int, seed: int) -> list[Scenario]:
     return load_corpus(corpus, like) if corpus else [random_scenario(seed, number, like) for number in range(designs)]
 
 
-def _run(folder: ExperimentFolder[BenchmarkConfig], output: Output) -> None:
-    found = benchmark_of(folder.config, train_all(folder, output))
+def _run(folder: ExperimentFolder[BenchmarkConfig], output: Output, scheduler: SchedulerAddress | None) -> None:
+    found = benchmark_of(folder.config, train_all(folder, output, scheduler))
     # Statistics and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.benchmark import write_benchmark
 

@@ -9,13 +9,14 @@ from mc_nested.cli.output import Output
 from mc_nested.learn.experiments.beyond import Arm, BeyondConfig
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.report.beyond.arms import ArmResults, Arms
+from mc_nested.workers.cluster.address import SchedulerAddress
 
 FILES = {"report": "beyond.md", "plot": "beyond.png", "rows": "beyond.csv"}
 
 
-def run_beyond(folder: ExperimentFolder[BeyondConfig], output: Output) -> None:
+def run_beyond(folder: ExperimentFolder[BeyondConfig], output: Output, scheduler: SchedulerAddress | None) -> None:
     """Train what is missing, and write the report; errors as train_all's."""
-    outcomes = train_all(folder, output)
+    outcomes = train_all(folder, output, scheduler)
     # Tests and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.beyond.files import write_beyond
     from mc_nested.report.beyond.text import in_words, trials_to_decide

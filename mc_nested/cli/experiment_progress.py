@@ -1,6 +1,7 @@
 """Progress of an experiment: a bar over all episodes, and each group's recent greedy scores beside the optimum."""
 
 import time
+from collections.abc import Callable
 from types import TracebackType
 
 from rich.console import Console, Group
@@ -33,11 +34,19 @@ class ExperimentProgress:
         what: what is being done, in one word.
         status: what is shown.
         console: where to show it; standard error unless given.
+        workers: says how many train, and what was lost; empty where there is nothing to say.
     """
 
-    def __init__(self, what: str, status: ExperimentStatus, console: Console | None = None) -> None:
+    def __init__(
+        self,
+        what: str,
+        status: ExperimentStatus,
+        console: Console | None = None,
+        workers: Callable[[], str] = str,
+    ) -> None:
         self._what = what
         self._status = status
+        self._workers = workers
         self._console = console or Console(stderr=True)
         self._bar = Progress(
             TextColumn(what),
@@ -76,7 +85,9 @@ class ExperimentProgress:
         if self._console.is_terminal:
             self._next = now + REFRESH_S
             self._bar.update(self._task, completed=self._status.episodes, figures=self._rate())
-            self._live.update(Group(self._bar, self._table()), refresh=True)
+            said = self._workers()
+            view = Group(self._bar, Text(said), self._table()) if said else Group(self._bar, self._table())
+            self._live.update(view, refresh=True)
         else:
             self._next = now + LINE_EVERY_S
             print_line(self._console, self._line(now))
@@ -89,7 +100,8 @@ class ExperimentProgress:
         done = status.episodes - status.episodes_before
         left = f"{(now - self._began) / done * (status.total - status.episodes) / 60:.1f} min left" if done else ""
         share = 100 * status.episodes / status.total
-        return f"{self._what}: {share:.0f} % of {status.total:,} episodes  {self._rate()}  {left}".rstrip()
+        parts = (f"{share:.0f} % of {status.total:,} episodes", self._rate(), left, self._workers())
+        return f"{self._what}: " + "  ".join(part for part in parts if part)
 
     def _table(self) -> Table:
         status = self._status

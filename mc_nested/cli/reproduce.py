@@ -9,6 +9,7 @@ from rich.text import Text
 
 from mc_nested.arena.scenario_file import paper_scenarios, table_of
 from mc_nested.cli.beyond import run_beyond
+from mc_nested.cli.cluster_options import ClusterOption, InsecureOption, KeysOption, cluster_of
 from mc_nested.cli.experiment import (
     MOST_TRIALS,
     JobsOption,
@@ -18,7 +19,7 @@ from mc_nested.cli.experiment import (
     SeedOption,
     check_nothing_beside,
     check_nothing_beside_resume,
-    cores,
+    jobs_at_once,
     train_all,
 )
 from mc_nested.cli.experiment_end import say_end
@@ -39,6 +40,7 @@ from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.results import Results
 from mc_nested.toml_file import parse_document, read_toml_text
+from mc_nested.workers.cluster.address import SchedulerAddress
 
 if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others doesn't need
     from collections.abc import Sequence
@@ -48,7 +50,20 @@ if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others 
 VERB = "reproduce"
 TRIALS, PRESET = 10, "paper"
 
-BESIDE_BEYOND = ("beyond", "trials", "episodes", "seed", "device", "jobs", "out", "quiet", "as_json")
+BESIDE_BEYOND = (
+    "beyond",
+    "trials",
+    "episodes",
+    "seed",
+    "device",
+    "jobs",
+    "cluster",
+    "keys",
+    "insecure",
+    "out",
+    "quiet",
+    "as_json",
+)
 """The options that --beyond takes."""
 
 FILES = {"report": "report.md", "figure": "figure5.png", "table": "results.csv"}
@@ -88,6 +103,9 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         ),
     ] = False,
     jobs: JobsOption = None,
+    cluster: ClusterOption = None,
+    keys: KeysOption = None,
+    insecure: InsecureOption = False,
     out: OutOption = None,
     resume: ResumeOption = None,
     quiet: QuietOption = False,
@@ -99,17 +117,20 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     minutes on two cores, those of --beyond about an hour, those of --robustness somewhat more.
     """
     output = Output(quiet, as_json)
+    scheduler = cluster_of(cluster, keys, insecure)
     if resume is not None:
         check_nothing_beside_resume(context.params)
-        _resume(resume, output)
+        _resume(resume, output, scheduler)
         return
     if beyond:
         check_nothing_beside(context.params, BESIDE_BEYOND, "--beyond has agents, designs and presets of its own")
         arms = shipped_arms(trials or TRIALS, trials or FEW, episodes, device)
         check_device(device)
-        beyond_config = BeyondConfig(trials=trials or TRIALS, seed=seed or 0, jobs=jobs or cores(), arms=arms)
+        beyond_config = BeyondConfig(
+            trials=trials or TRIALS, seed=seed or 0, jobs=jobs or jobs_at_once(scheduler, output), arms=arms
+        )
         with output_folder(out, "beyond") as path:
-            run_beyond(ExperimentFolder.new(path, beyond_config, VERB), output)
+            run_beyond(ExperimentFolder.new(path, beyond_config, VERB), output, scheduler)
         return
     if robustness and (agent or longer):
         raise UserError("--robustness judges all three agents, and not claim (f): leave out --agent and --longer")
@@ -128,20 +149,20 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         robustness_config = RobustnessConfig(
             trials=trials or TRIALS,
             seed=seed or 0,
-            jobs=jobs or cores(),
+            jobs=jobs or jobs_at_once(scheduler, output),
             preset_name=preset or PRESET,
             preset=chosen,
             scenarios=[table_of(each) for each in scenarios],
             choices=shipped_choices(chosen, scenarios),
         )
         with output_folder(out, "robustness") as path:
-            run_robustness(ExperimentFolder.new(path, robustness_config, VERB), output)
+            run_robustness(ExperimentFolder.new(path, robustness_config, VERB), output, scheduler)
         return
     config = ReproduceConfig(
         agents=[name for name in AGENT_SPECS if name in agent] if agent else list(AGENT_SPECS),
         trials=trials or TRIALS,
         seed=seed or 0,
-        jobs=jobs or cores(),
+        jobs=jobs or jobs_at_once(scheduler, output),
         longer=longer or 0,
         preset_name=preset or PRESET,
         preset=chosen,
@@ -153,7 +174,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             f"leave it out, or name one of each"
         )
     with output_folder(out, "figure5") as path:
-        _run(ExperimentFolder.new(path, config, VERB), output)
+        _run(ExperimentFolder.new(path, config, VERB), output, scheduler)
 
 
 def check_device(device: str | None) -> None:
@@ -164,26 +185,26 @@ def check_device(device: str | None) -> None:
         device_named(device)
 
 
-def _resume(path: Path, output: Output) -> None:
+def _resume(path: Path, output: Output, scheduler: SchedulerAddress | None) -> None:
     """Go on with any of the three kinds, which a key of config.toml tells apart."""
     file = path / CONFIG
     keys = parse_document(read_toml_text(file, RunError), str(file), RunError) if file.is_file() else {}
     if "choices" in keys:
         robustness = ExperimentFolder.open(path, RobustnessConfig, VERB)
         with folder_lock(path):
-            run_robustness(robustness, output)
+            run_robustness(robustness, output, scheduler)
     elif "arms" in keys:
         beyond = ExperimentFolder.open(path, BeyondConfig, VERB)
         with folder_lock(path):
-            run_beyond(beyond, output)
+            run_beyond(beyond, output, scheduler)
     else:
         folder = ExperimentFolder.open(path, ReproduceConfig, VERB)
         with folder_lock(path):
-            _run(folder, output)
+            _run(folder, output, scheduler)
 
 
-def _run(folder: ExperimentFolder[ReproduceConfig], output: Output) -> None:
-    outcomes = train_all(folder, output)
+def _run(folder: ExperimentFolder[ReproduceConfig], output: Output, scheduler: SchedulerAddress | None) -> None:
+    outcomes = train_all(folder, output, scheduler)
     results, longer = results_of(folder.config, outcomes)
     # Tests and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.reproduction import write_reproduction

@@ -13,13 +13,16 @@ from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
 from mc_nested.learn.experiments.robustness import Choice, RobustnessConfig
 from mc_nested.report.results import Results
+from mc_nested.workers.cluster.address import SchedulerAddress
 
 FILES = {"table": "robustness.md", "plot": "robustness.png", "rows": "robustness.csv"}
 
 
-def run_robustness(folder: ExperimentFolder[RobustnessConfig], output: Output) -> None:
+def run_robustness(
+    folder: ExperimentFolder[RobustnessConfig], output: Output, scheduler: SchedulerAddress | None
+) -> None:
     """Train what is missing, and write the report; errors as train_all's."""
-    outcomes = train_all(folder, output)
+    outcomes = train_all(folder, output, scheduler)
     # Tests and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.robustness import write_robustness
     from mc_nested.report.robustness_results import judged_under

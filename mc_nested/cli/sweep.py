@@ -9,6 +9,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import paper_scenarios, table_of
 from mc_nested.cli.ablation import TRIALS as ABLATION_TRIALS
 from mc_nested.cli.ablation import is_ablation, run_ablation
+from mc_nested.cli.cluster_options import ClusterOption, InsecureOption, KeysOption, cluster_of
 from mc_nested.cli.experiment import (
     MOST_TRIALS,
     JobsOption,
@@ -17,7 +18,7 @@ from mc_nested.cli.experiment import (
     ResumeOption,
     SeedOption,
     check_nothing_beside_resume,
-    cores,
+    jobs_at_once,
     train_all,
 )
 from mc_nested.cli.experiment_end import say_end
@@ -33,6 +34,7 @@ from mc_nested.learn.experiments.sweep import SweepConfig, shipped_variants
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.sweep_results import Sweep, SweepRow
+from mc_nested.workers.cluster.address import SchedulerAddress
 
 VERB = "sweep"
 TRIALS, EPISODES, PRESET = 5, 1000, "paper"
@@ -60,6 +62,9 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     layer: LayerOption = None,
     preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=f"what is varied [{PRESET}]")] = None,
     jobs: JobsOption = None,
+    cluster: ClusterOption = None,
+    keys: KeysOption = None,
+    insecure: InsecureOption = False,
     out: OutOption = None,
     resume: ResumeOption = None,
     quiet: QuietOption = False,
@@ -71,25 +76,26 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     an ablation about an hour.
     """
     output = Output(quiet, as_json)
+    scheduler = cluster_of(cluster, keys, insecure)
     if resume is not None:
         check_nothing_beside_resume(context.params)
         if is_ablation(resume):
             ablated = ExperimentFolder.open(resume, AblationConfig, VERB)
             with folder_lock(resume):
-                run_ablation(ablated, output)
+                run_ablation(ablated, output, scheduler)
             return
         folder = ExperimentFolder.open(resume, SweepConfig, VERB)
         with folder_lock(resume):
-            _run(folder, output)
+            _run(folder, output, scheduler)
         return
     scenarios = named_scenarios(scenario or paper_scenarios(), layer)
     if ablation:
         if preset is not None:
             raise UserError("--ablation takes parts off the presets live and tuned: leave out --preset")
         check_parts(scenarios, load_preset("live"))
-        ablation_config = _ablation(scenarios, trials, episodes, seed, jobs)
+        ablation_config = _ablation(scenarios, trials, episodes, seed, jobs or jobs_at_once(scheduler, output))
         with output_folder(out, "ablation") as path:
-            run_ablation(ExperimentFolder.new(path, ablation_config, VERB), output)
+            run_ablation(ExperimentFolder.new(path, ablation_config, VERB), output, scheduler)
         return
     chosen = load_preset(preset or PRESET)
     check_window(chosen.states, has_window=False)
@@ -97,30 +103,30 @@ def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     config = SweepConfig(
         trials=trials or TRIALS,
         seed=seed or 0,
-        jobs=jobs or cores(),
+        jobs=jobs or jobs_at_once(scheduler, output),
         preset_name=preset or PRESET,
         preset=base,
         scenarios=[table_of(each) for each in scenarios],
         variants=shipped_variants(base, scenarios),
     )
     with output_folder(out, "sweep") as path:
-        _run(ExperimentFolder.new(path, config, VERB), output)
+        _run(ExperimentFolder.new(path, config, VERB), output, scheduler)
 
 
 def _ablation(
-    scenarios: list[Scenario], trials: int | None, episodes: int | None, seed: int | None, jobs: int | None
+    scenarios: list[Scenario], trials: int | None, episodes: int | None, seed: int | None, jobs: int
 ) -> AblationConfig:
     return AblationConfig(
         trials=trials or ABLATION_TRIALS,
         seed=seed or 0,
-        jobs=jobs or cores(),
+        jobs=jobs,
         scenarios=[table_of(each) for each in scenarios],
         parts=shipped_parts(episodes),
     )
 
 
-def _run(folder: ExperimentFolder[SweepConfig], output: Output) -> None:
-    found = sweep_of(folder.config, train_all(folder, output))
+def _run(folder: ExperimentFolder[SweepConfig], output: Output, scheduler: SchedulerAddress | None) -> None:
+    found = sweep_of(folder.config, train_all(folder, output, scheduler))
     # Tests and plots take memory and a second to load: not while everything trains.
     from mc_nested.report.sweep import write_sweep
 

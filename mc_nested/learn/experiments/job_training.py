@@ -176,7 +176,7 @@ class JobTraining:
         self._folder = folder
         self._checkpoint = Checkpoint(folder / "checkpoint", job.identity())
         self._seconds_before = 0.0
-        self._began = time.process_time()
+        self._began = time.thread_time()
         if self._checkpoint.exists:
             self._checkpoint.load_into(self)
         self._saved_at = self.trainer.episodes_done.copy()
@@ -242,7 +242,7 @@ class JobTraining:
         self._spent.load(part_of(state, "spent"), self.trainer)
 
     def _seconds(self) -> float:
-        return self._seconds_before + time.process_time() - self._began
+        return self._seconds_before + time.thread_time() - self._began
 
     def _outcome(self) -> JobOutcome:
         agent, runs = self.trainer.agent, len(self.job.trials)

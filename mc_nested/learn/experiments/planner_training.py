@@ -45,7 +45,7 @@ class PlannerTraining:
         self.evaluation_rows: list[EvaluationRow] = []
         self._env = arenas
         self._folder = folder
-        self._began = time.process_time()
+        self._began = time.thread_time()
         runs = len(job.trials)
         self._experience = [Experience() for _ in range(runs)]
         self._episodes = np.zeros(runs, dtype=np.int64)
@@ -93,7 +93,7 @@ class PlannerTraining:
             identity=fingerprint(self.job.identity()),
             networks=0,
             parameters=0,
-            seconds=round(time.process_time() - self._began, 3),
+            seconds=round(time.thread_time() - self._began, 3),
             runs=[
                 RunOutcome(
                     evaluations=[evaluated(row, self.job.scenarios[run]) for row in rows],

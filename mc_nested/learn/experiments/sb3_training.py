@@ -67,7 +67,7 @@ class Sb3Training:
             raise PresetError("a library's DQN explores by ε: name a preset with [explore_nested]")
         self.job = job
         self.evaluation_rows: list[EvaluationRow] = []
-        self._began = time.process_time()
+        self._began = time.thread_time()
         self._folder = folder
         self._scenario = scenario
         self._env, self._evaluation_env = Sb3Env(arenas, job.scenarios), Sb3Env(others, job.scenarios)
@@ -109,7 +109,7 @@ class Sb3Training:
             identity=fingerprint(self.job.identity()),
             networks=1,
             parameters=self._model.parameters,
-            seconds=round(time.process_time() - self._began, 3),
+            seconds=round(time.thread_time() - self._began, 3),
             runs=[
                 RunOutcome(
                     evaluations=[evaluated(row, self._scenario) for row in self.evaluation_rows],

@@ -1,0 +1,56 @@
+"""The options of verbs that can have their work done by a cluster."""
+
+import time
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from mc_nested.cli.output import Output
+from mc_nested.errors import ClusterError
+from mc_nested.workers.cluster.address import SchedulerAddress, scheduler_address
+from mc_nested.workers.cluster.connection import connected
+
+ClusterOption = Annotated[
+    str | None,
+    typer.Option(metavar="ADDRESS", help="let the workers of a Dask scheduler train, as tcp://127.0.0.1:8786"),
+]
+KeysOption = Annotated[
+    Path | None, typer.Option(metavar="DIR", help="this machine's keys, for tls:// (mc-nested cluster-keys)")
+]
+InsecureOption = Annotated[
+    bool, typer.Option("--insecure", help="speak plain TCP with another computer: in a network that is yours alone")
+]
+
+FIRST_WORKER_S = 60.0
+"""Seconds that a cluster's first worker may take to come."""
+
+LOOK_EVERY_S = 0.2
+
+
+def cluster_of(address: str | None, keys: Path | None, insecure: bool) -> SchedulerAddress | None:
+    """The scheduler that was named, None if none was; ClusterError as ``scheduler_address`` raises it."""
+    if address is not None:
+        return scheduler_address(address, keys, insecure=insecure)
+    if keys is not None or insecure:
+        raise ClusterError("--keys and --insecure say how a cluster is spoken to: name one with --cluster")
+    return None
+
+
+def threads_of(cluster: SchedulerAddress, output: Output) -> int:
+    """How many jobs its workers can train at a time; waits for the first worker.
+
+    ClusterError if the scheduler can't be reached, or no worker comes.
+    """
+    with connected(cluster) as client:
+        patient_until = time.monotonic() + FIRST_WORKER_S
+        while not (threads := sum(client.nthreads().values())):
+            if time.monotonic() > patient_until:
+                raise ClusterError(
+                    f"the scheduler at {cluster.url} has no worker: start some (dask worker {cluster.url} --nthreads 1)"
+                )
+            if time.monotonic() > patient_until - FIRST_WORKER_S + 1:
+                output.note(f"waiting for a worker of {cluster.url}")
+                client.wait_for_workers(1, timeout=max(1.0, patient_until - time.monotonic()))
+            time.sleep(LOOK_EVERY_S)
+        return int(threads)

@@ -1,0 +1,150 @@
+"""A JobExecutor whose jobs a cluster's workers train.
+
+A worker that dies costs the jobs that it was training: they go to others, MOST_TRIES times at most. Each job's result
+is taken once, whoever came to it.
+"""
+
+import threading
+import uuid
+import warnings
+from concurrent.futures import CancelledError, Future
+from contextlib import suppress
+from pathlib import Path
+from queue import SimpleQueue
+from typing import TYPE_CHECKING, Any
+
+from mc_nested.errors import RunError, UserError
+from mc_nested.learn.experiments.jobs import Job
+from mc_nested.report.tensorboard import FOLDER
+from mc_nested.workers.cluster.job_task import Reported, Trained, packed, stop_training, train_on_worker
+from mc_nested.workers.cluster.shipped_files import land, write_below
+from mc_nested.workers.cluster.versions import own_versions
+from mc_nested.workers.messages import JobEnded, JobReport
+
+if TYPE_CHECKING:  # the cluster extra's
+    from distributed import Client
+
+MOST_TRIES = 12
+"""Times that a job is handed to the scheduler, which gives up after four workers that were lost with it. Nobody can
+tell a job that takes more memory than there is from one whose workers were killed."""
+
+WHY_LOST = "if nobody stopped them, it needs more memory than they have"
+
+ALL = "all"
+"""The topic under which a scheduler tells who comes and goes."""
+
+
+class DaskJobs:
+    """The workers of a cluster, for one experiment.
+
+    Args:
+        client: a connection to its scheduler.
+    """
+
+    def __init__(self, client: "Client") -> None:
+        self._client = client
+        self._executor = client.get_executor(pure=False)
+        self._topic = f"mc-nested-{uuid.uuid4().hex}"
+        self._reported: SimpleQueue[JobReport] = SimpleQueue()
+        self._futures: dict[str, Future[Trained]] = {}
+        self._trained_by: dict[str, str] = {}
+        self._workers = set(client.scheduler_info()["workers"])
+        self._lost_workers = self._lost_jobs = 0
+        self._stopping = False
+        client.subscribe_topic(self._topic, self._hear)
+        client.subscribe_topic(ALL, self._hear_of_workers)
+
+    def submit(self, job: Job, folder: Path) -> Future[JobEnded]:
+        landed: Future[JobEnded] = Future()
+        self._hand_over(job, folder, landed, MOST_TRIES)
+        return landed
+
+    def reports(self) -> list[JobReport]:
+        return [self._reported.get() for _ in range(self._reported.qsize())]
+
+    def stop(self) -> None:
+        self._stopping = True
+        for name, future in self._futures.items():
+            if name not in self._trained_by:
+                future.cancel()
+        # In a thread: it waits for every worker's answer, and one may be gone.
+        threading.Thread(target=self._stop_all, daemon=True).start()
+
+    def _stop_all(self) -> None:
+        with suppress(Exception):  # of a worker that is gone: its job is cancelled with it
+            self._client.run(stop_training, self._topic, on_error="ignore")
+
+    def in_words(self) -> str:
+        running = len(self._trained_by)
+        waiting = sum(not future.done() for future in self._futures.values()) - running
+        words = f"{counted(len(self._workers), 'worker')}, {counted(running, 'job')} training, {waiting} waiting"
+        if self._lost_workers:
+            words += f"; lost {counted(self._lost_workers, 'worker')}, {counted(self._lost_jobs, 'job')} begun again"
+        return words
+
+    def _hand_over(self, job: Job, folder: Path, landed: Future[JobEnded], tries: int) -> None:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of large tasks: a checkpoint has to get there
+            key = f"{job.name}-{tries}-{self._topic}"
+            package = packed(job, folder)
+            trained = self._executor.submit(train_on_worker, own_versions(), package, self._topic, key=key)
+        self._futures[job.name] = trained
+        trained.add_done_callback(lambda done: self._land(job, folder, done, landed, tries - 1))
+
+    def _hear(self, event: tuple[float, dict[str, Any]]) -> None:
+        said = Reported(**event[1])
+        if not self._futures[said.job].done():
+            self._trained_by[said.job] = said.worker
+            self._reported.put(JobReport(said.job, said.episodes, said.scores, said.updates))
+
+    def _hear_of_workers(self, event: tuple[float, dict[str, Any]]) -> None:
+        said = event[1]
+        if said.get("action") == "add-worker":
+            self._workers.add(said["worker"])
+        elif said.get("action") == "remove-worker":
+            self._workers.discard(said["worker"])
+            its_jobs = [name for name, worker in self._trained_by.items() if worker == said["worker"]]
+            for name in its_jobs:
+                del self._trained_by[name]
+            if its_jobs or not said["expected"]:
+                self._lost_workers += 1
+                self._lost_jobs += len(its_jobs)
+
+    def _land(self, job: Job, folder: Path, done: Future[Trained], landed: Future[JobEnded], tries: int) -> None:
+        """Put what came back into the job's folder; ``landed`` says how it ended. A lost job has so many tries left."""
+        from distributed import KilledWorker
+
+        self._trained_by.pop(job.name, None)
+        try:
+            trained = done.result()
+            if not trained.ended.failed:
+                land(folder, trained.files)
+                write_below(folder.parent.parent / FOLDER, trained.events)
+            landed.set_result(trained.ended)
+        except CancelledError:
+            if self._stopping:
+                landed.cancel()
+                landed.set_running_or_notify_cancel()
+            else:
+                landed.set_exception(RunError("the scheduler was lost, or dropped the jobs"))
+        except KilledWorker as error:
+            if tries and not self._stopping:
+                self._hand_over(job, folder, landed, tries)
+            else:
+                workers = (MOST_TRIES - tries) * (error.allowed_failures + 1)
+                landed.set_exception(RunError(f"job {job.name} was lost with each of {workers} workers: {WHY_LOST}"))
+        except OSError as error:
+            landed.set_exception(RunError(f"{folder}: can't be written ({error}): make room"))
+        except Exception as error:
+            landed.set_exception(_in_words(job, error))
+
+
+def counted(count: int, what: str) -> str:
+    """``1 worker``, ``2 workers``."""
+    return f"{count:,} {what}" if count == 1 else f"{count:,} {what}s"
+
+
+def _in_words(job: Job, error: Exception) -> RunError:
+    if isinstance(error, UserError):
+        return RunError(str(error))
+    return RunError(f"job {job.name} failed on a worker: {type(error).__name__}: {error}")

@@ -1,0 +1,107 @@
+"""What a cluster's worker does with a job: trains it in a folder of its own, and sends back what the folder holds then.
+
+It runs in a thread of a Dask worker. Only jobs that begin are unpickled: after the versions were compared.
+"""
+
+import os
+import pickle
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from mc_nested.errors import ClusterError
+from mc_nested.learn.experiments.jobs import Job
+from mc_nested.report.tensorboard import FOLDER
+from mc_nested.workers.cluster.shipped_files import Files, files_below, write_below
+from mc_nested.workers.cluster.versions import Versions, differences, own_versions
+from mc_nested.workers.messages import JobEnded, JobReport
+from mc_nested.workers.processes import ONE_THREAD_EACH
+from mc_nested.workers.training import train_job
+
+if TYPE_CHECKING:
+    from distributed import Worker
+
+REPORT_EVERY_S = 1.0
+"""Seconds between two reports, which all go through one scheduler, and between two looks whether to stop."""
+
+UNITS = "units"
+"""The folder's name above a job's, as in an experiment's folder: what a job writes beside it lands there, too."""
+
+_stopped: set[str] = set()
+"""The topics of experiments that were stopped, in this worker's process."""
+
+
+class Trained(NamedTuple):
+    """How a job ended, its folder's files, and the events for TensorBoard."""
+
+    ended: JobEnded
+    files: Files
+    events: Files
+
+
+class Reported(NamedTuple):
+    """A report, as it goes through the scheduler: plain data alone; and the address of the worker that trains."""
+
+    job: str
+    episodes: list[int]
+    scores: list[float | None]
+    updates: int
+    worker: str
+
+
+def packed(job: Job, folder: Path) -> bytes:
+    """The job and the files of its folder, for ``train_on_worker``."""
+    return pickle.dumps((job, files_below(folder)))
+
+
+def train_on_worker(versions: Versions, package: bytes, topic: str) -> Trained:
+    """Train a packed job until it is finished, or saved because its experiment was stopped or its task cancelled.
+
+    ClusterError if this worker's versions aren't those.
+    """
+    from distributed import get_worker
+
+    worker: Worker = get_worker()
+    if differing := differences(versions, own_versions()):
+        message = f"the worker at {worker.address} has {differing}: install the same on both"
+        print(f"mc-nested: a job was refused: {message}", file=sys.stderr, flush=True)
+        raise ClusterError(message)
+    _use_one_thread()
+    job, files = pickle.loads(package)  # noqa: S301 - from the client, which the scheduler has let in
+    goes_on = _asks(worker, topic)
+
+    def report(now: JobReport) -> bool:
+        said = Reported(now.job, list(now.episodes), list(now.scores), now.updates, worker.address)
+        worker.log_event(topic, said._asdict())
+        return goes_on()
+
+    with tempfile.TemporaryDirectory(prefix="mc-nested-", dir=worker.local_directory) as root:
+        folder = Path(root) / UNITS / job.name
+        write_below(folder, files)
+        ended = train_job(job, folder, report, REPORT_EVERY_S)
+        return Trained(ended, files_below(folder), files_below(Path(root) / FOLDER))
+
+
+def stop_training(topic: str) -> None:
+    """Let this worker save the jobs of that experiment, now and later."""
+    _stopped.add(topic)
+
+
+def _asks(worker: "Worker", topic: str) -> Callable[[], bool]:
+    """Asks whether the task of this thread is still wanted."""
+    key = worker.get_current_task()
+
+    def goes_on() -> bool:
+        task: Any = worker.state.tasks.get(key)
+        return topic not in _stopped and task is not None and task.state != "cancelled"
+
+    return goes_on
+
+
+def _use_one_thread() -> None:
+    """Compute with one thread, as the processes of ``processes.py`` do: another number might round differently."""
+    os.environ.update(ONE_THREAD_EACH)
+    if torch := sys.modules.get("torch"):  # it has read the environment already
+        torch.set_num_threads(1)

@@ -1,0 +1,45 @@
+"""A job's files between two machines: what it goes on from, there; its outcome or where it stopped, back."""
+
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+
+from mc_nested.atomic_file import atomic_write
+from mc_nested.learn.experiments.job_training import OUTCOME
+from mc_nested.learn.runs.folder_lock import FILE as LOCK
+
+Files = Mapping[str, bytes]
+"""Contents by path, relative to a folder, with slashes."""
+
+CHECKPOINT = "checkpoint"
+
+
+def files_below(folder: Path) -> Files:
+    """The folder's files; none where there is no such folder."""
+    paths = sorted(path for path in folder.rglob("*") if path.is_file() and path.name != LOCK)
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
+
+
+def write_below(folder: Path, files: Files) -> None:
+    """Write the files into the folder; OSError if the disk refuses."""
+    for name, content in files.items():
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with atomic_write(path) as unfinished:
+            unfinished.write_bytes(content)
+
+
+def land(folder: Path, files: Files) -> None:
+    """Put what came back of a job into its folder, in place of the checkpoint there; OSError if the disk refuses.
+
+    Whenever the process is killed, the folder holds the old checkpoint, the new one or the outcome, each whole, or
+    nothing, so that the job begins anew.
+    """
+    old, new = folder / CHECKPOINT, folder / f"{CHECKPOINT}.new"
+    shutil.rmtree(new, ignore_errors=True)
+    saved = {name.removeprefix(f"{CHECKPOINT}/"): each for name, each in files.items() if name.startswith(CHECKPOINT)}
+    write_below(new, saved)
+    write_below(folder, {name: each for name, each in files.items() if name == OUTCOME})
+    shutil.rmtree(old, ignore_errors=True)
+    if saved:
+        new.rename(old)

@@ -1,0 +1,40 @@
+"""What decides what a training computes, on this machine: a worker has to have the same as who sends it jobs."""
+
+import hashlib
+import importlib.metadata
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+
+from mc_nested.compiled import ROOT
+
+PACKAGES = ("mc_nested", "sim")
+"""Whose files a job's results depend on."""
+
+LIBRARIES = ("numpy", "numba", "llvmlite", "torch", "distributed")
+"""Whose versions they depend on, or the messages between the machines."""
+
+Versions = Mapping[str, str]
+
+
+@cache
+def own_versions() -> Versions:
+    """This machine's versions, by name: this project's with a hash of its files, and the libraries'."""
+    own = f"{importlib.metadata.version('mc-nested')} ({_hash_of_files(ROOT)})"
+    return {"mc-nested": own, **{name: importlib.metadata.version(name) for name in LIBRARIES}}
+
+
+def differences(wanted: Versions, own: Versions) -> str:
+    """What differs, in words; empty if nothing does."""
+    differing = [name for name in wanted if wanted[name] != own.get(name)]
+    return ", ".join(f"{name} {own.get(name, 'missing')} instead of {wanted[name]}" for name in differing)
+
+
+def _hash_of_files(root: Path) -> str:
+    """A short hash of all that is computed with; a file's line ends, which differ between systems, don't count."""
+    digest = hashlib.sha256()
+    for package in PACKAGES:
+        for path in sorted((root / package).rglob("*.py")):
+            digest.update(path.relative_to(root).as_posix().encode())
+            digest.update(path.read_bytes().replace(b"\r\n", b"\n"))
+    return digest.hexdigest()[:8]

@@ -1,0 +1,72 @@
+"""Dask's own programs on this computer, on loopback: `dask scheduler` and `dask worker`, for measurements and tests."""
+
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from mc_nested.workers.cluster.keys import AUTHORITY, CERTIFICATE, KEY
+
+START_S = 60.0
+"""Seconds that a program may take to start."""
+
+
+@contextmanager
+def scheduler(folder: Path, *words: str) -> Iterator[str]:
+    """A scheduler with those words beside its own, on a free port: its address. It is ended after the block.
+
+    TimeoutError if it doesn't start; its log is in the folder.
+    """
+    told = folder / "scheduler.json"
+    host = () if "--host" in words else ("--host", "127.0.0.1")
+    running = _started(
+        folder / "scheduler.log",
+        "scheduler",
+        *host,
+        "--port",
+        "0",
+        "--no-dashboard",
+        "--scheduler-file",
+        str(told),
+        *words,
+    )
+    try:
+        end = time.monotonic() + START_S
+        while not (address := _address_in(told)):
+            if time.monotonic() > end or running.poll() is not None:
+                raise TimeoutError(f"no scheduler: see {folder / 'scheduler.log'}")
+            time.sleep(0.05)
+        yield address
+    finally:
+        running.kill()
+        running.wait()
+
+
+def worker(folder: Path, address: str, *words: str) -> subprocess.Popen[bytes]:
+    """A worker of one thread, without a nanny, with those words beside its own; it may not be connected yet."""
+    own = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", str(folder))
+    return _started(folder / "worker.log", "worker", address, *own, *words)
+
+
+def tls_words(keys: Path) -> tuple[str, ...]:
+    """The words with which either program takes a machine's keys."""
+    return ("--tls-ca-file", str(keys / AUTHORITY), "--tls-cert", str(keys / CERTIFICATE), "--tls-key", str(keys / KEY))
+
+
+def _started(log: Path, *words: str) -> subprocess.Popen[bytes]:
+    program = [sys.executable, "-m", "dask", *words]
+    with log.open("ab") as file:
+        return subprocess.Popen(program, stdin=subprocess.DEVNULL, stdout=file, stderr=file)  # noqa: S603 - Dask's own
+
+
+def _address_in(told: Path) -> str | None:
+    try:
+        address: str = json.loads(told.read_text("utf-8"))["address"]
+    except (OSError, ValueError, KeyError):
+        return None
+    return address

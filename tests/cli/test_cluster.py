@@ -1,0 +1,75 @@
+"""An experiment on a cluster writes the same bytes as here, and goes on there or here."""
+
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from scripts.dask_programs import scheduler, worker
+from tests.cli.running import run
+from tests.learn.made_experiments import DOT, scenario_text, small_preset_text
+
+pytestmark = pytest.mark.slow
+
+FILES = ("results.csv", "figure5.png")
+
+
+@pytest.fixture(scope="module")
+def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    folder = tmp_path_factory.mktemp("cluster")
+    with scheduler(folder) as address:
+        workers = [worker(folder, address) for _ in range(2)]
+        try:
+            yield address
+        finally:
+            for each in workers:
+                each.kill()
+                each.wait()
+
+
+@pytest.fixture(scope="module")
+def words(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    folder = tmp_path_factory.mktemp("made")
+    (folder / "dot.toml").write_text(scenario_text(DOT), "utf-8")
+    (folder / "small.toml").write_text(small_preset_text(), "utf-8")
+    own = ["--scenario", str(folder / "dot.toml"), "--preset", str(folder / "small.toml")]
+    return ["reproduce", *own, "--trials", "2", "-q"]
+
+
+@pytest.fixture(scope="module")
+def here(words: list[str], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("experiments") / "here"
+    assert run(*words, "--jobs", "1", "--out", out) == 0
+    return out
+
+
+def content(out: Path) -> dict[str, bytes]:
+    return {name: (out / name).read_bytes() for name in FILES}
+
+
+@pytest.mark.parametrize("jobs", ["1", "7"])
+def test_an_experiment_writes_the_same_bytes(jobs: str, url: str, words: list[str], here: Path, tmp_path: Path) -> None:
+    assert run(*words, "--cluster", url, "--jobs", jobs, "--out", tmp_path / "there") == 0
+    assert content(tmp_path / "there") == content(here)
+
+
+@pytest.mark.parametrize(("first", "then"), [([], ["--cluster", "URL"]), (["--cluster", "URL"], [])])
+def test_it_is_stopped_on_one_side_and_goes_on_at_the_other(
+    first: list[str], then: list[str], url: str, words: list[str], tmp_path: Path
+) -> None:
+    long = [*words, "--episodes", "1500", "--jobs", "2", "--seed", "1"]
+    whole, cut = tmp_path / "whole", tmp_path / "cut"
+    assert run(*long, "--out", whole) == 0
+    stopped = [sys.executable, "-m", "mc_nested.cli", *long, "--out", str(cut)]
+    training = subprocess.Popen([*stopped, *(word.replace("URL", url) for word in first)])
+    while training.poll() is None and not list(cut.glob("units/*/outcome.json")):
+        time.sleep(0.05)
+    training.send_signal(signal.SIGINT)
+    assert training.wait(60) == 130
+    assert any((job / "checkpoint").is_dir() for job in (cut / "units").iterdir() if job.is_dir())
+    assert run("reproduce", "--resume", cut, *(word.replace("URL", url) for word in then)) == 0
+    assert content(cut) == content(whole)

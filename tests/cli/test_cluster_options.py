@@ -1,0 +1,61 @@
+"""The options of a cluster: mistakes are one line, before anything is written."""
+
+import socket
+from pathlib import Path
+
+import pytest
+
+from mc_nested.cli import cluster_options
+from mc_nested.cli.cluster_options import cluster_of, threads_of
+from mc_nested.cli.output import Output
+from mc_nested.errors import ClusterError
+from mc_nested.workers.cluster import connection
+from mc_nested.workers.cluster.address import SchedulerAddress
+from scripts.dask_programs import scheduler
+from tests.cli.running import run
+
+
+def test_without_an_address_the_other_options_are_a_mistake(tmp_path: Path) -> None:
+    assert cluster_of(None, None, insecure=False) is None
+    for keys, insecure in ((tmp_path, False), (None, True)):
+        with pytest.raises(ClusterError, match="name one with --cluster"):
+            cluster_of(None, keys, insecure=insecure)
+
+
+def test_a_scheduler_without_a_worker_is_waited_for_and_then_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cluster_options, "FIRST_WORKER_S", 0.5)
+    with scheduler(tmp_path) as url, pytest.raises(ClusterError, match="has no worker: start some"):
+        threads_of(SchedulerAddress(url, None), Output(quiet=True))
+
+
+@pytest.mark.parametrize("verb", ["reproduce", "sweep", "benchmark"])
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--cluster", "10.0.0.1"], "needs this machine's keys"),
+        (["--cluster", "tcp://10.0.0.1"], "is not encrypted"),
+        (["--cluster", "nowhere://x"], "is not spoken here"),
+        (["--cluster", "127.0.0.1:PORT"], "no scheduler answered at tcp://127.0.0.1:PORT in 0.5 s"),
+        (["--insecure"], "name one with --cluster"),
+    ],
+)
+def test_a_mistake_is_one_line_and_writes_nothing(
+    verb: str,
+    words: list[str],
+    says: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(connection, "CONNECT_S", 0.5)
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = str(free.getsockname()[1])
+    out = tmp_path / "out"
+    assert run(verb, *(word.replace("PORT", port) for word in words), "--out", out) == 2
+    said = capsys.readouterr().err
+    assert says.replace("PORT", port) in said
+    assert said.count("\n") == 1
+    assert not out.exists()

@@ -1,0 +1,21 @@
+"""A real Dask scheduler with a real worker, each a process of its own."""
+
+from collections.abc import Iterator
+
+import pytest
+
+from mc_nested.workers.cluster.address import SchedulerAddress
+from scripts.dask_programs import scheduler, worker
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SchedulerAddress]:
+    """A scheduler on loopback with one worker."""
+    folder = tmp_path_factory.mktemp("cluster")
+    with scheduler(folder) as url:
+        running = worker(folder, url)
+        try:
+            yield SchedulerAddress(url, None)
+        finally:
+            running.kill()
+            running.wait()

@@ -1,0 +1,39 @@
+"""What has to be the same on both ends, and how a difference is said."""
+
+from pathlib import Path
+
+import pytest
+
+from mc_nested.workers.cluster import versions
+from mc_nested.workers.cluster.versions import LIBRARIES, differences, own_versions
+
+
+def test_a_machine_agrees_with_itself() -> None:
+    assert differences(own_versions(), own_versions()) == ""
+    assert set(own_versions()) == {"mc-nested", *LIBRARIES}
+
+
+def test_what_differs_is_named_with_both_versions() -> None:
+    wanted = {"mc-nested": "0.1.0 (a)", "numpy": "2", "numba": "1"}
+    own = {"mc-nested": "0.1.0 (b)", "numpy": "2"}
+    assert differences(wanted, own) == "mc-nested 0.1.0 (b) instead of 0.1.0 (a), numba missing instead of 1"
+
+
+def test_any_change_of_a_file_counts_but_its_line_ends(tmp_path: Path) -> None:
+    for package in versions.PACKAGES:
+        (tmp_path / package).mkdir()
+    file = tmp_path / versions.PACKAGES[0] / "a.py"
+    file.write_bytes(b"x = 1\ny = 2\n")
+    before = versions._hash_of_files(tmp_path)
+    file.write_bytes(b"x = 1\r\ny = 2\r\n")
+    assert versions._hash_of_files(tmp_path) == before
+    file.write_bytes(b"x = 1\ny = 3\n")
+    assert versions._hash_of_files(tmp_path) != before
+    file.rename(file.with_name("b.py"))
+    file.with_name("b.py").write_bytes(b"x = 1\ny = 2\n")
+    assert versions._hash_of_files(tmp_path) != before
+
+
+@pytest.mark.parametrize("name", LIBRARIES)
+def test_every_library_counts(name: str) -> None:
+    assert differences(own_versions(), {**own_versions(), name: "0"}).startswith(f"{name} 0 instead of")
