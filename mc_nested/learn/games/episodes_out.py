@@ -60,10 +60,14 @@ class EpisodesOut:
         """The training episodes aren't out any more."""
         self._out = {number: out for number, out in self._out.items() if out.plan.greedy}
 
+    def supersede(self, episodes: int) -> None:
+        """Evaluations that were planned after fewer training episodes than that aren't out any more."""
+        self._out = {n: out for n, out in self._out.items() if not out.plan.greedy or out.episodes >= episodes}
+
     @property
-    def evaluates(self) -> bool:
-        """Whether one of them is an evaluation."""
-        return any(out.plan.greedy for out in self._out.values())
+    def newest_evaluation(self) -> int:
+        """The training episodes after which the last of the evaluations was planned; -1 if there is none."""
+        return max((out.episodes for out in self._out.values() if out.plan.greedy), default=-1)
 
     @property
     def probes(self) -> frozenset[Cell]:

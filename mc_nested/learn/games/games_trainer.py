@@ -21,12 +21,12 @@ from numpy.typing import NDArray
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
-from mc_nested.errors import PresetError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.exploration.schedules import decays_of
 from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
 from mc_nested.learn.games.episodes_out import EpisodeOut, EpisodesOut
+from mc_nested.learn.games.fit import check_games
 from mc_nested.learn.games.lesson import RUN, learn_episode, materials_of, record_episode
 from mc_nested.learn.imagination.first_tries import FirstTries
 from mc_nested.learn.imagination.imagination import Imagination
@@ -247,7 +247,12 @@ class GamesTrainer:
     @property
     def _is_begun_from(self) -> bool:
         """Whether a policy from elsewhere is still to be evaluated as it is."""
-        return bool(self._evaluated_at[0] < 0) and not self._out.evaluates
+        return self._last_evaluation < 0
+
+    @property
+    def _last_evaluation(self) -> int:
+        """The training episodes after which the last evaluation was planned, whether it is back or out."""
+        return max(int(self._evaluated_at[0]), self._out.newest_evaluation)
 
     @property
     def _is_last(self) -> bool:
@@ -255,11 +260,12 @@ class GamesTrainer:
         return bool(self._episodes[0] >= self.preset.episodes)
 
     def _is_evaluation_due(self) -> bool:
-        """Whether this policy is to be evaluated; one evaluation is out at a time, but for the last."""
-        done, last, every = int(self._episodes[0]), int(self._evaluated_at[0]), self.preset.evaluate_every
-        if self._imagination:
-            every = 1
-        return self._is_last or (done // every > last // every and not self._out.evaluates)
+        """Whether it is time to evaluate: never twice after the same episodes, but for the last evaluation.
+
+        One that doesn't come back, from a game that hangs, is followed by another a few episodes later.
+        """
+        every = 1 if self._imagination else self.preset.evaluate_every
+        return self._is_last or int(self._episodes[0]) // every > self._last_evaluation // every
 
     def _learn(self, out: EpisodeOut, played: PlayedEpisode, materials: Int64s) -> None:
         """Update from a training episode; with an imagination, practice does."""
@@ -272,6 +278,7 @@ class GamesTrainer:
         self.evaluation_steps += played.steps
         self.evaluation_rows.append(EvaluationRow(0, out.episodes, played.score, material, played.steps))
         self._evaluated_at[0] = out.episodes
+        self._out.supersede(out.episodes)
         if self.preset.keep == "last" or played.score > self._kept.scores[0]:
             self._kept.take(0, played.score, out.online)
         reached = self._stop_at_optimum and played.score >= self._optimum
@@ -286,13 +293,3 @@ class GamesTrainer:
         self.episode_rows.append(EpisodeRow(0, *told, *out.epsilons))
         if self._is_last:
             self._out.keep_evaluations()
-
-
-def check_games(scenario: Scenario, preset: Preset) -> None:
-    """PresetError, one line, if games can't play that preset's episodes of that scenario by themselves."""
-    if preset.excursions:  # each step of one depends on what the learner remembers of the best
-        raise PresetError(
-            "[excursions] need the learner at every step: with several games take the preset live or paper"
-        )
-    if scenario.parts:  # the main agent chooses within an episode
-        raise PresetError(f"{scenario.name} has parts, which several games can't learn together: train with one game")

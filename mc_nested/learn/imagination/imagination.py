@@ -88,10 +88,10 @@ class Imagination:
         actions, size = self._space.actions, self._surroundings[run].size
         return learn_rules(seen.steps, seen.first_of_episode, actions, size)
 
-    def beliefs(self, run: int, elsewhere: Collection[Cell] = ()) -> Beliefs:
-        """What that run thinks of every cell; what is probed ``elsewhere`` is taken to pay nothing."""
-        here, rule = self._surroundings[run], self._rule
-        steps, lands = self._experience[run].steps, self.rules(run).lands
+    def beliefs(self, run: int, rules: LearntRules | None = None, elsewhere: Collection[Cell] = ()) -> Beliefs:
+        """What that run thinks of every cell, by its rules; what is probed ``elsewhere`` is taken to pay nothing."""
+        here, rule, steps = self._surroundings[run], self._rule, self._experience[run].steps
+        lands = (rules or self.rules(run)).lands
         return believe(steps, lands, here.size, here.start[2], rule.optimism, rule.neighbours, elsewhere)
 
     def learn_choice(self, run: int, elsewhere: Collection[int] = ()) -> None:
@@ -132,7 +132,8 @@ class Imagination:
         no such games.
         """
         seen, here = self._experience[run], self._surroundings[run]
-        rules, beliefs = self.rules(run), self.beliefs(run, elsewhere or ())
+        rules = self.rules(run)
+        beliefs = self.beliefs(run, rules, elsewhere or ())
         anew = bool(self._falls_short[run]) and not self._explores[run] and not beliefs.explores
         self._explores[run] = beliefs.explores
         self._unclear[run] = unclear_moves(seen.steps, self._space.actions)
@@ -201,16 +202,17 @@ class Imagination:
         """The unknown cells where that run's policy should place a block in its next episode, with that material."""
         if not self.has_experience(run):
             return frozenset()
-        here, rules, cells = self._surroundings[run], self.rules(run), self.beliefs(run).cells
+        here, rules = self._surroundings[run], self.rules(run)
+        beliefs = self.beliefs(run, rules)
         row, others = np.array([self._row(run, material)]), self._appended(material)
 
         def policy(state: tuple[int, int, int]) -> int:
             states = np.array([[*state, *others]])
             return int(self._low_level.act(states, np.zeros(1), np.ones((1, CHOICE_NUMBERS)), row)[0])
 
-        arena = imagined_arena(rules, self.beliefs(run))
+        arena = imagined_arena(rules, beliefs)
         landings = expected_landings(arena, here.start, here.step_limit, policy, self.first_tries(run).copied())
-        return frozenset(cell for cell in landings if cells[cell] in (Belief.UNKNOWN, Belief.BELIEVED))
+        return frozenset(cell for cell in landings if beliefs.cells[cell] in (Belief.UNKNOWN, Belief.BELIEVED))
 
     def seen(self, run: int) -> Seen:
         """What that run knows of its arena now, and what it has spent its real episodes on."""

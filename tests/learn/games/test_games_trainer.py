@@ -173,11 +173,21 @@ def test_an_evaluation_keeps_the_networks_that_played_it() -> None:
         np.testing.assert_array_equal(learner.kept[role], online)
 
 
-def test_one_policy_is_evaluated_by_one_game_at_a_time() -> None:
+def test_after_the_same_episodes_one_game_evaluates_and_no_other() -> None:
     learner, plan = with_a_known_design()
     assert not learner.plan("game 1").greedy
     learner.abandon(plan.number)
     assert learner.plan("game 0").greedy, "the evaluation that didn't come is still due"
+
+
+def test_a_game_that_hangs_in_an_evaluation_keeps_nobody_from_the_next_which_takes_its_place() -> None:
+    learner, hung = with_a_known_design()
+    learner.take(play(learner.plan("game 1")))
+    newer = learner.plan("game 1")
+    assert newer.greedy
+    assert learner.take(play(newer))
+    assert not learner.take(play(hung)), "the rows of evaluations are in their policies' order"
+    assert [row.episode for row in learner.evaluation_rows][-1] == len(learner.episode_rows)
 
 
 def test_at_the_optimum_it_is_finished_and_what_is_out_is_dropped() -> None:
@@ -218,6 +228,16 @@ def test_without_an_imagination_it_learns_from_each_step_when_the_episode_is_bac
     if learner.agent.main:
         assert learner.agent.main.engine.updates.tolist() == [2]
     finish(learner, game)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("agent", ["nested", "single"])
+def test_an_agent_that_sees_the_arena_as_an_image_learns_so_too(agent: str) -> None:
+    image = load_preset("image")
+    preset = image.model_copy(update={"update": image.update.model_copy(update={"learning_starts": 1})})
+    learner, play_image = learner_of(BENT, preset, agent=agent), game_of(BENT, preset, agent)
+    assert learner.take(play_image(learner.plan("game")))
+    assert learner.agent.low_level.engine.updates.sum() == learner.env_steps > 0
 
 
 def test_the_same_episodes_in_the_same_order_train_the_same() -> None:
