@@ -162,8 +162,9 @@ class GamesTrainer:
     def take(self, played: PlayedEpisode) -> bool:
         """Learn from a whole episode; whether it counted.
 
-        It doesn't where its plan isn't out: it was taken or abandoned, comes from before the training was resumed, or
-        the training has all its episodes. DivergedError as for a trainer's tick.
+        It doesn't where its plan isn't out: it was taken or abandoned, comes from before the training was resumed, is
+        an evaluation of an older policy than one that has counted, or the training has all its episodes. DivergedError
+        as for a trainer's tick.
         """
         out = self._out.remove(played.number) if played.sitting == self._sitting else None
         if out is None:
