@@ -6,7 +6,7 @@ from pathlib import Path
 from mc_nested.arrays import Arrays
 from mc_nested.errors import RunError
 from mc_nested.learn.runs.run_folder import RunFolder
-from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.training import Training
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class EarlierRun:
     same_materials: bool
     path: Path
 
-    def begin(self, trainer: Trainer) -> None:
+    def begin(self, trainer: Training) -> None:
         """Let every run of the trainer begin from it; RunError if its learnt game doesn't fit."""
         trainer.begin_from(self.online, evaluated_first=self.game is None or self.same_design)
         if self.game is not None and trainer.imagination is not None:

@@ -18,7 +18,7 @@ from rich.text import Text
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.progress_line import print_line
 from mc_nested.learn.imagination.imagination import Imagination
-from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.training import Training
 from mc_nested.report.terminal_map import map_view
 
 REFRESH_S = 0.2
@@ -64,7 +64,7 @@ class TrainingProgress:
     def __init__(
         self,
         scenario: Scenario,
-        trainer: Trainer,
+        trainer: Training,
         console: Console | None = None,
         stops: Callable[[], bool] = lambda: False,
     ) -> None:

@@ -21,6 +21,7 @@ from mc_nested.cli.viewing import Viewed, viewed
 from mc_nested.errors import DesktopError, LiveError, NotInFrontError
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.training import Training
 from mc_nested.live.failure_budget import FailureBudget
 from mc_nested.report.arena_map import draw_map
 from mc_nested.report.curve import align_trials, draw_curve
@@ -165,14 +166,14 @@ def _tick(training: _Training) -> None:
         trainer.abandon_episodes()
 
 
-def _events(folder: RunFolder, trainer: Trainer) -> TensorBoard | None:
+def _events(folder: RunFolder, trainer: Training) -> TensorBoard | None:
     if not is_installed():
         return None
     with folder.writing():
         return TensorBoard([folder.path / FOLDER / f"trial-{trial}" for trial in range(folder.config.trials)], trainer)
 
 
-def _draw(folder: RunFolder, trainer: Trainer) -> None:
+def _draw(folder: RunFolder, trainer: Training) -> None:
     """Draw the curve, and what was learnt of the arena, if anything was."""
     config, scenario = folder.config, folder.scenario
     title = f"{scenario.name}, {config.agent} agent, preset {Path(config.preset_name).stem}"

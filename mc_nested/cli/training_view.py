@@ -12,7 +12,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.options import Backend, where_words
 from mc_nested.learn.episode_log import EpisodeRow
 from mc_nested.learn.runs.run_folder import RunConfig
-from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.training import Training
 from mc_nested.report.game_time import expected
 from mc_nested.report.terminal_map import belief_rows
 from mc_nested.view.board import Board
@@ -46,7 +46,7 @@ class TrainingView:
     def __init__(
         self,
         board: Board,
-        trainer: Trainer,
+        trainer: Training,
         scenario: Scenario,
         arenas: Arenas,
         config: RunConfig,
@@ -172,7 +172,7 @@ class BestScores:
         self._best = np.full(trials, -np.inf)
         self._episodes = self._evaluations = 0
 
-    def after(self, trainer: Trainer) -> float | None:
+    def after(self, trainer: Training) -> float | None:
         """The mean after what the trainer did until now; None until every trial had a score."""
         for episode in trainer.episode_rows[self._episodes :]:
             self._best[episode.trial] = max(self._best[episode.trial], episode.score)

@@ -1,9 +1,10 @@
 """The policies that the runs keep: what plays afterwards."""
 
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mc_nested.arrays import Arrays
 
@@ -37,9 +38,10 @@ class KeptPolicies:
         """Keep the networks of every run as they are; no score is known of them."""
         self.online = {role: online.copy() for role, online in self._agent.online().items()}
 
-    def take(self, run: int, score: float) -> None:
-        """Keep a run's networks as they are, which have scored that."""
+    def take(self, run: int, score: float, online: Mapping[str, NDArray[Any]] | None = None) -> None:
+        """Keep a run's networks, which have scored that: as they are, or as all runs' were, by role."""
         self.scores[run] = score
+        played = self._agent.online() if online is None else online
         for role, rows in self._agent.rows_of(run).items():
             if role in self.online:
-                self.online[role][rows] = self._agent.online()[role][rows]
+                self.online[role][rows] = played[role][rows]

@@ -24,22 +24,16 @@ from mc_nested.learn.agents import Agent
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.episode_rollback import EpisodeMemory, EpisodeRollback
 from mc_nested.learn.exploration.batched_return_then_explore import NUMBERS, BatchedReturnThenExplore
-from mc_nested.learn.exploration.schedules import LinearDecay
+from mc_nested.learn.exploration.schedules import decays_of
 from mc_nested.learn.imagination.background_practice import Background, BackgroundPractice, BackgroundThread
 from mc_nested.learn.imagination.imagination import Imagination
 from mc_nested.learn.kept_policies import KeptPolicies
 from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.main_choices import ChoiceStep, MainChoices
-from mc_nested.learn.preset import Exploration, Preset
+from mc_nested.learn.preset import Preset
 from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import Streams
 from mc_nested.learn.training_journal import TrainingJournal
-
-NEVER = LinearDecay(0.0, 0.0, 1.0)
-"""ε where every real episode is the greedy policy's: exploration follows from the imagination."""
-
-EXCURSIONS_ONLY = LinearDecay(1.0, 1.0, 1.0)
-"""The nested agent's ε if every training episode is an excursion: no step is the greedy policy's."""
 
 
 @dataclass
@@ -94,8 +88,7 @@ class Trainer:
         self._optimum = np.array([scenario.optimum for scenario in scenarios])
         start = agent.start_states(scenarios)
         self._choices = MainChoices(agent.main, scenarios, start, preset, seed, agent.runs) if agent.main else None
-        without = EXCURSIONS_ONLY if preset.excursions else NEVER
-        self._explore = _decay(preset.explore_main, NEVER), _decay(preset.explore_nested, without)
+        self._explore = decays_of(preset)
         self._explorer = BatchedReturnThenExplore(preset.excursions, agent, scenarios) if preset.excursions else None
         self._imagination = agent.imagination(scenarios, preset, seed)
         plays_on = self._imagination is not None and self._resumable is None
@@ -377,7 +370,3 @@ class Trainer:
                 self._kept.take(run, score)
             reached = self._stop_at_optimum and score >= self._optimum[run]
             runs.finished[run] = episode >= self.preset.episodes or reached
-
-
-def _decay(exploration: Exploration | None, without: LinearDecay) -> LinearDecay:
-    return LinearDecay(exploration.start, exploration.floor, exploration.share) if exploration else without

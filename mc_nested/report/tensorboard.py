@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.training import Training
 
 FOLDER = "tensorboard"
 FILE = "events.out.tfevents.mc-nested"
@@ -31,7 +31,7 @@ class TensorBoard:
         trainer: its runs; evaluations from before count as written.
     """
 
-    def __init__(self, folders: Sequence[Path], trainer: Trainer) -> None:
+    def __init__(self, folders: Sequence[Path], trainer: Training) -> None:
         self._trainer = trainer
         self._logs = [_Log(folder) for folder in folders]
         self._episodes, self._evaluations = len(trainer.episode_rows), len(trainer.evaluation_rows)

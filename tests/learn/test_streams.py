@@ -2,7 +2,15 @@
 
 import numpy as np
 
-from mc_nested.learn.streams import TICKS_A_CHUNK, Streams, initial_stream, main_updates_stream, practice_stream
+from mc_nested.learn.streams import (
+    TICKS_A_CHUNK,
+    Streams,
+    initial_stream,
+    lesson_stream,
+    main_updates_stream,
+    plan_stream,
+    practice_stream,
+)
 
 TICKS = [0, 1, TICKS_A_CHUNK - 1, TICKS_A_CHUNK, 10 * TICKS_A_CHUNK + 3]
 
@@ -45,3 +53,10 @@ def test_practice_differs_by_seed_run_and_episode_and_from_all_else() -> None:
     others = [main_updates_stream(*way).random() for way in ways] + [initial_stream(0, 0).random()]
     assert len({*drawn, *others, Streams(0, [0], 1).at(0)[0, 0]}) == len(drawn) + len(others) + 1
     assert drawn == [practice_stream(*way).random() for way in ways]
+
+
+def test_a_games_episode_and_what_is_learnt_from_it_differ_by_seed_run_and_number() -> None:
+    ways = [(seed, run, number) for seed in (0, 1) for run in (0, 1) for number in (0, 1, 5000)]
+    drawn = [stream(*way).random() for stream in (plan_stream, lesson_stream, practice_stream) for way in ways]
+    assert len(set(drawn)) == 3 * len(ways)
+    assert drawn == [stream(*way).random() for stream in (plan_stream, lesson_stream, practice_stream) for way in ways]

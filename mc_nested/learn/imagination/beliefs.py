@@ -6,6 +6,7 @@ unknown is taken to pay (R-max; Brafman and Tennenholtz, 2002), and more than wh
 first what lies beside a paying cell, where designs go on; everything, if nothing unknown lies there.
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from enum import IntEnum
 
@@ -47,11 +48,18 @@ class Beliefs:
 
 
 def believe(
-    steps: Int64s, lands: Cell, size: int, blocks: int, optimism: bool = True, neighbours: bool = True
+    steps: Int64s,
+    lands: Cell,
+    size: int,
+    blocks: int,
+    optimism: bool = True,
+    neighbours: bool = True,
+    elsewhere: Collection[Cell] = (),
 ) -> Beliefs:
     """What the transitions (steps, 9) (experience.py) say of every cell, if blocks land at ``lands`` from the agent.
 
     Without ``optimism`` what is unknown isn't taken to pay; without ``neighbours`` all that is unknown is alike.
+    Cells that are probed ``elsewhere``, in other games, are taken to pay nothing, unless no other unknown cell is left.
     """
     evidence = np.zeros((2, size, size))
     told = (steps[:, 2] > steps[:, 6]) & (steps[:, 7] != UNTOLD)
@@ -62,6 +70,10 @@ def believe(
             evidence[paid, cell[0], cell[1]] += 1.0
     tried = evidence.any(axis=0)
     unknown = ~tried & _reached(lands, size)
+    free = unknown.copy()
+    free[tuple(np.array(list(elsewhere), dtype=np.int64).reshape(-1, 2).T)] = False
+    if free.any():
+        unknown = free
     pays = tried & (evidence[1] > evidence[0])
     explores = int(pays.sum()) < blocks
     believed = _beside(pays) & unknown & explores & neighbours

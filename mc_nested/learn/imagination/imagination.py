@@ -6,28 +6,31 @@ greedily. All exploration of the real game follows from optimism in the learnt o
 steps of all, which try the actions.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mc_nested.arena.action import Cell
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 from mc_nested.learn.dqn.state_space import numbered
 from mc_nested.learn.imagination.arena_step import imagined_arena
-from mc_nested.learn.imagination.beliefs import Beliefs, believe
+from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe
+from mc_nested.learn.imagination.expected_episode import expected_landings
 from mc_nested.learn.imagination.experience import Experience, RealStep
+from mc_nested.learn.imagination.first_tries import FirstTries
 from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules, unclear_moves
 from mc_nested.learn.imagination.material_choice import learn_choice, scores_of_materials
 from mc_nested.learn.imagination.practice import Goal, Practice, PracticeSession, RealTransitions, landed_cells
 from mc_nested.learn.imagination.seen import Seen, seen_by
-from mc_nested.learn.learner import Learner
+from mc_nested.learn.learner import CHOICE_NUMBERS, Learner
 from mc_nested.learn.preset import ImaginationRule, Preset
 from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import practice_stream
 
-FIRST_TRIES = 0.125
-"""This share of the steps tries an action of which it isn't known where it leads."""
+THOROUGH = 0.999
+"""In place of ``enough`` beside other games: a policy that leaves a block over takes all the steps that there are."""
 
 
 def learnt_game(state: Mapping[str, NDArray[Any]], run: int) -> Arrays:
@@ -85,23 +88,31 @@ class Imagination:
         actions, size = self._space.actions, self._surroundings[run].size
         return learn_rules(seen.steps, seen.first_of_episode, actions, size)
 
-    def beliefs(self, run: int) -> Beliefs:
-        """What that run thinks of every cell."""
-        here, rule = self._surroundings[run], self._rule
-        steps, lands = self._experience[run].steps, self.rules(run).lands
-        return believe(steps, lands, here.size, here.start[2], rule.optimism, rule.neighbours)
+    def beliefs(self, run: int, rules: LearntRules | None = None, elsewhere: Collection[Cell] = ()) -> Beliefs:
+        """What that run thinks of every cell, by its rules; what is probed ``elsewhere`` is taken to pay nothing."""
+        here, rule, steps = self._surroundings[run], self._rule, self._experience[run].steps
+        lands = (rules or self.rules(run)).lands
+        return believe(steps, lands, here.size, here.start[2], rule.optimism, rule.neighbours, elsewhere)
 
-    def learn_choice(self, run: int) -> None:
-        """Let the main agent of that run learn what each material would bring in its learnt game."""
+    def learn_choice(self, run: int, elsewhere: Collection[int] = ()) -> None:
+        """Let the main agent of that run learn what each material would bring in its learnt game.
+
+        Of the materials that are played ``elsewhere``, an untried one isn't worth another try.
+        """
         here = self._surroundings[run]
         scores = scores_of_materials(
-            self._experience[run].extras, here.materials, here.start[2], self.beliefs(run).most
+            self._experience[run].extras, here.materials, here.start[2], self.beliefs(run).most, elsewhere
         )
         learn_choice(self._main, run, np.array(here.start), scores)
 
-    def practise(self, run: int, material: int) -> bool:
-        """Practise that run's agent with that material; whether its policy now builds all of a known design."""
-        session = self.session(run, material)
+    def practise(
+        self, run: int, material: int, number: int | None = None, elsewhere: Collection[Cell] | None = None
+    ) -> bool:
+        """Practise that run's agent with that material; whether its policy now builds all of a known design.
+
+        ``number`` and ``elsewhere`` as for ``session``.
+        """
+        session = self.session(run, material, number, elsewhere)
         session.run()
         return self.builds_it_all(run, session)
 
@@ -110,20 +121,26 @@ class Imagination:
         self._falls_short[run] = not session.practised.reached
         return session.practised.reached and not bool(self._explores[run])
 
-    def session(self, run: int, material: int) -> PracticeSession:
+    def session(
+        self, run: int, material: int, number: int | None = None, elsewhere: Collection[Cell] | None = None
+    ) -> PracticeSession:
         """A practice of that run's agent with that material, to be run; over at once before the game's first step.
 
-        Where the last one fell short of building all of a known design, the networks begin anew.
+        Where the last one fell short of building all of a known design, the networks begin anew. ``number`` is the
+        practice's, on which its random numbers depend; how many episodes the run has begun, unless given. What is
+        probed ``elsewhere``, in games whose episodes are still to come, is taken to pay nothing; None where there are
+        no such games.
         """
         seen, here = self._experience[run], self._surroundings[run]
-        rules, beliefs = self.rules(run), self.beliefs(run)
+        rules = self.rules(run)
+        beliefs = self.beliefs(run, rules, elsewhere or ())
         anew = bool(self._falls_short[run]) and not self._explores[run] and not beliefs.explores
         self._explores[run] = beliefs.explores
         self._unclear[run] = unclear_moves(seen.steps, self._space.actions)
         arena = imagined_arena(rules, beliefs)
         x, y, blocks = here.start
         if beliefs.explores:
-            aim = self._rule.enough * beliefs.most
+            aim = (self._rule.enough if elsewhere is None else THOROUGH) * beliefs.most
             most_updates, most_table_steps = self._rule.updates_exploring, self._rule.table_steps_exploring
         else:
             aim = beliefs.most
@@ -136,7 +153,7 @@ class Imagination:
             Goal((x, y), blocks, here.step_limit, aim, most_updates, most_table_steps, anew),
             self._appended(material),
             self._real_transitions(run, material, landed_cells(seen.steps, rules.lands, arena)),
-            practice_stream(self._seed, self._numbers[run], seen.episodes),
+            practice_stream(self._seed, self._numbers[run], seen.episodes if number is None else number),
         )
 
     def begin(self, runs: Int64s) -> None:
@@ -145,40 +162,57 @@ class Imagination:
             self._experience[run].begin()
 
     def act(self, runs: Int64s, actions: Int64s) -> Int64s:
-        """The actions of the named runs (k,), of ``actions`` for all: the policy's, once it is known what they do.
-
-        An action that has never moved is tried in other cells of an episode than where it was already: at an edge, it
-        would be stopped for ever. So is one whose move may be a slip. Once all cells are known, it is tried where
-        practice fell short of building them all.
-        """
+        """The actions of the named runs (k,), of ``actions`` for all: first tries, or the policy's (first_tries.py)."""
         chosen: Int64s = actions[runs].copy()
-        for at, run in enumerate(runs):
-            untried = self._untried[run] | self._unclear[run]
-            if not untried.any() or not (self._explores[run] or self._falls_short[run]):
-                continue
-            untried[self._experience[run].tried_here()] = False
-            tries = np.where(untried, self._tries[run], np.iinfo(np.int64).max)
-            if tries.min() <= FIRST_TRIES * self._tries[run].sum():
-                chosen[at] = int(tries.argmin())
+        for at, run in enumerate(runs.tolist()):
+            chosen[at] = self.first_tries(run).act(int(chosen[at]), self._experience[run].tried_here())
         return chosen
 
     def observe(
         self, runs: Int64s, before: Int64s, materials: Int64s, actions: Int64s, rewards: Float64s, after: Int64s
     ) -> None:
         """Record what the actions of the named runs did; every array is of all runs, observations are (runs, 3)."""
-        moved = (before[runs, :2] != after[runs, :2]).any(axis=1)
-        self._untried[runs[moved], actions[runs][moved]] = False
         for run in runs.tolist():
-            # A policy that goes round would make an action that stays look tried out.
-            self._tries[run, actions[run]] += int(actions[run]) not in self._experience[run].tried_here()
+            action, moved = int(actions[run]), bool((before[run, :2] != after[run, :2]).any())
+            self.first_tries(run).observe(action, moved, self._experience[run].tried_here())
             paid = int(rewards[run] > 0)
-            step = [*before[run].tolist(), int(actions[run]), *after[run].tolist(), paid, int(materials[run])]
+            step = [*before[run].tolist(), action, *after[run].tolist(), paid, int(materials[run])]
             self._experience[run].add(RealStep(*step))
 
     def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:
         """End the episodes of the named runs; materials and scores are of all runs."""
         for run in runs.tolist():
             self._experience[run].end(int(materials[run]), float(scores[run]))
+
+    def has_experience(self, run: int) -> bool:
+        """Whether anything is known of what that run's actions do."""
+        return len(self._experience[run].steps) > 0
+
+    def first_tries(self, run: int) -> FirstTries:
+        """What that run has tried of its actions; its arrays are the run's own."""
+        return FirstTries(
+            bool(self._explores[run]),
+            bool(self._falls_short[run]),
+            self._untried[run],
+            self._unclear[run],
+            self._tries[run],
+        )
+
+    def probes(self, run: int, material: int) -> frozenset[Cell]:
+        """The unknown cells where that run's policy should place a block in its next episode, with that material."""
+        if not self.has_experience(run):
+            return frozenset()
+        here, rules = self._surroundings[run], self.rules(run)
+        beliefs = self.beliefs(run, rules)
+        row, others = np.array([self._row(run, material)]), self._appended(material)
+
+        def policy(state: tuple[int, int, int]) -> int:
+            states = np.array([[*state, *others]])
+            return int(self._low_level.act(states, np.zeros(1), np.ones((1, CHOICE_NUMBERS)), row)[0])
+
+        arena = imagined_arena(rules, beliefs)
+        landings = expected_landings(arena, here.start, here.step_limit, policy, self.first_tries(run).copied())
+        return frozenset(cell for cell in landings if beliefs.cells[cell] in (Belief.UNKNOWN, Belief.BELIEVED))
 
     def seen(self, run: int) -> Seen:
         """What that run knows of its arena now, and what it has spent its real episodes on."""

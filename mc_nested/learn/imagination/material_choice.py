@@ -1,5 +1,7 @@
 """The main agent learns its choice from imagined scores: what an episode of each material would bring."""
 
+from collections.abc import Collection
+
 import numpy as np
 
 from mc_nested.arrays import Float64s, Int64s
@@ -13,11 +15,14 @@ MOST_UPDATES, CLOSE = 3000, 0.25
 """Updates of one lesson at most; it ends earlier once every value is as close as this to the imagined score."""
 
 
-def scores_of_materials(extras: Float64s, materials: int, blocks: int, most: float) -> Float64s:
+def scores_of_materials(
+    extras: Float64s, materials: int, blocks: int, most: float, elsewhere: Collection[int] = ()
+) -> Float64s:
     """The imagined score of each material, (materials,): the most that the blocks could bring, and what it adds.
 
     ``extras`` (episodes, 2) are materials and what they brought beside the blocks. A material that was never tried is
-    taken optimistically: it is worth as many blocks more than the best that was.
+    taken optimistically: it is worth as many blocks more than the best that was. While it is tried ``elsewhere``, in
+    another game, it is worth as many less.
     """
     beside = np.full(materials, np.nan)
     for material in range(materials):
@@ -25,7 +30,9 @@ def scores_of_materials(extras: Float64s, materials: int, blocks: int, most: flo
         if len(of_material):
             beside[material] = of_material[-LAST:].mean()
     best = float(np.nanmax(beside)) if np.isfinite(beside).any() else 0.0
-    scores: Float64s = most + np.where(np.isfinite(beside), beside, best + blocks)
+    untried = np.full(materials, best + blocks)
+    untried[list(elsewhere)] = best - blocks
+    scores: Float64s = most + np.where(np.isfinite(beside), beside, untried)
     return scores
 
 

@@ -20,7 +20,7 @@ from mc_nested.learn.runs.folder_kind import FORMAT, check_free
 from mc_nested.learn.runs.policies import load_policies, misfit_of, save_policies
 from mc_nested.learn.runs.run_files import begin_folder, read_config, wall_s_so_far, write_results, writing_in
 from mc_nested.learn.state_dict import part_of
-from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.training import Training
 
 
 class RunConfig(BaseModel):
@@ -90,7 +90,7 @@ class RunFolder:
         """Each trial's scenario."""
         return [self.scenario] * self.config.trials
 
-    def save_before_all(self, trainer: Trainer) -> None:
+    def save_before_all(self, trainer: Training) -> None:
         """Save what a training begins with, before config.toml is written; RunError, and nothing is left.
 
         So a training that is killed here can't be resumed without its start.
@@ -109,7 +109,7 @@ class RunFolder:
         """Around writing here: RunError, one line that says how to resume, if the disk refuses."""
         return writing_in(self.path, "train")
 
-    def save(self, trainer: Trainer, wall_s: float, beside: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    def save(self, trainer: Training, wall_s: float, beside: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """Write the checkpoint, the tables and the summary as they are now, and return the summary.
 
         ``beside`` is added to the summary. RunError if the disk refuses. The same training writes the same bytes,
@@ -158,7 +158,7 @@ class RunFolder:
         networks = {role: (len(online) * trials, online.shape[1]) for role, online in alone.items()}
         return {**networks, "scores": (trials,)}
 
-    def _save_checkpoint(self, trainer: Trainer) -> None:
+    def _save_checkpoint(self, trainer: Training) -> None:
         self.checkpoint.save(trainer, finished=trainer.finished)
         save_policies(self.checkpoint, trainer.kept)
 
@@ -177,7 +177,7 @@ class RunFolder:
         return wall_s_so_far(self.path)
 
 
-def summarise(config: RunConfig, scenario: Scenario, trainer: Trainer, wall_s: float) -> dict[str, Any]:
+def summarise(config: RunConfig, scenario: Scenario, trainer: Training, wall_s: float) -> dict[str, Any]:
     """The results of a training so far, for summary.json; scores are r_M, one per trial, of the policy it keeps.
 
     An unfinished trial has no final score: it has learned since its last greedy evaluation. ``played_to_optimum``
@@ -210,7 +210,7 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Trainer, wall_s: f
     }
 
 
-def _played_until(trainer: Trainer, trial: int, episode: int | None) -> dict[str, int] | None:
+def _played_until(trainer: Training, trial: int, episode: int | None) -> dict[str, int] | None:
     if episode is None:
         return None
     played = [row for row in trainer.episode_rows if row.trial == trial and row.episode <= episode]

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from mc_nested.learn.exploration.schedules import LinearDecay
+from mc_nested.learn.exploration.schedules import EXCURSIONS_ONLY, NEVER, LinearDecay, decays_of
+from mc_nested.learn.preset import load_preset
 
 
 @pytest.mark.parametrize(
@@ -19,3 +20,10 @@ def test_the_main_agents_epsilon_falls_faster_and_stays_higher() -> None:
     assert (main[1:1700] < nested[1:1700]).all()
     assert (main[1800:] > nested[1800:]).all()
     assert main[540] == pytest.approx(0.01)
+
+
+def test_a_presets_epsilons_are_its_own_or_those_of_its_way_to_explore() -> None:
+    main, nested = decays_of(load_preset("paper"))
+    assert (main, nested) == (LinearDecay(1.0, 0.01, 0.18), LinearDecay(1.0, 0.001, 0.6))
+    assert decays_of(load_preset("live")) == (NEVER, NEVER)
+    assert decays_of(load_preset("tuned"))[1] == EXCURSIONS_ONLY

@@ -132,3 +132,31 @@ def test_every_belief_has_its_pay(tried: list[tuple[Cell, bool]], blocks: int) -
     assert (found.pay[found.cells == BELIEVED] == 1.0).all()
     best = sorted(found.pay.astype(np.float64).ravel(), reverse=True)[:blocks]
     assert found.most == sum(best), "what an imagined episode can earn, to the last bit"
+
+
+def test_what_is_probed_elsewhere_stays_unknown_and_is_taken_to_pay_nothing() -> None:
+    beside = [(1, 2), (2, 2), (3, 2)]
+    found = believe(tries(((2, 3), True)), AHEAD, SIZE, 3, elsewhere=beside)
+    assert all(found.cells[cell] == UNKNOWN and found.pay[cell] == 0.0 for cell in beside)
+    assert found.cells[1, 3] == BELIEVED
+    assert found.pay[1, 3] == 1.0
+    assert found.explores
+
+
+def test_where_all_that_is_beside_a_paying_cell_is_probed_elsewhere_every_other_unknown_cell_may_pay() -> None:
+    around = [(x, y) for x in (1, 2, 3) for y in (2, 3, 4) if (x, y) != (2, 3)]
+    found = believe(tries(((2, 3), True)), AHEAD, SIZE, 3, elsewhere=around)
+    assert (found.cells != BELIEVED).all()
+    assert found.pay[4, 4] == 1.0
+
+
+def test_what_was_tried_is_known_whoever_probes_it_still() -> None:
+    tried = tries(((2, 3), True), ((1, 1), False))
+    found = believe(tried, AHEAD, SIZE, 3, elsewhere=[(2, 3), (1, 1)])
+    np.testing.assert_array_equal(found.pay, of(((2, 3), True), ((1, 1), False)).pay)
+
+
+def test_if_nothing_unknown_is_left_that_nobody_probes_it_is_probed_once_more() -> None:
+    every = [(x, y) for x in range(SIZE) for y in range(1, SIZE)]
+    found = believe(tries(((2, 3), True)), AHEAD, SIZE, 3, elsewhere=every)
+    np.testing.assert_array_equal(found.pay, of(((2, 3), True)).pay)

@@ -11,7 +11,8 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arrays import Arrays
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
 from mc_nested.learn.imagination.beliefs import Belief
-from mc_nested.learn.imagination.imagination import FIRST_TRIES, Imagination
+from mc_nested.learn.imagination.first_tries import FIRST_TRIES
+from mc_nested.learn.imagination.imagination import Imagination
 from mc_nested.learn.preset import Preset
 from sim.grid import GridGame
 from tests.learn.imagination.made_games import BENT, SMALL, TRUE_MOVES, TRUE_PLACES, TWO, assert_rules
@@ -255,7 +256,7 @@ def test_the_networks_begin_anew_where_they_fell_short_of_the_same_known_design(
     play(imagination, [Action.FD, Action.R, Action.FD, Action.F])
     imagination._explores[0], imagination._falls_short[0] = explored, fell_short
     believed = dataclasses.replace(imagination.beliefs(0), explores=explores)
-    monkeypatch.setattr(imagination, "beliefs", lambda _: believed)
+    monkeypatch.setattr(imagination, "beliefs", lambda *_: believed)
     assert imagination.session(0, 1)._goal.anew == anew
 
 

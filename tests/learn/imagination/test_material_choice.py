@@ -70,3 +70,9 @@ def test_another_runs_main_agent_stays_as_it_is_and_it_learns_the_same_alone() -
     np.testing.assert_array_equal(beside.engine.online[1], untouched)
     np.testing.assert_array_equal(beside.engine.online[0], alone.engine.online[0])
     assert beside.engine.updates.tolist() == [alone.engine.updates[0], 0]
+
+
+def test_a_material_that_another_game_tries_for_the_first_time_is_worth_less_than_the_best() -> None:
+    assert scores_of_materials(brought(), 3, 3, 2.4, elsewhere=[0]).tolist() == pytest.approx([-0.6, 5.4, 5.4])
+    assert scores_of_materials(brought((1, 10.0)), 2, 4, 4.0, elsewhere=[0]).tolist() == [10.0, 14.0]
+    assert scores_of_materials(brought((1, 10.0)), 2, 4, 4.0, elsewhere=[1]).tolist() == [18.0, 14.0]

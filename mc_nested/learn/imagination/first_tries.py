@@ -1,0 +1,70 @@
+"""The first tries of a run: actions of which it isn't known yet where they lead, before the policy's.
+
+They need nothing but what the episode has shown so far, so that a game can go on with them by itself (learn/games).
+"""
+
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mc_nested.arrays import Bools, Int64s
+
+FIRST_TRIES = 0.125
+"""This share of the steps tries an action of which it isn't known where it leads."""
+
+CLAIMED = 2
+"""So many of the next tries are left to each other game: with four games, each begins with actions of its own."""
+
+
+@dataclass(frozen=True)
+class FirstTries:
+    """What one run has tried of its actions, (actions,) each. Its arrays change with what is observed.
+
+    ``explores``: paying cells are still to be found. ``falls_short``: its last practice did. ``untried`` actions have
+    never moved, the moves of ``unclear`` ones may be slips, ``tries`` counts.
+    """
+
+    explores: bool
+    falls_short: bool
+    untried: Bools
+    unclear: Bools
+    tries: Int64s
+
+    def act(self, action: int, tried_here: Collection[int]) -> int:
+        """The action to do: the policy's, which is given, once it is known what all of them do.
+
+        An action that has never moved is tried in other cells of an episode than where it was already: at an edge, it
+        would be stopped for ever. So is one whose move may be a slip. Once all cells are known, it is tried where
+        practice fell short of building them all. ``tried_here`` were done in this episode in the agent's cell.
+        """
+        untried = self._open()
+        if not untried.any() or not (self.explores or self.falls_short):
+            return action
+        untried[list(tried_here)] = False
+        tries = np.where(untried, self.tries, np.iinfo(np.int64).max)
+        return int(tries.argmin()) if tries.min() <= FIRST_TRIES * self.tries.sum() else action
+
+    def observe(self, action: int, moved: bool, tried_here: Collection[int]) -> None:
+        """Count an action that was done, and whether it moved the agent; ``tried_here`` as for ``act``, before it."""
+        if moved:
+            self.untried[action] = False
+        # A policy that goes round would make an action that stays look tried out.
+        self.tries[action] += action not in tried_here
+
+    def copied(self) -> "FirstTries":
+        """The same, with arrays of its own."""
+        return replace(self, untried=self.untried.copy(), unclear=self.unclear.copy(), tries=self.tries.copy())
+
+    def beside(self, games: int) -> "FirstTries":
+        """A copy that leaves the next tries to so many other games: it begins with the actions after those."""
+        own = self.copied()
+        for _ in range(games):
+            tries = np.where(own._open(), own.tries, np.iinfo(np.int64).max)
+            claimed = np.argsort(tries, kind="stable")[: min(CLAIMED, int(own._open().sum()))]
+            own.tries[claimed] += 1
+        return own
+
+    def _open(self) -> Bools:
+        """The actions of which it isn't known where they lead."""
+        return self.untried | self.unclear

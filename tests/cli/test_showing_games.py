@@ -1,0 +1,58 @@
+"""A learner with several games is shown as any other training is."""
+
+import io
+from pathlib import Path
+
+from rich.console import Console
+
+from mc_nested.arena.action import Cell
+from mc_nested.arena.scenario_file import table_of
+from mc_nested.cli.progress import TrainingProgress
+from mc_nested.cli.training_view import TrainingView
+from mc_nested.learn.runs.run_folder import RunConfig
+from mc_nested.report.tensorboard import FILE, TensorBoard
+from mc_nested.view.board import Board
+from tests.learn.games.lockstep import finish, game_of, learner_of
+from tests.learn.imagination.made_games import BENT, SMALL
+
+
+class OneArena:
+    """What a view sees of a game that plays elsewhere."""
+
+    def cell(self, run: int) -> Cell:  # noqa: ARG002 - there is one
+        return BENT.start
+
+    def placed(self, run: int) -> frozenset[Cell]:  # noqa: ARG002 - there is one
+        return frozenset()
+
+
+def test_its_progress_its_view_and_its_events_are_those_of_one_trial(tmp_path: Path) -> None:
+    learner = learner_of(BENT, SMALL)
+    config = RunConfig(
+        agent="nested",
+        backend="sim",
+        trials=1,
+        seed=0,
+        stop_at_optimum=False,
+        preset_name="small",
+        preset=SMALL,
+        scenario=table_of(BENT),
+    )
+    board, console = Board("train", "a title"), Console(file=io.StringIO(), width=120)
+    view, events = TrainingView(board, learner, BENT, OneArena(), config), TensorBoard([tmp_path], learner)
+    with TrainingProgress(BENT, learner, console) as progress:
+        finish(learner, game_of(BENT, SMALL))
+        progress.show()
+        view.show_end()
+        events.write()
+    learning = board.status().learning
+    assert learning is not None
+    assert (learning.episodes, learning.best, learning.at_optimum) == (SMALL.episodes, BENT.optimum, 1)
+    assert "3 of 3 cells known" in learning.exploring
+    assert f"episodes {SMALL.episodes} of at most {SMALL.episodes}" in said(console)
+    assert (tmp_path / FILE).stat().st_size > 0
+
+
+def said(console: Console) -> str:
+    assert isinstance(console.file, io.StringIO)
+    return console.file.getvalue()

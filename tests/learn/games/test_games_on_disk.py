@@ -1,0 +1,94 @@
+"""A learner's run on disk: saved as any training's is, and resumed with several games, with one, or by a trainer."""
+
+from pathlib import Path
+
+import pytest
+
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.scenario_file import table_of
+from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.learn.games.games_trainer import GamesTrainer
+from mc_nested.learn.preset import Preset
+from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
+from mc_nested.learn.trainer import Trainer
+from sim.grid import GridGame
+from tests.learn.games.lockstep import finish, game_of
+from tests.learn.games.test_one_game import assert_same
+from tests.learn.imagination.made_games import BENT, SMALL
+from tests.learn.made_experiments import small_preset
+
+SEED = 4
+
+
+def folder_in(path: Path, preset: Preset = SMALL) -> RunFolder:
+    config = RunConfig(
+        agent="nested",
+        backend="sim",
+        trials=1,
+        seed=SEED,
+        stop_at_optimum=False,
+        preset_name="small",
+        preset=preset,
+        scenario=table_of(BENT),
+    )
+    folder = RunFolder.new(path, config)
+    folder.begin()
+    return folder
+
+
+def learner_in(folder: RunFolder) -> GamesTrainer:
+    return GamesTrainer(folder.scenario, folder.new_agent(1), folder.config.preset, SEED)
+
+
+def trainer_in(folder: RunFolder) -> Trainer:
+    arena = ArenaVectorEnv([ArenaEnv(GridGame(BENT), BENT)])
+    return Trainer(arena, folder.scenarios, folder.new_agent(1), folder.config.preset, SEED)
+
+
+@pytest.mark.parametrize("preset", [SMALL, small_preset(12)], ids=["imagining", "paper"])
+def test_a_saved_learner_goes_on_to_the_bit_and_says_what_it_came_to(tmp_path: Path, preset: Preset) -> None:
+    whole, halved, play = (
+        folder_in(tmp_path / "whole", preset),
+        folder_in(tmp_path / "halved", preset),
+        game_of(BENT, preset),
+    )
+    summary = whole.save(finish(learner_in(whole), play), 1.0)
+    first = learner_in(halved)
+    while len(first.episode_rows) < 6:
+        first.take(play(first.plan("game")))
+    halved.save(first, 1.0)
+    first.plan("lost")
+    reopened = RunFolder.open(halved.path)
+    resumed = learner_in(reopened)
+    reopened.checkpoint.load_into(resumed)
+    assert reopened.save(finish(resumed, play), 1.0) == summary
+    for name in ("episodes.csv", "evaluations.csv", "summary.json", "checkpoint/state.pt", "checkpoint/policies.npz"):
+        assert (halved.path / name).read_bytes() == (whole.path / name).read_bytes(), name
+    assert summary["episodes_done"] == [12]
+    assert summary["final_scores"] == [resumed.kept_scores[0]]
+
+
+def test_a_trainer_goes_on_with_what_a_learner_began_and_the_other_way_round(tmp_path: Path) -> None:
+    alone, play = trainer_in(folder_in(tmp_path / "alone")), game_of(BENT, SMALL)
+    while not alone.finished:
+        alone.tick()
+    begun_by_games, begun_by_trainer = folder_in(tmp_path / "games"), folder_in(tmp_path / "trainer")
+
+    learner = learner_in(begun_by_games)
+    while len(learner.episode_rows) < 6:
+        learner.take(play(learner.plan("game")))
+    begun_by_games.save(learner, 1.0)
+    trainer = trainer_in(begun_by_games)
+    begun_by_games.checkpoint.load_into(trainer)
+    while not trainer.finished:
+        trainer.tick()
+    assert trainer.episode_rows == alone.episode_rows
+    assert trainer.evaluation_rows == alone.evaluation_rows
+
+    trainer = trainer_in(begun_by_trainer)
+    while len(trainer.episode_rows) < 6:
+        trainer.tick()
+    begun_by_trainer.save(trainer, 1.0)
+    learner = learner_in(begun_by_trainer)
+    begun_by_trainer.checkpoint.load_into(learner)
+    assert_same(finish(learner, play), alone)
