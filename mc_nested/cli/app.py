@@ -38,6 +38,7 @@ VERBS = (
     "calibrate",
     "profiles",
     "doctor",
+    "serve-game",
     "rehearse",
     "recordings",
     "replay",

@@ -59,6 +59,7 @@ class TrainingProgress:
         trainer: what is shown.
         console: where; standard error if there is none.
         stops: whether somebody asked to stop.
+        players: says which games play, where there are several; otherwise empty.
     """
 
     def __init__(
@@ -67,7 +68,9 @@ class TrainingProgress:
         trainer: Training,
         console: Console | None = None,
         stops: Callable[[], bool] = lambda: False,
+        players: Callable[[], str] = str,
     ) -> None:
+        self._players = players
         self._scenario = scenario
         self._trainer = trainer
         self._bar = _BarAndMap(
@@ -105,6 +108,13 @@ class TrainingProgress:
             with contextlib.suppress(OSError):  # the terminal is closed
                 self._bar.stop()
 
+    def say(self, line: str) -> None:
+        """Print a line above the bar."""
+        if self.in_terminal:
+            self._bar.console.print(Text(line))
+        else:
+            print_line(self._bar.console, line)
+
     def show(self) -> None:
         """Refresh the bar, or print a line, if it is time."""
         now = time.monotonic()
@@ -126,6 +136,8 @@ class TrainingProgress:
             exploring = f"ε {main:.2f} {nested:.2f}"
         rate = (trainer.agent.updates - self._updates_before) / max(now - self._began, 1e-9)
         figures = f"mean score {score} of {self._scenario.optimum:g}  {exploring}  {rate:,.0f} updates/s"
+        if said := self._players():
+            figures += f"  {said}"
         self._bar.figures = figures
         with contextlib.suppress(OSError):  # the terminal is closed: the training goes on until it is saved
             self._bar.update(self._task, completed=done, total=most)

@@ -6,6 +6,8 @@ from typing import Annotated, Any
 import typer
 
 from mc_nested.arena.scenario_file import table_of
+from mc_nested.cli.cluster_options import InsecureOption, KeysOption
+from mc_nested.cli.games_training import games_of, run_games_training
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
     Backend,
@@ -31,7 +33,19 @@ from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
 MOST_TRIALS = 1000
 """More at once would only run out of memory."""
 
-BESIDE_RESUME = ("resume", "device", "profile", "server_allowed", "record", "view", "quiet", "as_json")
+BESIDE_RESUME = (
+    "resume",
+    "device",
+    "profile",
+    "server_allowed",
+    "record",
+    "view",
+    "games",
+    "keys",
+    "insecure",
+    "quiet",
+    "as_json",
+)
 """The options that a run can be resumed with; all others are in its config.toml."""
 
 DEFAULTS: dict[str, Any] = {
@@ -67,6 +81,12 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     profile: ProfileOption = None,
     server_allowed: ServerOption = False,
     record: RecordOption = None,
+    games: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="let the games of a Dask scheduler play (mc-nested serve-game)"),
+    ] = None,
+    keys: KeysOption = None,
+    insecure: InsecureOption = False,
     begin_from: Annotated[
         Path | None,
         typer.Option(
@@ -82,7 +102,8 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     as_json: JsonOption = False,
 ) -> None:
     """Train an agent; Ctrl+C saves, and --resume goes on from there."""
-    how = HowToRun(Output(quiet, as_json), server_allowed, record, view)
+    served = games_of(games, keys, insecure, context.params)
+    how = HowToRun(Output(quiet, as_json), server_allowed, record, view, served)
     if resume is not None:
         given = [name for name, value in context.params.items() if value is not None and value is not False]
         beside = [name for name in given if name not in BESIDE_RESUME]
@@ -94,7 +115,7 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             folder = RunFolder(resume, folder.config.on_device(device))
         where_played = profile or folder.config.profile
         with folder_lock(resume):
-            run_training(folder, where_played, not folder.only_begun, how)
+            train_run(folder, where_played, not folder.only_begun, how)
         return
     if agent not in (None, *AGENT_SPECS):
         raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENT_SPECS)}")
@@ -105,7 +126,7 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     config = RunConfig(
         agent=agent or DEFAULTS["agent"],
         backend=where.value,
-        profile=(DEFAULT_PROFILE if profile is None else profile) if where is Backend.LIVE else None,
+        profile=(DEFAULT_PROFILE if profile is None else profile) if where is Backend.LIVE and not games else None,
         trials=trials or DEFAULTS["trials"],
         seed=seed or DEFAULTS["seed"],
         stop_at_optimum=stop_at_optimum,
@@ -115,4 +136,14 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     )
     with output_folder(out, f"{config.scenario.name}-{config.agent}") as path:
         folder = RunFolder.new(path, config)
-        run_training(folder, config.profile, False, how, begin_from)
+        train_run(folder, config.profile, False, how, begin_from)
+
+
+def train_run(
+    folder: RunFolder, profile: str | None, resumed: bool, how: HowToRun, begin_from: Path | None = None
+) -> None:
+    """Train in this computer's game, in the simulator, or with the games of a scheduler."""
+    if how.games:
+        run_games_training(folder, how.games, resumed, how, begin_from)
+    else:
+        run_training(folder, profile, resumed, how, begin_from)

@@ -31,6 +31,7 @@ from mc_nested.report.played_curve import draw_played_curve
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from mc_nested.view.publisher import Publisher
 from mc_nested.view.status_files import remove_status
+from mc_nested.workers.cluster.address import SchedulerAddress
 
 SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.VIRTUAL: 60.0, Backend.LIVE: 15.0}
 """Seconds between checkpoints, which is what a kill can cost: in the simulator, or in a game of a block per second."""
@@ -38,12 +39,13 @@ SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.VIRTUAL: 60.0, Backend.LIVE: 15.0}
 
 @dataclass(frozen=True)
 class HowToRun:
-    """What a run is asked for that its config.toml doesn't say."""
+    """What a run is asked for that its config.toml doesn't say; ``games`` have joined that scheduler."""
 
     output: Output
     server_allowed: bool = False
     record: str | None = None
     is_viewed: bool = False
+    games: SchedulerAddress | None = None
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,7 @@ def run_training(
     config, output = folder.config, how.output
     earlier = earlier_run(begin_from, folder) if begin_from else None
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
-    with catch_interrupts() as interrupt, _published(folder, how) as view:
+    with catch_interrupts() as interrupt, published(folder, how) as view:
         board = view.publisher.board
         what = f"train-{folder.scenario.name}"
         with open_arenas(
@@ -108,14 +110,14 @@ def run_training(
                 raise LiveError(f"{error}; saved: go on with mc-nested train --resume {folder.path}") from error
             board.does("saves, and draws its curve")
             summary = save()
-        _draw(folder, trainer)
+        draw_results(folder, trainer)
         if not trainer.finished:
             raise Stopped(f"stopped and saved: go on with mc-nested train --resume {folder.path}")
     say_end(output, folder.path, config, summary)
 
 
 @contextmanager
-def _published(folder: RunFolder, how: HowToRun) -> Iterator[Viewed]:
+def published(folder: RunFolder, how: HowToRun) -> Iterator[Viewed]:
     """The run where ``mc-nested view`` finds it; nothing is left of one that never began."""
     config = folder.config
     where = where_words(Backend(config.backend))
@@ -132,7 +134,7 @@ def _tick_until_done(training: _Training, shown: TrainingView, output: Output) -
     folder, trainer, interrupt = training.folder, training.trainer, training.interrupt
     every = SAVE_EVERY_S[Backend(folder.config.backend)]
     save_at = time.monotonic() + every
-    events = _events(folder, trainer)
+    events = events_of(folder, trainer)
     with TrainingProgress(folder.scenario, trainer, output.progress, lambda: interrupt.requested) as progress:
         if not progress.in_terminal:
             interrupt.says = STOPPING
@@ -166,14 +168,15 @@ def _tick(training: _Training) -> None:
         trainer.abandon_episodes()
 
 
-def _events(folder: RunFolder, trainer: Training) -> TensorBoard | None:
+def events_of(folder: RunFolder, trainer: Training) -> TensorBoard | None:
+    """What writes the training's events for TensorBoard; None where that isn't installed."""
     if not is_installed():
         return None
     with folder.writing():
         return TensorBoard([folder.path / FOLDER / f"trial-{trial}" for trial in range(folder.config.trials)], trainer)
 
 
-def _draw(folder: RunFolder, trainer: Training) -> None:
+def draw_results(folder: RunFolder, trainer: Training) -> None:
     """Draw the curve, and what was learnt of the arena, if anything was."""
     config, scenario = folder.config, folder.scenario
     title = f"{scenario.name}, {config.agent} agent, preset {Path(config.preset_name).stem}"

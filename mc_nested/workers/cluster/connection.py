@@ -5,7 +5,7 @@ import os
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from mc_nested.errors import ClusterError
 from mc_nested.workers.cluster.address import SchedulerAddress
@@ -29,12 +29,12 @@ def check_installed() -> None:
         raise ClusterError(f"a cluster needs Dask, which isn't installed: {HOW_TO_INSTALL}") from error
 
 
-def security_of(address: SchedulerAddress) -> "Security | None":
-    """What Dask needs for TLS: the authority, and this machine's pair for each part that it may play; None for TCP."""
+def security_of(address: SchedulerAddress) -> "Security":
+    """What Dask needs for TLS: the authority, and this machine's pair for each part that it may play."""
     from distributed import Security
 
     if address.keys is None:
-        return None
+        return Security()
     own = {
         f"tls_{role}_{what}": str(address.keys / file)
         for role in ("client", "worker", "scheduler")
@@ -57,7 +57,7 @@ def connected(address: SchedulerAddress) -> Iterator["Client"]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of other versions: the workers say that, in a line of ours
             client = Client(
-                address.url, security=_given(address), timeout=CONNECT_S, set_as_default=False, name="mc-nested"
+                address.url, security=security_of(address), timeout=CONNECT_S, set_as_default=False, name="mc-nested"
             )
     except (OSError, ValueError, TypeError) as error:
         raise ClusterError(unreachable(address)) from error
@@ -85,10 +85,3 @@ def quieten() -> None:
     for name in ("distributed", "tornado.application", "asyncio"):
         logging.getLogger(name).setLevel(logging.CRITICAL)
     os.environ.setdefault("DASK_DISTRIBUTED__LOGGING__DISTRIBUTED", "critical")  # it sets its own when it is loaded
-
-
-def _given(address: SchedulerAddress) -> Any:
-    """Dask's own configuration decides where nothing is given: so that of a user can't add TLS to plain TCP."""
-    from distributed import Security
-
-    return security_of(address) or Security()

@@ -29,6 +29,9 @@ REPORT_EVERY_S = 1.0
 UNITS = "units"
 """The folder's name above a job's, as in an experiment's folder: what a job writes beside it lands there, too."""
 
+_AT_WORK = ("running", "paused", "closing_gracefully")
+"""What a worker's status is as long as its scheduler can be reached; ``paused`` is for too little memory."""
+
 _stopped: set[str] = set()
 """The topics of experiments that were stopped, in this worker's process."""
 
@@ -70,12 +73,12 @@ def train_on_worker(versions: Versions, package: bytes, topic: str) -> Trained:
         raise ClusterError(message)
     _use_one_thread()
     job, files = pickle.loads(package)  # noqa: S301 - from the client, which the scheduler has let in
-    goes_on = _asks(worker, topic)
+    is_wanted = wanted_here(worker)
 
     def report(now: JobReport) -> bool:
         said = Reported(now.job, list(now.episodes), list(now.scores), now.updates, worker.address)
         worker.log_event(topic, said._asdict())
-        return goes_on()
+        return topic not in _stopped and is_wanted()
 
     with tempfile.TemporaryDirectory(prefix="mc-nested-", dir=worker.local_directory) as root:
         folder = Path(root) / UNITS / job.name
@@ -89,15 +92,15 @@ def stop_training(topic: str) -> None:
     _stopped.add(topic)
 
 
-def _asks(worker: "Worker", topic: str) -> Callable[[], bool]:
-    """Asks whether the task of this thread is still wanted."""
+def wanted_here(worker: "Worker") -> Callable[[], bool]:
+    """Asks whether the task of this thread is still wanted: neither cancelled, nor its scheduler lost."""
     key = worker.get_current_task()
 
-    def goes_on() -> bool:
+    def is_wanted() -> bool:
         task: Any = worker.state.tasks.get(key)
-        return topic not in _stopped and task is not None and task.state != "cancelled"
+        return task is not None and task.state != "cancelled" and worker.status.name in _AT_WORK
 
-    return goes_on
+    return is_wanted
 
 
 def _use_one_thread() -> None:

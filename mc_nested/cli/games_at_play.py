@@ -1,0 +1,168 @@
+"""The games that play for one training: plans go out to them, and whole episodes come back."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.rules import landing
+from mc_nested.arena.scenario import Scenario
+from mc_nested.errors import ClusterError
+from mc_nested.learn.games.episode import PlayedEpisode
+from mc_nested.learn.games.games_trainer import GamesTrainer
+from mc_nested.workers.cluster.address import SchedulerAddress
+from mc_nested.workers.cluster.connection import connected
+from mc_nested.workers.cluster.dask_jobs import counted
+from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined
+from mc_nested.workers.games.order import Answer, GameOrder
+
+LOOK_EVERY_S = 0.2
+"""Seconds that a Ctrl+C may go unnoticed while no game answers."""
+
+
+@dataclass
+class GameRecord:
+    """What is known of one game: the number of the plan that it plays, and what it said last of what playing took."""
+
+    playing: int | None = None
+    is_here: bool = True
+    log: dict[str, Any] = field(default_factory=dict)
+
+
+class GamesAtPlay:
+    """The games of one training, and its trainer: gives each free game its next episode, and takes what comes back.
+
+    Args:
+        trainer: the learner.
+        games: the games.
+    """
+
+    def __init__(self, trainer: GamesTrainer, games: DaskGames) -> None:
+        self._trainer = trainer
+        self._games = games
+        self._records: dict[str, GameRecord] = {}
+        self._refused: dict[str, str] = {}
+        self._lost = 0
+        self._problems: list[str] = []
+        self.last: PlayedEpisode | None = None
+
+    def look(self) -> list[str]:
+        """Deal with what has happened, or wait for a moment; lines about who came and what was lost.
+
+        ClusterError if the only games that are there have refused.
+        """
+        lines = [line for event in self._games.events(LOOK_EVERY_S) if (line := self._handle(event))]
+        if self._refused and not any(record.is_here for record in self._records.values()):
+            raise ClusterError("; ".join(f"{game} can't play: {why}" for game, why in self._refused.items()))
+        return lines
+
+    def in_words(self) -> str:
+        """How many games there are, and what is lost."""
+        records = self._records.values()
+        here, playing = sum(each.is_here for each in records), sum(each.playing is not None for each in records)
+        words = f"{counted(here, 'game')}, {playing} playing" if here else "waiting for a game (mc-nested serve-game)"
+        return words + (f", {counted(self._lost, 'episode')} lost" if self._lost else "")
+
+    def summary(self) -> dict[str, Any]:
+        """For a training's summary: what playing took in each game, and what was lost."""
+        logs = {game: record.log for game, record in self._records.items()}
+        seconds = [each for log in logs.values() for each in log.get("game_s", ())]
+        lost = {"spoiled_episodes": self._lost, "last_problems": self._problems[-3:]}
+        return {"live": {"game_s": seconds, "games": logs, **lost}}
+
+    def _handle(self, event: GameEvent) -> str:
+        game = event.game
+        if isinstance(event, Joined):
+            self._refused.pop(game, None)
+            self._records[game] = GameRecord(log=self._records[game].log if game in self._records else {})
+            self._games.ask(game, None)
+            return f"{game} has joined"
+        if isinstance(event, Answered):
+            if isinstance(event.answer, Exception):
+                return self._refuse(game, str(event.answer))
+            return self._take(game, event.answer)
+        record = self._records[game]
+        record.is_here = False
+        lost = self._lose(record, f"{game} is gone")
+        return "" if game in self._refused else f"{game} is gone{lost}"
+
+    def _take(self, game: str, answer: Answer) -> str:
+        """Take a game's answer, and ask it for the next episode; what is to be said of it."""
+        record = self._records[game]
+        record.log = dict(answer.log) or record.log
+        if answer.is_refusal:
+            return self._refuse(game, answer.problem)
+        said = f"{game}: {answer.problem}{self._lose(record, answer.problem)}" if answer.problem else ""
+        if answer.episode and self._trainer.take(answer.episode):
+            self.last = answer.episode
+        record.playing = None
+        if not self._trainer.finished:
+            # After a mishap it says first when it is ready again: its player may be away.
+            plan = None if answer.problem else self._trainer.plan(game)
+            record.playing = plan.number if plan else None
+            self._games.ask(game, plan)
+        return said
+
+    def _refuse(self, game: str, why: str) -> str:
+        self._refused[game] = why
+        record = self._records[game]
+        record.is_here = False
+        self._lose(record, why)
+        return f"{game} can't play: {why}"
+
+    def _lose(self, record: GameRecord, why: str) -> str:
+        """Leave out the episode that the game was playing; says so. Nothing if it played none."""
+        if record.playing is None:
+            return ""
+        self._trainer.abandon(record.playing)
+        record.playing = None
+        self._lost += 1
+        self._problems.append(why)
+        return ", its episode is lost"
+
+
+@contextmanager
+def games_at_play(cluster: SchedulerAddress, order: GameOrder, trainer: GamesTrainer) -> Iterator[GamesAtPlay]:
+    """The games of that scheduler, for a training; ClusterError if it can't be reached."""
+    with connected(cluster) as client, DaskGames(client, order) as games:
+        yield GamesAtPlay(trainer, games)
+
+
+class LastEpisode:
+    """The arena as the episode that came back last left it, for a view; as it begins where states are no numbers.
+
+    Args:
+        play: the games.
+        scenario: what is built.
+        choices: how many of the agent's actions choose a material, before those of the arena.
+    """
+
+    def __init__(self, play: GamesAtPlay, scenario: Scenario, choices: int) -> None:
+        self._play = play
+        self._scenario = scenario
+        self._choices = choices
+
+    def cell(self, _run: int) -> Cell:
+        """Where its agent stood at its end."""
+        last = self._shown
+        return (int(last.observations[-1, 0]), int(last.observations[-1, 1])) if last else self._scenario.start
+
+    def placed(self, _run: int) -> frozenset[Cell]:
+        """Where its blocks landed."""
+        return blocks_of(self._shown, self._scenario.size, self._choices) if self._shown else frozenset()
+
+    @property
+    def _shown(self) -> PlayedEpisode | None:
+        last = self._play.last
+        return last if last and last.observations.ndim == 2 else None
+
+
+def blocks_of(episode: PlayedEpisode, size: int, choices: int) -> frozenset[Cell]:
+    """Where an episode's blocks landed, by the rules and by (x, y, b) of each step."""
+    placed: set[Cell] = set()
+    seen = episode.observations[:, :3].tolist()
+    for action, (_, _, before), (x, y, after) in zip(episode.actions.tolist(), seen[:-1], seen[1:], strict=True):
+        if after < before and (block := landing((x, y), Action(action - choices), placed, size)):
+            placed.add(block)
+    return frozenset(placed)

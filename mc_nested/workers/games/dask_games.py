@@ -1,0 +1,121 @@
+"""The games that have joined a scheduler, as their learner sees them."""
+
+import uuid
+from dataclasses import dataclass
+from queue import Empty, SimpleQueue
+from typing import TYPE_CHECKING, Any
+
+from mc_nested.learn.games.episode import EpisodePlan
+from mc_nested.workers.cluster.versions import own_versions
+from mc_nested.workers.games.game_task import ask_game, packed
+from mc_nested.workers.games.game_worker import RESOURCE
+from mc_nested.workers.games.order import Answer, GameOrder
+
+if TYPE_CHECKING:  # the cluster extra's
+    from distributed import Client, Future
+
+ALL = "all"
+"""The topic under which a scheduler tells who comes and goes."""
+
+
+@dataclass(frozen=True)
+class Joined:
+    """A game has joined, or come back."""
+
+    game: str
+
+
+@dataclass(frozen=True)
+class Left:
+    """A game is gone; whatever it was asked won't be answered."""
+
+    game: str
+
+
+@dataclass(frozen=True)
+class Answered:
+    """A game has answered, or ``answer`` is an error that it raised."""
+
+    game: str
+    answer: Answer | Exception
+
+
+GameEvent = Joined | Left | Answered
+
+
+class DaskGames:
+    """Asks games for episodes. Use it as a context manager: what is still asked for is withdrawn after the block.
+
+    Args:
+        client: a connection to the games' scheduler.
+        order: what is played.
+    """
+
+    def __init__(self, client: "Client", order: GameOrder) -> None:
+        self._client = client
+        self._order = order
+        self._happened: SimpleQueue[tuple[str, Future[Answer]] | None] = SimpleQueue()
+        self._addresses: dict[str, str] = {}
+        self._asked: dict[str, Future[Answer]] = {}
+
+    def __enter__(self) -> "DaskGames":
+        self._client.subscribe_topic(ALL, self._hear_of_workers)
+        self._happened.put(None)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._client.unsubscribe_topic(ALL)
+        for future in self._asked.values():
+            future.cancel()
+
+    def ask(self, game: str, plan: EpisodePlan | None) -> None:
+        """Ask a game that is free to play a plan; without one, to say when it is ready for one."""
+        future = self._client.submit(
+            ask_game,
+            own_versions(),
+            packed(self._order, plan),
+            workers=[self._addresses[game]],
+            resources={RESOURCE: 1},
+            allow_other_workers=False,
+            pure=False,
+            key=f"{game}-{uuid.uuid4().hex}",
+        )
+        self._asked[game] = future
+        future.add_done_callback(lambda done: self._happened.put((game, done)))
+
+    def events(self, timeout_s: float) -> list[GameEvent]:
+        """What has happened since the last call; waits so long for anything."""
+        try:
+            heard = [self._happened.get(timeout=timeout_s)]
+        except Empty:
+            return []
+        heard += [self._happened.get_nowait() for _ in range(self._happened.qsize())]
+        # What a game that is gone has answered before counts: it was played and confirmed.
+        answers = [each for each in heard if each and self._asked.get(each[0]) is each[1]]
+        found: list[GameEvent] = [self._answered(game, done) for game, done in answers]
+        return found + (self._comings_and_goings() if None in heard else [])
+
+    def _comings_and_goings(self) -> list[GameEvent]:
+        workers = self._client.scheduler_info()["workers"]
+        now = {each["name"]: address for address, each in workers.items() if each["resources"].get(RESOURCE)}
+        found: list[GameEvent] = []
+        for game, address in list(self._addresses.items()):
+            if now.get(game) != address:
+                del self._addresses[game]
+                if asked := self._asked.pop(game, None):
+                    asked.cancel()
+                found.append(Left(game))
+        for game, address in now.items():
+            if game not in self._addresses:
+                self._addresses[game] = address
+                found.append(Joined(game))
+        return found
+
+    def _answered(self, game: str, done: "Future[Answer]") -> Answered:
+        del self._asked[game]
+        error = done.exception()
+        return Answered(game, error if isinstance(error, Exception) else done.result())
+
+    def _hear_of_workers(self, event: tuple[float, dict[str, Any]]) -> None:
+        if event[1].get("action") in ("add-worker", "remove-worker"):
+            self._happened.put(None)

@@ -1,0 +1,61 @@
+"""Where Dask's thread leaves what is asked of a game, and the main thread, which owns the game, takes it and answers.
+
+Signals, the panic key and everything that releases keys belong to the main thread.
+"""
+
+from collections.abc import Callable
+from concurrent.futures import Future, wait
+from dataclasses import dataclass, field
+from queue import Empty, SimpleQueue
+from threading import Event
+
+from mc_nested.learn.games.episode import EpisodePlan
+from mc_nested.workers.games.order import Answer, GameOrder
+
+LOOK_EVERY_S = 0.2
+
+CLOSED = Answer(problem="the game was closed")
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is asked: to play a plan; without one, to be ready for one.
+
+    ``is_wanted`` says whether anybody still waits for the answer.
+    """
+
+    order: GameOrder
+    plan: EpisodePlan | None
+    is_wanted: Callable[[], bool]
+    answer: Future[Answer] = field(default_factory=Future)
+
+
+class Desk:
+    """Requests in one direction, answers in the other; one at a time."""
+
+    def __init__(self) -> None:
+        self._requests: SimpleQueue[Request] = SimpleQueue()
+        self._closed = Event()
+
+    def ask(self, order: GameOrder, plan: EpisodePlan | None, is_wanted: Callable[[], bool]) -> Answer:
+        """Leave a request, and wait for its answer; from Dask's thread."""
+        request = Request(order, plan, is_wanted)
+        self._requests.put(request)
+        while not (self._closed.is_set() or wait([request.answer], LOOK_EVERY_S).done):
+            pass
+        return request.answer.result() if request.answer.done() else CLOSED
+
+    def next(self) -> Request | None:
+        """The next request, None if there is none for a moment; from the main thread."""
+        try:
+            return self._requests.get(timeout=LOOK_EVERY_S)
+        except Empty:
+            return None
+
+    def wait(self) -> None:
+        """Wait for a moment, or until it is closed; from the main thread."""
+        self._closed.wait(LOOK_EVERY_S)
+
+    def close(self) -> None:
+        """Answer whoever asks, now and later, that the game was closed."""
+        self._closed.set()

@@ -1,0 +1,138 @@
+"""The main thread of a served game: it owns the game, and plays what it finds on the desk."""
+
+from collections.abc import Callable
+from contextlib import AbstractContextManager, ExitStack
+from dataclasses import dataclass
+from typing import Any
+
+from gymnasium.vector import VectorEnv
+from gymnasium.vector.vector_env import VectorWrapper
+
+from mc_nested.arena.game import PlayLog
+from mc_nested.arrays import Int64s
+from mc_nested.errors import LiveError, NotInFrontError, UserError
+from mc_nested.learn.agents import Agent
+from mc_nested.learn.games.player import play_episode
+from mc_nested.live.failure_budget import FailureBudget
+from mc_nested.workers.games.desk import Desk, Request
+from mc_nested.workers.games.order import Answer, GameOrder
+
+Say = Callable[[str], None]
+"""Shows one line to the player."""
+
+
+@dataclass(frozen=True)
+class OpenGame:
+    """A game that is open: one arena, the log of playing it, and whether it can be played now."""
+
+    arena: VectorEnv[Any, Int64s, Any]
+    log: PlayLog
+    is_in_front: Callable[[], bool]
+
+
+Opener = Callable[[GameOrder], AbstractContextManager[OpenGame]]
+"""Opens the game that an order needs. UserError or LiveError, one line each, if it can't be."""
+
+
+class UnwantedError(LiveError):
+    """Nobody waits for the episode any more: the learner or the network is gone, or this game is to end."""
+
+
+class GameServer:
+    """Plays what is asked for, until it is to end.
+
+    Args:
+        desk: where requests lie.
+        opens: opens the game.
+        say: shows a line to the player.
+        is_over: whether the player has asked to end.
+    """
+
+    def __init__(self, desk: Desk, opens: Opener, say: Say, is_over: Callable[[], bool]) -> None:
+        self._desk = desk
+        self._opens = opens
+        self._say = say
+        self._is_over = is_over
+        self._order: GameOrder | None = None
+        self._stack = ExitStack()
+        self._failures = FailureBudget()
+        self._steps = self._episodes = 0
+
+    def serve(self) -> None:
+        """Answer requests until the player has asked to end; the game is closed then, with no key left down.
+
+        UserError or LiveError if it can't be opened, was stopped by its panic key, or fails again and again: the
+        learner has been told before.
+        """
+        with self._stack:
+            while not self._is_over():
+                if request := self._desk.next():
+                    self._answer(request)
+
+    def _answer(self, request: Request) -> None:
+        try:
+            game, agent = self._opened_for(request.order)
+        except (UserError, LiveError) as error:
+            request.answer.set_result(Answer(problem=str(error), is_refusal=True))
+            raise
+        try:
+            self._wait_until_in_front(game, request)
+            episode = self._played(game, agent, request)
+        except UnwantedError as error:
+            request.answer.set_result(Answer(problem=str(error), log=self._summary(game)))
+        except LiveError as error:
+            self._say(f"the episode was lost: {error}")
+            request.answer.set_result(Answer(problem=str(error), log=self._summary(game)))
+            if not isinstance(error, NotInFrontError):
+                self._failures.record_failure(error, self._steps)
+        else:
+            request.answer.set_result(Answer(episode, log=self._summary(game)))
+
+    def _played(self, game: OpenGame, agent: Agent, request: Request) -> Any:
+        if request.plan is None:
+            return None
+        self._say(f"episode {self._episodes + 1} of {request.order.scenario.name}")
+        wanted = _WantedArena(game.arena, lambda: request.is_wanted() and not self._is_over())
+        episode = play_episode(wanted, request.plan, agent)
+        self._episodes += 1
+        self._steps += episode.steps
+        self._say(f"episode {self._episodes}: score {episode.score:g} of {request.order.scenario.optimum:g}")
+        return episode
+
+    def _opened_for(self, order: GameOrder) -> tuple[OpenGame, Agent]:
+        if order != self._order:
+            self._stack.close()
+            self._order = None
+            self._game = self._stack.enter_context(self._opens(order))
+            self._agent = order.new_agent()
+            self._order = order
+        return self._game, self._agent
+
+    def _wait_until_in_front(self, game: OpenGame, request: Request) -> None:
+        """Wait as long as the player is elsewhere, unless an episode is asked for: others can play that."""
+        if game.is_in_front():
+            return
+        if request.plan:
+            raise NotInFrontError("the game is paused: its player is in another window")
+        self._say("paused: switch to the game to let it go on")
+        while not game.is_in_front():
+            if self._is_over() or not request.is_wanted():
+                raise UnwantedError("the game is paused")
+            self._desk.wait()
+        self._say("goes on")
+
+    def _summary(self, game: OpenGame) -> dict[str, Any]:
+        return {**game.log.summary(), **self._failures.summary()}
+
+
+class _WantedArena(VectorWrapper):
+    """An arena whose episode ends with UnwantedError where nobody wants it any more."""
+
+    def __init__(self, arena: VectorEnv[Any, Int64s, Any], is_wanted: Callable[[], bool]) -> None:
+        super().__init__(arena)
+        self._is_wanted = is_wanted
+
+    def step(self, actions: Any) -> Any:
+        if not self._is_wanted():
+            raise UnwantedError("the episode was broken off: nobody waits for it")
+        return self.env.step(actions)

@@ -1,0 +1,32 @@
+"""What a game's Dask worker does with a request: compares versions, and leaves it on the desk of its main thread."""
+
+import pickle
+import sys
+
+from mc_nested.errors import ClusterError
+from mc_nested.learn.games.episode import EpisodePlan
+from mc_nested.workers.cluster.job_task import wanted_here
+from mc_nested.workers.cluster.versions import Versions, differences, own_versions
+from mc_nested.workers.games.desk import Desk
+from mc_nested.workers.games.order import Answer, GameOrder
+
+desk = Desk()
+"""The desk of this process, which serves one game at most."""
+
+
+def packed(order: GameOrder, plan: EpisodePlan | None) -> bytes:
+    """A request, for ``ask_game``."""
+    return pickle.dumps((order, plan))
+
+
+def ask_game(versions: Versions, package: bytes) -> Answer:
+    """Let this process's game play a packed request; the answer. ClusterError if the versions aren't those."""
+    from distributed import get_worker
+
+    worker = get_worker()
+    if differing := differences(versions, own_versions()):
+        message = f"{worker.name} has {differing}: install the same on both"
+        print(f"mc-nested: a learner was refused: {message}", file=sys.stderr, flush=True)
+        raise ClusterError(message)
+    order, plan = pickle.loads(package)  # noqa: S301 - from the learner, which the scheduler has let in
+    return desk.ask(order, plan, wanted_here(worker))

@@ -1,0 +1,108 @@
+"""The Dask worker of a served game, in a thread of this process. It joins again when it has lost its scheduler."""
+
+import asyncio
+import tempfile
+from collections.abc import Callable
+from threading import Thread
+from typing import TYPE_CHECKING, Any
+
+from mc_nested.errors import ClusterError
+from mc_nested.workers.cluster.address import SchedulerAddress
+from mc_nested.workers.cluster.connection import CONNECT_S, check_installed, quieten, security_of, unreachable
+
+if TYPE_CHECKING:  # the cluster extra's
+    from distributed import Worker
+
+RESOURCE = "game"
+"""What such a worker has one of, so that nothing else is given to it, and it to nothing else."""
+
+TRY_AGAIN_S = 2.0
+"""Seconds between two tries to join again."""
+
+LOST = "the scheduler can't be reached: trying again"
+
+
+class GameWorker:
+    """Joins a scheduler under a name, as a context manager: it has left after the block.
+
+    Args:
+        address: the scheduler's.
+        name: the game's, which no other may have.
+        say: shows a line to the player, when it has joined, and when it has lost the scheduler.
+
+    Raises:
+        ClusterError: on entering, if the scheduler can't be reached, or another game has that name.
+    """
+
+    def __init__(self, address: SchedulerAddress, name: str, say: Callable[[str], None]) -> None:
+        self._address = address
+        self._name = name
+        self._say = say
+        self._loop = asyncio.new_event_loop()
+        self._thread = Thread(target=self._loop.run_forever, name="game-worker", daemon=True)
+        self._serving: Any = None
+
+    def __enter__(self) -> "GameWorker":
+        check_installed()
+        quieten()
+        self._thread.start()
+        try:
+            self._folder = tempfile.TemporaryDirectory(prefix="mc-nested-")
+            worker = asyncio.run_coroutine_threadsafe(self._joined(), self._loop).result()
+        except BaseException:
+            self._end()
+            raise
+        self._serving = asyncio.run_coroutine_threadsafe(self._stay(worker), self._loop)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._serving.cancel()
+        asyncio.run_coroutine_threadsafe(self._leave(), self._loop).result(CONNECT_S)
+        self._end()
+
+    async def _joined(self) -> "Worker":
+        """A worker that has joined; ClusterError as the class says."""
+        from distributed import Worker
+
+        self._worker = Worker(
+            self._address.url,
+            name=self._name,
+            nthreads=1,
+            resources={RESOURCE: 1},
+            memory_limit=0,  # no limit: the learner's weights are small, and a full worker would be paused
+            local_directory=self._folder.name,
+            dashboard=False,
+            security=security_of(self._address),
+        )
+        try:
+            await asyncio.wait_for(self._worker, CONNECT_S)
+        except ValueError as error:
+            raise ClusterError(
+                f"another game at {self._address.url} is named {self._name}: give this one another --name"
+            ) from error
+        except (OSError, asyncio.TimeoutError, RuntimeError) as error:
+            raise ClusterError(unreachable(self._address)) from error
+        self._say(f"{self._name} has joined {self._address.url}")
+        return self._worker
+
+    async def _stay(self, worker: "Worker") -> None:
+        while True:
+            await worker.finished()
+            self._say(LOST)
+            worker = await self._joined_again()
+
+    async def _joined_again(self) -> "Worker":
+        while True:
+            await asyncio.sleep(TRY_AGAIN_S)
+            try:
+                return await self._joined()
+            except ClusterError:  # its own name too is taken, for as long as the scheduler hasn't noticed
+                continue
+
+    async def _leave(self) -> None:
+        await self._worker.close(timeout=CONNECT_S / 2)
+
+    def _end(self) -> None:
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join(CONNECT_S)
+        self._folder.cleanup()
