@@ -1,0 +1,178 @@
+"""One learner, three games on the virtual client: each is killed, and cut off from the network, again and again.
+
+    python scripts/bench_lost_games.py --times 20
+
+The games and the learner are processes of their own; each game reaches the scheduler through a proxy, whose sockets are
+closed to cut it off. In the end the learner is stopped by Ctrl+C, and its tables are compared with what it said: every
+episode that came back is in them once, and nothing else. Exit code 1 if not. Needs the extra `cluster`.
+"""
+
+import argparse
+import csv
+import random
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from contextlib import ExitStack, suppress
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from scripts.dask_programs import scheduler  # noqa: E402 - found only with the line above
+
+GAMES = ("one", "two", "three")
+
+BETWEEN_S = (0.5, 1.5)
+"""Seconds between two mishaps, at random."""
+
+JOINS_S = 60.0
+"""Seconds that a game may take to be asked for an episode again."""
+
+
+class Proxy:
+    """Passes on what goes to a scheduler, until it is cut: then every socket that it has is closed."""
+
+    def __init__(self, to: str) -> None:
+        host, port = to.removeprefix("tcp://").rsplit(":", 1)
+        self._to = host, int(port)
+        self._listening = socket.create_server(("127.0.0.1", 0))
+        self._open: list[socket.socket] = []
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    @property
+    def address(self) -> str:
+        """Where it listens."""
+        return f"tcp://127.0.0.1:{self._listening.getsockname()[1]}"
+
+    def cut(self) -> None:
+        """Close all connections; new ones are let through."""
+        connections, self._open = self._open, []
+        for each in connections:
+            with suppress(OSError):
+                each.shutdown(socket.SHUT_RDWR)
+            each.close()
+
+    def close(self) -> None:
+        """Let nothing through any more."""
+        self._listening.close()
+        self.cut()
+
+    def _accept(self) -> None:
+        with suppress(OSError):
+            while True:
+                ours, _ = self._listening.accept()
+                theirs = socket.create_connection(self._to)
+                self._open += [ours, theirs]
+                for ends in ((ours, theirs), (theirs, ours)):
+                    threading.Thread(target=_pass_on, args=ends, daemon=True).start()
+
+
+def _pass_on(heard: socket.socket, said: socket.socket) -> None:
+    with suppress(OSError):
+        while heard_of := heard.recv(65536):
+            said.sendall(heard_of)
+    for each in (heard, said):
+        with suppress(OSError):
+            each.shutdown(socket.SHUT_RDWR)
+
+
+class Game:
+    """A served game, its proxy and its log."""
+
+    def __init__(self, name: str, url: str, folder: Path) -> None:
+        self._name = name
+        self._log = folder / f"{name}.log"
+        self._log.touch()
+        self.proxy = Proxy(url)
+        self._process = self._started()
+
+    def mishap(self, *, is_cut: bool) -> None:
+        """Wait until it plays, then cut it off, or kill it and start it again."""
+        before = self._log.stat().st_size
+        end = time.monotonic() + JOINS_S
+        while "episode" not in self._log.read_text("utf-8")[before:] and time.monotonic() < end:
+            time.sleep(0.05)
+        time.sleep(random.uniform(0.0, 0.5))  # noqa: S311 - no secret
+        if is_cut:
+            self.proxy.cut()
+        else:
+            self._process.kill()
+            self._process.wait()
+            self._process = self._started()
+
+    def end(self) -> None:
+        """End it, as a player does."""
+        self._process.send_signal(signal.SIGINT)
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(20)
+        self._process.kill()
+        self._process.wait()
+        self.proxy.close()
+
+    @property
+    def code(self) -> int | None:
+        """Its exit code, None while it runs."""
+        return self._process.poll()
+
+    def _started(self) -> subprocess.Popen[bytes]:
+        words = ["serve-game", "--scheduler", self.proxy.address, "--backend", "virtual", "--name", self._name]
+        with self._log.open("ab") as file:
+            return subprocess.Popen(_command(*words), cwd=ROOT, stdout=file, stderr=file)  # noqa: S603 - our own
+
+
+def main() -> int:
+    """Play, and say what was lost; 1 if anything was that had been confirmed, or counted twice."""
+    parser = argparse.ArgumentParser(description="Games that are lost again and again.")
+    parser.add_argument("--times", type=int, default=20, help="that each game is killed, and that each is cut off")
+    times = parser.parse_args().times
+    with tempfile.TemporaryDirectory() as temporary, ExitStack() as stack:
+        folder = Path(temporary)
+        url = stack.enter_context(scheduler(folder))
+        games = [Game(name, url, folder) for name in GAMES]
+        for game in games:
+            stack.callback(game.end)
+        out, log = folder / "run", folder / "learner.log"
+        words = ["train", "--backend", "virtual", "--preset", "live", "--episodes", "100000", "--games", url]
+        with log.open("wb") as file:
+            learner = subprocess.Popen(_command(*words, "--out", str(out)), cwd=ROOT, stdout=file, stderr=file)  # noqa: S603
+        stack.callback(learner.kill)
+        mishaps = [(game, is_cut) for game in games for is_cut in (False, True)] * times
+        random.shuffle(mishaps)
+        for done, (game, is_cut) in enumerate(mishaps):
+            game.mishap(is_cut=is_cut)
+            time.sleep(random.uniform(*BETWEEN_S))  # noqa: S311 - no secret
+            if learner.poll() is not None:
+                print(f"the learner ended after {done} mishaps: {log.read_text('utf-8')[-400:]}")
+                return 1
+        learner.send_signal(signal.SIGINT)
+        code = learner.wait(120)
+        return _judge(out, log.read_text("utf-8"), len(mishaps), code)
+
+
+def _judge(out: Path, said: str, mishaps: int, code: int) -> int:
+    rows = [
+        list(csv.DictReader((out / name).open(newline="", encoding="utf-8")))
+        for name in ("episodes.csv", "evaluations.csv")
+    ]
+    episodes = [int(row["episode"]) for row in rows[0]]
+    counted = sum(map(len, rows))
+    lost = said.count("its episode is lost")
+    in_order = episodes == list(range(1, len(episodes) + 1))
+    print(
+        f"{mishaps} mishaps, half of them kills: {counted} episodes counted, {lost} lost; numbered without a gap or a "
+        f"double: {in_order}; the learner's exit code {code}"
+    )
+    return 0 if in_order and code == 130 and counted else 1
+
+
+def _command(*words: str) -> list[str]:
+    return [sys.executable, "-m", "mc_nested.cli", *words]
+
+
+if __name__ == "__main__":
+    sys.exit(main())
