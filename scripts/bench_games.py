@@ -4,7 +4,10 @@ Each game has a clock of its own, which its resets and steps advance. The game w
 and gets its next plan at once: practice takes no game time. What counts is the clock of the game that brings the greedy
 evaluation at the optimum.
 
-    python scripts/bench_games.py --designs 12 --games 1,3
+    python scripts/bench_games.py --designs 12 --seeds 3
+
+Beside other games a learner practises more thoroughly than a game alone does with the preset live. With --enough 0.999
+all practise alike: then only what the games don't have to probe any more counts.
 """
 
 import argparse
@@ -103,30 +106,39 @@ def size_of(sent: EpisodePlan | PlayedEpisode) -> int:
     return len(pickle.dumps(sent))
 
 
+def live(enough: float | None) -> Preset:
+    """The preset live, with another share of the best imaginable that ends a practice."""
+    preset = load_preset("live")
+    if enough is None or preset.imagination is None:
+        return preset
+    return preset.model_copy(update={"imagination": preset.imagination.model_copy(update={"enough": enough})})
+
+
 def main() -> None:
     """Compare numbers of games on scattered designs, and show what they do on a line."""
     parser = argparse.ArgumentParser(description="Several games that feed one learner, in simulated time")
     parser.add_argument("--designs", type=int, default=12, help="scattered designs of a benchmark [12]")
     parser.add_argument("--seeds", type=int, default=1, help="trainings on each design, of the seeds from 0 on [1]")
     parser.add_argument("--games", default="1,3", help="numbers of games; the others are compared with the first [1,3]")
+    parser.add_argument("--enough", type=float, help="in place of the preset's, for a game alone")
     parser.add_argument("--reset-s", type=float, default=6.0, help="seconds of a reset [6]")
     parser.add_argument("--step-s", type=float, default=0.34, help="seconds of a step [0.34]")
     options = parser.parse_args()
-    pace, preset = Pace(options.reset_s, options.step_s), load_preset("live")
+    pace, preset = Pace(options.reset_s, options.step_s), live(options.enough)
     first, *more = (int(part) for part in options.games.split(","))
     ratios: dict[tuple[str, int], list[float]] = {}
     for scenario in [load_scenario(LIKE), *scattered(options.designs)]:
         for seed in range(options.seeds):
             of_first = until_optimum(scenario, preset, seed, first, pace)
-            print(f"{scenario.name:14} seed {seed}, {first} games: {of_first.in_words()}", flush=True)
+            print(f"{scenario.name:14} seed {seed}, games: {first}, {of_first.in_words()}", flush=True)
             for many in more:
                 reached = until_optimum(scenario, preset, seed, many, pace)
                 ratio = reached.seconds / of_first.seconds
                 ratios.setdefault((kind_of_design(scenario.design), many), []).append(ratio)
-                print(f"{'':14} seed {seed}, {many} games: {reached.in_words()}, ratio {ratio:.2f}", flush=True)
+                print(f"{'':14} seed {seed}, games: {many}, {reached.in_words()}, ratio {ratio:.2f}", flush=True)
     for (kind, many), found in ratios.items():
         print(
-            f"{kind}, {many} games, {len(found)} trainings: median ratio {statistics.median(found):.2f}, "
+            f"{kind}, games: {many}, {len(found)} trainings: median ratio {statistics.median(found):.2f}, "
             f"mean {statistics.mean(found):.2f}, worst {max(found):.2f}"
         )
 
