@@ -14,7 +14,7 @@ from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.dask_jobs import counted
-from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined
+from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, NameTaken
 from mc_nested.workers.games.order import Answer, GameOrder
 
 LOOK_EVERY_S = 0.2
@@ -82,6 +82,8 @@ class GamesAtPlay:
             if isinstance(event.answer, Exception):
                 return self._refuse(game, str(event.answer))
             return self._take(game, event.answer)
+        if isinstance(event, NameTaken):
+            return f"a second game named {game} was refused: give it another --name"
         record = self._records[game]
         record.is_here = False
         lost = self._lose(record, f"{game} is gone")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.games.game_task import ask_game, packed
-from mc_nested.workers.games.game_worker import RESOURCE
+from mc_nested.workers.games.game_worker import NAMES, RESOURCE
 from mc_nested.workers.games.order import Answer, GameOrder
 
 if TYPE_CHECKING:  # the cluster extra's
@@ -40,7 +40,14 @@ class Answered:
     answer: Answer | Exception
 
 
-GameEvent = Joined | Left | Answered
+@dataclass(frozen=True)
+class NameTaken:
+    """A second game of that name wanted to join, and was refused."""
+
+    game: str
+
+
+GameEvent = Joined | Left | Answered | NameTaken
 
 
 class DaskGames:
@@ -54,17 +61,19 @@ class DaskGames:
     def __init__(self, client: "Client", order: GameOrder) -> None:
         self._client = client
         self._order = order
-        self._happened: SimpleQueue[tuple[str, Future[Answer]] | None] = SimpleQueue()
+        self._happened: SimpleQueue[tuple[str, Future[Answer]] | NameTaken | None] = SimpleQueue()
         self._addresses: dict[str, str] = {}
         self._asked: dict[str, Future[Answer]] = {}
 
     def __enter__(self) -> "DaskGames":
         self._client.subscribe_topic(ALL, self._hear_of_workers)
+        self._client.subscribe_topic(NAMES, lambda event: self._happened.put(NameTaken(event[1])))
         self._happened.put(None)
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._client.unsubscribe_topic(ALL)
+        for topic in (ALL, NAMES):
+            self._client.unsubscribe_topic(topic)
         for future in self._asked.values():
             future.cancel()
 
@@ -91,8 +100,9 @@ class DaskGames:
             return []
         heard += [self._happened.get_nowait() for _ in range(self._happened.qsize())]
         # What a game that is gone has answered before counts: it was played and confirmed.
-        answers = [each for each in heard if each and self._asked.get(each[0]) is each[1]]
-        found: list[GameEvent] = [self._answered(game, done) for game, done in answers]
+        found: list[GameEvent] = [each for each in heard if isinstance(each, NameTaken)]
+        answers = [each for each in heard if isinstance(each, tuple) and self._asked.get(each[0]) is each[1]]
+        found += [self._answered(game, done) for game, done in answers]
         return found + (self._comings_and_goings() if None in heard else [])
 
     def _comings_and_goings(self) -> list[GameEvent]:

@@ -8,7 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from mc_nested.errors import ClusterError
 from mc_nested.workers.cluster.address import SchedulerAddress
-from mc_nested.workers.cluster.connection import CONNECT_S, check_installed, quieten, security_of, unreachable
+from mc_nested.workers.cluster.connection import (
+    CONNECT_S,
+    connected,
+    security_of,
+    unreachable,
+)
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Worker
@@ -16,10 +21,27 @@ if TYPE_CHECKING:  # the cluster extra's
 RESOURCE = "game"
 """What such a worker has one of, so that nothing else is given to it, and it to nothing else."""
 
+START_S = 30.0
+"""Seconds that the worker may take to join, on a busy computer."""
+
 TRY_AGAIN_S = 2.0
 """Seconds between two tries to join again."""
 
+FETCHED_S, LOOK_EVERY_S = 3.0, 0.05
+"""Seconds that a learner may take to fetch an answer, and between two looks whether it has."""
+
+NAME_TAKEN = "name taken"
+"""What a scheduler says of a second worker of a name."""
+
 LOST = "the scheduler can't be reached: trying again"
+
+
+NAMES = "mc-nested-names"
+"""The topic under which a learner hears the name of a game that was refused, since another has it."""
+
+
+class NameTakenError(ClusterError):
+    """Another game has that name."""
 
 
 class GameWorker:
@@ -43,21 +65,23 @@ class GameWorker:
         self._serving: Any = None
 
     def __enter__(self) -> "GameWorker":
-        check_installed()
-        quieten()
+        with connected(self._address):  # which says soon whether it can be reached
+            pass
         self._thread.start()
+        self._folder = tempfile.TemporaryDirectory(prefix="mc-nested-")
         try:
-            self._folder = tempfile.TemporaryDirectory(prefix="mc-nested-")
             worker = asyncio.run_coroutine_threadsafe(self._joined(), self._loop).result()
-        except BaseException:
+        except BaseException as error:
             self._end()
+            if isinstance(error, NameTakenError):
+                self._tell_the_learner()
             raise
         self._serving = asyncio.run_coroutine_threadsafe(self._stay(worker), self._loop)
         return self
 
     def __exit__(self, *_: object) -> None:
         self._serving.cancel()
-        asyncio.run_coroutine_threadsafe(self._leave(), self._loop).result(CONNECT_S)
+        asyncio.run_coroutine_threadsafe(self._leave(), self._loop).result(FETCHED_S + CONNECT_S)
         self._end()
 
     async def _joined(self) -> "Worker":
@@ -75,12 +99,12 @@ class GameWorker:
             security=security_of(self._address),
         )
         try:
-            await asyncio.wait_for(self._worker, CONNECT_S)
-        except ValueError as error:
-            raise ClusterError(
-                f"another game at {self._address.url} is named {self._name}: give this one another --name"
-            ) from error
+            await asyncio.wait_for(self._worker, START_S)
         except (OSError, asyncio.TimeoutError, RuntimeError) as error:
+            if NAME_TAKEN in str(error.__cause__):
+                raise NameTakenError(
+                    f"another game at {self._address.url} is named {self._name}: give this one another --name"
+                ) from error
             raise ClusterError(unreachable(self._address)) from error
         self._say(f"{self._name} has joined {self._address.url}")
         return self._worker
@@ -100,7 +124,16 @@ class GameWorker:
                 continue
 
     async def _leave(self) -> None:
+        """Leave once the learner has the last answer, or doesn't fetch it."""
+        for _ in range(int(FETCHED_S / LOOK_EVERY_S)):
+            if not self._worker.state.tasks:
+                break
+            await asyncio.sleep(LOOK_EVERY_S)
         await self._worker.close(timeout=CONNECT_S / 2)
+
+    def _tell_the_learner(self) -> None:
+        with connected(self._address) as client:
+            client.log_event(NAMES, self._name)
 
     def _end(self) -> None:
         self._loop.call_soon_threadsafe(self._loop.stop)

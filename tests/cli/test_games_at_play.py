@@ -1,0 +1,163 @@
+"""Who plays which episode of a training of many games, what is counted and what is lost; the games are made up."""
+
+import dataclasses
+from collections import deque
+from typing import Any
+
+import pytest
+
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.cli.games_at_play import GamesAtPlay, LastEpisode, blocks_of
+from mc_nested.errors import ClusterError
+from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
+from mc_nested.learn.games.player import play_episode
+from mc_nested.workers.games.dask_games import Answered, GameEvent, Joined, Left, NameTaken
+from mc_nested.workers.games.order import Answer
+from sim.grid import GridGame
+from tests.learn.made_experiments import DOT
+from tests.workers.games.made_orders import ORDER, new_trainer
+
+
+class MadeGames:
+    """Games that answer when the test lets them."""
+
+    def __init__(self) -> None:
+        self.asked: list[tuple[str, EpisodePlan | None]] = []
+        self.coming: deque[GameEvent] = deque()
+
+    def ask(self, game: str, plan: EpisodePlan | None) -> None:
+        self.asked.append((game, plan))
+
+    def events(self, _timeout_s: float) -> list[GameEvent]:
+        found = list(self.coming)
+        self.coming.clear()
+        return found
+
+
+class Play:
+    """A training with made-up games."""
+
+    def __init__(self) -> None:
+        self.games = MadeGames()
+        self.trainer = new_trainer()
+        made: Any = self.games
+        self.at_play = GamesAtPlay(self.trainer, made)
+
+    def happens(self, *events: GameEvent) -> list[str]:
+        self.games.coming += events
+        return self.at_play.look()
+
+    def begin(self, *names: str) -> list[EpisodePlan]:
+        """Let these games join and be ready; the plans that they get."""
+        self.happens(*map(Joined, names))
+        self.happens(*(Answered(name, Answer()) for name in names))
+        return [plan for _, plan in self.games.asked[-len(names) :] if plan]
+
+
+@pytest.fixture
+def play() -> Play:
+    return Play()
+
+
+def played(plan: EpisodePlan) -> PlayedEpisode:
+    arena = ArenaVectorEnv([ArenaEnv(GridGame(DOT), DOT)])
+    return play_episode(arena, plan, ORDER.new_agent())
+
+
+def test_a_game_that_joins_is_asked_whether_it_is_ready_and_then_gets_a_plan(play: Play) -> None:
+    assert play.happens(Joined("one")) == ["one has joined"]
+    assert play.games.asked == [("one", None)]
+    assert play.happens(Answered("one", Answer())) == []
+    name, plan = play.games.asked[-1]
+    assert name == "one"
+    assert plan
+    assert play.at_play.in_words() == "1 game, 1 playing"
+
+
+def test_an_episode_counts_once_and_the_game_gets_the_next(play: Play) -> None:
+    (plan,) = play.begin("one")
+    episode = played(plan)
+    assert play.happens(Answered("one", Answer(episode, log={"game_s": [2.0]}))) == []
+    assert len(play.trainer.episode_rows) == 1
+    assert play.games.asked[-1][1]
+    play.happens(Answered("one", Answer(episode)))
+    assert len(play.trainer.episode_rows) == 1
+    assert play.at_play.summary()["live"]["game_s"] == [2.0]
+
+
+def test_a_game_that_is_gone_costs_its_episode_alone_and_may_come_back(play: Play) -> None:
+    first, second = play.begin("one", "two")
+    assert play.happens(Left("one")) == ["one is gone, its episode is lost"]
+    assert play.at_play.in_words() == "1 game, 1 playing, 1 episode lost"
+    play.happens(Answered("two", Answer(played(second))))
+    assert len(play.trainer.episode_rows) == 1
+    assert play.happens(Joined("one")) == ["one has joined"]
+    assert play.games.asked[-1] == ("one", None)
+    assert not play.trainer.take(played(first))
+
+
+def test_after_a_mishap_a_game_says_first_that_it_is_ready_again(play: Play) -> None:
+    play.begin("one")
+    assert play.happens(Answered("one", Answer(problem="the game is paused"))) == [
+        "one: the game is paused, its episode is lost"
+    ]
+    assert play.games.asked[-1] == ("one", None)
+    play.happens(Answered("one", Answer()))
+    assert play.games.asked[-1][1]
+    summary = play.at_play.summary()["live"]
+    assert (summary["spoiled_episodes"], summary["last_problems"]) == (1, ["the game is paused"])
+
+
+def test_the_training_ends_at_the_optimum_and_nobody_gets_another_plan(play: Play) -> None:
+    plans = dict(zip(("one", "two"), play.begin("one", "two"), strict=True))
+    while not play.trainer.finished:
+        for name in plans:
+            if play.trainer.finished:
+                break
+            play.happens(Answered(name, Answer(played(plans[name]))))
+            asked, plan = play.games.asked[-1]
+            if plan and asked == name:
+                plans[name] = plan
+    asked = len(play.games.asked)
+    play.happens(Answered("one", Answer(played(plans["one"]))))
+    assert len(play.games.asked) == asked
+
+
+@pytest.mark.parametrize(
+    "answer", [Answer(problem="the arena is too small", is_refusal=True), ClusterError("the arena is too small")]
+)
+def test_if_the_only_game_refuses_it_ends_with_that_line(answer: Answer | Exception, play: Play) -> None:
+    play.happens(Joined("one"))
+    with pytest.raises(ClusterError, match=r"^one can't play: the arena is too small$"):
+        play.happens(Answered("one", answer))
+
+
+def test_if_one_of_several_refuses_the_others_go_on(play: Play) -> None:
+    play.begin("one", "two")
+    refusal = Answer(problem="the arena is too small", is_refusal=True)
+    assert play.happens(Answered("one", refusal)) == ["one can't play: the arena is too small"]
+    assert play.happens(Left("one")) == []
+    assert play.at_play.in_words() == "1 game, 1 playing, 1 episode lost"
+
+
+def test_without_a_game_it_waits_and_says_so(play: Play) -> None:
+    assert play.happens() == []
+    assert play.at_play.in_words() == "waiting for a game (mc-nested serve-game)"
+
+
+def test_a_second_game_of_a_name_is_said(play: Play) -> None:
+    assert play.happens(NameTaken("one")) == ["a second game named one was refused: give it another --name"]
+
+
+def test_the_view_shows_the_episode_that_came_back_last(play: Play) -> None:
+    shown = LastEpisode(play.at_play, DOT, 0)
+    assert (shown.cell(0), shown.placed(0)) == (DOT.start, frozenset())
+    (plan,) = play.begin("one")
+    arena = ArenaVectorEnv([ArenaEnv(GridGame(DOT), DOT)])
+    episode = play_episode(arena, plan, ORDER.new_agent())
+    play.happens(Answered("one", Answer(episode)))
+    assert shown.cell(0) == arena.cell(0)
+    assert shown.placed(0) == arena.placed(0)
+    single = dataclasses.replace(episode, actions=episode.actions + 2)
+    assert blocks_of(single, DOT.size, 2) == arena.placed(0)

@@ -1,0 +1,167 @@
+"""``mc-nested train --games`` and ``serve-game``: processes of their own, over a real scheduler."""
+
+import csv
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mc_nested.workers.cluster import connection
+from scripts.dask_programs import scheduler
+from tests.cli.running import run
+from tests.learn.made_experiments import DOT, scenario_text
+
+TRAIN = ["train", "--backend", "virtual", "--preset", "live", "--stop-at-optimum", "--seed", "3"]
+
+
+@pytest.fixture(scope="module")
+def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    with scheduler(tmp_path_factory.mktemp("scheduler")) as address:
+        yield address
+
+
+@pytest.fixture
+def design(tmp_path: Path) -> Path:
+    (tmp_path / "dot.toml").write_text(scenario_text(DOT), "utf-8")
+    return tmp_path / "dot.toml"
+
+
+class Served:
+    """Games that are served, and their logs."""
+
+    def __init__(self, url: str, folder: Path, stack: ExitStack) -> None:
+        self._url = url
+        self._folder = folder
+        self._stack = stack
+
+    def begin(self, name: str, *words: str) -> subprocess.Popen[bytes]:
+        program = [sys.executable, "-m", "mc_nested.cli", "serve-game", "--scheduler", self._url, "--name", name]
+        with (self._folder / f"{name}.log").open("wb") as log:
+            game = subprocess.Popen([*program, *(words or ("--backend", "virtual"))], stdout=log, stderr=log)
+        self._stack.callback(game.wait)
+        self._stack.callback(game.kill)
+        return game
+
+    def said(self, name: str) -> str:
+        return (self._folder / f"{name}.log").read_text("utf-8")
+
+
+@pytest.fixture
+def served(url: str, tmp_path: Path) -> Iterator[Served]:
+    with ExitStack() as stack:
+        yield Served(url, tmp_path, stack)
+
+
+@pytest.mark.slow
+def test_one_game_in_lockstep_learns_what_train_learns_by_itself(
+    url: str, served: Served, design: Path, tmp_path: Path
+) -> None:
+    alone, together = tmp_path / "alone", tmp_path / "together"
+    words = [*TRAIN, "--scenario", str(design)]
+    assert run(*words, "--out", alone) == 0
+    game = served.begin("one")
+    assert run(*words, "--games", url, "--out", together) == 0
+    for table in ("episodes.csv", "evaluations.csv"):
+        assert (together / table).read_bytes() == (alone / table).read_bytes()
+    with (
+        np.load(alone / "checkpoint" / "policies.npz") as ours,
+        np.load(together / "checkpoint" / "policies.npz") as its,
+    ):
+        assert all((ours[name] == its[name]).all() for name in ours.files if name.startswith("kept."))
+    game.send_signal(signal.SIGINT)
+    assert game.wait(20) == 130
+    assert served.said("one").splitlines()[-1].endswith("no key is held, and the learner goes on without this game")
+
+
+@pytest.mark.slow
+def test_two_games_of_which_one_is_killed_reach_the_optimum(
+    url: str, served: Served, design: Path, tmp_path: Path
+) -> None:
+    games = [served.begin(name) for name in ("one", "two")]
+    out = tmp_path / "out"
+    words = [*TRAIN, "--scenario", str(design), "--games", url, "--out", str(out)]
+    training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
+    while training.poll() is None and "episode" not in served.said("one"):
+        time.sleep(0.05)
+    games[0].kill()
+    _, said = training.communicate(timeout=120)
+    assert training.returncode == 0, said
+    assert "one is gone" in said
+    with (out / "episodes.csv").open(newline="", encoding="utf-8") as file:
+        episodes = [int(row["episode"]) for row in csv.DictReader(file)]
+    assert episodes == list(range(1, len(episodes) + 1))
+
+
+@pytest.mark.slow
+def test_a_game_of_another_kind_refuses_at_both_ends(
+    url: str, served: Served, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    game = served.begin("one")
+    assert run("train", "--backend", "live", "--preset", "live", "--games", url, "--out", tmp_path / "out") == 2
+    says = "the learner asks for --backend live, and this game is virtual"
+    assert f"mc-nested: one can't play: {says}; saved: go on with" in capsys.readouterr().err
+    assert game.wait(20) == 2
+    assert served.said("one").splitlines()[-1] == f"mc-nested: {says}"
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["train", "--games", "127.0.0.1:PORT", "--out", "OUT"], "--games are live, or on the virtual client"),
+        (
+            [*TRAIN, "--games", "127.0.0.1:PORT", "--out", "OUT"],
+            "no scheduler answered at tcp://127.0.0.1:PORT in 0.5 s",
+        ),
+        ([*TRAIN, "--games", "10.0.0.1", "--out", "OUT"], "needs this machine's keys"),
+        ([*TRAIN, "--games", "tcp://10.0.0.1", "--out", "OUT"], "is not encrypted"),
+        ([*TRAIN, "--games", "127.0.0.1", "--profile", "x", "--out", "OUT"], "leave out --profile"),
+        ([*TRAIN, "--games", "127.0.0.1", "--record", "all", "--out", "OUT"], "leave out --record"),
+        ([*TRAIN, "--games", "127.0.0.1", "--trials", "2", "--out", "OUT"], "games teach one trial together"),
+        ([*TRAIN, "--insecure", "--out", "OUT"], "name their scheduler with --games"),
+        ([*TRAIN, "--preset", "tuned", "--games", "127.0.0.1", "--out", "OUT"], "[excursions] need the learner"),
+        (["serve-game", "--scheduler", "127.0.0.1:PORT", "--backend", "virtual"], "no scheduler answered at"),
+        (["serve-game", "--scheduler", "10.0.0.1", "--backend", "virtual"], "needs this machine's keys"),
+        (["serve-game", "--scheduler", "127.0.0.1:PORT", "--profile", "nobody"], "nobody"),
+        (["serve-game", "--scheduler", "127.0.0.1:PORT", "--backend", "sim"], "the simulator needs no game"),
+    ],
+)
+def test_a_mistake_is_one_line_and_writes_nothing(
+    words: list[str], says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(connection, "CONNECT_S", 0.5)
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = str(free.getsockname()[1])
+    out = tmp_path / "out"
+    assert run(*(word.replace("PORT", port).replace("OUT", str(out)) for word in words)) == 2
+    said = capsys.readouterr().err
+    assert says.replace("PORT", port) in said
+    assert said.count("\n") == 1
+    assert not out.exists()
+
+
+@pytest.mark.slow
+def test_two_games_of_one_name_are_refused_at_both_ends(url: str, served: Served, design: Path, tmp_path: Path) -> None:
+    served.begin("one")
+    words = [*TRAIN, "--scenario", str(design), "--games", url, "--out", str(tmp_path / "out"), "--episodes", "1000"]
+    words.remove("--stop-at-optimum")
+    training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
+    while training.poll() is None and "episode" not in served.said("one"):
+        time.sleep(0.05)
+    log = tmp_path / "second.log"
+    program = [sys.executable, "-m", "mc_nested.cli", "serve-game", "--scheduler", url, "--name", "one"]
+    with log.open("wb") as file:
+        assert subprocess.run([*program, "--backend", "virtual"], stderr=file, check=False).returncode == 2
+    assert log.read_text("utf-8") == f"mc-nested: another game at {url} is named one: give this one another --name\n"
+    time.sleep(1)
+    training.send_signal(signal.SIGINT)
+    _, said = training.communicate(timeout=60)
+    assert training.returncode == 130
+    assert "a second game named one was refused: give it another --name" in said

@@ -1,0 +1,168 @@
+"""The main thread of a served game: what it plays, what it says of a mishap, and when it ends."""
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
+from contextlib import contextmanager
+from typing import Any
+
+import pytest
+
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.cli.virtual_games import VirtualPlay, open_virtual_games
+from mc_nested.errors import LiveError, NotConfirmedError, ProfileError, StoppedError
+from mc_nested.learn.games.episode import EpisodePlan
+from mc_nested.workers.games.desk import Desk, Request
+from mc_nested.workers.games.game_server import GameServer, OpenGame
+from mc_nested.workers.games.order import Answer, GameOrder
+from tests.workers.games.made_orders import ORDER, new_trainer
+
+PLAN = new_trainer().plan("pc")
+
+
+class Served:
+    """A server over a game on the virtual client, whose requests are asked one after the other."""
+
+    def __init__(self) -> None:
+        self.said: list[str] = []
+        self.is_in_front = True
+        self.opened: list[GameOrder] = []
+        self.closed = 0
+        self.before_step: Callable[[], None] = lambda: None
+        self.opening_error: Exception | None = None
+
+    @contextmanager
+    def opens(self, order: GameOrder) -> Iterator[OpenGame]:
+        if self.opening_error:
+            raise self.opening_error
+        self.opened.append(order)
+        try:
+            with open_virtual_games([order.scenario], order.seed) as (game,):
+                arena = ArenaVectorEnv([ArenaEnv(game, order.scenario)])
+                step = arena.step
+
+                def watched(actions: Any) -> Any:
+                    self.before_step()
+                    return step(actions)
+
+                arena.step = watched  # type: ignore[method-assign]
+                yield OpenGame(arena, VirtualPlay([game]), lambda: self.is_in_front)
+        finally:
+            self.closed += 1
+
+    def ask(self, *plans: EpisodePlan | None, wanted: Callable[[], bool] = lambda: True) -> list[Answer]:
+        """The answers to these requests, after which the player ends it."""
+        desk = Desk()
+        requests = [Request(ORDER, plan, wanted, Future()) for plan in plans]
+        for request in requests:
+            desk._requests.put(request)
+        self.server = GameServer(desk, self.opens, self.said.append, lambda: all(r.answer.done() for r in requests))
+        try:
+            self.server.serve()
+        finally:
+            self.answers = [request.answer.result() for request in requests if request.answer.done()]
+        return self.answers
+
+
+@pytest.fixture
+def served() -> Served:
+    return Served()
+
+
+def test_an_episode_is_played_as_it_was_planned(served: Served) -> None:
+    (answer,) = served.ask(PLAN)
+    assert answer.episode
+    assert answer.episode.number == PLAN.number
+    assert answer.problem == ""
+    assert answer.log["game_s"][0] > 0
+    assert served.said == ["episode 1 of dot", f"episode 1: score {answer.episode.score:g} of 11"]
+    assert served.closed == 1
+
+
+def test_asked_without_a_plan_it_says_that_it_is_ready(served: Served) -> None:
+    (answer,) = served.ask(None)
+    assert (answer.episode, answer.problem, answer.is_refusal) == (None, "", False)
+    assert served.said == []
+
+
+def test_the_game_stays_open_between_episodes(served: Served) -> None:
+    assert all(answer.episode for answer in served.ask(PLAN, PLAN, PLAN))
+    assert len(served.opened) == 1
+
+
+def test_a_mishap_costs_its_episode_and_nothing_else(served: Served) -> None:
+    mishaps = iter([NotConfirmedError("it did not move")])
+
+    def once() -> None:
+        for error in mishaps:
+            raise error
+
+    served.before_step = once
+    first, second = served.ask(PLAN, PLAN)
+    assert first.episode is None
+    assert first.problem == "it did not move"
+    assert second.episode
+    assert second.log["spoiled_episodes"] == 1
+
+
+def test_an_episode_that_nobody_wants_any_more_is_broken_off_with_no_key_down(served: Served) -> None:
+    steps: list[int] = []
+    served.before_step = lambda: steps.append(1)
+    (answer,) = served.ask(PLAN, wanted=lambda: len(steps) < 2)
+    assert answer.episode is None
+    assert answer.problem.startswith("the episode was broken off")
+    assert len(steps) == 2
+    assert not answer.log["spoiled_episodes"]
+
+
+def test_while_the_player_is_elsewhere_it_waits_to_be_ready_but_gives_an_episode_back(served: Served) -> None:
+    served.is_in_front = False
+    looks = iter(range(3))
+
+    def wanted() -> bool:
+        if next(looks, None) is None:
+            served.is_in_front = True
+        return True
+
+    (ready,) = served.ask(None, wanted=wanted)
+    assert ready.problem == ""
+    assert served.said == ["paused: switch to the game to let it go on", "goes on"]
+    served.is_in_front = False
+    (answer,) = served.ask(PLAN)
+    assert answer.problem == "the game is paused: its player is in another window"
+
+
+def test_a_pause_that_nobody_waits_for_ends(served: Served) -> None:
+    served.is_in_front = False
+    (answer,) = served.ask(None, wanted=lambda: False)
+    assert answer.problem == "the game is paused"
+
+
+def test_the_panic_key_ends_it_and_the_learner_is_told(served: Served) -> None:
+    def pressed() -> None:
+        raise StoppedError("the panic key was pressed")
+
+    served.before_step = pressed
+    with pytest.raises(StoppedError):
+        served.ask(PLAN, PLAN)
+    (answer,) = served.answers
+    assert answer.problem == "the panic key was pressed"
+    assert served.closed == 1
+
+
+def test_a_game_that_fails_again_and_again_is_given_up(served: Served) -> None:
+    def fails() -> None:
+        raise NotConfirmedError("it did not move")
+
+    served.before_step = fails
+    with pytest.raises(NotConfirmedError):
+        served.ask(*[PLAN] * 10)
+    assert len(served.answers) == 6
+
+
+@pytest.mark.parametrize("error", [ProfileError("the arena is too small"), LiveError("no game in front")])
+def test_a_game_that_cannot_be_opened_is_refused_at_both_ends(error: Exception, served: Served) -> None:
+    served.opening_error = error
+    with pytest.raises(type(error), match=str(error)):
+        served.ask(PLAN)
+    assert served.answers == [Answer(problem=str(error), is_refusal=True)]
