@@ -60,13 +60,13 @@ class GameWorker:
         self._address = address
         self._name = name
         self._say = say
-        self._loop = asyncio.new_event_loop()
-        self._thread = Thread(target=self._loop.run_forever, name="game-worker", daemon=True)
         self._serving: Any = None
 
     def __enter__(self) -> "GameWorker":
         with connected(self._address):  # which says soon whether it can be reached
             pass
+        self._loop = asyncio.new_event_loop()
+        self._thread = Thread(target=self._loop.run_forever, name="game-worker", daemon=True)
         self._thread.start()
         self._folder = tempfile.TemporaryDirectory(prefix="mc-nested-")
         try:
@@ -136,6 +136,16 @@ class GameWorker:
             client.log_event(NAMES, self._name)
 
     def _end(self) -> None:
+        asyncio.run_coroutine_threadsafe(_cancel_others(), self._loop).result(CONNECT_S)
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join(CONNECT_S)
+        self._loop.close()
         self._folder.cleanup()
+
+
+async def _cancel_others() -> None:
+    """Cancel whatever else this thread's loop has to do, and let it end."""
+    others = asyncio.all_tasks() - {asyncio.current_task()}
+    for each in others:
+        each.cancel()
+    await asyncio.gather(*others, return_exceptions=True)
