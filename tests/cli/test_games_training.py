@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 
 from mc_nested.workers.cluster import connection
-from scripts.dask_programs import scheduler
+from mc_nested.workers.cluster.keys import make_keys
+from scripts.dask_programs import scheduler, tls_words
 from tests.cli.running import run
 from tests.learn.made_experiments import DOT, scenario_text
 
@@ -165,3 +166,15 @@ def test_two_games_of_one_name_are_refused_at_both_ends(url: str, served: Served
     _, said = training.communicate(timeout=60)
     assert training.returncode == 130
     assert "a second game named one was refused: give it another --name" in said
+
+
+@pytest.mark.slow
+def test_with_keys_all_of_it_is_encrypted(design: Path, tmp_path: Path) -> None:
+    keys = tmp_path / "keys"
+    make_keys(keys, ["learner", "pc"])
+    with scheduler(tmp_path, *tls_words(keys / "learner")) as secured, ExitStack() as stack:
+        assert secured.startswith("tls://")
+        served = Served(secured, tmp_path, stack)
+        served.begin("pc", "--backend", "virtual", "--keys", str(keys / "pc"))
+        words = [*TRAIN, "--scenario", str(design), "--games", secured, "--keys", str(keys / "learner")]
+        assert run(*words, "--out", tmp_path / "out") == 0

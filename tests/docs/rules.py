@@ -46,6 +46,20 @@ AS_THEY_ARE = ("mc-nested benchmark --corpus",)
 """Commands that begin like a long one, and are short."""
 
 BY_THE_SUITE = {
+    "dask scheduler": "tests/workers/cluster, which start one, with keys and without",
+    "dask worker": "tests/workers/cluster",
+    "mc-nested reproduce --cluster": "tests/cli/test_cluster.py",
+    "mc-nested sweep --cluster": "tests/cli/test_cluster.py",
+    "mc-nested serve-game": "tests/cli/test_games_training.py",
+    **dict.fromkeys(
+        (
+            "mc-nested train --backend live --preset live --scenario diamond --stop-at-optimum --games",
+            "mc-nested train --backend virtual --preset live --stop-at-optimum --games",
+        ),
+        "tests/cli/test_games_training.py",
+    ),
+    "python scripts/bench_cluster.py": "it takes minutes of an idle machine",
+    "python scripts/bench_lost_games.py": "tests/cli/test_games_training.py, with two games and one mishap",
     "python scripts/test.py": "it runs this test",
     "mc-nested train --preset live --scenario square": "tests/cli/test_train_live_large.py",
 }

@@ -19,7 +19,7 @@ Versions = Mapping[str, str]
 
 @cache
 def own_versions() -> Versions:
-    """This machine's versions, by name: this project's with a hash of its files, and the libraries', of whatever build."""
+    """This machine's versions, by name: this project's with a hash of its files, and the libraries', of any build."""
     own = f"{importlib.metadata.version('mc-nested')} ({_hash_of_files(ROOT)})"
     return {"mc-nested": own, **{name: importlib.metadata.version(name).partition("+")[0] for name in LIBRARIES}}
 
