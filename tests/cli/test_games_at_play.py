@@ -119,9 +119,9 @@ def test_the_training_ends_at_the_optimum_and_nobody_gets_another_plan(play: Pla
             asked, plan = play.games.asked[-1]
             if plan and asked == name:
                 plans[name] = plan
-    asked = len(play.games.asked)
+    asked_so_far = len(play.games.asked)
     play.happens(Answered("one", Answer(played(plans["one"]))))
-    assert len(play.games.asked) == asked
+    assert len(play.games.asked) == asked_so_far
 
 
 @pytest.mark.parametrize(

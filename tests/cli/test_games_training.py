@@ -1,20 +1,37 @@
 """``mc-nested train --games`` and ``serve-game``: processes of their own, over a real scheduler."""
 
 import csv
+import json
+import os
 import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from mc_nested.arena.env import ArenaEnv
+from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.cli import serve_game
+from mc_nested.cli.virtual_games import VirtualPlay, open_virtual_games
+from mc_nested.learn.games.games_trainer import GamesTrainer
+from mc_nested.learn.preset import load_preset
 from mc_nested.workers.cluster import connection
+from mc_nested.workers.cluster.address import SchedulerAddress
+from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.keys import make_keys
+from mc_nested.workers.games import game_task
+from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent
+from mc_nested.workers.games.desk import Desk
+from mc_nested.workers.games.game_server import GameServer, OpenGame
+from mc_nested.workers.games.game_worker import GameWorker
+from mc_nested.workers.games.order import Answer, GameOrder
 from scripts.dask_programs import scheduler, tls_words
 from tests.cli.running import run
 from tests.learn.made_experiments import DOT, scenario_text
@@ -26,6 +43,14 @@ TRAIN = ["train", "--backend", "virtual", "--preset", "live", "--stop-at-optimum
 def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     with scheduler(tmp_path_factory.mktemp("scheduler")) as address:
         yield address
+
+
+@pytest.fixture(autouse=True)
+def own_desk(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A desk that is closed stays so: each test has its own."""
+    made = Desk()
+    for module in (game_task, serve_game):
+        monkeypatch.setattr(module, "desk", made)
 
 
 @pytest.fixture
@@ -58,6 +83,73 @@ class Served:
 def served(url: str, tmp_path: Path) -> Iterator[Served]:
     with ExitStack() as stack:
         yield Served(url, tmp_path, stack)
+
+
+def serve_here(url: str, is_over: threading.Event) -> threading.Thread:
+    """A game on the virtual client that is served by a thread of this process, until that is set."""
+
+    @contextmanager
+    def opens(order: GameOrder) -> Iterator[OpenGame]:
+        with open_virtual_games([order.scenario], order.seed) as (game,):
+            yield OpenGame(ArenaVectorEnv([ArenaEnv(game, order.scenario)]), VirtualPlay([game]), lambda: True)
+
+    def serve() -> None:
+        with GameWorker(SchedulerAddress(url, None), "here", lambda _: None):
+            GameServer(game_task.desk, opens, lambda _: None, is_over.is_set).serve()
+
+    thread = threading.Thread(target=serve)
+    thread.start()
+    return thread
+
+
+def test_a_training_whose_episodes_another_process_plays_is_as_any_other(
+    url: str, design: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    over = threading.Event()
+    thread = serve_here(url, over)
+    out = tmp_path / "out"
+    try:
+        words = [*TRAIN, "--scenario", str(design), "--games", url, "--out", str(out), "--json"]
+        assert run(*words) == 0
+        assert run("train", "--resume", out, "--games", url) == 0
+    finally:
+        over.set()
+        thread.join()
+    printed = capsys.readouterr()
+    summary = json.loads(printed.out.splitlines()[0])
+    assert summary["final_scores"] == [DOT.optimum]
+    assert summary["live"]["game_s"][0] > 0
+    assert "here has joined" in printed.err
+    assert (out / "map.png").is_file()
+
+
+def test_a_game_is_served_until_its_player_ends_it(url: str, capsys: pytest.CaptureFixture[str]) -> None:
+    order = GameOrder("virtual", DOT, "nested", load_preset("live"), 3)
+    trainer = GamesTrainer(DOT, order.new_agent(), order.preset, 3)
+    came: list[Answer] = []
+
+    def learn() -> None:
+        try:
+            with connected(SchedulerAddress(url, None)) as client, DaskGames(client, order) as games:
+                events: list[GameEvent] = []
+                while not events:
+                    events = games.events(0.1)
+                games.ask("mine", trainer.plan("mine"))
+                while not came:
+                    came.extend(each.answer for each in games.events(0.1) if isinstance(each, Answered))
+        finally:
+            os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=learn)
+    thread.start()
+    assert run("serve-game", "--scheduler", url, "--backend", "virtual", "--name", "mine") == 130
+    thread.join()
+    (answer,) = came
+    assert answer.episode
+    assert trainer.take(answer.episode)
+    printed = capsys.readouterr()
+    assert printed.out.splitlines()[:2] == [f"mine has joined {url}", "episode 1 of dot"]
+    assert printed.err == "mc-nested: stopped: no key is held, and the learner goes on without this game\n"
 
 
 @pytest.mark.slow

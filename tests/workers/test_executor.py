@@ -1,0 +1,109 @@
+"""The loop over an experiment's jobs, with an executor whose futures the test holds in its hands."""
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from pathlib import Path
+
+import pytest
+
+from mc_nested.errors import RunError
+from mc_nested.learn.experiments.jobs import Job
+from mc_nested.workers.executor import train_jobs
+from mc_nested.workers.messages import JobEnded, JobReport
+from tests.learn.made_experiments import DOT, one_job
+
+JOB = one_job("nested", [DOT], 1)
+JOBS = [(JOB, Path("a")), (JOB, Path("b"))]
+
+
+class MadeExecutor:
+    """Ends jobs as ``act`` does, called at every look."""
+
+    def __init__(self, act: Callable[["MadeExecutor"], None]) -> None:
+        self.futures: list[Future[JobEnded]] = []
+        self.stopped = 0
+        self.looks = 0
+        self._act = act
+
+    def submit(self, _job: Job, _folder: Path) -> Future[JobEnded]:
+        self.futures.append(Future())
+        return self.futures[-1]
+
+    def reports(self) -> list[JobReport]:
+        self.looks += 1
+        self._act(self)
+        return [JobReport("a", (), (), self.looks)]
+
+    def stop(self) -> None:
+        self.stopped += 1
+
+    def in_words(self) -> str:
+        return ""
+
+
+def finished(executor: MadeExecutor) -> None:
+    for future in executor.futures:
+        if not future.done():
+            future.set_result(JobEnded("a", finished=True))
+
+
+def never() -> bool:
+    return False
+
+
+def test_all_that_is_reported_and_how_each_job_ended_is_passed_on() -> None:
+    heard: list[JobReport | JobEnded | None] = []
+    executor = MadeExecutor(finished)
+    train_jobs(executor, JOBS, never, heard.append)
+    assert heard.count(JobEnded("a", finished=True)) == 2
+    assert JobReport("a", (), (), 1) in heard
+    assert None in heard
+    assert executor.stopped == 0
+
+
+def test_without_jobs_there_is_nothing_to_wait_for() -> None:
+    train_jobs(MadeExecutor(finished), [], never, lambda _: None)
+
+
+def test_a_job_that_fails_stops_the_others_once_and_is_named_when_they_are_saved() -> None:
+    def act(executor: MadeExecutor) -> None:
+        if executor.looks == 1:
+            executor.futures[0].set_result(JobEnded("a", finished=False, failed="the disk is full"))
+        elif executor.looks == 3:
+            executor.futures[1].set_result(JobEnded("b", finished=False))
+
+    executor = MadeExecutor(act)
+    with pytest.raises(RunError, match=r"^the disk is full$"):
+        train_jobs(executor, JOBS, never, lambda _: None)
+    assert executor.stopped == 1
+
+
+def test_a_failure_is_named_before_a_loss() -> None:
+    def act(executor: MadeExecutor) -> None:
+        if executor.looks == 1:
+            executor.futures[0].set_exception(RunError("a process was killed"))
+        elif executor.looks == 2:
+            executor.futures[1].set_result(JobEnded("b", finished=False, failed="the disk is full"))
+
+    with pytest.raises(RunError, match=r"^the disk is full$"):
+        train_jobs(MadeExecutor(act), JOBS, never, lambda _: None)
+
+
+def test_who_asks_to_stop_gets_no_error_of_what_is_lost_then() -> None:
+    def act(executor: MadeExecutor) -> None:
+        if executor.looks == 4:
+            executor.futures[0].set_exception(RunError("a process was killed"))
+            executor.futures[1].cancel()
+
+    executor = MadeExecutor(act)
+    train_jobs(executor, JOBS, lambda: executor.looks > 1, lambda _: None)
+    assert executor.stopped == 1
+
+
+def test_an_error_that_is_no_ones_mistake_is_a_bug_and_passes_through() -> None:
+    def act(executor: MadeExecutor) -> None:
+        if executor.looks == 1:
+            executor.futures[0].set_exception(ZeroDivisionError())
+
+    with pytest.raises(ZeroDivisionError):
+        train_jobs(MadeExecutor(act), JOBS, never, lambda _: None)
