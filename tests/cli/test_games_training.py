@@ -136,7 +136,8 @@ def test_a_game_is_served_until_its_player_ends_it(url: str, capsys: pytest.Capt
                     events = games.events(0.1)
                 games.ask("mine", trainer.plan("mine"))
                 while not came:
-                    came.extend(each.answer for each in games.events(0.1) if isinstance(each, Answered))
+                    answers = [each.answer for each in games.events(0.1) if isinstance(each, Answered)]
+                    came.extend(each for each in answers if isinstance(each, Answer))
         finally:
             os.kill(os.getpid(), signal.SIGINT)
 

@@ -1,6 +1,7 @@
 """The games that have joined a scheduler, as their learner sees them."""
 
 import uuid
+from concurrent.futures import Future
 from dataclasses import dataclass
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any
@@ -12,7 +13,7 @@ from mc_nested.workers.games.game_worker import NAMES, RESOURCE
 from mc_nested.workers.games.order import Answer, GameOrder
 
 if TYPE_CHECKING:  # the cluster extra's
-    from distributed import Client, Future
+    from distributed import Client
 
 ALL = "all"
 """The topic under which a scheduler tells who comes and goes."""
@@ -60,6 +61,8 @@ class DaskGames:
 
     def __init__(self, client: "Client", order: GameOrder) -> None:
         self._client = client
+        # Its futures are done once the answer is here; Dask's own, as soon as the game has it, and may lose it again.
+        self._executor = client.get_executor(pure=False)
         self._order = order
         self._happened: SimpleQueue[tuple[str, Future[Answer]] | NameTaken | None] = SimpleQueue()
         self._addresses: dict[str, str] = {}
@@ -79,14 +82,13 @@ class DaskGames:
 
     def ask(self, game: str, plan: EpisodePlan | None) -> None:
         """Ask a game that is free to play a plan; without one, to say when it is ready for one."""
-        future = self._client.submit(
+        future = self._executor.submit(
             ask_game,
             own_versions(),
             packed(self._order, plan),
             workers=[self._addresses[game]],
             resources={RESOURCE: 1},
             allow_other_workers=False,
-            pure=False,
             key=f"{game}-{uuid.uuid4().hex}",
         )
         self._asked[game] = future
@@ -121,7 +123,7 @@ class DaskGames:
                 found.append(Joined(game))
         return found
 
-    def _answered(self, game: str, done: "Future[Answer]") -> Answered:
+    def _answered(self, game: str, done: Future[Answer]) -> Answered:
         del self._asked[game]
         error = done.exception()
         return Answered(game, error if isinstance(error, Exception) else done.result())

@@ -7,6 +7,7 @@ import pytest
 from distributed import Client, LocalCluster
 
 from mc_nested.learn.experiments.job_training import OUTCOME
+from mc_nested.learn.experiments.jobs import Job
 from mc_nested.workers.cluster.job_task import Trained, packed, stop_training, train_on_worker
 from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.messages import JobEnded
@@ -37,13 +38,13 @@ def left(client: Client) -> list[str]:
     return [path.name for path in Path(folder).iterdir() if path.name.startswith("mc-nested")]
 
 
-def train(client: Client, folder: Path, topic: str, job: object = JOB) -> Trained:
+def train(client: Client, folder: Path, topic: str, job: Job = JOB) -> Trained:
     done: Trained = client.submit(
         train_on_worker,
         own_versions(),
         packed(job, folder),
         topic,
-        pure=False,  # type: ignore[arg-type]
+        pure=False,
     ).result()
     return done
 
