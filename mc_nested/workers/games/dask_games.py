@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any
 
+from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.games.game_task import ask_game, packed
@@ -66,17 +67,19 @@ class DaskGames:
         self._order = order
         self._happened: SimpleQueue[tuple[str, Future[Answer]] | NameTaken | None] = SimpleQueue()
         self._addresses: dict[str, str] = {}
+        self._was_away = False
         self._asked: dict[str, Future[Answer]] = {}
 
     def __enter__(self) -> "DaskGames":
+        self._listen()
+        return self
+
+    def _listen(self) -> None:
         self._client.subscribe_topic(ALL, self._hear_of_workers)
         self._client.subscribe_topic(NAMES, lambda event: self._happened.put(NameTaken(event[1])))
         self._happened.put(None)
-        return self
 
     def __exit__(self, *_: object) -> None:
-        for topic in (ALL, NAMES):
-            self._client.unsubscribe_topic(topic)
         for future in self._asked.values():
             future.cancel()
 
@@ -95,7 +98,11 @@ class DaskGames:
         future.add_done_callback(lambda done: self._happened.put((game, done)))
 
     def events(self, timeout_s: float) -> list[GameEvent]:
-        """What has happened since the last call; waits so long for anything."""
+        """What has happened since the last call; waits so long for anything.
+
+        ClusterError if the scheduler is lost for good.
+        """
+        self._look_at_the_scheduler()
         try:
             heard = [self._happened.get(timeout=timeout_s)]
         except Empty:
@@ -106,6 +113,16 @@ class DaskGames:
         answers = [each for each in heard if isinstance(each, tuple) and self._asked.get(each[0]) is each[1]]
         found += [self._answered(game, done) for game, done in answers]
         return found + (self._comings_and_goings() if None in heard else [])
+
+    def _look_at_the_scheduler(self) -> None:
+        """A client reconnects by itself for a while; nothing is told to it any more then until it asks again."""
+        if self._client.status == "closed":
+            raise ClusterError("the scheduler was lost: start it again")
+        if self._client.status != "running":
+            self._was_away = True
+        elif self._was_away:
+            self._was_away = False
+            self._listen()
 
     def _comings_and_goings(self) -> list[GameEvent]:
         workers = self._client.scheduler_info()["workers"]

@@ -4,6 +4,7 @@ import dataclasses
 import time
 from collections.abc import Iterator
 from concurrent.futures import Future
+from contextlib import ExitStack
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -14,6 +15,7 @@ from distributed import Client, KilledWorker
 from mc_nested.errors import RunError
 from mc_nested.learn.experiments.job_training import outcome_of
 from mc_nested.learn.experiments.jobs import Job
+from mc_nested.workers.cluster import connection as connection_module
 from mc_nested.workers.cluster import dask_jobs
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
@@ -188,6 +190,24 @@ def test_a_scheduler_that_is_lost_ends_it_with_one_line(tmp_path: Path) -> None:
         finally:
             running.kill()
             running.wait()
+
+
+def test_a_scheduler_that_is_killed_ends_it_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(connection_module, "CONNECT_S", 1.0)
+    with ExitStack() as stack:
+        killed = ExitStack()
+        url = killed.enter_context(scheduler(tmp_path))
+        client = stack.enter_context(connected(SchedulerAddress(url, None)))
+        running = worker(tmp_path, url)
+        stack.callback(running.wait)
+        stack.callback(running.kill)
+
+        def watch(message: JobReport | JobEnded | None) -> None:
+            if isinstance(message, JobReport):
+                killed.close()
+
+        with pytest.raises(RunError, match=r"^the scheduler was lost"):
+            train_jobs(DaskJobs(client), [(LONG, tmp_path / "units" / LONG.name)], never, watch)
 
 
 class LosingExecutor:

@@ -3,11 +3,14 @@
 import threading
 import time
 from collections.abc import Iterator
+from contextlib import ExitStack
+from pathlib import Path
 
 import pytest
 from distributed import Client
 
 from mc_nested.errors import ClusterError
+from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.versions import own_versions
@@ -31,8 +34,8 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SchedulerAddre
 
 @pytest.fixture
 def client(address: SchedulerAddress) -> Iterator[Client]:
-    with connected(address) as connection:
-        yield connection
+    with connected(address) as made:
+        yield made
 
 
 @pytest.fixture
@@ -137,8 +140,21 @@ def test_a_game_with_other_versions_says_what_differs(
     assert "instead of 0.1" in str(event.answer)
 
 
+def test_a_scheduler_that_is_lost_for_good_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(connection, "CONNECT_S", 1.0)
+    with ExitStack() as stack:
+        killed = ExitStack()
+        url = killed.enter_context(scheduler(tmp_path))
+        client = stack.enter_context(connected(SchedulerAddress(url, None)))
+        games = stack.enter_context(DaskGames(client, ORDER))
+        assert games.events(0.1) == []
+        killed.close()
+        with pytest.raises(ClusterError, match=r"^the scheduler was lost: start it again$"):
+            until(games, 1)
+
+
 def test_no_scheduler_is_one_line_and_leaves_no_thread(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("mc_nested.workers.cluster.connection.CONNECT_S", 0.5)
+    monkeypatch.setattr(connection, "CONNECT_S", 0.5)
     before = threading.active_count()
     with pytest.raises(ClusterError, match=r"no scheduler answered at tcp://127\.0\.0\.1:9"):
         GameWorker(SchedulerAddress("tcp://127.0.0.1:9", None), "one", quiet).__enter__()
