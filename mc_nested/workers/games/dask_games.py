@@ -112,7 +112,11 @@ class DaskGames:
         found: list[GameEvent] = [each for each in heard if isinstance(each, NameTaken)]
         answers = [each for each in heard if isinstance(each, tuple) and self._asked.get(each[0]) is each[1]]
         found += [self._answered(game, done) for game, done in answers]
-        return found + (self._comings_and_goings() if None in heard else [])
+        if found and None in heard:
+            # First who has answered: whoever is asked again must not have been replaced meanwhile.
+            self._happened.put(None)
+            return found
+        return found or self._comings_and_goings()
 
     def _look_at_the_scheduler(self) -> None:
         """A client reconnects by itself for a while; nothing is told to it any more then until it asks again."""

@@ -112,6 +112,22 @@ def test_a_game_whose_network_is_gone_joins_again_and_breaks_off_what_it_played(
     proxy.close()
 
 
+def test_an_answer_of_a_game_that_has_left_since_counts_and_is_told_first(
+    address: SchedulerAddress, client: Client, desk: Desk
+) -> None:
+    with DaskGames(client, ORDER) as games:
+        with GameWorker(address, "one", quiet):
+            assert until(games, 1) == [Joined("one")]
+            games.ask("one", None)
+            while not (request := desk.next()):
+                pass
+            request.answer.set_result(Answer())
+        time.sleep(0.3)
+        assert games.events(0.1) == [Answered("one", Answer())]
+        games.ask("one", None)
+        assert games.events(1.0) == [Left("one")]
+
+
 def test_a_learner_that_is_done_wants_no_answer_any_more(address: SchedulerAddress, client: Client, desk: Desk) -> None:
     with GameWorker(address, "one", quiet):
         with DaskGames(client, ORDER) as games:
