@@ -30,6 +30,8 @@ class Served:
         self.closed = 0
         self.before_step: Callable[[], None] = lambda: None
         self.opening_error: Exception | None = None
+        self.down: set[str] = {"unknown"}
+        """What is held down in the client's window: keys and buttons."""
 
     @contextmanager
     def opens(self, order: GameOrder) -> Iterator[OpenGame]:
@@ -39,6 +41,8 @@ class Served:
         try:
             with open_virtual_games([order.scenario], order.seed) as (game,):
                 arena = ArenaVectorEnv([ArenaEnv(game, order.scenario)])
+                keyboard: Any = game.connection.devices.keyboard
+                self.down = keyboard._window.down
                 step = arena.step
 
                 def watched(actions: Any) -> Any:
@@ -113,6 +117,7 @@ def test_an_episode_that_nobody_wants_any_more_is_broken_off_with_no_key_down(se
     assert answer.problem.startswith("the episode was broken off")
     assert len(steps) == 2
     assert not answer.log["spoiled_episodes"]
+    assert served.down == set()
 
 
 def test_while_the_player_is_elsewhere_it_waits_to_be_ready_but_gives_an_episode_back(served: Served) -> None:
@@ -148,6 +153,7 @@ def test_the_panic_key_ends_it_and_the_learner_is_told(served: Served) -> None:
     (answer,) = served.answers
     assert answer.problem == "the panic key was pressed"
     assert served.closed == 1
+    assert served.down == set()
 
 
 def test_a_game_that_fails_again_and_again_is_given_up(served: Served) -> None:
