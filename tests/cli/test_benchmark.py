@@ -140,7 +140,7 @@ def test_by_default_sb3_takes_part_where_it_is_installed(
 ) -> None:
     begun: list[Any] = []
     monkeypatch.setattr(benchmark_module, "is_installed", lambda: installed)
-    monkeypatch.setattr(benchmark_module, "_run", lambda folder, _: begun.append(folder))
+    monkeypatch.setattr(benchmark_module, "_run", lambda folder, *_: begun.append(folder))
     assert run("benchmark", "--designs", "6", "--seed", "2", "--out", tmp_path / "new") == 0
     (folder,) = begun
     assert list(dict.fromkeys(each.agent for each in folder.config.contestants)) == agents

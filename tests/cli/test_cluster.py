@@ -11,9 +11,13 @@ import pytest
 
 from scripts.dask_programs import scheduler, worker
 from tests.cli.running import run
+from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, scenario_text, small_preset_text
 
-pytestmark = pytest.mark.slow
+__all__ = ["leftovers"]
+
+
+pytestmark = [pytest.mark.slow, LEFTOVERS]
 
 FILES = ("results.csv", "figure5.png")
 

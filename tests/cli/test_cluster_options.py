@@ -13,6 +13,11 @@ from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
 from scripts.dask_programs import scheduler
 from tests.cli.running import run
+from tests.dask_fixture import LEFTOVERS, leftovers
+
+__all__ = ["leftovers"]
+
+pytestmark = LEFTOVERS
 
 
 def test_without_an_address_the_other_options_are_a_mistake(tmp_path: Path) -> None:

@@ -34,7 +34,13 @@ from mc_nested.workers.games.game_worker import GameWorker
 from mc_nested.workers.games.order import Answer, GameOrder
 from scripts.dask_programs import scheduler, tls_words
 from tests.cli.running import run
+from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, scenario_text
+
+__all__ = ["leftovers"]
+
+pytestmark = LEFTOVERS
+
 
 TRAIN = ["train", "--backend", "virtual", "--preset", "live", "--stop-at-optimum", "--seed", "3"]
 

@@ -148,7 +148,7 @@ def test_without_a_name_its_folder_has_the_figures_name_and_the_date(
 ) -> None:
     begun: list[Path] = []
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(reproduce, "_run", lambda folder, _: begun.append(folder.path))
+    monkeypatch.setattr(reproduce, "_run", lambda folder, *_: begun.append(folder.path))
     assert run(*words) == 0
     assert re.fullmatch(r"figure5-\d{4}-\d\d-\d\d-\d{6}", begun[0].name)
 

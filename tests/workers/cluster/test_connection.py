@@ -13,6 +13,11 @@ from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import check_installed, connected
 from mc_nested.workers.cluster.keys import AUTHORITY, CERTIFICATE, KEY, make_keys
 from scripts.dask_programs import scheduler, tls_words
+from tests.dask_fixture import LEFTOVERS, leftovers
+
+__all__ = ["leftovers"]
+
+pytestmark = LEFTOVERS
 
 
 @pytest.fixture(autouse=True)

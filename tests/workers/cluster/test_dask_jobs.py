@@ -25,7 +25,13 @@ from mc_nested.workers.executor import train_jobs
 from mc_nested.workers.messages import JobEnded, JobReport
 from mc_nested.workers.training import train_job
 from scripts.dask_programs import scheduler, worker
+from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, one_job
+
+__all__ = ["leftovers"]
+
+pytestmark = LEFTOVERS
+
 
 JOB = one_job("nested", [DOT], 2)
 LONG = one_job("nested", [DOT], 2, episodes=1_000_000)

@@ -11,7 +11,13 @@ from mc_nested.learn.experiments.jobs import Job
 from mc_nested.workers.cluster.job_task import Trained, packed, stop_training, train_on_worker
 from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.messages import JobEnded
+from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, one_job
+
+__all__ = ["leftovers"]
+
+pytestmark = LEFTOVERS
+
 
 JOB = one_job("nested", [DOT], 2)
 LONG = one_job("nested", [DOT], 2, episodes=1_000_000)

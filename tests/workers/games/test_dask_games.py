@@ -21,7 +21,13 @@ from mc_nested.workers.games.game_worker import LOST, GameWorker
 from mc_nested.workers.games.order import Answer
 from scripts.bench_lost_games import Proxy
 from scripts.dask_programs import scheduler
+from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.workers.games.made_orders import ORDER, new_trainer
+
+__all__ = ["leftovers"]
+
+pytestmark = LEFTOVERS
+
 
 PATIENCE_S = 20.0
 
