@@ -31,6 +31,8 @@ def scheduler(folder: Path, *words: str) -> Iterator[str]:
         "--port",
         "0",
         "--no-dashboard",
+        "--dashboard-address",
+        "127.0.0.1:0",
         "--scheduler-file",
         str(told),
         *words,
@@ -49,7 +51,8 @@ def scheduler(folder: Path, *words: str) -> Iterator[str]:
 
 def worker(folder: Path, address: str, *words: str) -> subprocess.Popen[bytes]:
     """A worker of one thread, without a nanny, with those words beside its own; it may not be connected yet."""
-    own = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", str(folder))
+    here = ("--host", "127.0.0.1", "--no-dashboard", "--dashboard-address", "127.0.0.1:0")
+    own = (*here, "--nthreads", "1", "--no-nanny", "--local-directory", str(folder))
     return _started(folder / "worker.log", "worker", address, *own, *words)
 
 

@@ -10,6 +10,7 @@ from mc_nested.cli.output import Output
 from mc_nested.errors import ClusterError
 from mc_nested.workers.cluster.address import SchedulerAddress, scheduler_address
 from mc_nested.workers.cluster.connection import connected
+from mc_nested.workers.cluster.dask_jobs import workers_that_train
 
 ClusterOption = Annotated[
     str | None,
@@ -25,7 +26,7 @@ InsecureOption = Annotated[
 FIRST_WORKER_S = 60.0
 """Seconds that a cluster's first worker may take to come."""
 
-LOOK_EVERY_S = 0.2
+LOOK_EVERY_S, NOTE_AFTER_S = 0.2, 1.0
 
 
 def cluster_of(address: str | None, keys: Path | None, insecure: bool) -> SchedulerAddress | None:
@@ -37,20 +38,21 @@ def cluster_of(address: str | None, keys: Path | None, insecure: bool) -> Schedu
     return None
 
 
-def threads_of(cluster: SchedulerAddress, output: Output) -> int:
-    """How many jobs its workers can train at a time; waits for the first worker.
+def workers_of(cluster: SchedulerAddress, output: Output) -> int:
+    """How many workers it has, which train a job at a time each; waits for the first.
 
     ClusterError if the scheduler can't be reached, or no worker comes.
     """
     with connected(cluster) as client:
-        patient_until = time.monotonic() + FIRST_WORKER_S
-        while not (threads := sum(client.nthreads().values())):
-            if time.monotonic() > patient_until:
+        end, note_at = time.monotonic() + FIRST_WORKER_S, time.monotonic() + NOTE_AFTER_S
+        while not (workers := len(workers_that_train(client))):
+            now = time.monotonic()
+            if now > end:
                 raise ClusterError(
                     f"the scheduler at {cluster.url} has no worker: start some (dask worker {cluster.url} --nthreads 1)"
                 )
-            if time.monotonic() > patient_until - FIRST_WORKER_S + 1:
+            if now > note_at:
                 output.note(f"waiting for a worker of {cluster.url}")
-                client.wait_for_workers(1, timeout=max(1.0, patient_until - time.monotonic()))
+                note_at = end
             time.sleep(LOOK_EVERY_S)
-        return int(threads)
+        return workers

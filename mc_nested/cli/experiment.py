@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from mc_nested.cli.cluster_options import threads_of
+from mc_nested.cli.cluster_options import workers_of
 from mc_nested.cli.experiment_progress import ExperimentProgress
 from mc_nested.cli.experiment_status import ExperimentStatus
 from mc_nested.cli.interrupt import Stopped, catch_interrupts
@@ -66,7 +66,7 @@ def check_nothing_beside(options: dict[str, Any], beside: Sequence[str], why: st
 
 def jobs_at_once(cluster: SchedulerAddress | None, output: Output) -> int:
     """Into how many jobs the work is cut, about, unless asked for: as many as are trained at a time."""
-    return min(threads_of(cluster, output), MOST_JOBS) if cluster else cores()
+    return min(workers_of(cluster, output), MOST_JOBS) if cluster else cores()
 
 
 def train_all(folder: ExperimentFolder[Config], output: Output, cluster: SchedulerAddress | None) -> Outcomes:

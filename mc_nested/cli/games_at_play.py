@@ -1,9 +1,9 @@
 """The games that play for one training: plans go out to them, and whole episodes come back."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.rules import landing
@@ -16,6 +16,9 @@ from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.dask_jobs import counted
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, NameTaken
 from mc_nested.workers.games.order import Answer, GameOrder
+
+if TYPE_CHECKING:  # the cluster extra's
+    from distributed import Client
 
 LOOK_EVERY_S = 0.2
 """Seconds that a Ctrl+C may go unnoticed while no game answers."""
@@ -43,6 +46,7 @@ class GamesAtPlay:
         self._games = games
         self._records: dict[str, GameRecord] = {}
         self._refused: dict[str, str] = {}
+        self._has_played = False
         self._lost = 0
         self._problems: list[str] = []
         self.last: PlayedEpisode | None = None
@@ -50,10 +54,10 @@ class GamesAtPlay:
     def look(self) -> list[str]:
         """Deal with what has happened, or wait for a moment; lines about who came and what was lost.
 
-        ClusterError if the only games that are there have refused.
+        ClusterError if the only games that ever came have refused.
         """
         lines = [line for event in self._games.events(LOOK_EVERY_S) if (line := self._handle(event))]
-        if self._refused and not any(record.is_here for record in self._records.values()):
+        if self._refused and not self._has_played and not any(record.is_here for record in self._records.values()):
             raise ClusterError("; ".join(f"{game} can't play: {why}" for game, why in self._refused.items()))
         return lines
 
@@ -96,10 +100,11 @@ class GamesAtPlay:
         if answer.is_refusal:
             return self._refuse(game, answer.problem)
         said = f"{game}: {answer.problem}{self._lose(record, answer.problem)}" if answer.problem else ""
+        self._has_played = self._has_played or not answer.problem
         if answer.episode and self._trainer.take(answer.episode):
             self.last = answer.episode
         record.playing = None
-        if not self._trainer.finished:
+        if not (self._trainer.finished or answer.leaves):
             # After a mishap it says first when it is ready again: its player may be away.
             plan = None if answer.problem else self._trainer.plan(game)
             record.playing = plan.number if plan else None
@@ -124,11 +129,32 @@ class GamesAtPlay:
         return ", its episode is lost"
 
 
+OF_GAMES = "mc-nested-games"
+"""The name of the lock that a learner holds: games play for one at a time."""
+
+FREED_S = 45.0
+"""Seconds until a scheduler has noticed that a learner was killed, and a little more."""
+
+
 @contextmanager
 def games_at_play(cluster: SchedulerAddress, order: GameOrder, trainer: GamesTrainer) -> Iterator[GamesAtPlay]:
-    """The games of that scheduler, for a training; ClusterError if it can't be reached."""
-    with connected(cluster) as client, DaskGames(client, order) as games:
+    """The games of that scheduler, for a training; ClusterError if it can't be reached, or another one has them."""
+    with connected(cluster) as client, _alone(client, cluster), DaskGames(client, order) as games:
         yield GamesAtPlay(trainer, games)
+
+
+@contextmanager
+def _alone(client: "Client", cluster: SchedulerAddress) -> Iterator[None]:
+    from distributed import Lock
+
+    lock = Lock(OF_GAMES, scheduler_rpc=client.scheduler, loop=client.loop)
+    if not lock.acquire(timeout=FREED_S):
+        raise ClusterError(f"another training has the games of {cluster.url}: wait until it ends, or stop it")
+    try:
+        yield
+    finally:
+        with suppress(Exception):  # the scheduler may be gone
+            lock.release()
 
 
 class LastEpisode:

@@ -43,9 +43,9 @@ def run_games_training(
     """Train until the run is finished or somebody stops it; saved on the way and at the end."""
     config, output = folder.config, how.output
     if config.backend == Backend.SIM.value:
-        raise UserError("--games are live, or on the virtual client: name one with --backend")
+        raise UserError("--games are live, or on the virtual client: begin a training with --backend live, or virtual")
     if config.trials != 1:
-        raise UserError("games teach one trial together: leave out --trials")
+        raise UserError(f"games teach one trial together, and this training has {config.trials}: leave out --trials")
     earlier = earlier_run(begin_from, folder) if begin_from else None
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
     agent = folder.new_agent(1, config.preset.device)
@@ -65,11 +65,15 @@ def run_games_training(
             wall_s = time.monotonic() - began - view.publisher.paused_s
             return folder.save(trainer, wall_s, play.summary())
 
+        def pause() -> None:
+            """While a viewer has it paused, the games finish their episodes, and get no others."""
+            view.publisher.wait_while_paused(lambda: interrupt.requested)
+
         choices = 0 if agent.main else len(folder.scenario.materials)
         arenas = LastEpisode(play, folder.scenario, choices)
         shown = TrainingView(view.publisher.board, trainer, folder.scenario, arenas, config)
         try:
-            _play_until_done(folder, trainer, play, shown, how, interrupt, save)
+            _play_until_done(folder, trainer, play, shown, how, interrupt, save, pause)
         except ClusterError as error:
             save()
             raise ClusterError(f"{error}; saved: go on with mc-nested train --resume {folder.path}") from error
@@ -88,6 +92,7 @@ def _play_until_done(
     how: HowToRun,
     interrupt: Interrupt,
     save: Callable[[], object],
+    pause: Callable[[], None],
 ) -> None:
     every = SAVE_EVERY_S[Backend(folder.config.backend)]
     save_at = time.monotonic() + every
@@ -108,4 +113,5 @@ def _play_until_done(
             if time.monotonic() >= save_at:
                 save()
                 save_at = time.monotonic() + every
+            pause()
     shown.show_end()

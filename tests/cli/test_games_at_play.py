@@ -141,6 +141,23 @@ def test_if_one_of_several_refuses_the_others_go_on(play: Play) -> None:
     assert play.at_play.in_words() == "1 game, 1 playing, 1 episode lost"
 
 
+def test_a_refusal_doesnt_end_it_while_a_game_that_has_played_is_away(play: Play) -> None:
+    play.begin("one")
+    refusal = Answer(problem="another version", is_refusal=True, leaves=True)
+    play.happens(Joined("old"))
+    play.happens(Answered("old", refusal))
+    assert play.happens(Left("one")) == ["one is gone, its episode is lost"]
+    assert play.happens(Joined("one")) == ["one has joined"]
+
+
+def test_a_game_that_leaves_is_not_asked_again(play: Play) -> None:
+    play.begin("one")
+    asked = len(play.games.asked)
+    said = play.happens(Answered("one", Answer(problem="its player has ended it", leaves=True)))
+    assert said == ["one: its player has ended it, its episode is lost"]
+    assert len(play.games.asked) == asked
+
+
 def test_without_a_game_it_waits_and_says_so(play: Play) -> None:
     assert play.happens() == []
     assert play.at_play.in_words() == "waiting for a game (mc-nested serve-game)"

@@ -18,7 +18,7 @@ import pytest
 
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.vector import ArenaVectorEnv
-from mc_nested.cli import serve_game
+from mc_nested.cli import games_at_play, serve_game
 from mc_nested.cli.virtual_games import VirtualPlay, open_virtual_games
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.preset import load_preset
@@ -26,7 +26,8 @@ from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.keys import make_keys
-from mc_nested.workers.games import game_task
+from mc_nested.workers.cluster.versions import own_versions
+from mc_nested.workers.games import dask_games, game_task
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent
 from mc_nested.workers.games.desk import Desk
 from mc_nested.workers.games.game_server import GameServer, OpenGame
@@ -217,7 +218,7 @@ def test_a_game_of_another_kind_refuses_at_both_ends(
         (["train", "--games", "127.0.0.1:PORT", "--out", "OUT"], "--games are live, or on the virtual client"),
         (
             [*TRAIN, "--games", "127.0.0.1:PORT", "--out", "OUT"],
-            "no scheduler answered at tcp://127.0.0.1:PORT in 0.5 s",
+            "no scheduler answered at tcp://127.0.0.1:PORT: start one there",
         ),
         ([*TRAIN, "--games", "10.0.0.1", "--out", "OUT"], "needs this machine's keys"),
         ([*TRAIN, "--games", "tcp://10.0.0.1", "--out", "OUT"], "is not encrypted"),
@@ -277,3 +278,59 @@ def test_with_keys_all_of_it_is_encrypted(design: Path, tmp_path: Path) -> None:
         served.begin("pc", "--backend", "virtual", "--keys", str(keys / "pc"))
         words = [*TRAIN, "--scenario", str(design), "--games", secured, "--keys", str(keys / "learner")]
         assert run(*words, "--out", tmp_path / "out") == 0
+
+
+@pytest.mark.slow
+def test_a_game_of_another_version_leaves_and_both_ends_say_what_differs(
+    url: str, served: Served, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    game = served.begin("one")
+    monkeypatch.setattr(dask_games, "own_versions", lambda: {**own_versions(), "numba": "0.1"})
+    assert run(*TRAIN, "--games", url, "--out", tmp_path / "out") == 2
+    differs = f"one has numba {own_versions()['numba']} instead of 0.1: install the same on both"
+    assert f"one can't play: {differs}" in capsys.readouterr().err
+    assert game.wait(20) == 2
+    assert served.said("one").splitlines()[-1] == f"mc-nested: {differs}"
+
+
+@pytest.mark.slow
+def test_a_second_training_is_refused_the_games_of_the_first(
+    url: str,
+    served: Served,
+    design: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(games_at_play, "FREED_S", 1.0)
+    words = [*TRAIN, "--scenario", str(design), "--games", url]
+    first = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words, "--out", str(tmp_path / "first")])
+    while not (tmp_path / "first" / "config.toml").exists() and first.poll() is None:
+        time.sleep(0.05)
+    assert run(*words, "--out", tmp_path / "second") == 2
+    assert f"another training has the games of {url}: wait until it ends, or stop it" in capsys.readouterr().err
+    assert not (tmp_path / "second").exists()
+    first.send_signal(signal.SIGINT)
+    assert first.wait(30) == 130
+    served.begin("one")
+    assert run(*words, "--out", tmp_path / "third") == 0
+
+
+@pytest.mark.slow
+def test_a_scheduler_that_is_killed_saves_the_training(design: Path, tmp_path: Path) -> None:
+    with ExitStack() as stack:
+        killed = ExitStack()
+        address = killed.enter_context(scheduler(tmp_path))
+        served = Served(address, tmp_path, stack)
+        served.begin("one")
+        words = [*TRAIN, "--scenario", str(design), "--games", address, "--out", str(tmp_path / "out")]
+        words.remove("--stop-at-optimum")
+        training = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words], stderr=subprocess.PIPE, text=True)
+        while training.poll() is None and "episode 2" not in served.said("one"):
+            time.sleep(0.05)
+        killed.close()
+        _, said = training.communicate(timeout=60)
+    assert training.returncode == 2
+    assert "mc-nested: the scheduler was lost: start it again; saved: go on with mc-nested train --resume" in said
+    assert "Traceback" not in said
+    assert (tmp_path / "out" / "checkpoint").is_dir()

@@ -1,6 +1,7 @@
 """Which scheduler, and how it is spoken to: encrypted, with certificates on both ends, wherever others could listen."""
 
 import ipaddress
+import ssl
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -34,9 +35,9 @@ def scheduler_address(text: str, keys: Path | None = None, *, insecure: bool = F
         ClusterError: it is no address, TLS lacks keys, or plain TCP would leave this computer.
     """
     scheme, host, port = _parts_of(text)
-    is_local = _is_loopback(host)
+    is_here = _is_loopback(host)
     if not scheme:
-        scheme = "tcp" if keys is None and (is_local or insecure) else "tls"
+        scheme = "tcp" if keys is None and (is_here or insecure) else "tls"
     if scheme not in ("tcp", "tls"):
         raise ClusterError(f"{text}: {scheme}:// is not spoken here: write tls://HOST:PORT, or tcp://127.0.0.1:PORT")
     url = f"{scheme}://{f'[{host}]' if ':' in host else host}:{port}"
@@ -44,7 +45,7 @@ def scheduler_address(text: str, keys: Path | None = None, *, insecure: bool = F
         return SchedulerAddress(url, _checked_keys(url, keys))
     if keys is not None:
         raise ClusterError(f"{url} is plain TCP, which takes no keys: write tls://, or leave out --keys")
-    if not is_local and not insecure:
+    if not is_here and not insecure:
         raise ClusterError(
             f"{url} is not encrypted, and whoever reaches it can run programs here: make keys with mc-nested "
             f"cluster-keys, then write tls:// and --keys; or pass --insecure in a network that is yours alone"
@@ -59,9 +60,14 @@ def _parts_of(text: str) -> tuple[str, str, int]:
         host, port = parts.hostname, parts.port
     except ValueError as error:
         raise ClusterError(f"{text!r} is no address of a scheduler: write HOST:PORT") from error
-    if not host or parts.path or parts.username:
+    if not host or port == 0 or parts.username or any((parts.path, parts.query, parts.fragment)) or " " in text:
         raise ClusterError(f"{text!r} is no address of a scheduler: write HOST:PORT")
     return parts.scheme, host, port or PORT
+
+
+def is_local(address: SchedulerAddress) -> bool:
+    """Whether that scheduler is on this computer, and named so."""
+    return _is_loopback(_parts_of(address.url)[1])
 
 
 def _is_loopback(host: str) -> bool:
@@ -81,4 +87,8 @@ def _checked_keys(url: str, keys: Path | None) -> Path:
     missing = next((name for name in (AUTHORITY, CERTIFICATE, KEY) if not (keys / name).is_file()), None)
     if missing:
         raise ClusterError(f"{keys}: no {missing} there: name a machine's folder that mc-nested cluster-keys made")
+    try:
+        ssl.create_default_context(cafile=keys / AUTHORITY).load_cert_chain(keys / CERTIFICATE, keys / KEY)
+    except OSError as error:  # ssl.SSLError is one
+        raise ClusterError(f"{keys}: damaged, or of two machines: copy that machine's whole folder again") from error
     return keys

@@ -1,11 +1,12 @@
 """A connection to a Dask scheduler, for who gives out work and for who does it."""
 
 import logging
-import os
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future, wait
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from threading import Thread
+from typing import TYPE_CHECKING, TypeVar
 
 from mc_nested.errors import ClusterError
 from mc_nested.workers.cluster.address import SchedulerAddress
@@ -16,6 +17,9 @@ if TYPE_CHECKING:  # the cluster extra's; loading it takes a second
 
 CONNECT_S = 10.0
 """Seconds that a scheduler may take to answer."""
+
+LONGER_S = 2.0
+"""Seconds longer, before it is given up."""
 
 HOW_TO_INSTALL = "pip install 'mc-nested[cluster]'"
 
@@ -50,38 +54,64 @@ def connected(address: SchedulerAddress) -> Iterator["Client"]:
     ClusterError if none answers, or it refuses this machine's certificate, or its own isn't the authority's.
     """
     check_installed()
-    from distributed import Client
-
     quieten()
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of other versions: the workers say that, in a line of ours
-            client = Client(
-                address.url, security=security_of(address), timeout=CONNECT_S, set_as_default=False, name="mc-nested"
-            )
-    except (OSError, ValueError, TypeError) as error:
-        raise ClusterError(unreachable(address)) from error
+    client = _in_time(lambda: _new_client(address))
+    if not client:
+        raise ClusterError(unreachable(address))
     try:
         yield client
     finally:
-        client.close(timeout=CONNECT_S)
+        _in_time(lambda: client.close(timeout=CONNECT_S))
+
+
+def _new_client(address: SchedulerAddress) -> "Client | None":
+    from distributed import Client
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of other versions: the workers say that, in a line of ours
+            return Client(
+                address.url, security=security_of(address), timeout=CONNECT_S, set_as_default=False, name="mc-nested"
+            )
+    except (OSError, ValueError, TypeError):
+        return None
+
+
+Result = TypeVar("Result")
+
+
+def _in_time(work: Callable[[], Result]) -> Result | None:
+    """What that returns; None if it takes longer than CONNECT_S: Dask waits for ever for a scheduler that hangs."""
+    done: Future[Result] = Future()
+
+    def run() -> None:
+        try:
+            done.set_result(work())
+        except BaseException as error:  # it is raised where it is waited for
+            done.set_exception(error)
+
+    Thread(target=run, name="dask-client", daemon=True).start()
+    wait([done], CONNECT_S + LONGER_S)
+    return done.result() if done.done() else None
 
 
 def unreachable(address: SchedulerAddress) -> str:
     """Why nothing came of a connection, as far as one end can tell."""
     if address.keys:
         return (
-            f"no scheduler answered at {address.url} in {CONNECT_S:g} s: is it running there, with keys of the same "
-            f"authority as {address.keys}?"
+            f"no scheduler answered at {address.url}: is it running there, with keys of the same authority as "
+            f"{address.keys}?"
         )
     return (
-        f"no scheduler answered at {address.url} in {CONNECT_S:g} s: start one there (dask scheduler), or mend the "
-        f"address; one with keys is written tls://"
+        f"no scheduler answered at {address.url}: start one there (dask scheduler), or mend the address; one with keys "
+        f"is written tls://"
     )
 
 
 def quieten() -> None:
     """Keep Dask's log off the terminal: what matters of it is said in this project's own words."""
-    for name in ("distributed", "tornado.application", "asyncio"):
-        logging.getLogger(name).setLevel(logging.CRITICAL)
-    os.environ.setdefault("DASK_DISTRIBUTED__LOGGING__DISTRIBUTED", "critical")  # it sets its own when it is loaded
+    import distributed.client  # noqa: F401 - it makes loggers, each with a level of its own
+
+    for name in ("tornado", "asyncio", *list(logging.root.manager.loggerDict)):
+        if name.split(".")[0] in ("distributed", "tornado", "asyncio"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)

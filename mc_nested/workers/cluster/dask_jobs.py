@@ -4,19 +4,19 @@ A worker that dies costs the jobs that it was training: they go to others, MOST_
 is taken once, whoever came to it.
 """
 
-import threading
 import uuid
 import warnings
-from concurrent.futures import CancelledError, Future
+from concurrent.futures import CancelledError, Future, wait
 from contextlib import suppress
 from pathlib import Path
 from queue import SimpleQueue
+from threading import RLock, Thread
 from typing import TYPE_CHECKING, Any
 
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.experiments.jobs import Job
 from mc_nested.report.tensorboard import FOLDER
-from mc_nested.workers.cluster.job_task import Reported, Trained, packed, stop_training, train_on_worker
+from mc_nested.workers.cluster.job_task import GAME, Reported, Trained, packed, stop_training, train_on_worker
 from mc_nested.workers.cluster.shipped_files import land, write_below
 from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.messages import JobEnded, JobReport
@@ -27,6 +27,9 @@ if TYPE_CHECKING:  # the cluster extra's
 MOST_TRIES = 12
 """Times that a job is handed to the scheduler, which gives up after four workers that were lost with it. Nobody can
 tell a job that takes more memory than there is from one whose workers were killed."""
+
+SAVE_S = 60.0
+"""Seconds that a worker may take to save its job."""
 
 WHY_LOST = "if nobody stopped them, it needs more memory than they have"
 
@@ -48,7 +51,8 @@ class DaskJobs:
         self._reported: SimpleQueue[JobReport] = SimpleQueue()
         self._futures: dict[str, Future[Trained]] = {}
         self._trained_by: dict[str, str] = {}
-        self._workers = set(client.scheduler_info()["workers"])
+        self._workers = set(workers_that_train(client))
+        self._lock = RLock()  # Dask tells what happens from threads of its own
         self._lost_workers = self._lost_jobs = 0
         self._stopping = False
         client.subscribe_topic(self._topic, self._hear)
@@ -63,18 +67,30 @@ class DaskJobs:
         return [self._reported.get() for _ in range(self._reported.qsize())]
 
     def stop(self) -> None:
-        self._stopping = True
-        for name, future in self._futures.items():
-            if name not in self._trained_by:
-                future.cancel()
-        # In a thread: it waits for every worker's answer, and one may be gone.
-        threading.Thread(target=self._stop_all, daemon=True).start()
+        with self._lock:
+            self._stopping = True
+            waiting = [future for name, future in self._futures.items() if name not in self._trained_by]
+        for future in waiting:
+            future.cancel()
+        # In threads: one waits for every worker's answer, and one may be gone, or hang.
+        for work in (self._stop_all, self._give_up):
+            Thread(target=work, daemon=True).start()
 
     def _stop_all(self) -> None:
         with suppress(Exception):  # of a worker that is gone: its job is cancelled with it
             self._client.run(stop_training, self._topic, on_error="ignore")
 
+    def _give_up(self) -> None:
+        """Wait no longer for what doesn't come back."""
+        wait(list(self._futures.values()), SAVE_S)
+        for future in self._futures.values():
+            future.cancel()
+
     def in_words(self) -> str:
+        with self._lock:
+            return self._in_words()
+
+    def _in_words(self) -> str:
         running = len(self._trained_by)
         waiting = sum(not future.done() for future in self._futures.values()) - running
         words = f"{counted(len(self._workers), 'worker')}, {counted(running, 'job')} training, {waiting} waiting"
@@ -87,19 +103,25 @@ class DaskJobs:
             warnings.simplefilter("ignore")  # of large tasks: a checkpoint has to get there
             key = f"{job.name}-{tries}-{self._topic}"
             package = packed(job, folder)
-            trained = self._executor.submit(train_on_worker, own_versions(), package, self._topic, key=key)
-        self._futures[job.name] = trained
+            with self._lock:  # until it is known, nothing is heard of it
+                trained = self._executor.submit(train_on_worker, own_versions(), package, self._topic, key=key)
+                self._futures[job.name] = trained
         trained.add_done_callback(lambda done: self._land(job, folder, done, landed, tries - 1))
 
     def _hear(self, event: tuple[float, dict[str, Any]]) -> None:
         said = Reported(**event[1])
-        if not self._futures[said.job].done():
-            self._trained_by[said.job] = said.worker
-            self._reported.put(JobReport(said.job, said.episodes, said.scores, said.updates))
+        with self._lock:
+            if not self._futures[said.job].done():
+                self._trained_by[said.job] = said.worker
+                self._reported.put(JobReport(said.job, said.episodes, said.scores, said.updates))
 
     def _hear_of_workers(self, event: tuple[float, dict[str, Any]]) -> None:
-        said = event[1]
+        with self._lock:
+            self._note_worker(event[1])
+
+    def _note_worker(self, said: dict[str, Any]) -> None:
         if said.get("action") == "add-worker":
+            # A game is one, too, and isn't told apart here; nor has it jobs to lose.
             self._workers.add(said["worker"])
         elif said.get("action") == "remove-worker":
             self._workers.discard(said["worker"])
@@ -114,7 +136,8 @@ class DaskJobs:
         """Put what came back into the job's folder; ``landed`` says how it ended. A lost job has so many tries left."""
         from distributed import KilledWorker
 
-        self._trained_by.pop(job.name, None)
+        with self._lock:
+            self._trained_by.pop(job.name, None)
         try:
             trained = done.result()
             if not trained.ended.failed:
@@ -129,7 +152,7 @@ class DaskJobs:
                 landed.set_exception(RunError("the scheduler was lost, or dropped the jobs"))
         except KilledWorker as error:
             if tries and not self._stopping:
-                self._hand_over(job, folder, landed, tries)
+                self._try_again(job, folder, landed, tries)
             else:
                 workers = (MOST_TRIES - tries) * (error.allowed_failures + 1)
                 landed.set_exception(RunError(f"job {job.name} was lost with each of {workers} workers: {WHY_LOST}"))
@@ -137,6 +160,18 @@ class DaskJobs:
             landed.set_exception(RunError(f"{folder}: can't be written ({error}): make room"))
         except Exception as error:
             landed.set_exception(_in_words(job, error))
+
+    def _try_again(self, job: Job, folder: Path, landed: Future[JobEnded], tries: int) -> None:
+        try:
+            self._hand_over(job, folder, landed, tries)
+        except Exception as error:  # whatever it is, somebody waits for the job
+            landed.set_exception(_in_words(job, error))
+
+
+def workers_that_train(client: "Client") -> list[str]:
+    """The addresses of a scheduler's workers, but for games."""
+    workers = client.scheduler_info()["workers"]
+    return [address for address, each in workers.items() if GAME not in each["resources"]]
 
 
 def counted(count: int, what: str) -> str:

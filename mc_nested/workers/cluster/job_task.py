@@ -7,8 +7,10 @@ import os
 import pickle
 import sys
 import tempfile
+import time
 from collections.abc import Callable
 from pathlib import Path
+from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mc_nested.errors import ClusterError
@@ -28,6 +30,15 @@ REPORT_EVERY_S = 1.0
 
 UNITS = "units"
 """The folder's name above a job's, as in an experiment's folder: what a job writes beside it lands there, too."""
+
+GAME = "game"
+"""The resource of workers that are games: jobs leave them alone."""
+
+ELSEWHERE_S = 0.5
+"""Seconds until a job that was given to a game is given to another worker."""
+
+_one_at_a_time = Lock()
+"""A worker may have several threads; random numbers of stable-baselines3 are a whole process's."""
 
 _AT_WORK = ("running", "paused", "closing_gracefully")
 """What a worker's status is as long as its scheduler can be reached; ``paused`` is for too little memory."""
@@ -64,14 +75,16 @@ def train_on_worker(versions: Versions, package: bytes, topic: str) -> Trained:
 
     ClusterError if this worker's versions aren't those.
     """
-    from distributed import get_worker
+    from distributed import Reschedule, get_worker
 
     worker: Worker = get_worker()
+    if GAME in worker.state.total_resources:
+        time.sleep(ELSEWHERE_S)  # nobody else may be there for a while
+        raise Reschedule
     if differing := differences(versions, own_versions()):
         message = f"the worker at {worker.address} has {differing}: install the same on both"
         print(f"mc-nested: a job was refused: {message}", file=sys.stderr, flush=True)
         raise ClusterError(message)
-    _use_one_thread()
     job, files = pickle.loads(package)  # noqa: S301 - from the client, which the scheduler has let in
     is_wanted = wanted_here(worker)
 
@@ -80,7 +93,8 @@ def train_on_worker(versions: Versions, package: bytes, topic: str) -> Trained:
         worker.log_event(topic, said._asdict())
         return topic not in _stopped and is_wanted()
 
-    with tempfile.TemporaryDirectory(prefix="mc-nested-", dir=worker.local_directory) as root:
+    with _one_at_a_time, tempfile.TemporaryDirectory(prefix="mc-nested-", dir=worker.local_directory) as root:
+        _use_one_thread()
         folder = Path(root) / UNITS / job.name
         write_below(folder, files)
         ended = train_job(job, folder, report, REPORT_EVERY_S)
@@ -104,7 +118,7 @@ def wanted_here(worker: "Worker") -> Callable[[], bool]:
 
 
 def _use_one_thread() -> None:
-    """Compute with one thread, as the processes of ``processes.py`` do: another number might round differently."""
+    """Let torch compute with one thread, as the processes of this computer do: another number might round otherwise."""
     os.environ.update(ONE_THREAD_EACH)
     if torch := sys.modules.get("torch"):  # it has read the environment already
         torch.set_num_threads(1)

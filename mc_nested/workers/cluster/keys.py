@@ -21,6 +21,9 @@ AUTHORITY, AUTHORITY_KEY = "authority.pem", "authority-key.pem"
 CERTIFICATE, KEY = "certificate.pem", "key.pem"
 """A machine's own pair."""
 
+LONGEST_NAME = 64
+"""Characters that a certificate's name may have."""
+
 VALID_DAYS = 3650
 """Days that what is made is valid."""
 
@@ -38,8 +41,11 @@ def make_keys(folder: Path, machines: Sequence[str]) -> list[Path]:
         OSError: the disk refuses.
     """
     for machine in machines:
-        if not machine or Path(machine).name != machine or machine.startswith("."):
+        is_reserved = machine in (AUTHORITY, AUTHORITY_KEY) or machine.startswith(".")
+        if not machine or Path(machine).name != machine or is_reserved or len(machine) > LONGEST_NAME:
             raise ClusterError(f"{machine!r} can't be a machine's name, and a folder's: take letters and digits")
+        if machines.count(machine) > 1:
+            raise ClusterError(f"{machine} is named twice: give each machine a name of its own")
         if (folder / machine).exists():
             raise ClusterError(f"{folder / machine} is there already: delete it to make new keys, or take another name")
     authority, key = _authority_in(folder)

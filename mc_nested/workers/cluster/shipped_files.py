@@ -35,11 +35,15 @@ def land(folder: Path, files: Files) -> None:
     Whenever the process is killed, the folder holds the old checkpoint, the new one or the outcome, each whole, or
     nothing, so that the job begins anew.
     """
-    old, new = folder / CHECKPOINT, folder / f"{CHECKPOINT}.new"
-    shutil.rmtree(new, ignore_errors=True)
-    saved = {name.removeprefix(f"{CHECKPOINT}/"): each for name, each in files.items() if name.startswith(CHECKPOINT)}
+    current, new, old = folder / CHECKPOINT, folder / f"{CHECKPOINT}.new", folder / f"{CHECKPOINT}.old"
+    for leftover in (new, old):
+        shutil.rmtree(leftover, ignore_errors=True)
+    inside = f"{CHECKPOINT}/"
+    saved = {name.removeprefix(inside): each for name, each in files.items() if name.startswith(inside)}
     write_below(new, saved)
     write_below(folder, {name: each for name, each in files.items() if name == OUTCOME})
-    shutil.rmtree(old, ignore_errors=True)
+    if current.exists():
+        current.rename(old)
     if saved:
-        new.rename(old)
+        new.rename(current)
+    shutil.rmtree(old, ignore_errors=True)

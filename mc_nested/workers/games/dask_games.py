@@ -2,15 +2,17 @@
 
 import uuid
 from concurrent.futures import Future
+from contextlib import suppress
 from dataclasses import dataclass
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING, Any
 
 from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan
+from mc_nested.workers.cluster.job_task import GAME
 from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.games.game_task import ask_game, packed
-from mc_nested.workers.games.game_worker import NAMES, RESOURCE
+from mc_nested.workers.games.game_worker import NAMES
 from mc_nested.workers.games.order import Answer, GameOrder
 
 if TYPE_CHECKING:  # the cluster extra's
@@ -80,8 +82,9 @@ class DaskGames:
         self._happened.put(None)
 
     def __exit__(self, *_: object) -> None:
-        for future in self._asked.values():
-            future.cancel()
+        with suppress(Exception):  # the scheduler may be gone
+            for future in self._asked.values():
+                future.cancel()
 
     def ask(self, game: str, plan: EpisodePlan | None) -> None:
         """Ask a game that is free to play a plan; without one, to say when it is ready for one."""
@@ -90,7 +93,7 @@ class DaskGames:
             own_versions(),
             packed(self._order, plan),
             workers=[self._addresses[game]],
-            resources={RESOURCE: 1},
+            resources={GAME: 1},
             allow_other_workers=False,
             key=f"{game}-{uuid.uuid4().hex}",
         )
@@ -102,7 +105,8 @@ class DaskGames:
 
         ClusterError if the scheduler is lost for good.
         """
-        self._look_at_the_scheduler()
+        if lost := self._look_at_the_scheduler():
+            return lost
         try:
             heard = [self._happened.get(timeout=timeout_s)]
         except Empty:
@@ -111,26 +115,31 @@ class DaskGames:
         # What a game that is gone has answered before counts: it was played and confirmed.
         found: list[GameEvent] = [each for each in heard if isinstance(each, NameTaken)]
         answers = [each for each in heard if isinstance(each, tuple) and self._asked.get(each[0]) is each[1]]
-        found += [self._answered(game, done) for game, done in answers]
+        found += [self._answered(game, done) for game, done in answers if not done.cancelled()]
         if found and None in heard:
             # First who has answered: whoever is asked again must not have been replaced meanwhile.
             self._happened.put(None)
             return found
         return found or self._comings_and_goings()
 
-    def _look_at_the_scheduler(self) -> None:
-        """A client reconnects by itself for a while; nothing is told to it any more then until it asks again."""
+    def _look_at_the_scheduler(self) -> list[GameEvent]:
+        """All games are gone for a client that has reconnected by itself: what it had asked for is forgotten."""
         if self._client.status == "closed":
             raise ClusterError("the scheduler was lost: start it again")
         if self._client.status != "running":
             self._was_away = True
-        elif self._was_away:
-            self._was_away = False
-            self._listen()
+            return []
+        if not self._was_away:
+            return []
+        self._was_away = False
+        gone: list[GameEvent] = [Left(game) for game in self._addresses]
+        self._addresses, self._asked = {}, {}
+        self._listen()
+        return gone
 
     def _comings_and_goings(self) -> list[GameEvent]:
         workers = self._client.scheduler_info()["workers"]
-        now = {each["name"]: address for address, each in workers.items() if each["resources"].get(RESOURCE)}
+        now = {each["name"]: address for address, each in workers.items() if each["resources"].get(GAME)}
         found: list[GameEvent] = []
         for game, address in list(self._addresses.items()):
             if now.get(game) != address:

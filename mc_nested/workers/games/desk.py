@@ -9,12 +9,13 @@ from dataclasses import dataclass, field
 from queue import Empty, SimpleQueue
 from threading import Event
 
+from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.workers.games.order import Answer, GameOrder
 
 LOOK_EVERY_S = 0.2
 
-CLOSED = Answer(problem="the game was closed")
+CLOSED = Answer(problem="the game was closed", leaves=True)
 
 
 @dataclass(frozen=True)
@@ -36,6 +37,7 @@ class Desk:
     def __init__(self) -> None:
         self._requests: SimpleQueue[Request] = SimpleQueue()
         self._closed = Event()
+        self._refusal: ClusterError | None = None
 
     def ask(self, order: GameOrder, plan: EpisodePlan | None, is_wanted: Callable[[], bool]) -> Answer:
         """Leave a request, and wait for its answer; from Dask's thread."""
@@ -45,8 +47,14 @@ class Desk:
             pass
         return request.answer.result() if request.answer.done() else CLOSED
 
+    def refuse(self, error: ClusterError) -> None:
+        """Let the main thread end with that error; from Dask's thread."""
+        self._refusal = error
+
     def next(self) -> Request | None:
-        """The next request, None if there is none for a moment; from the main thread."""
+        """The next request, None if there is none for a moment; from the main thread. ClusterError after ``refuse``."""
+        if self._refusal:
+            raise self._refusal
         try:
             return self._requests.get(timeout=LOOK_EVERY_S)
         except Empty:

@@ -73,18 +73,25 @@ class GameServer:
         try:
             game, agent = self._opened_for(request.order)
         except (UserError, LiveError) as error:
-            request.answer.set_result(Answer(problem=str(error), is_refusal=True))
+            request.answer.set_result(Answer(problem=str(error), is_refusal=True, leaves=True))
             raise
         try:
             self._wait_until_in_front(game, request)
             episode = self._played(game, agent, request)
         except UnwantedError as error:
-            request.answer.set_result(Answer(problem=str(error), log=self._summary(game)))
+            self._say(str(error))
+            is_over = self._is_over()
+            problem = "its player has ended it" if is_over else str(error)
+            request.answer.set_result(Answer(problem=problem, leaves=is_over, log=self._summary(game)))
         except LiveError as error:
             self._say(f"the episode was lost: {error}")
+            try:
+                if not isinstance(error, NotInFrontError):
+                    self._failures.record_failure(error, self._steps)
+            except LiveError:
+                request.answer.set_result(Answer(problem=str(error), leaves=True, log=self._summary(game)))
+                raise
             request.answer.set_result(Answer(problem=str(error), log=self._summary(game)))
-            if not isinstance(error, NotInFrontError):
-                self._failures.record_failure(error, self._steps)
         else:
             request.answer.set_result(Answer(episode, log=self._summary(game)))
 

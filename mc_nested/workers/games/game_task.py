@@ -1,7 +1,6 @@
 """What a game's Dask worker does with a request: compares versions, and leaves it on the desk of its main thread."""
 
 import pickle
-import sys
 
 from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan
@@ -25,8 +24,8 @@ def ask_game(versions: Versions, package: bytes) -> Answer:
 
     worker = get_worker()
     if differing := differences(versions, own_versions()):
-        message = f"{worker.name} has {differing}: install the same on both"
-        print(f"mc-nested: a learner was refused: {message}", file=sys.stderr, flush=True)
-        raise ClusterError(message)
+        error = ClusterError(f"{worker.name} has {differing}: install the same on both")
+        desk.refuse(error)
+        raise error
     order, plan = pickle.loads(package)  # noqa: S301 - from the learner, which the scheduler has let in
     return desk.ask(order, plan, wanted_here(worker))

@@ -3,23 +3,22 @@
 import asyncio
 import tempfile
 from collections.abc import Callable
+from contextlib import suppress
 from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 from mc_nested.errors import ClusterError
-from mc_nested.workers.cluster.address import SchedulerAddress
+from mc_nested.workers.cluster.address import SchedulerAddress, is_local
 from mc_nested.workers.cluster.connection import (
     CONNECT_S,
     connected,
     security_of,
     unreachable,
 )
+from mc_nested.workers.cluster.job_task import GAME
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Worker
-
-RESOURCE = "game"
-"""What such a worker has one of, so that nothing else is given to it, and it to nothing else."""
 
 START_S = 30.0
 """Seconds that the worker may take to join, on a busy computer."""
@@ -81,8 +80,11 @@ class GameWorker:
 
     def __exit__(self, *_: object) -> None:
         self._serving.cancel()
-        asyncio.run_coroutine_threadsafe(self._leave(), self._loop).result(FETCHED_S + CONNECT_S)
-        self._end()
+        try:
+            with suppress(Exception):  # it leaves, whether or not anybody hears of it
+                asyncio.run_coroutine_threadsafe(self._leave(), self._loop).result(FETCHED_S + CONNECT_S)
+        finally:
+            self._end()
 
     async def _joined(self) -> "Worker":
         """A worker that has joined; ClusterError as the class says."""
@@ -92,10 +94,13 @@ class GameWorker:
             self._address.url,
             name=self._name,
             nthreads=1,
-            resources={RESOURCE: 1},
+            resources={GAME: 1},
             memory_limit=0,  # no limit: the learner's weights are small, and a full worker would be paused
             local_directory=self._folder.name,
             dashboard=False,
+            # Dask opens a port for figures about itself, whatever is said of its dashboard: nobody else shall reach it.
+            dashboard_address="127.0.0.1:0",
+            host="127.0.0.1" if is_local(self._address) else None,
             security=security_of(self._address),
         )
         try:
@@ -120,7 +125,7 @@ class GameWorker:
             await asyncio.sleep(TRY_AGAIN_S)
             try:
                 return await self._joined()
-            except ClusterError:  # its own name too is taken, for as long as the scheduler hasn't noticed
+            except Exception:  # noqa: S112 - its own name too is taken, for as long as the scheduler hasn't noticed
                 continue
 
     async def _leave(self) -> None:

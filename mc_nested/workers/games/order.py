@@ -40,10 +40,12 @@ class Answer(NamedTuple):
         episode: as it was played and confirmed; None where none was asked for, or it came to nothing.
         problem: why it came to nothing, in a line; empty where it didn't, or the game stands ready.
         is_refusal: whether this game can't play such an order at all.
+        leaves: whether this game won't play any more.
         log: what playing took so far, for a summary.
     """
 
     episode: PlayedEpisode | None = None
     problem: str = ""
     is_refusal: bool = False
+    leaves: bool = False
     log: Mapping[str, Any] = {}

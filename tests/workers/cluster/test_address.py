@@ -8,14 +8,13 @@ from hypothesis import strategies as st
 
 from mc_nested.errors import ClusterError
 from mc_nested.workers.cluster.address import SchedulerAddress, scheduler_address
-from mc_nested.workers.cluster.keys import AUTHORITY, CERTIFICATE, KEY
+from mc_nested.workers.cluster.keys import AUTHORITY, CERTIFICATE, KEY, make_keys
 
 
 @pytest.fixture
 def keys(tmp_path: Path) -> Path:
-    for name in (AUTHORITY, CERTIFICATE, KEY):
-        (tmp_path / name).touch()
-    return tmp_path
+    (made,) = make_keys(tmp_path, ["pc"])
+    return made
 
 
 @pytest.mark.parametrize(
@@ -69,8 +68,28 @@ def test_a_folder_without_a_part_of_the_keys_is_refused(name: str, keys: Path) -
         scheduler_address("10.0.0.1", keys)
 
 
+def test_a_pair_of_two_machines_is_refused(keys: Path, tmp_path: Path) -> None:
+    (other,) = make_keys(tmp_path, ["other"])
+    (keys / KEY).write_bytes((other / KEY).read_bytes())
+    with pytest.raises(ClusterError, match="damaged, or of two machines"):
+        scheduler_address("10.0.0.1", keys)
+
+
 @pytest.mark.parametrize(
-    "text", ["", ":8786", "tcp://", "127.0.0.1:x", "127.0.0.1:99999", "ftp://127.0.0.1", "a/b", "u@h"]
+    "text",
+    [
+        "",
+        ":8786",
+        "tcp://",
+        "127.0.0.1:x",
+        "127.0.0.1:0",
+        "127.0.0.1:99999",
+        "ftp://127.0.0.1",
+        "a/b",
+        "u@h",
+        "h?x=1",
+        "a b",
+    ],
 )
 def test_what_is_no_address_is_refused_in_one_line(text: str) -> None:
     with pytest.raises(ClusterError) as caught:

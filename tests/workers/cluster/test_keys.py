@@ -83,10 +83,16 @@ def test_a_machines_keys_are_never_replaced(tmp_path: Path) -> None:
     assert not (tmp_path / "other").exists()
 
 
-@pytest.mark.parametrize("name", ["", "a/b", "..", "."])
+@pytest.mark.parametrize("name", ["", "a/b", "..", ".", AUTHORITY, "x" * 65])
 def test_a_machine_needs_a_name_that_a_folder_can_have(name: str, tmp_path: Path) -> None:
     with pytest.raises(ClusterError, match="can't be a machine's name"):
         make_keys(tmp_path / "keys", [name])
+    assert not (tmp_path / "keys").exists()
+
+
+def test_a_machine_that_is_named_twice_is_refused_before_anything_is_made(tmp_path: Path) -> None:
+    with pytest.raises(ClusterError, match="pc is named twice"):
+        make_keys(tmp_path / "keys", ["pc", "other", "pc"])
     assert not (tmp_path / "keys").exists()
 
 

@@ -1,5 +1,6 @@
 """Games that join a real scheduler, as their learner sees them come, answer and go."""
 
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -13,6 +14,7 @@ from mc_nested.errors import ClusterError
 from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
+from mc_nested.workers.cluster.dask_jobs import DaskJobs, workers_that_train
 from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.games import dask_games, game_task
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, Left, NameTaken
@@ -20,8 +22,9 @@ from mc_nested.workers.games.desk import Desk
 from mc_nested.workers.games.game_worker import LOST, GameWorker
 from mc_nested.workers.games.order import Answer
 from scripts.bench_lost_games import Proxy
-from scripts.dask_programs import scheduler
+from scripts.dask_programs import scheduler, worker
 from tests.dask_fixture import LEFTOVERS, leftovers
+from tests.learn.made_experiments import DOT, one_job
 from tests.workers.games.made_orders import ORDER, new_trainer
 
 __all__ = ["leftovers"]
@@ -59,6 +62,12 @@ def until(games: DaskGames, count: int) -> list[GameEvent]:
     while len(events) < count and time.monotonic() < end:
         events += games.events(0.1)
     return events
+
+
+def listening() -> set[tuple[str, int]]:
+    """Addresses and ports on which this process listens."""
+    psutil = pytest.importorskip("psutil")
+    return {tuple(each.laddr) for each in psutil.Process().net_connections() if each.status == "LISTEN"}
 
 
 def quiet(_: str) -> None:
@@ -160,6 +169,31 @@ def test_a_game_with_other_versions_says_what_differs(
     assert isinstance(event.answer, ClusterError)
     assert "one has numba" in str(event.answer)
     assert "instead of 0.1" in str(event.answer)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads Linux's list of sockets")
+def test_a_game_on_loopback_listens_on_loopback_alone(address: SchedulerAddress) -> None:
+    before = listening()
+    with GameWorker(address, "one", quiet):
+        assert listening() - before
+        assert {host for host, _ in listening() - before} == {"127.0.0.1"}
+
+
+@pytest.mark.usefixtures("desk")
+def test_an_experiments_job_leaves_a_game_alone(address: SchedulerAddress, client: Client, tmp_path: Path) -> None:
+    with GameWorker(address, "one", quiet):
+        assert workers_that_train(client) == []
+        job = one_job("nested", [DOT], 1)
+        executor = DaskJobs(client)
+        future = executor.submit(job, tmp_path / "units" / job.name)
+        time.sleep(1.5)
+        assert executor.reports() == []
+        running = worker(tmp_path, address.url)
+        try:
+            assert future.result(PATIENCE_S).finished
+        finally:
+            running.kill()
+            running.wait()
 
 
 def test_a_scheduler_that_is_lost_for_good_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

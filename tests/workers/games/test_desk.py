@@ -2,6 +2,9 @@
 
 import threading
 
+import pytest
+
+from mc_nested.errors import ClusterError
 from mc_nested.workers.games.desk import CLOSED, Desk
 from mc_nested.workers.games.order import Answer
 from tests.workers.games.made_orders import ORDER
@@ -36,6 +39,13 @@ def test_when_it_is_closed_whoever_waits_or_asks_later_is_told() -> None:
     thread.join(5)
     assert answers == [CLOSED]
     assert desk.ask(ORDER, None, lambda: True) == CLOSED
+
+
+def test_a_refusal_ends_the_main_thread() -> None:
+    desk = Desk()
+    desk.refuse(ClusterError("another version"))
+    with pytest.raises(ClusterError, match="another version"):
+        desk.next()
 
 
 def test_an_answer_that_came_before_it_was_closed_is_kept() -> None:

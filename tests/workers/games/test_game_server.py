@@ -171,4 +171,4 @@ def test_a_game_that_cannot_be_opened_is_refused_at_both_ends(error: Exception, 
     served.opening_error = error
     with pytest.raises(type(error), match=str(error)):
         served.ask(PLAN)
-    assert served.answers == [Answer(problem=str(error), is_refusal=True)]
+    assert served.answers == [Answer(problem=str(error), is_refusal=True, leaves=True)]
