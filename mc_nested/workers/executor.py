@@ -1,8 +1,10 @@
 """JobExecutor: the seam between an experiment and whoever trains its jobs, and the loop that waits for them all."""
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
+from concurrent.futures import CancelledError, Future
+from contextlib import suppress
 from pathlib import Path
+from queue import Empty, SimpleQueue
 from typing import Protocol
 
 from mc_nested.errors import RunError
@@ -43,18 +45,21 @@ def train_jobs(
 
     RunError if a job fails, or is lost with what trained it and doesn't go elsewhere; the others are saved.
     """
-    waiting = {executor.submit(job, folder) for job, folder in jobs}
+    done: SimpleQueue[Future[JobEnded]] = SimpleQueue()
+    for job, folder in jobs:
+        executor.submit(job, folder).add_done_callback(done.put)
+    waiting = len(jobs)
     found = _Found()
     stopping = False
     while waiting:
         if not stopping and (is_stopped() or found.failed or found.lost):
             stopping = True
             executor.stop()
-        # wait() would wait for ever for a future that was cancelled before it ran.
-        done, waiting = wait({each for each in waiting if not each.cancelled()}, LOOK_EVERY_S, FIRST_COMPLETED)
+        arrived = _arrived(done)
+        waiting -= len(arrived)
         for report in executor.reports():
             watch(report)
-        for future in done:
+        for future in arrived:
             if ended := found.of(future, stopping):
                 watch(ended)
         watch(None)
@@ -62,6 +67,14 @@ def train_jobs(
         raise RunError(found.failed)
     if found.lost and not is_stopped():  # stopping everything may stop the processes, too
         raise RunError(found.lost)
+
+
+def _arrived(done: "SimpleQueue[Future[JobEnded]]") -> list[Future[JobEnded]]:
+    """What is done since the last call; waits for a moment. It takes no longer for ten thousand jobs than for one."""
+    with suppress(Empty):
+        first = done.get(timeout=LOOK_EVERY_S)
+        return [first, *(done.get() for _ in range(done.qsize()))]
+    return []
 
 
 class _Found:

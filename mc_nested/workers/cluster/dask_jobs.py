@@ -101,7 +101,8 @@ class DaskJobs:
     def _hand_over(self, job: Job, folder: Path, landed: Future[JobEnded], tries: int) -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of large tasks: a checkpoint has to get there
-            key = f"{job.name}-{tries}-{self._topic}"
+            # One group of tasks for Dask, whose books of groups would take longer with each.
+            key = (f"train-{self._topic}", job.name, tries)
             package = packed(job, folder)
             with self._lock:  # until it is known, nothing is heard of it
                 trained = self._executor.submit(train_on_worker, own_versions(), package, self._topic, key=key)
