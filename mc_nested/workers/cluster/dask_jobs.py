@@ -105,7 +105,10 @@ class DaskJobs:
             key = (f"train-{self._topic}", job.name, tries)
             package = packed(job, folder)
             with self._lock:  # until it is known, nothing is heard of it
-                trained = self._executor.submit(train_on_worker, own_versions(), package, self._topic, key=key)
+                # In their order, the longest first: by itself Dask would go by their names.
+                trained = self._executor.submit(
+                    train_on_worker, own_versions(), package, self._topic, key=key, priority=-len(self._futures)
+                )
                 self._futures[job.name] = trained
         trained.add_done_callback(lambda done: self._land(job, folder, done, landed, tries - 1))
 
