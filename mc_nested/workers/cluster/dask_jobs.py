@@ -6,6 +6,7 @@ is taken once, whoever came to it.
 
 import uuid
 import warnings
+from collections import deque
 from concurrent.futures import CancelledError, Future, wait
 from contextlib import suppress
 from pathlib import Path
@@ -23,6 +24,9 @@ from mc_nested.workers.messages import JobEnded, JobReport
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Client
+
+HELD_BACK = 4
+"""Jobs for each worker that are held back at the end, until one is free."""
 
 MOST_TRIES = 12
 """Times that a job is handed to the scheduler, which gives up after four workers that were lost with it. Nobody can
@@ -48,6 +52,9 @@ class DaskJobs:
         self._client = client
         self._executor = client.get_executor(pure=False)
         self._topic = f"mc-nested-{uuid.uuid4().hex}"
+        self._held: deque[tuple[Job, Path, Future[JobEnded]]] = deque()
+        self._handed_over = 0
+        """Jobs that the scheduler has, and that haven't ended."""
         self._reported: SimpleQueue[JobReport] = SimpleQueue()
         self._futures: dict[str, Future[Trained]] = {}
         self._trained_by: dict[str, str] = {}
@@ -60,7 +67,9 @@ class DaskJobs:
 
     def submit(self, job: Job, folder: Path) -> Future[JobEnded]:
         landed: Future[JobEnded] = Future()
-        self._hand_over(job, folder, landed, MOST_TRIES)
+        with self._lock:
+            self._held.append((job, folder, landed))
+        self._hand_over_more()
         return landed
 
     def reports(self) -> list[JobReport]:
@@ -69,6 +78,10 @@ class DaskJobs:
     def stop(self) -> None:
         with self._lock:
             self._stopping = True
+            held, self._held = self._held, deque()
+        for _, _, landed in held:
+            landed.cancel()
+        with self._lock:
             waiting = [future for name, future in self._futures.items() if name not in self._trained_by]
         for future in waiting:
             future.cancel()
@@ -93,10 +106,26 @@ class DaskJobs:
     def _in_words(self) -> str:
         running = len(self._trained_by)
         waiting = sum(not future.done() for future in self._futures.values()) - running
+        waiting += len(self._held)
         words = f"{counted(len(self._workers), 'worker')}, {counted(running, 'job')} training, {waiting} waiting"
         if self._lost_workers:
             words += f"; lost {counted(self._lost_workers, 'worker')}, {counted(self._lost_jobs, 'job')} begun again"
         return words
+
+    def _hand_over_more(self) -> None:
+        """Hand jobs to the scheduler, but hold the last of them back until a worker is free.
+
+        Dask gives each worker a second job in advance, which another might begin sooner: with few and long ones left,
+        that costs time. With many, waiting for a worker to be free would.
+        """
+        while True:
+            with self._lock:
+                workers = max(len(self._workers), 1)
+                if not self._held or (len(self._held) <= HELD_BACK * workers and self._handed_over >= workers):
+                    return
+                self._handed_over += 1
+                job, folder, landed = self._held.popleft()
+            self._try_again(job, folder, landed, MOST_TRIES)
 
     def _hand_over(self, job: Job, folder: Path, landed: Future[JobEnded], tries: int) -> None:
         with warnings.catch_warnings():
@@ -122,6 +151,7 @@ class DaskJobs:
     def _hear_of_workers(self, event: tuple[float, dict[str, Any]]) -> None:
         with self._lock:
             self._note_worker(event[1])
+        self._hand_over_more()
 
     def _note_worker(self, said: dict[str, Any]) -> None:
         if said.get("action") == "add-worker":
@@ -138,6 +168,13 @@ class DaskJobs:
 
     def _land(self, job: Job, folder: Path, done: Future[Trained], landed: Future[JobEnded], tries: int) -> None:
         """Put what came back into the job's folder; ``landed`` says how it ended. A lost job has so many tries left."""
+        self._settle(job, folder, done, landed, tries)
+        if landed.done():
+            with self._lock:
+                self._handed_over -= 1
+            self._hand_over_more()
+
+    def _settle(self, job: Job, folder: Path, done: Future[Trained], landed: Future[JobEnded], tries: int) -> None:
         from distributed import KilledWorker
 
         with self._lock:
