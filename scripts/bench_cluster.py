@@ -127,7 +127,7 @@ def _kills(times: int, trials: int) -> None:
             workers = [worker(folder, url) for _ in range(2)]
             try:
                 log = (folder / "sweep.log").open("wb")
-                sweep = subprocess.Popen(_command(*words, "--out", str(there), "--cluster", url), stderr=log, cwd=ROOT)  # noqa: S603
+                sweep = subprocess.Popen(_command(*words, "--out", str(there), "--cluster", url), stderr=log, cwd=ROOT)  # noqa: S603 - our own
                 killed = 0
                 while killed < 2 * times and sweep.poll() is None:
                     time.sleep(random.uniform(*BETWEEN_KILLS_S))  # noqa: S311 - no secret

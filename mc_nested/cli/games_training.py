@@ -10,7 +10,7 @@ from mc_nested.cli.games_at_play import GamesAtPlay, LastEpisode, games_at_play
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
 from mc_nested.cli.options import Backend
 from mc_nested.cli.progress import STOPPING, TrainingProgress
-from mc_nested.cli.training import SAVE_EVERY_S, HowToRun, draw_results, events_of, published
+from mc_nested.cli.training import SAVE_EVERY_S, HowToRun, begin_or_resume, draw_results, events_of, published
 from mc_nested.cli.training_end import say_end
 from mc_nested.cli.training_view import TrainingView
 from mc_nested.errors import ClusterError, UserError
@@ -52,13 +52,7 @@ def run_games_training(
     trainer = GamesTrainer(folder.scenario, agent, config.preset, config.seed, config.stop_at_optimum)
     order = GameOrder(config.backend, folder.scenario, config.agent, config.preset, config.seed)
     with catch_interrupts() as interrupt, published(folder, how) as view, games_at_play(games, order, trainer) as play:
-        if resumed:
-            folder.checkpoint.load_into(trainer)
-        else:
-            if earlier:
-                earlier.begin(trainer)
-                folder.save_before_all(trainer)
-            folder.begin()
+        begin_or_resume(folder, trainer, earlier, resumed)
         output.note(f"run:        {folder.path}")
 
         def save() -> dict[str, Any]:

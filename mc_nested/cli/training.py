@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from mc_nested.atomic_file import atomic_write
-from mc_nested.cli.earlier_run import earlier_run
+from mc_nested.cli.earlier_run import EarlierRun, earlier_run
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
 from mc_nested.cli.options import Backend, open_arenas, played_live, where_words
 from mc_nested.cli.output import Output
@@ -83,16 +83,10 @@ def run_training(
             agent = folder.new_agent(config.trials, config.preset.device)
             arenas = agent.view_of(as_shown(env, config.preset.states), folder.scenarios)
             trainer = Trainer(arenas, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
-            if resumed:
-                folder.checkpoint.load_into(trainer)
-            else:
-                if earlier:
-                    earlier.begin(trainer)
-                    folder.save_before_all(trainer)
-                folder.begin()
-                if Backend(config.backend) is Backend.LIVE:
-                    expectation = expected(config.preset, folder.scenario, stop_at_optimum=config.stop_at_optimum)
-                    output.note(expectation.line(folder.scenario))
+            begin_or_resume(folder, trainer, earlier, resumed)
+            if not resumed and Backend(config.backend) is Backend.LIVE:
+                expectation = expected(config.preset, folder.scenario, stop_at_optimum=config.stop_at_optimum)
+                output.note(expectation.line(folder.scenario))
             output.note(f"run:        {folder.path}")
             failure_budget = FailureBudget()
 
@@ -114,6 +108,20 @@ def run_training(
         if not trainer.finished:
             raise Stopped(f"stopped and saved: go on with mc-nested train --resume {folder.path}")
     say_end(output, folder.path, config, summary)
+
+
+def begin_or_resume(folder: RunFolder, trainer: Training, earlier: EarlierRun | None, resumed: bool) -> None:
+    """Let the trainer go on from the folder's checkpoint; otherwise from an earlier run, if any, in a new folder.
+
+    RunError as ``RunFolder`` and ``EarlierRun`` raise it.
+    """
+    if resumed:
+        folder.checkpoint.load_into(trainer)
+        return
+    if earlier:
+        earlier.begin(trainer)
+        folder.save_before_all(trainer)
+    folder.begin()
 
 
 @contextmanager

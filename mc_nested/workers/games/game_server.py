@@ -12,6 +12,7 @@ from mc_nested.arena.game import PlayLog
 from mc_nested.arrays import Int64s
 from mc_nested.errors import LiveError, NotInFrontError, UserError
 from mc_nested.learn.agents import Agent
+from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.player import play_episode
 from mc_nested.live.failure_budget import FailureBudget
 from mc_nested.workers.games.desk import Desk, Request
@@ -95,7 +96,7 @@ class GameServer:
         else:
             request.answer.set_result(Answer(episode, log=self._summary(game)))
 
-    def _played(self, game: OpenGame, agent: Agent, request: Request) -> Any:
+    def _played(self, game: OpenGame, agent: Agent, request: Request) -> PlayedEpisode | None:
         if request.plan is None:
             return None
         self._say(f"episode {self._episodes + 1} of {request.order.scenario.name}")
