@@ -4,7 +4,7 @@ Each game has a clock of its own, which its resets and steps advance. The game w
 and gets its next plan at once: practice takes no game time. What counts is the clock of the game that brings the greedy
 evaluation at the optimum.
 
-    python scripts/bench_games.py --designs 12 --seeds 3
+    python scripts/bench_games.py [--designs 12] [--seeds 3] [--json]
 
 Beside other games a learner practises more thoroughly than a game alone does with the preset live. With --enough 0.999
 all practise alike: then only what the games don't have to probe any more counts.
@@ -12,12 +12,14 @@ all practise alike: then only what the games don't have to probe any more counts
 
 import argparse
 import heapq
+import json
 import pickle
 import statistics
 import sys
 import time
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
@@ -123,16 +125,20 @@ def main() -> None:
     parser.add_argument("--enough", type=float, help="in place of the preset's, for a game alone")
     parser.add_argument("--reset-s", type=float, default=6.0, help="seconds of a reset [6]")
     parser.add_argument("--step-s", type=float, default=0.34, help="seconds of a step [0.34]")
+    parser.add_argument("--json", action="store_true", help="print the figures as JSON, too")
     options = parser.parse_args()
     pace, preset = Pace(options.reset_s, options.step_s), live(options.enough)
     first, *more = (int(part) for part in options.games.split(","))
     ratios: dict[tuple[str, int], list[float]] = {}
+    rows: list[dict[str, Any]] = []
     for scenario in [load_scenario(LIKE), *scattered(options.designs)]:
         for seed in range(options.seeds):
             of_first = until_optimum(scenario, preset, seed, first, pace)
             print(f"{scenario.name:14} seed {seed}, games: {first}, {of_first.in_words()}", flush=True)
+            rows.append({"scenario": scenario.name, "seed": seed, "games": first, **asdict(of_first)})
             for many in more:
                 reached = until_optimum(scenario, preset, seed, many, pace)
+                rows.append({"scenario": scenario.name, "seed": seed, "games": many, **asdict(reached)})
                 ratio = reached.seconds / of_first.seconds
                 ratios.setdefault((kind_of_design(scenario.design), many), []).append(ratio)
                 print(f"{'':14} seed {seed}, games: {many}, {reached.in_words()}, ratio {ratio:.2f}", flush=True)
@@ -141,6 +147,8 @@ def main() -> None:
             f"{kind}, games: {many}, {len(found)} trainings: median ratio {statistics.median(found):.2f}, "
             f"mean {statistics.mean(found):.2f}, worst {max(found):.2f}"
         )
+    if options.json:
+        print(json.dumps({"wrong": sum(not row["is_optimum"] for row in rows), "trainings": rows}))
 
 
 if __name__ == "__main__":

@@ -21,13 +21,18 @@ from mc_nested.live.profile.store import load_profile
 from tests.standin_fixture import Block, Standin
 
 
-def mc_nested(*arguments: str | Path, env: Mapping[str, str] = os.environ) -> str:
-    """What the command prints; the test fails with what it says where it doesn't succeed."""
+def completed(*arguments: str | Path, env: Mapping[str, str] = os.environ) -> subprocess.CompletedProcess[str]:
+    """The command, after it has ended; the test fails with what it says where it doesn't succeed."""
     words = [str(argument) for argument in arguments]
     command = [sys.executable, "-m", "mc_nested.cli", *words]
     done = subprocess.run(command, env=env, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    return done.stdout
+    return done
+
+
+def mc_nested(*arguments: str | Path, env: Mapping[str, str] = os.environ) -> str:
+    """What the command prints, as ``completed``."""
+    return completed(*arguments, env=env).stdout
 
 
 def standing(standin: Standin, arena: Arena) -> dict[Block, str]:
@@ -51,12 +56,12 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design_in_a_real_window(
     found = json.loads(mc_nested("evaluate", run, "--json"))
     assert found["scores"] == [scenario.optimum]
 
-    printed = mc_nested(
+    played = completed(
         *("play", run, "--backend", "live", "--profile", standin.profile, "--screenshots"),
         *("--record", tmp_path / "recording"),
         env=standin.env,
     )
-    assert f"score {scenario.optimum:g} of {scenario.optimum:g}, in {found['materials'][0]}" in printed
+    assert f"score {scenario.optimum:g} of {scenario.optimum:g}, in {found['materials'][0]}" in played.stdout
     arena = load_profile(standin.profile).marked_arena()
     assert standing(standin, arena) == built(arena, scenario, found["materials"][0])
 
@@ -65,7 +70,10 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design_in_a_real_window(
     sizes = {picture.shape for path in pictures if (picture := cv2.imread(str(path))) is not None}
     assert sizes == {(767, 1023, 3)}, "every picture shows the stand-in's window and nothing beside it"
     replayed = json.loads(mc_nested("replay", tmp_path / "recording", "--json", env=standin.env))
-    assert (replayed["actions"], replayed["differences"]) == (found["steps"][0], [])
+    # An episode that a stalled window cost starts over, and its actions are recorded, too.
+    lost = played.stderr.count("the episode starts over")
+    assert replayed["differences"] == []
+    assert found["steps"][0] <= replayed["actions"] <= (lost + 1) * found["steps"][0], played.stderr
     assert replayed["read_anew"] > replayed["actions"]
     assert standin.errors() == []
 

@@ -13,7 +13,7 @@ from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
-from mc_nested.workers.cluster.dask_jobs import counted
+from mc_nested.workers.cluster.workers_seen import counted
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, NameTaken
 from mc_nested.workers.games.order import Answer, GameOrder
 

@@ -1,7 +1,8 @@
 """``mc-nested train --games``: a training whose episodes are played by games on other computers."""
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ from mc_nested.cli.earlier_run import earlier_run
 from mc_nested.cli.games_at_play import GamesAtPlay, LastEpisode, games_at_play
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
 from mc_nested.cli.options import Backend
+from mc_nested.cli.output import Output
 from mc_nested.cli.progress import STOPPING, TrainingProgress
 from mc_nested.cli.training import SAVE_EVERY_S, HowToRun, begin_or_resume, draw_results, events_of, published
 from mc_nested.cli.training_end import say_end
@@ -16,6 +18,7 @@ from mc_nested.cli.training_view import TrainingView
 from mc_nested.errors import ClusterError, UserError
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.runs.run_folder import RunFolder
+from mc_nested.view.publisher import Publisher
 from mc_nested.workers.cluster.address import SchedulerAddress, scheduler_address
 from mc_nested.workers.games.order import GameOrder
 
@@ -55,57 +58,66 @@ def run_games_training(
         begin_or_resume(folder, trainer, earlier, resumed)
         output.note(f"run:        {folder.path}")
 
-        def save() -> dict[str, Any]:
-            wall_s = time.monotonic() - began - view.publisher.paused_s
-            return folder.save(trainer, wall_s, play.summary())
-
-        def pause() -> None:
-            """While a viewer has it paused, the games finish their episodes, and get no others."""
-            view.publisher.wait_while_paused(lambda: interrupt.requested)
-
         choices = 0 if agent.main else len(folder.scenario.materials)
         arenas = LastEpisode(play, folder.scenario, choices)
         shown = TrainingView(view.publisher.board, trainer, folder.scenario, arenas, config)
+        training = _GamesTraining(folder, trainer, play, began, shown, view.publisher, interrupt)
         try:
-            _play_until_done(folder, trainer, play, shown, how, interrupt, save, pause)
+            training.play_until_done(output)
         except ClusterError as error:
-            save()
+            training.save()
             raise ClusterError(f"{error}; saved: go on with mc-nested train --resume {folder.path}") from error
-        summary = save()
+        summary = training.save()
         draw_results(folder, trainer)
         if not trainer.finished:
             raise Stopped(f"stopped and saved: go on with mc-nested train --resume {folder.path}")
     say_end(output, folder.path, config, summary)
 
 
-def _play_until_done(
-    folder: RunFolder,
-    trainer: GamesTrainer,
-    play: GamesAtPlay,
-    shown: TrainingView,
-    how: HowToRun,
-    interrupt: Interrupt,
-    save: Callable[[], object],
-    pause: Callable[[], None],
-) -> None:
-    every = SAVE_EVERY_S[Backend(folder.config.backend)]
-    save_at = time.monotonic() + every
-    events = events_of(folder, trainer)
-    view = TrainingProgress(folder.scenario, trainer, how.output.progress, lambda: interrupt.requested, play.in_words)
-    with view as progress:
-        if not progress.in_terminal:
-            interrupt.says = STOPPING
-        shown.show()
-        while not (trainer.finished or interrupt.requested):
-            for line in play.look():
-                progress.say(line)
-            progress.show()
-            shown.show()
-            if events:
-                with folder.writing():
-                    events.write()
-            if time.monotonic() >= save_at:
-                save()
-                save_at = time.monotonic() + every
-            pause()
-    shown.show_end()
+@dataclass(frozen=True)
+class _GamesTraining:
+    """A learner, its games, and who looks on; ``began`` is its time.monotonic()."""
+
+    folder: RunFolder
+    trainer: GamesTrainer
+    play: GamesAtPlay
+    began: float
+    shown: TrainingView
+    publisher: Publisher
+    interrupt: Interrupt
+
+    def save(self) -> dict[str, Any]:
+        """Save all: the summary."""
+        wall_s = time.monotonic() - self.began - self.publisher.paused_s
+        return self.folder.save(self.trainer, wall_s, self.play.summary())
+
+    def play_until_done(self, output: Output) -> None:
+        """Look at the games until the training is finished, or somebody stops it; saved now and then."""
+        every = SAVE_EVERY_S[Backend(self.folder.config.backend)]
+        save_at = time.monotonic() + every
+        events = events_of(self.folder, self.trainer)
+        with self._progress(output) as progress:
+            if not progress.in_terminal:
+                self.interrupt.says = STOPPING
+            self.shown.show()
+            while not (self.trainer.finished or self._is_stopped()):
+                for line in self.play.look():
+                    progress.say(line)
+                progress.show()
+                self.shown.show()
+                if events:
+                    with self.folder.writing():
+                        events.write()
+                if time.monotonic() >= save_at:
+                    self.save()
+                    save_at = time.monotonic() + every
+                # While a viewer has it paused, the games finish their episodes, and get no others.
+                self.publisher.wait_while_paused(self._is_stopped)
+        self.shown.show_end()
+
+    def _progress(self, output: Output) -> TrainingProgress:
+        scenario = self.folder.scenario
+        return TrainingProgress(scenario, self.trainer, output.progress, self._is_stopped, self.play.in_words)
+
+    def _is_stopped(self) -> bool:
+        return self.interrupt.requested

@@ -11,7 +11,7 @@ from mc_nested.errors import UserError
 from mc_nested.learn.cooperation.team_agent import Kind
 from mc_nested.learn.cooperation.team_trainer import TeamArena, arena_of
 from mc_nested.learn.experiments.job_trainers import agents_trainer, team_trainer
-from mc_nested.learn.experiments.job_training import JobTraining, Training, writing
+from mc_nested.learn.experiments.job_training import JobTraining, TrainedJob, writing
 from mc_nested.learn.experiments.jobs import PLANNER, Job
 from mc_nested.learn.experiments.planner_training import PlannerTraining
 from mc_nested.learn.runs.folder_lock import folder_lock
@@ -49,7 +49,7 @@ def train_job(job: Job, folder: Path, report: Report, report_every_s: float) -> 
     return JobEnded(job.name, finished=training.finished)
 
 
-def _training_of(job: Job, folder: Path) -> Training:
+def _training_of(job: Job, folder: Path) -> TrainedJob:
     if job.builders:
         return JobTraining(job, folder, team_trainer(job, _team_arenas))
     arenas = GridVectorEnv(job.scenarios)
@@ -66,7 +66,7 @@ def _team_arenas(team: Team, networks: Kind, runs: int) -> list[TeamArena]:
     return [arena_of(TeamEnv(TeamGrid(team), team), networks) for _ in range(runs)]
 
 
-def _events(training: Training, folder: Path) -> TensorBoard | None:
+def _events(training: TrainedJob, folder: Path) -> TensorBoard | None:
     if not (isinstance(training, JobTraining) and isinstance(training.trainer, Trainer) and is_installed()):
         return None
     job = training.job
@@ -78,7 +78,7 @@ def _events(training: Training, folder: Path) -> TensorBoard | None:
         return TensorBoard([folder.parent.parent / FOLDER / name for name in names], training.trainer)
 
 
-def _tick_until_done(training: Training, folder: Path, report: Report, report_every_s: float) -> None:
+def _tick_until_done(training: TrainedJob, folder: Path, report: Report, report_every_s: float) -> None:
     report_at = time.monotonic()
     events = _events(training, folder)
     scores: list[float | None] = [None] * len(training.job.trials)

@@ -87,7 +87,7 @@ class JobOutcome(BaseModel):
         return self.seconds * run.updates / updates if updates else 0.0
 
 
-class Training(Protocol):
+class TrainedJob(Protocol):
     """A job that is trained in its folder, by whatever algorithm; each method raises RunError if the disk refuses."""
 
     job: Job

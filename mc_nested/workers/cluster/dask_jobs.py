@@ -14,12 +14,12 @@ from queue import SimpleQueue
 from threading import RLock, Thread
 from typing import TYPE_CHECKING, Any
 
-from mc_nested.errors import RunError, UserError
+from mc_nested.errors import RunError
 from mc_nested.learn.experiments.jobs import Job
-from mc_nested.report.tensorboard import FOLDER
+from mc_nested.workers.cluster.job_end import cancel, in_words, landed_from, lost
 from mc_nested.workers.cluster.job_task import GAME, Reported, Trained, packed, stop_training, train_on_worker
-from mc_nested.workers.cluster.shipped_files import land, write_below
 from mc_nested.workers.cluster.versions import own_versions
+from mc_nested.workers.cluster.workers_seen import WorkersSeen
 from mc_nested.workers.messages import JobEnded, JobReport
 
 if TYPE_CHECKING:  # the cluster extra's
@@ -34,8 +34,6 @@ tell a job that takes more memory than there is from one whose workers were kill
 
 SAVE_S = 60.0
 """Seconds that a worker may take to save its job."""
-
-WHY_LOST = "if nobody stopped them, it needs more memory than they have"
 
 ALL = "all"
 """The topic under which a scheduler tells who comes and goes."""
@@ -57,10 +55,8 @@ class DaskJobs:
         """Jobs that the scheduler has, and that haven't ended."""
         self._reported: SimpleQueue[JobReport] = SimpleQueue()
         self._futures: dict[str, Future[Trained]] = {}
-        self._trained_by: dict[str, str] = {}
-        self._workers = set(workers_that_train(client))
+        self._seen = WorkersSeen(workers_that_train(client))
         self._lock = RLock()  # Dask tells what happens from threads of its own
-        self._lost_workers = self._lost_jobs = 0
         self._stopping = False
         client.subscribe_topic(self._topic, self._hear)
         client.subscribe_topic(ALL, self._hear_of_workers)
@@ -82,7 +78,7 @@ class DaskJobs:
         for _, _, landed in held:
             landed.cancel()
         with self._lock:
-            waiting = [future for name, future in self._futures.items() if name not in self._trained_by]
+            waiting = [future for name, future in self._futures.items() if not self._seen.trains(name)]
         for future in waiting:
             future.cancel()
         # In threads: one waits for every worker's answer, and one may be gone, or hang.
@@ -101,16 +97,8 @@ class DaskJobs:
 
     def in_words(self) -> str:
         with self._lock:
-            return self._in_words()
-
-    def _in_words(self) -> str:
-        running = len(self._trained_by)
-        waiting = sum(not future.done() for future in self._futures.values()) - running
-        waiting += len(self._held)
-        words = f"{counted(len(self._workers), 'worker')}, {counted(running, 'job')} training, {waiting} waiting"
-        if self._lost_workers:
-            words += f"; lost {counted(self._lost_workers, 'worker')}, {counted(self._lost_jobs, 'job')} begun again"
-        return words
+            unfinished = len(self._held) + sum(not future.done() for future in self._futures.values())
+            return self._seen.in_words(unfinished)
 
     def _hand_over_more(self) -> None:
         """Hand jobs to the scheduler, but hold the last of them back until a worker is free.
@@ -120,7 +108,7 @@ class DaskJobs:
         """
         while True:
             with self._lock:
-                workers = max(len(self._workers), 1)
+                workers = max(self._seen.count, 1)
                 if not self._held or (len(self._held) <= HELD_BACK * workers and self._handed_over >= workers):
                     return
                 self._handed_over += 1
@@ -145,26 +133,13 @@ class DaskJobs:
         said = Reported(**event[1])
         with self._lock:
             if not self._futures[said.job].done():
-                self._trained_by[said.job] = said.worker
+                self._seen.begins(said.job, said.worker)
                 self._reported.put(JobReport(said.job, said.episodes, said.scores, said.updates))
 
     def _hear_of_workers(self, event: tuple[float, dict[str, Any]]) -> None:
         with self._lock:
-            self._note_worker(event[1])
+            self._seen.note(event[1])
         self._hand_over_more()
-
-    def _note_worker(self, said: dict[str, Any]) -> None:
-        if said.get("action") == "add-worker":
-            # A game is one, too, and isn't told apart here; nor has it jobs to lose.
-            self._workers.add(said["worker"])
-        elif said.get("action") == "remove-worker":
-            self._workers.discard(said["worker"])
-            its_jobs = [name for name, worker in self._trained_by.items() if worker == said["worker"]]
-            for name in its_jobs:
-                del self._trained_by[name]
-            if its_jobs or not said["expected"]:
-                self._lost_workers += 1
-                self._lost_jobs += len(its_jobs)
 
     def _land(self, job: Job, folder: Path, done: Future[Trained], landed: Future[JobEnded], tries: int) -> None:
         """Put what came back into the job's folder; ``landed`` says how it ended. A lost job has so many tries left."""
@@ -178,49 +153,30 @@ class DaskJobs:
         from distributed import KilledWorker
 
         with self._lock:
-            self._trained_by.pop(job.name, None)
+            self._seen.ends(job.name)
         try:
-            trained = done.result()
-            if not trained.ended.failed:
-                land(folder, trained.files)
-                write_below(folder.parent.parent / FOLDER, trained.events)
-            landed.set_result(trained.ended)
+            landed.set_result(landed_from(done.result(), folder))
         except CancelledError:
             if self._stopping:
-                landed.cancel()
-                landed.set_running_or_notify_cancel()
+                cancel(landed)
             else:
                 landed.set_exception(RunError("the scheduler was lost, or dropped the jobs"))
         except KilledWorker as error:
             if tries and not self._stopping:
                 self._try_again(job, folder, landed, tries)
             else:
-                workers = (MOST_TRIES - tries) * (error.allowed_failures + 1)
-                landed.set_exception(RunError(f"job {job.name} was lost with each of {workers} workers: {WHY_LOST}"))
-        except OSError as error:
-            landed.set_exception(RunError(f"{folder}: can't be written ({error}): make room"))
+                landed.set_exception(lost(job, (MOST_TRIES - tries) * (error.allowed_failures + 1)))
         except Exception as error:
-            landed.set_exception(_in_words(job, error))
+            landed.set_exception(in_words(job, error))
 
     def _try_again(self, job: Job, folder: Path, landed: Future[JobEnded], tries: int) -> None:
         try:
             self._hand_over(job, folder, landed, tries)
         except Exception as error:  # whatever it is, somebody waits for the job
-            landed.set_exception(_in_words(job, error))
+            landed.set_exception(in_words(job, error))
 
 
 def workers_that_train(client: "Client") -> list[str]:
     """The addresses of a scheduler's workers, but for games."""
     workers = client.scheduler_info()["workers"]
     return [address for address, each in workers.items() if GAME not in each["resources"]]
-
-
-def counted(count: int, what: str) -> str:
-    """``1 worker``, ``2 workers``."""
-    return f"{count:,} {what}" if count == 1 else f"{count:,} {what}s"
-
-
-def _in_words(job: Job, error: Exception) -> RunError:
-    if isinstance(error, UserError):
-        return RunError(str(error))
-    return RunError(f"job {job.name} failed on a worker: {type(error).__name__}: {error}")

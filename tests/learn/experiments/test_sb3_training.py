@@ -7,7 +7,7 @@ import pytest
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.experiments.benchmark import baseline
-from mc_nested.learn.experiments.job_training import OUTCOME, JobOutcome, Training, outcome_of
+from mc_nested.learn.experiments.job_training import OUTCOME, JobOutcome, TrainedJob, outcome_of
 from mc_nested.learn.experiments.jobs import Job
 from mc_nested.learn.experiments.sb3_training import Sb3Training
 from sim.grid import GridVectorEnv
@@ -28,7 +28,7 @@ def training(folder: Path, own: Job | None = None, model: type[MadeModel] = Made
     return Sb3Training(own or job(), folder, GridVectorEnv([BAR]), GridVectorEnv([BAR]), model)
 
 
-def trained(own: Training) -> JobOutcome:
+def trained(own: TrainedJob) -> JobOutcome:
     while not own.finished:
         own.tick()
     own.finish()

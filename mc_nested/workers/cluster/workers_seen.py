@@ -1,0 +1,66 @@
+"""Which of a cluster's workers train what, and which were lost, by what its scheduler tells."""
+
+from collections.abc import Iterable
+from typing import Any
+
+
+class WorkersSeen:
+    """The workers of one experiment.
+
+    Args:
+        workers: the addresses of those that are there at the beginning.
+    """
+
+    def __init__(self, workers: Iterable[str]) -> None:
+        self._workers = set(workers)
+        self._trained_by: dict[str, str] = {}
+        self._lost_workers = self._lost_jobs = 0
+
+    @property
+    def count(self) -> int:
+        """How many are there."""
+        return len(self._workers)
+
+    @property
+    def trained(self) -> int:
+        """How many jobs they train now."""
+        return len(self._trained_by)
+
+    def trains(self, job: str) -> bool:
+        """Whether one of them trains the job now."""
+        return job in self._trained_by
+
+    def begins(self, job: str, worker: str) -> None:
+        """That worker has told of the job, so it trains it."""
+        self._trained_by[job] = worker
+
+    def ends(self, job: str) -> None:
+        """Nobody trains the job any more."""
+        self._trained_by.pop(job, None)
+
+    def note(self, said: dict[str, Any]) -> None:
+        """Note an event of the scheduler's topic ``all``: a worker came, or went."""
+        if said.get("action") == "add-worker":
+            # A game is one, too, and isn't told apart here; nor has it jobs to lose.
+            self._workers.add(said["worker"])
+        elif said.get("action") == "remove-worker":
+            self._workers.discard(said["worker"])
+            its_jobs = [name for name, worker in self._trained_by.items() if worker == said["worker"]]
+            for name in its_jobs:
+                del self._trained_by[name]
+            if its_jobs or not said["expected"]:
+                self._lost_workers += 1
+                self._lost_jobs += len(its_jobs)
+
+    def in_words(self, unfinished: int) -> str:
+        """Workers, jobs of those ``unfinished``, and what was lost, in a line."""
+        waiting = unfinished - self.trained
+        words = f"{counted(self.count, 'worker')}, {counted(self.trained, 'job')} training, {waiting} waiting"
+        if self._lost_workers:
+            words += f"; lost {counted(self._lost_workers, 'worker')}, {counted(self._lost_jobs, 'job')} begun again"
+        return words
+
+
+def counted(count: int, what: str) -> str:
+    """``1 worker``, ``2 workers``."""
+    return f"{count:,} {what}" if count == 1 else f"{count:,} {what}s"

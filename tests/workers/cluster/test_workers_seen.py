@@ -1,0 +1,50 @@
+"""What is known of a cluster's workers, by what its scheduler tells."""
+
+from mc_nested.workers.cluster.workers_seen import WorkersSeen
+
+ONE, TWO = "tcp://127.0.0.1:1", "tcp://127.0.0.1:2"
+
+
+def came(worker: str) -> dict[str, object]:
+    return {"action": "add-worker", "worker": worker}
+
+
+def went(worker: str, *, expected: bool) -> dict[str, object]:
+    return {"action": "remove-worker", "worker": worker, "expected": expected}
+
+
+def test_what_is_unfinished_and_trained_by_nobody_waits() -> None:
+    seen = WorkersSeen([ONE])
+    assert seen.in_words(3) == "1 worker, 0 jobs training, 3 waiting"
+    seen.begins("a", ONE)
+    seen.note(came(TWO))
+    assert seen.trains("a")
+    assert seen.in_words(3) == "2 workers, 1 job training, 2 waiting"
+    seen.ends("a")
+    assert not seen.trains("a")
+    assert seen.in_words(2) == "2 workers, 0 jobs training, 2 waiting"
+
+
+def test_a_job_whose_worker_went_is_begun_again() -> None:
+    seen = WorkersSeen([ONE, TWO])
+    seen.begins("a", ONE)
+    seen.begins("b", TWO)
+    seen.note(went(ONE, expected=False))
+    assert (seen.trains("a"), seen.trains("b")) == (False, True)
+    assert seen.in_words(2) == "1 worker, 1 job training, 1 waiting; lost 1 worker, 1 job begun again"
+    seen.begins("a", TWO)
+    seen.note(went(TWO, expected=True))
+    assert seen.in_words(2) == "0 workers, 0 jobs training, 2 waiting; lost 2 workers, 3 jobs begun again"
+
+
+def test_a_worker_that_was_told_to_go_while_it_had_no_job_is_not_lost() -> None:
+    seen = WorkersSeen([ONE])
+    seen.note(went(ONE, expected=True))
+    assert seen.in_words(0) == "0 workers, 0 jobs training, 0 waiting"
+
+
+def test_other_events_of_the_scheduler_are_passed_over() -> None:
+    seen = WorkersSeen([ONE])
+    seen.note({"action": "retire-workers"})
+    seen.note({})
+    assert seen.count == 1
