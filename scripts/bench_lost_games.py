@@ -20,18 +20,15 @@ import time
 from contextlib import ExitStack, suppress
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from scripts.dask_programs import scheduler  # noqa: E402 - found only with the line above
+from scripts.dask_programs import scheduler
+from scripts.served_games import JOINS_S, ROOT, ServedGame, command
 
 GAMES = ("one", "two", "three")
 
 BETWEEN_S = (0.5, 1.5)
 """Seconds between two mishaps, at random."""
-
-JOINS_S = 60.0
-"""Seconds that a game may take to be asked for an episode again."""
 
 
 class Proxy:
@@ -82,47 +79,28 @@ def _pass_on(heard: socket.socket, said: socket.socket) -> None:
 
 
 class Game:
-    """A served game, its proxy and its log."""
+    """A served game, and the proxy that it reaches its scheduler through."""
 
     def __init__(self, name: str, url: str, folder: Path) -> None:
-        self._name = name
-        self._log = folder / f"{name}.log"
-        self._log.touch()
-        self.proxy = Proxy(url)
-        self._process = self._started()
+        self._proxy = Proxy(url)
+        self._game = ServedGame(name, self._proxy.address, folder)
 
     def mishap(self, *, is_cut: bool) -> None:
         """Wait until it plays, then cut it off, or kill it and start it again."""
-        before = self._log.stat().st_size
+        before = len(self._game.said)
         end = time.monotonic() + JOINS_S
-        while "episode" not in self._log.read_text("utf-8")[before:] and time.monotonic() < end:
+        while "episode" not in self._game.said[before:] and time.monotonic() < end:
             time.sleep(0.05)
         time.sleep(random.uniform(0.0, 0.5))  # noqa: S311 - no secret
         if is_cut:
-            self.proxy.cut()
+            self._proxy.cut()
         else:
-            self._process.kill()
-            self._process.wait()
-            self._process = self._started()
+            self._game.lose()
 
     def end(self) -> None:
         """End it, as a player does."""
-        self._process.send_signal(signal.SIGINT)
-        with suppress(subprocess.TimeoutExpired):
-            self._process.wait(20)
-        self._process.kill()
-        self._process.wait()
-        self.proxy.close()
-
-    @property
-    def code(self) -> int | None:
-        """Its exit code, None while it runs."""
-        return self._process.poll()
-
-    def _started(self) -> subprocess.Popen[bytes]:
-        words = ["serve-game", "--scheduler", self.proxy.address, "--backend", "virtual", "--name", self._name]
-        with self._log.open("ab") as file:
-            return subprocess.Popen(_command(*words), cwd=ROOT, stdout=file, stderr=file)  # noqa: S603 - our own
+        self._game.end()
+        self._proxy.close()
 
 
 def main() -> int:
@@ -139,7 +117,7 @@ def main() -> int:
         out, log = folder / "run", folder / "learner.log"
         words = ["train", "--backend", "virtual", "--preset", "live", "--episodes", "100000", "--games", url]
         with log.open("wb") as file:
-            learner = subprocess.Popen(_command(*words, "--out", str(out)), cwd=ROOT, stdout=file, stderr=file)  # noqa: S603
+            learner = subprocess.Popen(command(*words, "--out", str(out)), cwd=ROOT, stdout=file, stderr=file)  # noqa: S603
         stack.callback(learner.kill)
         mishaps = [(game, is_cut) for game in games for is_cut in (False, True)] * times
         random.shuffle(mishaps)
@@ -168,10 +146,6 @@ def _judge(out: Path, said: str, mishaps: int, code: int) -> int:
         f"double: {in_order}; the learner's exit code {code}"
     )
     return 0 if in_order and code == 130 and counted else 1
-
-
-def _command(*words: str) -> list[str]:
-    return [sys.executable, "-m", "mc_nested.cli", *words]
 
 
 if __name__ == "__main__":

@@ -80,8 +80,8 @@ class GameServer:
             self._wait_until_in_front(game, request)
             episode = self._played(game, agent, request)
         except UnwantedError as error:
-            self._say(str(error))
             is_over = self._is_over()
+            self._say("the episode was broken off" if is_over else str(error))
             problem = "its player has ended it" if is_over else str(error)
             request.answer.set_result(Answer(problem=problem, leaves=is_over, log=self._summary(game)))
         except LiveError as error:

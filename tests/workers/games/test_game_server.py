@@ -26,6 +26,8 @@ class Served:
     def __init__(self) -> None:
         self.said: list[str] = []
         self.is_in_front = True
+        self.is_ended = False
+        """Whether the player has ended it."""
         self.opened: list[GameOrder] = []
         self.closed = 0
         self.before_step: Callable[[], None] = lambda: None
@@ -60,7 +62,11 @@ class Served:
         requests = [Request(ORDER, plan, wanted, Future()) for plan in plans]
         for request in requests:
             desk._requests.put(request)
-        self.server = GameServer(desk, self.opens, self.said.append, lambda: all(r.answer.done() for r in requests))
+
+        def is_over() -> bool:
+            return self.is_ended or all(request.answer.done() for request in requests)
+
+        self.server = GameServer(desk, self.opens, self.said.append, is_over)
         try:
             self.server.serve()
         finally:
@@ -117,6 +123,17 @@ def test_an_episode_that_nobody_wants_any_more_is_broken_off_with_no_key_down(se
     assert answer.problem.startswith("the episode was broken off")
     assert len(steps) == 2
     assert not answer.log["spoiled_episodes"]
+    assert served.down == set()
+
+
+def test_an_episode_in_which_the_player_ends_it_is_broken_off_and_the_learner_is_told_why(served: Served) -> None:
+    def ends() -> None:
+        served.is_ended = True
+
+    served.before_step = ends
+    (answer,) = served.ask(PLAN)
+    assert (answer.problem, answer.leaves) == ("its player has ended it", True)
+    assert served.said == ["episode 1 of dot", "the episode was broken off"]
     assert served.down == set()
 
 
