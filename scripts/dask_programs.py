@@ -23,6 +23,7 @@ def scheduler(folder: Path, *words: str) -> Iterator[str]:
     TimeoutError if it doesn't start; its log is in the folder.
     """
     told = folder / "scheduler.json"
+    told.unlink(missing_ok=True)
     host = () if "--host" in words else ("--host", "127.0.0.1")
     running = _started(
         folder / "scheduler.log",

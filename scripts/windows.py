@@ -4,7 +4,7 @@
     python scripts/windows.py test [-- ARGUMENTS]     set up, then pytest under Wine, on a screen of its own
 
 Without arguments, pytest runs the unit suite of arena, live, sim, calibration and view, and a training. Programs come
-with apt, the rest with pip, pinned with hashes (windows_parts.py); all of it stays in .windows/ (1.4 GB). Nothing is
+with apt, the rest with pip, pinned with hashes (windows_parts.py); all of it stays in .windows/ (1.8 GB). Nothing is
 left running.
 Exit code 2: the machine lacks something that the message names; 1: Wine did not start, or a test failed.
 """

@@ -90,6 +90,8 @@ def environment(cache: Path, display: str, home: Path) -> dict[str, str]:
         "WINEDEBUG": "-all",
         # No .NET, no HTML, no menu entries, no debugger that a crash would hang in; Microsoft's C library.
         "WINEDLLOVERRIDES": "mscoree,mshtml,winedbg.exe,winemenubuilder.exe=;ucrtbase=n,b",
+        # Torch's OpenMP asks for the NUMA nodes' processors, which Wine doesn't know, unless it binds no threads.
+        "KMP_AFFINITY": "disabled",
         "PYTHONPYCACHEPREFIX": windows_path(cache / "pycache"),
         "PYTHONIOENCODING": "utf-8",
         "NUMBA_CACHE_DIR": windows_path(cache / "numba"),

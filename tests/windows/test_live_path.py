@@ -1,4 +1,4 @@
-"""Everything a player on Windows does, under Wine: read, doctor, calibrate, play, in a rehearsal window.
+"""Everything a player on Windows does, under Wine: read, doctor, calibrate, play, serve, in a rehearsal window.
 
 Never beside other tests: the window is drawn in real time. What was built is judged by what the window's client says.
 """
@@ -15,11 +15,14 @@ import tomlkit
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import parse_profile
+from mc_nested.workers.cluster.keys import make_keys
+from scripts.dask_programs import scheduler, tls_words
 from scripts.rehearsal_window import TruthReader, mc_nested, write_font
 from scripts.standin_processes import wait_until
 from scripts.windows_parts import windows_path
 from scripts.windows_session import Session
 from sim.client.client import VirtualClient
+from tests.learn.made_experiments import DOT, scenario_text
 
 pytestmark = pytest.mark.wine
 
@@ -117,3 +120,21 @@ def test_once_calibrated_every_row_that_can_be_seen_passes(calibrated: Rehearsal
     assert code == 0, said
     for name in ("profile", "font", "debug screen", "position line", "input"):
         assert rows[name]["status"] == "pass", rows[name]
+
+
+def test_its_game_is_served_to_a_learner_on_this_system_over_tls(calibrated: Rehearsal, tmp_path: Path) -> None:
+    design, run = tmp_path / "design.toml", tmp_path / "run"
+    design.write_text(scenario_text(DOT), "utf-8")
+    pc, learner = make_keys(tmp_path / "keys", ["pc", "learner"])
+    with scheduler(tmp_path, *tls_words(learner)) as url:
+        words = ("serve-game", "--scheduler", url, "--keys", windows_path(pc), "--name", "pc")
+        profile = ("--profile", windows_path(calibrated.profile), "--evidence", windows_path(tmp_path / "evidence"))
+        with calibrated.windows.started("-m", "mc_nested.cli", *words, *profile) as game:
+            cluster = ("--games", url, "--keys", learner)
+            live = ("--backend", "live", "--preset", "live", "--scenario", design, "--episodes", "2")
+            mc_nested("train", *live, *cluster, "--out", run, env={}, timeout_s=PLAY_S)
+            said = game.printed()
+    assert json.loads((run / "summary.json").read_text("utf-8"))["episodes_done"] == [2], said
+    assert "pc has joined" in said
+    assert "episode 2: score" in said
+    assert calibrated.truth.now()["keys_down"] == []
