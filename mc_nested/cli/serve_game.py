@@ -75,7 +75,8 @@ def serve_game(  # noqa: PLR0913 - a Typer verb: a parameter for each option
                 game, display = stack.enter_context(opened)
                 log = game.log
             arena = as_shown(ArenaVectorEnv([ArenaEnv(game, order.scenario)]), order.preset.states)
-            yield OpenGame(order.new_agent().view_of(arena, [order.scenario]), log, display.is_in_front)
+            view = order.new_agent().view_of(arena, [order.scenario])
+            yield OpenGame(view, log, display.is_in_front, game.connection.controller.check_stopped)
 
     with catch_interrupts() as interrupt:
         with GameWorker(address, name or socket.gethostname(), say):

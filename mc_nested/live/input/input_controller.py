@@ -193,6 +193,11 @@ class InputController:
         self._stop_reason = reason
         self.release_all()
 
+    def check_stopped(self) -> None:
+        """StoppedError once it was stopped."""
+        if self._stop_reason is not None:
+            raise StoppedError(f"{self._stop_reason}: every key is up, start again when you like")
+
     def check_front(self) -> None:
         """NotInFrontError unless a key pressed now would reach the game."""
         if not self._display.is_in_front():
@@ -202,8 +207,7 @@ class InputController:
             )
 
     def _check_running(self) -> None:
-        if self._stop_reason is not None:
-            raise StoppedError(f"{self._stop_reason}: every key is up, start again when you like")
+        self.check_stopped()
         self.check_front()
 
     def _refresh(self, screen: PressTarget) -> None:

@@ -43,6 +43,7 @@ class Recovery:
         self._screen = connection.screen
         self._display = connection.devices.display
         self._clock = connection.devices.clock
+        self._controller = connection.controller
         self._journal = connection.journal
         self._points = points or {}
         self._navigator = MenuNavigator(profile, connection, self._points)
@@ -134,5 +135,6 @@ class Recovery:
             self._sleep(EFFECT_S)
 
     def _sleep(self, seconds: float) -> None:
-        """Let time pass, whether the window is in front or not."""
+        """Let time pass, whether the window is in front or not; StoppedError if it was stopped."""
+        self._controller.check_stopped()
         self._clock.sleep_until(self._clock.now() + seconds)

@@ -24,11 +24,15 @@ Say = Callable[[str], None]
 
 @dataclass(frozen=True)
 class OpenGame:
-    """A game that is open: one arena, the log of playing it, and whether it can be played now."""
+    """A game that is open: one arena, the log of playing it, and whether it can be played now.
+
+    ``check_stopped`` raises StoppedError once its player has stopped it, as by the panic key.
+    """
 
     arena: VectorEnv[Any, Int64s, Any]
     log: PlayLog
     is_in_front: Callable[[], bool]
+    check_stopped: Callable[[], None] = lambda: None
 
 
 Opener = Callable[[GameOrder], AbstractContextManager[OpenGame]]
@@ -69,6 +73,8 @@ class GameServer:
             while not self._is_over():
                 if request := self._desk.next():
                     self._answer(request)
+                elif self._order:
+                    self._game.check_stopped()
 
     def _answer(self, request: Request) -> None:
         try:
@@ -85,7 +91,8 @@ class GameServer:
             problem = "its player has ended it" if is_over else str(error)
             request.answer.set_result(Answer(problem=problem, leaves=is_over, log=self._summary(game)))
         except LiveError as error:
-            self._say(f"the episode was lost: {error}")
+            if request.plan:
+                self._say(f"the episode was lost: {error}")
             try:
                 if not isinstance(error, NotInFrontError):
                     self._failures.record_failure(error, self._steps)
@@ -126,6 +133,7 @@ class GameServer:
         while not game.is_in_front():
             if self._is_over() or not request.is_wanted():
                 raise UnwantedError("the game is paused")
+            game.check_stopped()
             self._desk.wait()
         self._say("goes on")
 

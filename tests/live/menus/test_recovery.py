@@ -2,7 +2,7 @@
 
 import pytest
 
-from mc_nested.errors import LiveError, NotInFrontError
+from mc_nested.errors import LiveError, NotInFrontError, StoppedError
 from mc_nested.live.menus.recovery import EFFECT_S, FRONT_PATIENCE_S, PATIENCE_S, UNKNOWN_S, Recovery
 from mc_nested.live.profile.tables import KeysTable, Profile
 from tests.live.menus.fake_menus import PROBLEM, FakeMenus, connection_of
@@ -171,3 +171,13 @@ def test_a_title_that_is_not_reached_is_an_error_after_the_patience_and_an_unkno
         recovery_in(menus).leave_world()
     assert menus.pressed == []
     assert PATIENCE_S <= menus.clock.now() - 100.0 < PATIENCE_S + 2 * EFFECT_S
+
+
+def test_the_panic_key_ends_the_wait_for_the_front() -> None:
+    menus = FakeMenus(front_from=1000.0)
+    connection = connection_of(menus)
+    recovery = Recovery(Profile(), connection)
+    connection.controller.stop("the panic key was pressed")
+    with pytest.raises(StoppedError, match="the panic key was pressed"):
+        recovery.recover()
+    assert menus.clock.now() - 100.0 < 2 * EFFECT_S

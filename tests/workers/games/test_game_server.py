@@ -31,6 +31,9 @@ class Served:
         self.opened: list[GameOrder] = []
         self.closed = 0
         self.before_step: Callable[[], None] = lambda: None
+        self.check_stopped: Callable[[], None] = lambda: None
+        self.looks = iter(range(0))
+        """How often it looks for another request before it is ended."""
         self.opening_error: Exception | None = None
         self.down: set[str] = {"unknown"}
         """What is held down in the client's window: keys and buttons."""
@@ -52,7 +55,7 @@ class Served:
                     return step(actions)
 
                 arena.step = watched  # type: ignore[method-assign]
-                yield OpenGame(arena, VirtualPlay([game]), lambda: self.is_in_front)
+                yield OpenGame(arena, VirtualPlay([game]), lambda: self.is_in_front, self.check_stopped)
         finally:
             self.closed += 1
 
@@ -64,7 +67,8 @@ class Served:
             desk._requests.put(request)
 
         def is_over() -> bool:
-            return self.is_ended or all(request.answer.done() for request in requests)
+            all_is_answered = all(request.answer.done() for request in requests)
+            return self.is_ended or (all_is_answered and next(self.looks, None) is None)
 
         self.server = GameServer(desk, self.opens, self.said.append, is_over)
         try:
@@ -161,16 +165,36 @@ def test_a_pause_that_nobody_waits_for_ends(served: Served) -> None:
 
 
 def test_the_panic_key_ends_it_and_the_learner_is_told(served: Served) -> None:
-    def pressed() -> None:
-        raise StoppedError("the panic key was pressed")
-
-    served.before_step = pressed
+    served.before_step = stopped
     with pytest.raises(StoppedError):
         served.ask(PLAN, PLAN)
     (answer,) = served.answers
     assert answer.problem == "the panic key was pressed"
     assert served.closed == 1
     assert served.down == set()
+
+
+def stopped() -> None:
+    raise StoppedError("the panic key was pressed")
+
+
+def test_the_panic_key_ends_a_game_that_is_paused_too(served: Served) -> None:
+    served.is_in_front, served.check_stopped = False, stopped
+    looks = iter(range(5))
+    with pytest.raises(StoppedError):
+        served.ask(None, wanted=lambda: next(looks, None) is not None)
+    (answer,) = served.answers
+    assert (answer.problem, answer.leaves) == ("the panic key was pressed", True)
+    assert served.said == ["paused: switch to the game to let it go on"]
+
+
+def test_the_panic_key_ends_a_game_that_nobody_asks_for_an_episode(served: Served) -> None:
+    served.looks, served.check_stopped = iter(range(5)), stopped
+    with pytest.raises(StoppedError):
+        served.ask(PLAN)
+    (answer,) = served.answers
+    assert answer.episode
+    assert served.closed == 1
 
 
 def test_a_game_that_fails_again_and_again_is_given_up(served: Served) -> None:
