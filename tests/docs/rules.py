@@ -61,6 +61,7 @@ BY_THE_SUITE = {
     ),
     "python scripts/bench_cluster.py": "it takes minutes of an idle machine",
     "python scripts/bench_lost_games.py": "tests/cli/test_games_training.py, with two games and one mishap",
+    "python scripts/bench_served_games.py": "tests/scripts/test_bench_served_games.py, with two games on the line",
     "python scripts/test.py": "it runs this test",
     "mc-nested train --preset live --scenario square": "tests/cli/test_train_live_large.py",
 }
