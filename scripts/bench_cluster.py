@@ -33,6 +33,8 @@ from mc_nested.workers.executor import train_jobs  # noqa: E402
 from scripts.dask_programs import scheduler, worker  # noqa: E402
 
 if TYPE_CHECKING:
+    from distributed import Client
+
     from mc_nested.workers.messages import JobEnded, JobReport
 
 SLEEPING = """
@@ -52,12 +54,12 @@ job_task.train_job = sleeps
 """What a worker is started with so that its jobs sleep; all else is as it is for a job that trains."""
 
 
-BETWEEN_KILLS_S = (1.5, 3.0)
-"""Seconds between two kills, at random: a worker has joined by then, and begun a job."""
+BUSY_S = (0.0, 1.5)
+"""Seconds that a worker has had a job when it is killed, at random."""
 
 
-def main() -> None:
-    """Run what was asked for."""
+def main() -> int:
+    """Run what was asked for; 1 if kills changed anything."""
     parser = argparse.ArgumentParser(description="What a cluster costs.")
     commands = parser.add_subparsers(dest="command", required=True)
     sleeping = commands.add_parser("scheduling")
@@ -75,9 +77,10 @@ def main() -> None:
         for count in asked.workers:
             _scheduling(asked.jobs, count, asked.sleep)
     elif asked.command == "kills":
-        _kills(asked.times, asked.trials)
+        return _kills(asked.times, asked.trials)
     else:
         _reproduce(asked.rounds, asked.trials)
+    return 0
 
 
 def _scheduling(jobs: int, workers: int, seconds: float) -> None:
@@ -117,23 +120,28 @@ def _cluster(folder: Path, workers: int, *words: str) -> Iterator[SchedulerAddre
                 each.wait()
 
 
-def _kills(times: int, trials: int) -> None:
+def _kills(times: int, trials: int) -> int:
+    """0 if the sweep ended with the same bytes as here, in which each trial has one row, after all those kills."""
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         words = ["sweep", "--scenario", "line", "--trials", str(trials), "--episodes", "60", "--jobs", "60"]
         here, there = folder / "here", folder / "there"
         subprocess.run(_command(*words, "--out", str(here), "-q"), check=True, cwd=ROOT)  # noqa: S603 - our own
-        with scheduler(folder) as url:
-            workers = [worker(folder, url) for _ in range(2)]
+        with scheduler(folder) as url, connected(SchedulerAddress(url, None)) as client:
+            workers = [worker(folder, url, "--name", f"0-{place}") for place in range(2)]
             try:
                 log = (folder / "sweep.log").open("wb")
                 sweep = subprocess.Popen(_command(*words, "--out", str(there), "--cluster", url), stderr=log, cwd=ROOT)  # noqa: S603 - our own
                 killed = 0
                 while killed < 2 * times and sweep.poll() is None:
-                    time.sleep(random.uniform(*BETWEEN_KILLS_S))  # noqa: S311 - no secret
-                    workers[killed % 2].kill()
-                    workers[killed % 2].wait()
-                    workers[killed % 2] = worker(folder, url)
+                    place = killed % 2
+                    if not _is_busy(client, f"{killed // 2}-{place}"):
+                        time.sleep(0.05)
+                        continue
+                    time.sleep(random.uniform(*BUSY_S))  # noqa: S311 - no secret
+                    workers[place].kill()
+                    workers[place].wait()
+                    workers[place] = worker(folder, url, "--name", f"{killed // 2 + 1}-{place}")
                     killed += 1
                 code = sweep.wait()
             finally:
@@ -146,6 +154,13 @@ def _kills(times: int, trials: int) -> None:
         )
         jobs = len(list((there / "units").glob("*/outcome.json")))
         print(f"{killed} workers killed, exit code {code}, {jobs} jobs, {'the same' if same else 'OTHER'} bytes")
+        return 0 if same and killed == 2 * times else 1
+
+
+def _is_busy(client: "Client", name: str) -> bool:
+    """Whether the worker of that name has a job."""
+    workers = client.scheduler_info()["workers"]
+    return any(each["name"] == name and client.processing([address])[address] for address, each in workers.items())
 
 
 def _command(*words: str) -> list[str]:
@@ -187,4 +202,4 @@ def _time(out: Path, trials: int, *words: str) -> float:
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

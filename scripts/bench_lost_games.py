@@ -3,13 +3,15 @@
     python scripts/bench_lost_games.py --times 20
 
 The games and the learner are processes of their own; each game reaches the scheduler through a proxy, whose sockets are
-closed to cut it off. In the end the learner is stopped by Ctrl+C, and its tables are compared with what it said: every
-episode that came back is in them once, and nothing else. Exit code 1 if not. Needs the extra `cluster`.
+closed to cut it off. In the end the learner is stopped by Ctrl+C, and its tables are compared with what the games say
+that they have played, score by score: nothing is counted that wasn't played, or oftener than it was, and no more is
+missing than the learner says that it has lost. Exit code 1 if not. Needs the extra `cluster`.
 """
 
 import argparse
 import csv
 import random
+import re
 import signal
 import socket
 import subprocess
@@ -17,11 +19,13 @@ import sys
 import tempfile
 import threading
 import time
+from collections import Counter
 from contextlib import ExitStack, suppress
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from mc_nested.cli.interrupt import INTERRUPTED
 from scripts.dask_programs import scheduler
 from scripts.served_games import JOINS_S, ROOT, ServedGame, command
 
@@ -97,6 +101,11 @@ class Game:
         else:
             self._game.lose()
 
+    @property
+    def scores(self) -> list[str]:
+        """Of the whole episodes that it says it has played, before and after it was lost."""
+        return re.findall(r"^episode \d+: score (\S+) of", self._game.said, re.MULTILINE)
+
     def end(self) -> None:
         """End it, as a player does."""
         self._game.end()
@@ -129,23 +138,35 @@ def main() -> int:
                 return 1
         learner.send_signal(signal.SIGINT)
         code = learner.wait(120)
-        return _judge(out, log.read_text("utf-8"), len(mishaps), code)
+        lost = log.read_text("utf-8").count("its episode is lost")
+        for game in games:
+            game.end()
+        played = Counter(score for game in games for score in game.scores)
+        wrong = judged(counted_in(out), played, lost, code)
+        print(
+            f"{len(mishaps)} mishaps, half of them kills: {played.total()} whole episodes played, "
+            f"{counted_in(out).total()} counted, {lost} lost; the learner's exit code {code}"
+        )
+        print("\n".join(wrong) or "nothing is wrong")
+        return 1 if wrong else 0
 
 
-def _judge(out: Path, said: str, mishaps: int, code: int) -> int:
-    rows = [
-        list(csv.DictReader((out / name).open(newline="", encoding="utf-8")))
-        for name in ("episodes.csv", "evaluations.csv")
-    ]
-    episodes = [int(row["episode"]) for row in rows[0]]
-    counted = sum(map(len, rows))
-    lost = said.count("its episode is lost")
-    in_order = episodes == list(range(1, len(episodes) + 1))
-    print(
-        f"{mishaps} mishaps, half of them kills: {counted} episodes counted, {lost} lost; numbered without a gap or a "
-        f"double: {in_order}; the learner's exit code {code}"
-    )
-    return 0 if in_order and code == 130 and counted else 1
+def counted_in(out: Path) -> Counter[str]:
+    """The scores in a training's tables, which have a row for each episode that counted."""
+    tables = [(out / name).read_text("utf-8").splitlines() for name in ("episodes.csv", "evaluations.csv")]
+    return Counter(f"{float(row['score']):g}" for table in tables for row in csv.DictReader(table))
+
+
+def judged(counted: Counter[str], played: Counter[str], lost: int, code: int) -> list[str]:
+    """What is wrong with what was counted, in lines; the last episode of each game may have ended too late."""
+    wrong = []
+    if never := counted - played:
+        wrong.append(f"counted, but never played, or counted twice: scores {dict(never)}")
+    if (missing := (played - counted).total()) > lost + len(GAMES):
+        wrong.append(f"{missing} whole episodes are missing, and the learner has lost {lost}")
+    if code != INTERRUPTED or not counted:
+        wrong.append(f"the learner ended with exit code {code}, and {counted.total()} episodes")
+    return wrong
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """The games that play for one training: plans go out to them, and whole episodes come back."""
 
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -8,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.rules import landing
 from mc_nested.arena.scenario import Scenario
+from mc_nested.cli.interrupt import Interrupt, Stopped
 from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.workers_seen import counted
-from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, NameTaken
+from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, NameTaken, Unreachable
 from mc_nested.workers.games.order import Answer, GameOrder
 
 if TYPE_CHECKING:  # the cluster extra's
@@ -47,6 +49,7 @@ class GamesAtPlay:
         self._records: dict[str, GameRecord] = {}
         self._refused: dict[str, str] = {}
         self._has_played = False
+        self._is_over = False
         self._lost = 0
         self._problems: list[str] = []
         self.last: PlayedEpisode | None = None
@@ -60,6 +63,13 @@ class GamesAtPlay:
         if self._refused and not self._has_played and not any(record.is_here for record in self._records.values()):
             raise ClusterError("; ".join(f"{game} can't play: {why}" for game, why in self._refused.items()))
         return lines
+
+    def take_the_last(self) -> None:
+        """Take what has come back by now; nobody is asked for anything any more."""
+        self._is_over = True
+        for event in self._games.events(0):
+            if isinstance(event, Answered):
+                self._handle(event)
 
     def in_words(self) -> str:
         """How many games there are, and what is lost."""
@@ -88,6 +98,8 @@ class GamesAtPlay:
             return self._take(game, event.answer)
         if isinstance(event, NameTaken):
             return f"a second game named {game} was refused: give it another --name"
+        if isinstance(event, Unreachable):
+            return f"{game} has answered, but can't be reached at {event.address}: let that port through its firewall"
         record = self._records[game]
         record.is_here = False
         lost = self._lose(record, f"{game} is gone")
@@ -104,7 +116,7 @@ class GamesAtPlay:
         if answer.episode and self._trainer.take(answer.episode):
             self.last = answer.episode
         record.playing = None
-        if not (self._trainer.finished or answer.leaves):
+        if not (self._is_over or self._trainer.finished or answer.leaves):
             # After a mishap it says first when it is ready again: its player may be away.
             plan = None if answer.problem else self._trainer.plan(game)
             record.playing = plan.number if plan else None
@@ -135,21 +147,38 @@ OF_GAMES = "mc-nested-games"
 FREED_S = 45.0
 """Seconds until a scheduler has noticed that a learner was killed, and a little more."""
 
+ASK_AGAIN_S = 1.0
+"""Seconds between two looks whether they are free."""
+
 
 @contextmanager
-def games_at_play(cluster: SchedulerAddress, order: GameOrder, trainer: GamesTrainer) -> Iterator[GamesAtPlay]:
-    """The games of that scheduler, for a training; ClusterError if it can't be reached, or another one has them."""
-    with connected(cluster) as client, _alone(client, cluster), DaskGames(client, order) as games:
+def games_at_play(
+    cluster: SchedulerAddress, order: GameOrder, trainer: GamesTrainer, interrupt: Interrupt, say: Callable[[str], None]
+) -> Iterator[GamesAtPlay]:
+    """The games of that scheduler, for a training.
+
+    ClusterError if it can't be reached, or another one has them; Stopped if somebody asks to stop while that is seen.
+    """
+    with connected(cluster) as client, _alone(client, cluster, interrupt, say), DaskGames(client, order) as games:
         yield GamesAtPlay(trainer, games)
 
 
 @contextmanager
-def _alone(client: "Client", cluster: SchedulerAddress) -> Iterator[None]:
+def _alone(
+    client: "Client", cluster: SchedulerAddress, interrupt: Interrupt, say: Callable[[str], None]
+) -> Iterator[None]:
     from distributed import Lock
 
     lock = Lock(OF_GAMES, scheduler_rpc=client.scheduler, loop=client.loop)
-    if not lock.acquire(timeout=FREED_S):
-        raise ClusterError(f"another training has the games of {cluster.url}: wait until it ends, or stop it")
+    until, is_said = time.monotonic() + FREED_S, False
+    while not lock.acquire(timeout=ASK_AGAIN_S):
+        if interrupt.requested:
+            raise Stopped("stopped: nothing was begun")
+        if time.monotonic() >= until:
+            raise ClusterError(f"another training has the games of {cluster.url}: wait until it ends, or stop it")
+        if not is_said:
+            is_said = True
+            say(f"another training has the games; if it was killed, they are free within {FREED_S:.0f} s")
     try:
         yield
     finally:

@@ -54,7 +54,11 @@ def run_games_training(
     agent = folder.new_agent(1, config.preset.device)
     trainer = GamesTrainer(folder.scenario, agent, config.preset, config.seed, config.stop_at_optimum)
     order = GameOrder(config.backend, folder.scenario, config.agent, config.preset, config.seed)
-    with catch_interrupts() as interrupt, published(folder, how) as view, games_at_play(games, order, trainer) as play:
+    with (
+        catch_interrupts() as interrupt,
+        published(folder, how) as view,
+        games_at_play(games, order, trainer, interrupt, output.note) as play,
+    ):
         begin_or_resume(folder, trainer, earlier, resumed)
         output.note(f"run:        {folder.path}")
 
@@ -113,6 +117,7 @@ class _GamesTraining:
                     save_at = time.monotonic() + every
                 # While a viewer has it paused, the games finish their episodes, and get no others.
                 self.publisher.wait_while_paused(self._is_stopped)
+            self.play.take_the_last()
         self.shown.show_end()
 
     def _progress(self, output: Output) -> TrainingProgress:

@@ -77,3 +77,24 @@ def test_it_is_stopped_on_one_side_and_goes_on_at_the_other(
     assert any((job / "checkpoint").is_dir() for job in (cut / "units").iterdir() if job.is_dir())
     assert run("reproduce", "--resume", cut, *(word.replace("URL", url) for word in then)) == 0
     assert content(cut) == content(whole)
+
+
+def test_a_sweep_and_a_benchmark_write_the_same_bytes_with_a_worker_that_a_nanny_keeps(
+    words: list[str], tmp_path: Path
+) -> None:
+    _, *own, trials, one, quiet = words
+    sweep = ["sweep", *own, trials, one, "--episodes", "2", quiet]
+    benchmark = ["benchmark", "--designs", "1", "--agents", "nested", "--presets", words[4], "--trials", "1", quiet]
+    written = {"sweep": ("sweep.csv", "sweep.md"), "benchmark": ("benchmark.csv",)}
+    with scheduler(tmp_path) as url:
+        nanny = worker(tmp_path, url, "--nanny")
+        try:
+            for verb in (sweep, benchmark):
+                here, there = tmp_path / verb[0] / "here", tmp_path / verb[0] / "there"
+                assert run(*verb, "--jobs", "2", "--out", here) == 0
+                assert run(*verb, "--jobs", "2", "--out", there, "--cluster", url) == 0
+                for name in written[verb[0]]:
+                    assert (there / name).read_bytes() == (here / name).read_bytes()
+        finally:
+            nanny.terminate()
+            nanny.wait(30)

@@ -12,7 +12,7 @@ from mc_nested.cli.games_at_play import GamesAtPlay, LastEpisode, blocks_of
 from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
 from mc_nested.learn.games.player import play_episode
-from mc_nested.workers.games.dask_games import Answered, GameEvent, Joined, Left, NameTaken
+from mc_nested.workers.games.dask_games import Answered, GameEvent, Joined, Left, NameTaken, Unreachable
 from mc_nested.workers.games.order import Answer
 from sim.grid import GridGame
 from tests.learn.made_experiments import DOT
@@ -84,6 +84,21 @@ def test_an_episode_counts_once_and_the_game_gets_the_next(play: Play) -> None:
     play.happens(Answered("one", Answer(episode)))
     assert len(play.trainer.episode_rows) == 1
     assert play.at_play.summary()["live"]["game_s"] == [2.0]
+
+
+def test_what_has_come_back_when_it_is_stopped_counts_and_nobody_is_asked_any_more(play: Play) -> None:
+    first, second = play.begin("one", "two")
+    asked = len(play.games.asked)
+    play.games.coming += [Answered("one", Answer(played(first))), Answered("two", Answer(played(second))), Left("one")]
+    play.at_play.take_the_last()
+    assert len(play.trainer.episode_rows) == 2
+    assert len(play.games.asked) == asked
+
+
+def test_a_game_whose_answers_cannot_be_fetched_is_named_with_its_address(play: Play) -> None:
+    play.begin("one")
+    (said,) = play.happens(Unreachable("one", "tcp://192.168.0.11:50123"))
+    assert said.startswith("one has answered, but can't be reached at tcp://192.168.0.11:50123: let that port through")
 
 
 def test_a_game_that_is_gone_costs_its_episode_alone_and_may_come_back(play: Play) -> None:

@@ -303,12 +303,15 @@ def test_a_second_training_is_refused_the_games_of_the_first(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.setattr(games_at_play, "FREED_S", 1.0)
+    monkeypatch.setattr(games_at_play, "ASK_AGAIN_S", 0.2)
     words = [*TRAIN, "--scenario", str(design), "--games", url]
     first = subprocess.Popen([sys.executable, "-m", "mc_nested.cli", *words, "--out", str(tmp_path / "first")])
     while not (tmp_path / "first" / "config.toml").exists() and first.poll() is None:
         time.sleep(0.05)
     assert run(*words, "--out", tmp_path / "second") == 2
-    assert f"another training has the games of {url}: wait until it ends, or stop it" in capsys.readouterr().err
+    said = capsys.readouterr()
+    assert f"another training has the games of {url}: wait until it ends, or stop it" in said.err
+    assert "another training has the games; if it was killed, they are free within 1 s" in said.out + said.err
     assert not (tmp_path / "second").exists()
     first.send_signal(signal.SIGINT)
     assert first.wait(30) == 130

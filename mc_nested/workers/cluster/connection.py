@@ -21,7 +21,7 @@ CONNECT_S = 10.0
 LONGER_S = 2.0
 """Seconds longer, before it is given up."""
 
-HOW_TO_INSTALL = "pip install 'mc-nested[cluster]'"
+HOW_TO_INSTALL = "pip install -c constraints.txt -e '.[cluster]'"
 
 
 def check_installed() -> None:

@@ -17,7 +17,15 @@ from typing import TYPE_CHECKING, Any
 from mc_nested.errors import RunError
 from mc_nested.learn.experiments.jobs import Job
 from mc_nested.workers.cluster.job_end import cancel, in_words, landed_from, lost
-from mc_nested.workers.cluster.job_task import GAME, Reported, Trained, packed, stop_training, train_on_worker
+from mc_nested.workers.cluster.job_task import (
+    GAME,
+    Reported,
+    Trained,
+    library_of,
+    packed,
+    stop_training,
+    train_on_worker,
+)
 from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.cluster.workers_seen import WorkersSeen
 from mc_nested.workers.messages import JobEnded, JobReport
@@ -123,9 +131,9 @@ class DaskJobs:
             package = packed(job, folder)
             with self._lock:  # until it is known, nothing is heard of it
                 # In their order, the longest first: by itself Dask would go by their names.
-                trained = self._executor.submit(
-                    train_on_worker, own_versions(), package, self._topic, key=key, priority=-len(self._futures)
-                )
+                library = library_of(job)
+                asked = own_versions(library), library, package, self._topic
+                trained = self._executor.submit(train_on_worker, *asked, key=key, priority=-len(self._futures))
                 self._futures[job.name] = trained
         trained.add_done_callback(lambda done: self._land(job, folder, done, landed, tries - 1))
 

@@ -14,7 +14,7 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mc_nested.errors import ClusterError
-from mc_nested.learn.experiments.jobs import Job
+from mc_nested.learn.experiments.jobs import PLANNER, Job
 from mc_nested.report.tensorboard import FOLDER
 from mc_nested.workers.cluster.shipped_files import Files, files_below, write_below
 from mc_nested.workers.cluster.versions import Versions, differences, own_versions
@@ -65,13 +65,20 @@ class Reported(NamedTuple):
     worker: str
 
 
+def library_of(job: Job) -> str | None:
+    """The library whose agent the job trains; None for this project's own."""
+    return None if job.library == PLANNER else job.library
+
+
 def packed(job: Job, folder: Path) -> bytes:
     """The job and the files of its folder, for ``train_on_worker``."""
     return pickle.dumps((job, files_below(folder)))
 
 
-def train_on_worker(versions: Versions, package: bytes, topic: str) -> Trained:
+def train_on_worker(versions: Versions, library: str | None, package: bytes, topic: str) -> Trained:
     """Train a packed job until it is finished, or saved because its experiment was stopped or its task cancelled.
+
+    ``library`` is whose agent it is (``library_of``): its version has to be the same, too.
 
     ClusterError if this worker's versions aren't those.
     """
@@ -81,7 +88,7 @@ def train_on_worker(versions: Versions, package: bytes, topic: str) -> Trained:
     if GAME in worker.state.total_resources:
         time.sleep(ELSEWHERE_S)  # nobody else may be there for a while
         raise Reschedule
-    if differing := differences(versions, own_versions()):
+    if differing := differences(versions, own_versions(library)):
         message = f"the worker at {worker.address} has {differing}: install the same on both"
         print(f"mc-nested: a job was refused: {message}", file=sys.stderr, flush=True)
         raise ClusterError(message)

@@ -14,20 +14,36 @@ PACKAGES = ("mc_nested", "sim")
 LIBRARIES = ("numpy", "numba", "llvmlite", "torch", "distributed")
 """Whose versions they depend on, or the messages between the machines."""
 
+BESIDE_ANOTHER = ("gymnasium",)
+"""What an agent of another library depends on beside that."""
+
+MISSING = "missing"
+
 Versions = Mapping[str, str]
 
 
 @cache
-def own_versions() -> Versions:
-    """This machine's versions, by name: this project's with a hash of its files, and the libraries', of any build."""
+def own_versions(library: str | None = None) -> Versions:
+    """This machine's versions, by name: this project's with a hash of its files, and the libraries', of any build.
+
+    With those that decide what an agent of another library learns, if one is named.
+    """
     own = f"{importlib.metadata.version('mc-nested')} ({_hash_of_files(ROOT)})"
-    return {"mc-nested": own, **{name: importlib.metadata.version(name).partition("+")[0] for name in LIBRARIES}}
+    others = (library, *BESIDE_ANOTHER) if library else ()
+    return {"mc-nested": own, **{name: _version_of(name) for name in (*LIBRARIES, *others)}}
 
 
 def differences(wanted: Versions, own: Versions) -> str:
     """What differs, in words; empty if nothing does."""
     differing = [name for name in wanted if wanted[name] != own.get(name)]
-    return ", ".join(f"{name} {own.get(name, 'missing')} instead of {wanted[name]}" for name in differing)
+    return ", ".join(f"{name} {own.get(name, MISSING)} instead of {wanted[name]}" for name in differing)
+
+
+def _version_of(library: str) -> str:
+    try:
+        return importlib.metadata.version(library).partition("+")[0]
+    except importlib.metadata.PackageNotFoundError:
+        return MISSING
 
 
 def _hash_of_files(root: Path) -> str:

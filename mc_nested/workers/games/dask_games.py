@@ -1,5 +1,7 @@
 """The games that have joined a scheduler, as their learner sees them."""
 
+import asyncio
+import time
 import uuid
 from concurrent.futures import Future
 from contextlib import suppress
@@ -20,6 +22,14 @@ if TYPE_CHECKING:  # the cluster extra's
 
 ALL = "all"
 """The topic under which a scheduler tells who comes and goes."""
+
+LOOK_EVERY_S = 2.0
+"""Seconds between two looks at who is there, where nobody tells."""
+
+FETCHED_S = 15.0
+"""Seconds in which an answer is fetched from its game, or it can't be."""
+
+LOST = "the scheduler was lost: start it again"
 
 
 @dataclass(frozen=True)
@@ -51,7 +61,23 @@ class NameTaken:
     game: str
 
 
-GameEvent = Joined | Left | Answered | NameTaken
+@dataclass(frozen=True)
+class Unreachable:
+    """A game has answered, and its answer can't be fetched at that address, which a firewall may close."""
+
+    game: str
+    address: str
+
+
+GameEvent = Joined | Left | Answered | NameTaken | Unreachable
+
+
+@dataclass(frozen=True)
+class Done:
+    """What a game was asked is done, or withdrawn."""
+
+    game: str
+    future: Future[Answer]
 
 
 class DaskGames:
@@ -67,10 +93,15 @@ class DaskGames:
         # Its futures are done once the answer is here; Dask's own, as soon as the game has it, and may lose it again.
         self._executor = client.get_executor(pure=False)
         self._order = order
-        self._happened: SimpleQueue[tuple[str, Future[Answer]] | NameTaken | None] = SimpleQueue()
+        self._happened: SimpleQueue[Done | NameTaken | None] = SimpleQueue()
         self._addresses: dict[str, str] = {}
-        self._was_away = False
         self._asked: dict[str, Future[Answer]] = {}
+        self._keys: dict[str, str] = {}
+        """Dask's name of what each game was asked last."""
+        self._answered_at: dict[str, float | None] = {}
+        """Since when answers wait to be fetched; None where that was told."""
+        self._was_away = False
+        self._look_at = 0.0
 
     def __enter__(self) -> "DaskGames":
         self._listen()
@@ -87,7 +118,13 @@ class DaskGames:
                 future.cancel()
 
     def ask(self, game: str, plan: EpisodePlan | None) -> None:
-        """Ask a game that is free to play a plan; without one, to say when it is ready for one."""
+        """Ask a game that is free to play a plan; without one, to say when it is ready for one.
+
+        ClusterError if the scheduler is lost for good.
+        """
+        if self._client.status == "closed":
+            raise ClusterError(LOST)
+        self._keys[game] = f"{game}-{uuid.uuid4().hex}"
         future = self._executor.submit(
             ask_game,
             own_versions(),
@@ -95,68 +132,89 @@ class DaskGames:
             workers=[self._addresses[game]],
             resources={GAME: 1},
             allow_other_workers=False,
-            key=f"{game}-{uuid.uuid4().hex}",
+            key=self._keys[game],
         )
         self._asked[game] = future
-        future.add_done_callback(lambda done: self._happened.put((game, done)))
+        future.add_done_callback(lambda done: self._happened.put(Done(game, done)))
 
     def events(self, timeout_s: float) -> list[GameEvent]:
         """What has happened since the last call; waits so long for anything.
 
         ClusterError if the scheduler is lost for good.
         """
-        if lost := self._look_at_the_scheduler():
-            return lost
+        heard = self._heard(timeout_s)
+        answers = [each for each in heard if isinstance(each, Done) and self._asked.get(each.game) is each.future]
+        # First who has answered: it was played and confirmed, whatever has become of the game, or the scheduler, since.
+        found: list[GameEvent] = [NameTaken(each.game) for each in heard if isinstance(each, NameTaken)]
+        found += [self._answered(each) for each in answers if not each.future.cancelled()]
+        withdrawn = [each for each in answers if each.future.cancelled()]
+        if found:
+            for later in withdrawn:
+                self._happened.put(later)
+            if None in heard:
+                self._happened.put(None)
+            return found
+        if self._client.status == "closed":
+            raise ClusterError(LOST)
+        # Nobody here has withdrawn them: the connection was lost, and with it what was asked, and who is listened to.
+        self._was_away = self._was_away or bool(withdrawn) or self._client.status != "running"
+        found = [self._forget(each.game) for each in withdrawn]
+        return found or self._unreachable() or self._comings_and_goings(is_heard=None in heard)
+
+    def _heard(self, timeout_s: float) -> list["Done | NameTaken | None"]:
         try:
-            heard = [self._happened.get(timeout=timeout_s)]
+            first = self._happened.get(timeout=timeout_s)
         except Empty:
             return []
-        heard += [self._happened.get_nowait() for _ in range(self._happened.qsize())]
-        # What a game that is gone has answered before counts: it was played and confirmed.
-        found: list[GameEvent] = [each for each in heard if isinstance(each, NameTaken)]
-        answers = [each for each in heard if isinstance(each, tuple) and self._asked.get(each[0]) is each[1]]
-        found += [self._answered(game, done) for game, done in answers if not done.cancelled()]
-        if found and None in heard:
-            # First who has answered: whoever is asked again must not have been replaced meanwhile.
-            self._happened.put(None)
-            return found
-        return found or self._comings_and_goings()
+        return [first, *(self._happened.get_nowait() for _ in range(self._happened.qsize()))]
 
-    def _look_at_the_scheduler(self) -> list[GameEvent]:
-        """All games are gone for a client that has reconnected by itself: what it had asked for is forgotten."""
-        if self._client.status == "closed":
-            raise ClusterError("the scheduler was lost: start it again")
-        if self._client.status != "running":
-            self._was_away = True
+    def _comings_and_goings(self, *, is_heard: bool) -> list[GameEvent]:
+        """Who has come and gone, if that was heard of, or wasn't looked at for a while."""
+        if self._client.status != "running" or not (is_heard or time.monotonic() >= self._look_at):
             return []
-        if not self._was_away:
+        if self._was_away:
+            self._was_away = False
+            self._listen()
+        try:
+            workers = self._client.scheduler_info()["workers"]
+        except (OSError, asyncio.TimeoutError):  # it is lost just now, which its status will say
             return []
-        self._was_away = False
-        gone: list[GameEvent] = [Left(game) for game in self._addresses]
-        self._addresses, self._asked = {}, {}
-        self._listen()
-        return gone
-
-    def _comings_and_goings(self) -> list[GameEvent]:
-        workers = self._client.scheduler_info()["workers"]
+        self._look_at = time.monotonic() + LOOK_EVERY_S
         now = {each["name"]: address for address, each in workers.items() if each["resources"].get(GAME)}
-        found: list[GameEvent] = []
-        for game, address in list(self._addresses.items()):
-            if now.get(game) != address:
-                del self._addresses[game]
-                if asked := self._asked.pop(game, None):
-                    asked.cancel()
-                found.append(Left(game))
+        gone = [game for game, address in self._addresses.items() if now.get(game) != address]
+        found = [self._forget(game) for game in gone]
         for game, address in now.items():
             if game not in self._addresses:
                 self._addresses[game] = address
                 found.append(Joined(game))
         return found
 
-    def _answered(self, game: str, done: Future[Answer]) -> Answered:
-        del self._asked[game]
-        error = done.exception()
-        return Answered(game, error if isinstance(error, Exception) else done.result())
+    def _forget(self, game: str) -> GameEvent:
+        """It is gone, or as good as gone: what it was asked is withdrawn."""
+        del self._addresses[game]
+        if asked := self._asked.pop(game, None):
+            asked.cancel()
+        return Left(game)
+
+    def _unreachable(self) -> list[GameEvent]:
+        """Which games have answered long ago, at addresses that the scheduler can't fetch the answers from."""
+        now = time.monotonic()
+        for game, future in self._asked.items():
+            state = self._client.futures.get(self._keys[game])
+            if future.done() or state is None or state.status != "finished":
+                self._answered_at.pop(game, None)
+            else:
+                self._answered_at.setdefault(game, now)
+        late = [game for game, since in self._answered_at.items() if since is not None and now - since > FETCHED_S]
+        for game in late:
+            self._answered_at[game] = None
+        return [Unreachable(game, self._addresses[game]) for game in late]
+
+    def _answered(self, done: "Done") -> Answered:
+        del self._asked[done.game]
+        self._answered_at.pop(done.game, None)
+        error = done.future.exception()
+        return Answered(done.game, error if isinstance(error, Exception) else done.future.result())
 
     def _hear_of_workers(self, event: tuple[float, dict[str, Any]]) -> None:
         if event[1].get("action") in ("add-worker", "remove-worker"):

@@ -10,7 +10,7 @@ from gymnasium.vector.vector_env import VectorWrapper
 
 from mc_nested.arena.game import PlayLog
 from mc_nested.arrays import Int64s
-from mc_nested.errors import LiveError, NotInFrontError, UserError
+from mc_nested.errors import DesktopError, LiveError, NotInFrontError, UserError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.player import play_episode
@@ -90,6 +90,9 @@ class GameServer:
             self._say("the episode was broken off" if is_over else str(error))
             problem = "its player has ended it" if is_over else str(error)
             request.answer.set_result(Answer(problem=problem, leaves=is_over, log=self._summary(game)))
+        except DesktopError as error:
+            request.answer.set_result(Answer(problem=str(error), leaves=True, log=self._summary(game)))
+            raise
         except LiveError as error:
             if request.plan:
                 self._say(f"the episode was lost: {error}")
@@ -148,7 +151,14 @@ class _WantedArena(VectorWrapper):
         super().__init__(arena)
         self._is_wanted = is_wanted
 
+    def reset(self, *, seed: Any = None, options: dict[str, Any] | None = None) -> Any:
+        self._check_wanted()
+        return self.env.reset(seed=seed, options=options)
+
     def step(self, actions: Any) -> Any:
+        self._check_wanted()
+        return self.env.step(actions)
+
+    def _check_wanted(self) -> None:
         if not self._is_wanted():
             raise UnwantedError("the episode was broken off: nobody waits for it")
-        return self.env.step(actions)

@@ -2,6 +2,7 @@
 
 import asyncio
 import tempfile
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from threading import Thread
@@ -9,12 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from mc_nested.errors import ClusterError
 from mc_nested.workers.cluster.address import SchedulerAddress, is_local
-from mc_nested.workers.cluster.connection import (
-    CONNECT_S,
-    connected,
-    security_of,
-    unreachable,
-)
+from mc_nested.workers.cluster.connection import CONNECT_S, connected, security_of, unreachable
 from mc_nested.workers.cluster.job_task import GAME
 
 if TYPE_CHECKING:  # the cluster extra's
@@ -22,6 +18,9 @@ if TYPE_CHECKING:  # the cluster extra's
 
 START_S = 30.0
 """Seconds that the worker may take to join, on a busy computer."""
+
+NOTICED_S = 60.0
+"""Seconds in which a scheduler notices that a game is gone."""
 
 TRY_AGAIN_S = 2.0
 """Seconds between two tries to join again."""
@@ -67,7 +66,7 @@ class GameWorker:
         self._loop = asyncio.new_event_loop()
         self._thread = Thread(target=self._loop.run_forever, name="game-worker", daemon=True)
         self._thread.start()
-        self._folder = tempfile.TemporaryDirectory(prefix="mc-nested-")
+        self._folder = tempfile.TemporaryDirectory(prefix="mc-nested-", ignore_cleanup_errors=True)
         try:
             worker = asyncio.run_coroutine_threadsafe(self._joined(), self._loop).result()
         except BaseException as error:
@@ -77,6 +76,11 @@ class GameWorker:
             raise
         self._serving = asyncio.run_coroutine_threadsafe(self._stay(worker), self._loop)
         return self
+
+    @property
+    def listens_at(self) -> str:
+        """The address at which its scheduler reaches it."""
+        return str(self._worker.address)
 
     def __exit__(self, *_: object) -> None:
         self._serving.cancel()
@@ -102,9 +106,10 @@ class GameWorker:
             dashboard_address="127.0.0.1:0",
             host="127.0.0.1" if is_local(self._address) else None,
             security=security_of(self._address),
+            death_timeout=START_S,  # then it closes what it has opened
         )
         try:
-            await asyncio.wait_for(self._worker, START_S)
+            await asyncio.wait_for(self._worker, START_S + CONNECT_S)
         except (OSError, asyncio.TimeoutError, RuntimeError) as error:
             if NAME_TAKEN in str(error.__cause__):
                 raise NameTakenError(
@@ -121,12 +126,16 @@ class GameWorker:
             worker = await self._joined_again()
 
     async def _joined_again(self) -> "Worker":
+        began, is_said = time.monotonic(), False
         while True:
             await asyncio.sleep(TRY_AGAIN_S)
             try:
                 return await self._joined()
-            except Exception:  # noqa: S112 - its own name too is taken, for as long as the scheduler hasn't noticed
-                continue
+            except Exception as error:
+                # Its own name is taken, too, for as long as the scheduler hasn't noticed that it was gone.
+                if isinstance(error, NameTakenError) and not is_said and time.monotonic() - began > NOTICED_S:
+                    is_said = True
+                    self._say(str(error))
 
     async def _leave(self) -> None:
         """Leave once the learner has the last answer, or doesn't fetch it."""
@@ -141,10 +150,12 @@ class GameWorker:
             client.log_event(NAMES, self._name)
 
     def _end(self) -> None:
-        asyncio.run_coroutine_threadsafe(_cancel_others(), self._loop).result(CONNECT_S)
+        with suppress(Exception):  # what doesn't end in time ends with the process
+            asyncio.run_coroutine_threadsafe(_cancel_others(), self._loop).result(CONNECT_S)
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join(CONNECT_S)
-        self._loop.close()
+        if not self._thread.is_alive():
+            self._loop.close()
         self._folder.cleanup()
 
 

@@ -1,6 +1,7 @@
 """A real scheduler lets in who has its authority's certificate, and nobody else."""
 
 import socket
+import ssl
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,6 +13,7 @@ from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import check_installed, connected
 from mc_nested.workers.cluster.keys import AUTHORITY, CERTIFICATE, KEY, make_keys
+from mc_nested.workers.games.game_worker import GameWorker
 from scripts.dask_programs import scheduler, tls_words
 from tests.dask_fixture import LEFTOVERS, leftovers
 
@@ -62,10 +64,39 @@ def test_a_certificate_of_another_authority_is_refused_even_if_it_trusts_the_sch
         pytest.fail("let in")
 
 
-def test_without_a_certificate_nobody_is_let_in(secured: str) -> None:
+def test_without_tls_nobody_is_let_in(secured: str) -> None:
     address = SchedulerAddress(secured.replace("tls://", "tcp://"), None)
     with pytest.raises(ClusterError, match="one with keys is written tls://"), connected(address):
         pytest.fail("let in")
+
+
+def is_let_in(address: str, keys: Path, *, certificate: bool) -> bool:
+    """Whether whoever listens there answers a peer that trusts it and speaks TLS, with a certificate or without."""
+    context = ssl.create_default_context(cafile=str(keys / AUTHORITY))
+    context.check_hostname = False
+    if certificate:
+        context.load_cert_chain(keys / CERTIFICATE, keys / KEY)
+    host, port = address.removeprefix("tls://").rsplit(":", 1)
+    with socket.create_connection((host, int(port)), 5) as plain:
+        try:
+            with context.wrap_socket(plain) as connection:
+                return len(connection.recv(1)) == 1  # Dask's greeting
+        except ConnectionError:
+            return False
+        except ssl.SSLError:  # with TLS 1.3 it is heard only now that the other end wants one
+            return False
+
+
+def test_the_scheduler_lets_nobody_in_without_a_certificate(secured: str, folder: Path) -> None:
+    assert is_let_in(secured, folder / "own" / "pc", certificate=True)
+    assert not is_let_in(secured, folder / "own" / "pc", certificate=False)
+
+
+def test_nor_does_a_game(secured: str, folder: Path) -> None:
+    with GameWorker(SchedulerAddress(secured, folder / "own" / "pc"), "pc", lambda _: None) as game:
+        assert is_let_in(game.listens_at, folder / "own" / "learner", certificate=True)
+        assert not is_let_in(game.listens_at, folder / "own" / "learner", certificate=False)
+        assert not is_let_in(game.listens_at, folder / "other" / "pc", certificate=True)
 
 
 def test_a_scheduler_without_tls_is_refused_by_who_has_keys(cluster: SchedulerAddress, folder: Path) -> None:
@@ -101,5 +132,5 @@ def test_a_scheduler_that_hangs_is_given_up(monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_without_dask_it_says_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
-    with pytest.raises(ClusterError, match=r"pip install 'mc-nested\[cluster\]'"):
+    with pytest.raises(ClusterError, match=r"pip install -c constraints\.txt -e '\.\[cluster\]'"):
         check_installed()

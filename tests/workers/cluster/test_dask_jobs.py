@@ -131,7 +131,7 @@ def test_a_job_that_fails_is_not_tried_again(client: Client, tmp_path: Path) -> 
 def test_a_worker_with_other_versions_refuses_and_says_what_differs(
     client: Client, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(dask_jobs, "own_versions", lambda: {**own_versions(), "numpy": "0.1"})
+    monkeypatch.setattr(dask_jobs, "own_versions", lambda _: {**own_versions(), "numpy": "0.1"})
     with pytest.raises(
         RunError, match=r"^the worker at tcp://.* has numpy .* instead of 0\.1: install the same on both$"
     ):

@@ -48,6 +48,7 @@ def train(client: Client, folder: Path, topic: str, job: Job = JOB) -> Trained:
     done: Trained = client.submit(
         train_on_worker,
         own_versions(),
+        None,
         packed(job, folder),
         topic,
         pure=False,
@@ -81,7 +82,7 @@ def test_what_it_reports_can_be_heard(client: Client, tmp_path: Path) -> None:
 
 
 def test_a_job_whose_task_is_cancelled_ends(client: Client, tmp_path: Path) -> None:
-    future = client.submit(train_on_worker, own_versions(), packed(LONG, tmp_path), "cancelled", pure=False)
+    future = client.submit(train_on_worker, own_versions(), None, packed(LONG, tmp_path), "cancelled", pure=False)
     while not client.get_events("cancelled"):
         pass
     future.cancel()

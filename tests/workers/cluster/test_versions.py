@@ -13,6 +13,13 @@ def test_a_machine_agrees_with_itself() -> None:
     assert set(own_versions()) == {"mc-nested", *LIBRARIES}
 
 
+def test_for_another_librarys_agent_its_version_counts_too() -> None:
+    wanted = own_versions("no-such-library")
+    assert wanted["no-such-library"] == "missing"
+    assert "gymnasium" in wanted
+    assert differences({**wanted, "no-such-library": "1.0"}, wanted) == "no-such-library missing instead of 1.0"
+
+
 def test_what_differs_is_named_with_both_versions() -> None:
     wanted = {"mc-nested": "0.1.0 (a)", "numpy": "2", "numba": "1"}
     own = {"mc-nested": "0.1.0 (b)", "numpy": "2"}

@@ -5,8 +5,11 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
+from typing import Any
 
+import distributed
 import pytest
 from distributed import Client
 
@@ -16,9 +19,9 @@ from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.dask_jobs import DaskJobs, workers_that_train
 from mc_nested.workers.cluster.versions import own_versions
-from mc_nested.workers.games import dask_games, game_task
-from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, Left, NameTaken
-from mc_nested.workers.games.desk import Desk
+from mc_nested.workers.games import dask_games, game_task, game_worker
+from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, Left, NameTaken, Unreachable
+from mc_nested.workers.games.desk import Desk, Request
 from mc_nested.workers.games.game_worker import LOST, GameWorker
 from mc_nested.workers.games.order import Answer
 from scripts.bench_lost_games import Proxy
@@ -143,6 +146,73 @@ def test_an_answer_of_a_game_that_has_left_since_counts_and_is_told_first(
         assert games.events(1.0) == [Left("one")]
 
 
+def next_request(desk: Desk) -> Request:
+    while not (request := desk.next()):
+        pass
+    return request
+
+
+@pytest.mark.parametrize("looks", [True, False], ids=["while it looks", "while it doesn't look"])
+def test_a_learner_whose_network_was_gone_asks_its_games_anew(
+    looks: bool, address: SchedulerAddress, desk: Desk
+) -> None:
+    proxy = Proxy(address.url)
+    with ExitStack() as stack:
+        stack.callback(proxy.close)
+        stack.enter_context(GameWorker(address, "one", quiet))
+        client = stack.enter_context(connected(SchedulerAddress(proxy.address, None)))
+        games = stack.enter_context(DaskGames(client, ORDER))
+        assert until(games, 1) == [Joined("one")]
+        games.ask("one", None)
+        request = next_request(desk)
+        proxy.cut()
+        if not looks:
+            time.sleep(3.0)
+        assert until(games, 2) == [Left("one"), Joined("one")]
+        assert not request.is_wanted()
+        request.answer.set_result(Answer(problem="too late"))
+        games.ask("one", None)
+        next_request(desk).answer.set_result(Answer())
+        assert until(games, 1) == [Answered("one", Answer())]
+
+
+def test_what_had_come_back_before_the_scheduler_was_lost_counts(
+    tmp_path: Path, desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(connection, "CONNECT_S", 1.0)
+    with ExitStack() as stack:
+        killed = ExitStack()
+        address = SchedulerAddress(killed.enter_context(scheduler(tmp_path)), None)
+        client = stack.enter_context(connected(address))
+        stack.enter_context(GameWorker(address, "one", quiet))
+        games = stack.enter_context(DaskGames(client, ORDER))
+        assert until(games, 1) == [Joined("one")]
+        games.ask("one", None)
+        next_request(desk).answer.set_result(Answer())
+        time.sleep(0.5)
+        killed.close()
+        end = time.monotonic() + PATIENCE_S
+        while client.status != "closed" and time.monotonic() < end:
+            time.sleep(0.01)
+        assert games.events(0.1) == [Answered("one", Answer())]
+        with pytest.raises(ClusterError, match=r"^the scheduler was lost"):
+            games.events(0.1)
+
+
+def test_an_answer_that_cannot_be_fetched_is_told_once(
+    address: SchedulerAddress, client: Client, desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(dask_games, "FETCHED_S", 0.5)
+    nobody = "tcp://127.0.0.1:9"
+    monkeypatch.setattr(distributed, "Worker", partial(distributed.Worker, contact_address=nobody))
+    with DaskGames(client, ORDER) as games, GameWorker(address, "one", quiet):
+        assert until(games, 1) == [Joined("one")]
+        games.ask("one", None)
+        next_request(desk).answer.set_result(Answer())
+        assert until(games, 1) == [Unreachable("one", nobody)]
+        assert games.events(0.5) == []
+
+
 def test_a_learner_that_is_done_wants_no_answer_any_more(address: SchedulerAddress, client: Client, desk: Desk) -> None:
     with GameWorker(address, "one", quiet):
         with DaskGames(client, ORDER) as games:
@@ -194,6 +264,32 @@ def test_an_experiments_job_leaves_a_game_alone(address: SchedulerAddress, clien
         finally:
             running.kill()
             running.wait()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads Linux's list of sockets")
+def test_each_try_to_join_again_leaves_nothing_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(game_worker, "START_S", 0.5)
+    monkeypatch.setattr(game_worker, "TRY_AGAIN_S", 0.1)
+    made: list[distributed.Worker] = []
+
+    def made_worker(*arguments: Any, **options: Any) -> distributed.Worker:
+        made.append(worker_class(*arguments, **options))
+        return made[-1]
+
+    worker_class = distributed.Worker
+    with ExitStack() as stack:
+        killed = ExitStack()
+        url = killed.enter_context(scheduler(tmp_path))
+        before = listening()
+        stack.enter_context(GameWorker(SchedulerAddress(url, None), "one", quiet))
+        killed.close()
+        monkeypatch.setattr(distributed, "Worker", made_worker)
+        end = time.monotonic() + PATIENCE_S
+        while len(made) < 4 and time.monotonic() < end:
+            time.sleep(0.05)
+        assert len(made) >= 4
+        # The last has its two ports still, and at most one before it is just closing them.
+        assert len(listening() - before) <= 4
 
 
 def test_a_scheduler_that_is_lost_for_good_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,7 @@ import pytest
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.cli.virtual_games import VirtualPlay, open_virtual_games
-from mc_nested.errors import LiveError, NotConfirmedError, ProfileError, StoppedError
+from mc_nested.errors import DesktopError, LiveError, NotConfirmedError, ProfileError, StoppedError
 from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.workers.games.desk import Desk, Request
 from mc_nested.workers.games.game_server import GameServer, OpenGame
@@ -195,6 +195,26 @@ def test_the_panic_key_ends_a_game_that_nobody_asks_for_an_episode(served: Serve
     (answer,) = served.answers
     assert answer.episode
     assert served.closed == 1
+
+
+def test_a_game_whose_window_is_closed_ends_and_the_learner_is_told(served: Served) -> None:
+    def closed() -> None:
+        raise DesktopError("the game's window was closed")
+
+    served.before_step = closed
+    with pytest.raises(DesktopError):
+        served.ask(PLAN, PLAN)
+    (answer,) = served.answers
+    assert (answer.problem, answer.leaves) == ("the game's window was closed", True)
+    assert served.closed == 1
+
+
+def test_a_plan_that_nobody_waits_for_any_more_is_not_begun(served: Served) -> None:
+    steps: list[int] = []
+    served.before_step = lambda: steps.append(1)
+    (answer,) = served.ask(PLAN, wanted=lambda: False)
+    assert answer.episode is None
+    assert steps == []
 
 
 def test_a_game_that_fails_again_and_again_is_given_up(served: Served) -> None:
