@@ -26,6 +26,9 @@ ALL = "all"
 LOOK_EVERY_S = 2.0
 """Seconds between two looks at who is there, where nobody tells."""
 
+LOOKS_S = 5.0
+"""Seconds that such a look may take: in them nobody sees a Ctrl+C."""
+
 FETCHED_S = 15.0
 """Seconds in which an answer is fetched from its game, or it can't be."""
 
@@ -170,16 +173,19 @@ class DaskGames:
 
     def _comings_and_goings(self, *, is_heard: bool) -> list[GameEvent]:
         """Who has come and gone, if that was heard of, or wasn't looked at for a while."""
-        if self._client.status != "running" or not (is_heard or time.monotonic() >= self._look_at):
+        to_scheduler = self._client.scheduler
+        is_due = is_heard or time.monotonic() >= self._look_at
+        if self._client.status != "running" or not to_scheduler or not is_due:
             return []
         if self._was_away:
             self._was_away = False
             self._listen()
-        try:
-            workers = self._client.scheduler_info()["workers"]
-        except (OSError, asyncio.TimeoutError):  # it is lost just now, which its status will say
-            return []
         self._look_at = time.monotonic() + LOOK_EVERY_S
+        try:
+            known = self._client.sync(to_scheduler.identity, callback_timeout=LOOKS_S)
+        except (OSError, asyncio.TimeoutError):  # it is lost just now, which the status will say, or it hangs
+            return []
+        workers: dict[str, dict[str, Any]] = known["workers"]
         now = {each["name"]: address for address, each in workers.items() if each["resources"].get(GAME)}
         gone = [game for game, address in self._addresses.items() if now.get(game) != address]
         found = [self._forget(game) for game in gone]
@@ -191,7 +197,8 @@ class DaskGames:
 
     def _forget(self, game: str) -> GameEvent:
         """It is gone, or as good as gone: what it was asked is withdrawn."""
-        del self._addresses[game]
+        self._addresses.pop(game, None)
+        self._answered_at.pop(game, None)
         if asked := self._asked.pop(game, None):
             asked.cancel()
         return Left(game)

@@ -205,11 +205,14 @@ def test_an_answer_that_cannot_be_fetched_is_told_once(
     monkeypatch.setattr(dask_games, "FETCHED_S", 0.5)
     nobody = "tcp://127.0.0.1:9"
     monkeypatch.setattr(distributed, "Worker", partial(distributed.Worker, contact_address=nobody))
-    with DaskGames(client, ORDER) as games, GameWorker(address, "one", quiet):
-        assert until(games, 1) == [Joined("one")]
-        games.ask("one", None)
-        next_request(desk).answer.set_result(Answer())
-        assert until(games, 1) == [Unreachable("one", nobody)]
+    with DaskGames(client, ORDER) as games:
+        with GameWorker(address, "one", quiet):
+            assert until(games, 1) == [Joined("one")]
+            games.ask("one", None)
+            next_request(desk).answer.set_result(Answer())
+            assert until(games, 1) == [Unreachable("one", nobody)]
+            assert games.events(0.5) == []
+        assert until(games, 1) == [Left("one")]
         assert games.events(0.5) == []
 
 
@@ -303,6 +306,28 @@ def test_a_scheduler_that_is_lost_for_good_is_said(tmp_path: Path, monkeypatch: 
         killed.close()
         with pytest.raises(ClusterError, match=r"^the scheduler was lost: start it again$"):
             until(games, 1)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="processes can't be stopped and continued")
+def test_a_scheduler_that_hangs_keeps_nobody_waiting(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    psutil = pytest.importorskip("psutil")
+    monkeypatch.setattr(dask_games, "LOOKS_S", 0.3)
+    monkeypatch.setattr(dask_games, "LOOK_EVERY_S", 0.0)
+    before = {each.pid for each in psutil.Process().children()}
+    with (
+        scheduler(tmp_path) as url,
+        connected(SchedulerAddress(url, None)) as client,
+        DaskGames(client, ORDER) as games,
+    ):
+        assert games.events(0.1) == []
+        (process,) = [each for each in psutil.Process().children() if each.pid not in before]
+        process.suspend()
+        began = time.monotonic()
+        assert [games.events(0.1) for _ in range(3)] == [[], [], []]
+        assert time.monotonic() - began < 3.0
+        process.resume()
+        with GameWorker(SchedulerAddress(url, None), "one", quiet):
+            assert until(games, 1) == [Joined("one")]
 
 
 def test_no_scheduler_is_one_line_and_leaves_no_thread(monkeypatch: pytest.MonkeyPatch) -> None:
