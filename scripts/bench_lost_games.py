@@ -82,7 +82,7 @@ def _pass_on(heard: socket.socket, said: socket.socket) -> None:
             each.shutdown(socket.SHUT_RDWR)
 
 
-class Game:
+class LostGame:
     """A served game, and the proxy that it reaches its scheduler through."""
 
     def __init__(self, name: str, url: str, folder: Path) -> None:
@@ -120,7 +120,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as temporary, ExitStack() as stack:
         folder = Path(temporary)
         url = stack.enter_context(scheduler(folder))
-        games = [Game(name, url, folder) for name in GAMES]
+        games = [LostGame(name, url, folder) for name in GAMES]
         for game in games:
             stack.callback(game.end)
         out, log = folder / "run", folder / "learner.log"

@@ -45,7 +45,7 @@ TRAINING_S = 600.0
 
 
 @dataclass(frozen=True)
-class Trained:
+class TrainingTime:
     """What a training took: seconds on each game's clock, episodes of all games; whether it reached the optimum."""
 
     clocks: tuple[float, ...]
@@ -67,16 +67,16 @@ class Trained:
         )
 
 
-def trained_in(out: Path) -> Trained:
+def trained_in(out: Path) -> TrainingTime:
     """What the training in that folder took. Every episode that came back is in one of its two tables."""
     summary: Mapping[str, Any] = json.loads((out / "summary.json").read_text("utf-8"))
     tables = [(out / name).read_text("utf-8").splitlines()[1:] for name in ("episodes.csv", "evaluations.csv")]
     live, (score,) = summary["live"], summary["final_scores"]
     is_optimum = score is not None and score >= summary["optimum"]
-    return Trained(tuple(live["game_s"]), sum(map(len, tables)), live["spoiled_episodes"], is_optimum)
+    return TrainingTime(tuple(live["game_s"]), sum(map(len, tables)), live["spoiled_episodes"], is_optimum)
 
 
-def train(scenario: Scenario, seed: int, games: int = 0) -> Trained:
+def train(scenario: Scenario, seed: int, games: int = 0) -> TrainingTime:
     """Train with so many served games, begun for it alone; with none, in the learner's own game.
 
     RuntimeError, TimeoutError or TimeoutExpired if it can't be done.

@@ -17,7 +17,7 @@ from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.workers_seen import counted
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, NameTaken, Unreachable
-from mc_nested.workers.games.order import Answer, GameOrder
+from mc_nested.workers.games.order import GameAnswer, GameOrder
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Client
@@ -105,7 +105,7 @@ class GamesAtPlay:
         lost = self._lose(record, f"{game} is gone")
         return "" if game in self._refused else f"{game} is gone{lost}"
 
-    def _take(self, game: str, answer: Answer) -> str:
+    def _take(self, game: str, answer: GameAnswer) -> str:
         """Take a game's answer, and ask it for the next episode; what is to be said of it."""
         record = self._records[game]
         record.log = dict(answer.log) or record.log

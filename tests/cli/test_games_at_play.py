@@ -13,7 +13,7 @@ from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
 from mc_nested.learn.games.player import play_episode
 from mc_nested.workers.games.dask_games import Answered, GameEvent, Joined, Left, NameTaken, Unreachable
-from mc_nested.workers.games.order import Answer
+from mc_nested.workers.games.order import GameAnswer
 from sim.grid import GridGame
 from tests.learn.made_experiments import DOT
 from tests.workers.games.made_orders import ORDER, new_trainer
@@ -51,7 +51,7 @@ class Play:
     def begin(self, *names: str) -> list[EpisodePlan]:
         """Let these games join and be ready; the plans that they get."""
         self.happens(*map(Joined, names))
-        self.happens(*(Answered(name, Answer()) for name in names))
+        self.happens(*(Answered(name, GameAnswer()) for name in names))
         return [plan for _, plan in self.games.asked[-len(names) :] if plan]
 
 
@@ -68,7 +68,7 @@ def played(plan: EpisodePlan) -> PlayedEpisode:
 def test_a_game_that_joins_is_asked_whether_it_is_ready_and_then_gets_a_plan(play: Play) -> None:
     assert play.happens(Joined("one")) == ["one has joined"]
     assert play.games.asked == [("one", None)]
-    assert play.happens(Answered("one", Answer())) == []
+    assert play.happens(Answered("one", GameAnswer())) == []
     name, plan = play.games.asked[-1]
     assert name == "one"
     assert plan
@@ -78,10 +78,10 @@ def test_a_game_that_joins_is_asked_whether_it_is_ready_and_then_gets_a_plan(pla
 def test_an_episode_counts_once_and_the_game_gets_the_next(play: Play) -> None:
     (plan,) = play.begin("one")
     episode = played(plan)
-    assert play.happens(Answered("one", Answer(episode, log={"game_s": [2.0]}))) == []
+    assert play.happens(Answered("one", GameAnswer(episode, log={"game_s": [2.0]}))) == []
     assert len(play.trainer.episode_rows) == 1
     assert play.games.asked[-1][1]
-    play.happens(Answered("one", Answer(episode)))
+    play.happens(Answered("one", GameAnswer(episode)))
     assert len(play.trainer.episode_rows) == 1
     assert play.at_play.summary()["live"]["game_s"] == [2.0]
 
@@ -89,7 +89,11 @@ def test_an_episode_counts_once_and_the_game_gets_the_next(play: Play) -> None:
 def test_what_has_come_back_when_it_is_stopped_counts_and_nobody_is_asked_any_more(play: Play) -> None:
     first, second = play.begin("one", "two")
     asked = len(play.games.asked)
-    play.games.coming += [Answered("one", Answer(played(first))), Answered("two", Answer(played(second))), Left("one")]
+    play.games.coming += [
+        Answered("one", GameAnswer(played(first))),
+        Answered("two", GameAnswer(played(second))),
+        Left("one"),
+    ]
     play.at_play.take_the_last()
     assert len(play.trainer.episode_rows) == 2
     assert len(play.games.asked) == asked
@@ -105,7 +109,7 @@ def test_a_game_that_is_gone_costs_its_episode_alone_and_may_come_back(play: Pla
     first, second = play.begin("one", "two")
     assert play.happens(Left("one")) == ["one is gone, its episode is lost"]
     assert play.at_play.in_words() == "1 game, 1 playing, 1 episode lost"
-    play.happens(Answered("two", Answer(played(second))))
+    play.happens(Answered("two", GameAnswer(played(second))))
     assert len(play.trainer.episode_rows) == 1
     assert play.happens(Joined("one")) == ["one has joined"]
     assert play.games.asked[-1] == ("one", None)
@@ -114,11 +118,11 @@ def test_a_game_that_is_gone_costs_its_episode_alone_and_may_come_back(play: Pla
 
 def test_after_a_mishap_a_game_says_first_that_it_is_ready_again(play: Play) -> None:
     play.begin("one")
-    assert play.happens(Answered("one", Answer(problem="the game is paused"))) == [
+    assert play.happens(Answered("one", GameAnswer(problem="the game is paused"))) == [
         "one: the game is paused, its episode is lost"
     ]
     assert play.games.asked[-1] == ("one", None)
-    play.happens(Answered("one", Answer()))
+    play.happens(Answered("one", GameAnswer()))
     assert play.games.asked[-1][1]
     summary = play.at_play.summary()["live"]
     assert (summary["spoiled_episodes"], summary["last_problems"]) == (1, ["the game is paused"])
@@ -130,19 +134,19 @@ def test_the_training_ends_at_the_optimum_and_nobody_gets_another_plan(play: Pla
         for name in plans:
             if play.trainer.finished:
                 break
-            play.happens(Answered(name, Answer(played(plans[name]))))
+            play.happens(Answered(name, GameAnswer(played(plans[name]))))
             asked, plan = play.games.asked[-1]
             if plan and asked == name:
                 plans[name] = plan
     asked_so_far = len(play.games.asked)
-    play.happens(Answered("one", Answer(played(plans["one"]))))
+    play.happens(Answered("one", GameAnswer(played(plans["one"]))))
     assert len(play.games.asked) == asked_so_far
 
 
 @pytest.mark.parametrize(
-    "answer", [Answer(problem="the arena is too small", is_refusal=True), ClusterError("the arena is too small")]
+    "answer", [GameAnswer(problem="the arena is too small", is_refusal=True), ClusterError("the arena is too small")]
 )
-def test_if_the_only_game_refuses_it_ends_with_that_line(answer: Answer | Exception, play: Play) -> None:
+def test_if_the_only_game_refuses_it_ends_with_that_line(answer: GameAnswer | Exception, play: Play) -> None:
     play.happens(Joined("one"))
     with pytest.raises(ClusterError, match=r"^one can't play: the arena is too small$"):
         play.happens(Answered("one", answer))
@@ -150,7 +154,7 @@ def test_if_the_only_game_refuses_it_ends_with_that_line(answer: Answer | Except
 
 def test_if_one_of_several_refuses_the_others_go_on(play: Play) -> None:
     play.begin("one", "two")
-    refusal = Answer(problem="the arena is too small", is_refusal=True)
+    refusal = GameAnswer(problem="the arena is too small", is_refusal=True)
     assert play.happens(Answered("one", refusal)) == ["one can't play: the arena is too small"]
     assert play.happens(Left("one")) == []
     assert play.at_play.in_words() == "1 game, 1 playing, 1 episode lost"
@@ -158,7 +162,7 @@ def test_if_one_of_several_refuses_the_others_go_on(play: Play) -> None:
 
 def test_a_refusal_doesnt_end_it_while_a_game_that_has_played_is_away(play: Play) -> None:
     play.begin("one")
-    refusal = Answer(problem="another version", is_refusal=True, leaves=True)
+    refusal = GameAnswer(problem="another version", is_refusal=True, leaves=True)
     play.happens(Joined("old"))
     play.happens(Answered("old", refusal))
     assert play.happens(Left("one")) == ["one is gone, its episode is lost"]
@@ -168,7 +172,7 @@ def test_a_refusal_doesnt_end_it_while_a_game_that_has_played_is_away(play: Play
 def test_a_game_that_leaves_is_not_asked_again(play: Play) -> None:
     play.begin("one")
     asked = len(play.games.asked)
-    said = play.happens(Answered("one", Answer(problem="its player has ended it", leaves=True)))
+    said = play.happens(Answered("one", GameAnswer(problem="its player has ended it", leaves=True)))
     assert said == ["one: its player has ended it, its episode is lost"]
     assert len(play.games.asked) == asked
 
@@ -188,7 +192,7 @@ def test_the_view_shows_the_episode_that_came_back_last(play: Play) -> None:
     (plan,) = play.begin("one")
     arena = ArenaVectorEnv([ArenaEnv(GridGame(DOT), DOT)])
     episode = play_episode(arena, plan, ORDER.new_agent())
-    play.happens(Answered("one", Answer(episode)))
+    play.happens(Answered("one", GameAnswer(episode)))
     assert shown.cell(0) == arena.cell(0)
     assert shown.placed(0) == arena.placed(0)
     single = dataclasses.replace(episode, actions=episode.actions + 2)

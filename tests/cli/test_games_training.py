@@ -32,7 +32,7 @@ from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent
 from mc_nested.workers.games.desk import Desk
 from mc_nested.workers.games.game_server import GameServer, OpenGame
 from mc_nested.workers.games.game_worker import GameWorker
-from mc_nested.workers.games.order import Answer, GameOrder
+from mc_nested.workers.games.order import GameAnswer, GameOrder
 from scripts.dask_programs import scheduler, tls_words
 from tests.cli.running import run
 from tests.dask_fixture import LEFTOVERS, leftovers
@@ -133,7 +133,7 @@ def test_a_training_whose_episodes_another_process_plays_is_as_any_other(
 def test_a_game_is_served_until_its_player_ends_it(url: str, capsys: pytest.CaptureFixture[str]) -> None:
     order = GameOrder("virtual", DOT, "nested", load_preset("live"), 3)
     trainer = GamesTrainer(DOT, order.new_agent(), order.preset, 3)
-    came: list[Answer] = []
+    came: list[GameAnswer] = []
 
     def learn() -> None:
         try:
@@ -144,7 +144,7 @@ def test_a_game_is_served_until_its_player_ends_it(url: str, capsys: pytest.Capt
                 games.ask("mine", trainer.plan("mine"))
                 while not came:
                     answers = [each.answer for each in games.events(0.1) if isinstance(each, Answered)]
-                    came.extend(each for each in answers if isinstance(each, Answer))
+                    came.extend(each for each in answers if isinstance(each, GameAnswer))
         finally:
             os.kill(os.getpid(), signal.SIGINT)
 

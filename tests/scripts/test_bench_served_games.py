@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
-from scripts.bench_served_games import Trained, main, train, trained_in
+from scripts.bench_served_games import TrainingTime, main, train, trained_in
 
 
 def saved(out: Path, score: float | None) -> Path:
@@ -20,7 +20,7 @@ def saved(out: Path, score: float | None) -> Path:
 
 def test_the_slowest_games_clock_counts_and_both_tables_episodes_do(tmp_path: Path) -> None:
     found = trained_in(saved(tmp_path, 21.0))
-    assert found == Trained((61.5, 70.25, 55.0), episodes=4, lost=1, is_optimum=True)
+    assert found == TrainingTime((61.5, 70.25, 55.0), episodes=4, lost=1, is_optimum=True)
     assert found.seconds == 70.25
     assert found.in_words() == "70 s (62, 70, 55), 4 episodes, 1 lost"
 

@@ -15,7 +15,7 @@ from mc_nested.workers.cluster.job_task import GAME
 from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.games.game_task import ask_game, packed
 from mc_nested.workers.games.game_worker import NAMES
-from mc_nested.workers.games.order import Answer, GameOrder
+from mc_nested.workers.games.order import GameAnswer, GameOrder
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Client
@@ -54,7 +54,7 @@ class Answered:
     """A game has answered, or ``answer`` is an error that it raised."""
 
     game: str
-    answer: Answer | Exception
+    answer: GameAnswer | Exception
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ class Done:
     """What a game was asked is done, or withdrawn."""
 
     game: str
-    future: Future[Answer]
+    future: Future[GameAnswer]
 
 
 class DaskGames:
@@ -98,7 +98,7 @@ class DaskGames:
         self._order = order
         self._happened: SimpleQueue[Done | NameTaken | None] = SimpleQueue()
         self._addresses: dict[str, str] = {}
-        self._asked: dict[str, Future[Answer]] = {}
+        self._asked: dict[str, Future[GameAnswer]] = {}
         self._keys: dict[str, str] = {}
         """Dask's name of what each game was asked last."""
         self._answered_at: dict[str, float | None] = {}

@@ -11,11 +11,11 @@ from threading import Event
 
 from mc_nested.errors import ClusterError
 from mc_nested.learn.games.episode import EpisodePlan
-from mc_nested.workers.games.order import Answer, GameOrder
+from mc_nested.workers.games.order import GameAnswer, GameOrder
 
 LOOK_EVERY_S = 0.2
 
-CLOSED = Answer(problem="the game was closed", leaves=True)
+CLOSED = GameAnswer(problem="the game was closed", leaves=True)
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Request:
     order: GameOrder
     plan: EpisodePlan | None
     is_wanted: Callable[[], bool]
-    answer: Future[Answer] = field(default_factory=Future)
+    answer: Future[GameAnswer] = field(default_factory=Future)
 
 
 class Desk:
@@ -39,7 +39,7 @@ class Desk:
         self._closed = Event()
         self._refusal: ClusterError | None = None
 
-    def ask(self, order: GameOrder, plan: EpisodePlan | None, is_wanted: Callable[[], bool]) -> Answer:
+    def ask(self, order: GameOrder, plan: EpisodePlan | None, is_wanted: Callable[[], bool]) -> GameAnswer:
         """Leave a request, and wait for its answer; from Dask's thread."""
         request = Request(order, plan, is_wanted)
         self._requests.put(request)

@@ -16,7 +16,7 @@ from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.player import play_episode
 from mc_nested.live.failure_budget import FailureBudget
 from mc_nested.workers.games.desk import Desk, Request
-from mc_nested.workers.games.order import Answer, GameOrder
+from mc_nested.workers.games.order import GameAnswer, GameOrder
 
 Say = Callable[[str], None]
 """Shows one line to the player."""
@@ -80,7 +80,7 @@ class GameServer:
         try:
             game, agent = self._opened_for(request.order)
         except (UserError, LiveError) as error:
-            request.answer.set_result(Answer(problem=str(error), is_refusal=True, leaves=True))
+            request.answer.set_result(GameAnswer(problem=str(error), is_refusal=True, leaves=True))
             raise
         try:
             self._wait_until_in_front(game, request)
@@ -89,9 +89,9 @@ class GameServer:
             is_over = self._is_over()
             self._say("the episode was broken off" if is_over else str(error))
             problem = "its player has ended it" if is_over else str(error)
-            request.answer.set_result(Answer(problem=problem, leaves=is_over, log=self._summary(game)))
+            request.answer.set_result(GameAnswer(problem=problem, leaves=is_over, log=self._summary(game)))
         except DesktopError as error:
-            request.answer.set_result(Answer(problem=str(error), leaves=True, log=self._summary(game)))
+            request.answer.set_result(GameAnswer(problem=str(error), leaves=True, log=self._summary(game)))
             raise
         except LiveError as error:
             if request.plan:
@@ -100,11 +100,11 @@ class GameServer:
                 if not isinstance(error, NotInFrontError):
                     self._failures.record_failure(error, self._steps)
             except LiveError:
-                request.answer.set_result(Answer(problem=str(error), leaves=True, log=self._summary(game)))
+                request.answer.set_result(GameAnswer(problem=str(error), leaves=True, log=self._summary(game)))
                 raise
-            request.answer.set_result(Answer(problem=str(error), log=self._summary(game)))
+            request.answer.set_result(GameAnswer(problem=str(error), log=self._summary(game)))
         else:
-            request.answer.set_result(Answer(episode, log=self._summary(game)))
+            request.answer.set_result(GameAnswer(episode, log=self._summary(game)))
 
     def _played(self, game: OpenGame, agent: Agent, request: Request) -> PlayedEpisode | None:
         if request.plan is None:

@@ -7,7 +7,7 @@ from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.workers.cluster.job_task import wanted_here
 from mc_nested.workers.cluster.versions import Versions, differences, own_versions
 from mc_nested.workers.games.desk import Desk
-from mc_nested.workers.games.order import Answer, GameOrder
+from mc_nested.workers.games.order import GameAnswer, GameOrder
 
 desk = Desk()
 """The desk of this process, which serves one game at most."""
@@ -18,7 +18,7 @@ def packed(order: GameOrder, plan: EpisodePlan | None) -> bytes:
     return pickle.dumps((order, plan))
 
 
-def ask_game(versions: Versions, package: bytes) -> Answer:
+def ask_game(versions: Versions, package: bytes) -> GameAnswer:
     """Let this process's game play a packed request; the answer. ClusterError if the versions aren't those."""
     from distributed import get_worker
 

@@ -33,7 +33,7 @@ class GameOrder:
         return Agent(AGENT_SPECS[self.agent], [self.scenario], self.preset, self.seed)
 
 
-class Answer(NamedTuple):
+class GameAnswer(NamedTuple):
     """What came of a request.
 
     Args:

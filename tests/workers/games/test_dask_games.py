@@ -23,7 +23,7 @@ from mc_nested.workers.games import dask_games, game_task, game_worker
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, Left, NameTaken, Unreachable
 from mc_nested.workers.games.desk import Desk, Request
 from mc_nested.workers.games.game_worker import LOST, GameWorker
-from mc_nested.workers.games.order import Answer
+from mc_nested.workers.games.order import GameAnswer
 from scripts.bench_lost_games import Proxy
 from scripts.dask_programs import scheduler, worker
 from tests.dask_fixture import LEFTOVERS, leftovers
@@ -90,7 +90,7 @@ def test_games_come_answer_and_go(address: SchedulerAddress, client: Client, des
             assert request.plan
             assert request.plan.online.tobytes() == plan.online.tobytes()
             assert request.is_wanted()
-            answer = Answer(problem="a mishap", log={"game_s": [1.5]})
+            answer = GameAnswer(problem="a mishap", log={"game_s": [1.5]})
             request.answer.set_result(answer)
             assert until(games, 1) == [Answered("one", answer)]
         assert until(games, 1) == [Left("one")]
@@ -123,7 +123,7 @@ def test_a_game_whose_network_is_gone_joins_again_and_breaks_off_what_it_played(
         while request.is_wanted() and time.monotonic() < end:
             time.sleep(0.05)
         assert not request.is_wanted()
-        request.answer.set_result(Answer(problem="too late"))
+        request.answer.set_result(GameAnswer(problem="too late"))
         assert until(games, 1) == [Joined("one")]
         assert games.events(0.3) == []
     assert said[1] == LOST
@@ -139,9 +139,9 @@ def test_an_answer_of_a_game_that_has_left_since_counts_and_is_told_first(
             games.ask("one", None)
             while not (request := desk.next()):
                 pass
-            request.answer.set_result(Answer())
+            request.answer.set_result(GameAnswer())
         time.sleep(0.3)
-        assert games.events(0.1) == [Answered("one", Answer())]
+        assert games.events(0.1) == [Answered("one", GameAnswer())]
         games.ask("one", None)
         assert games.events(1.0) == [Left("one")]
 
@@ -170,10 +170,10 @@ def test_a_learner_whose_network_was_gone_asks_its_games_anew(
             time.sleep(3.0)
         assert until(games, 2) == [Left("one"), Joined("one")]
         assert not request.is_wanted()
-        request.answer.set_result(Answer(problem="too late"))
+        request.answer.set_result(GameAnswer(problem="too late"))
         games.ask("one", None)
-        next_request(desk).answer.set_result(Answer())
-        assert until(games, 1) == [Answered("one", Answer())]
+        next_request(desk).answer.set_result(GameAnswer())
+        assert until(games, 1) == [Answered("one", GameAnswer())]
 
 
 def test_what_had_come_back_before_the_scheduler_was_lost_counts(
@@ -188,13 +188,13 @@ def test_what_had_come_back_before_the_scheduler_was_lost_counts(
         games = stack.enter_context(DaskGames(client, ORDER))
         assert until(games, 1) == [Joined("one")]
         games.ask("one", None)
-        next_request(desk).answer.set_result(Answer())
+        next_request(desk).answer.set_result(GameAnswer())
         time.sleep(0.5)
         killed.close()
         end = time.monotonic() + PATIENCE_S
         while client.status != "closed" and time.monotonic() < end:
             time.sleep(0.01)
-        assert games.events(0.1) == [Answered("one", Answer())]
+        assert games.events(0.1) == [Answered("one", GameAnswer())]
         with pytest.raises(ClusterError, match=r"^the scheduler was lost"):
             games.events(0.1)
 
@@ -209,7 +209,7 @@ def test_an_answer_that_cannot_be_fetched_is_told_once(
         with GameWorker(address, "one", quiet):
             assert until(games, 1) == [Joined("one")]
             games.ask("one", None)
-            next_request(desk).answer.set_result(Answer())
+            next_request(desk).answer.set_result(GameAnswer())
             assert until(games, 1) == [Unreachable("one", nobody)]
             assert games.events(0.5) == []
         assert until(games, 1) == [Left("one")]
@@ -227,7 +227,7 @@ def test_a_learner_that_is_done_wants_no_answer_any_more(address: SchedulerAddre
         while request.is_wanted() and time.monotonic() < end:
             time.sleep(0.05)
         assert not request.is_wanted()
-        request.answer.set_result(Answer())
+        request.answer.set_result(GameAnswer())
 
 
 def test_a_game_with_other_versions_says_what_differs(

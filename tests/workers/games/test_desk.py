@@ -6,12 +6,12 @@ import pytest
 
 from mc_nested.errors import ClusterError
 from mc_nested.workers.games.desk import CLOSED, Desk
-from mc_nested.workers.games.order import Answer
+from mc_nested.workers.games.order import GameAnswer
 from tests.workers.games.made_orders import ORDER
 
 
-def asked(desk: Desk) -> tuple[threading.Thread, list[Answer]]:
-    answers: list[Answer] = []
+def asked(desk: Desk) -> tuple[threading.Thread, list[GameAnswer]]:
+    answers: list[GameAnswer] = []
     thread = threading.Thread(target=lambda: answers.append(desk.ask(ORDER, None, lambda: True)))
     thread.start()
     return thread, answers
@@ -23,9 +23,9 @@ def test_who_asks_waits_for_the_answer() -> None:
     request = desk.next()
     assert request
     assert (request.order, request.plan) == (ORDER, None)
-    request.answer.set_result(Answer(problem="no"))
+    request.answer.set_result(GameAnswer(problem="no"))
     thread.join(5)
-    assert answers == [Answer(problem="no")]
+    assert answers == [GameAnswer(problem="no")]
 
 
 def test_without_a_request_there_is_none_after_a_moment() -> None:
@@ -53,7 +53,7 @@ def test_an_answer_that_came_before_it_was_closed_is_kept() -> None:
     thread, answers = asked(desk)
     request = desk.next()
     assert request
-    request.answer.set_result(Answer(problem="first"))
+    request.answer.set_result(GameAnswer(problem="first"))
     desk.close()
     thread.join(5)
-    assert answers == [Answer(problem="first")]
+    assert answers == [GameAnswer(problem="first")]

@@ -14,7 +14,7 @@ from mc_nested.errors import DesktopError, LiveError, NotConfirmedError, Profile
 from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.workers.games.desk import Desk, Request
 from mc_nested.workers.games.game_server import GameServer, OpenGame
-from mc_nested.workers.games.order import Answer, GameOrder
+from mc_nested.workers.games.order import GameAnswer, GameOrder
 from tests.workers.games.made_orders import ORDER, new_trainer
 
 PLAN = new_trainer().plan("pc")
@@ -59,7 +59,7 @@ class Served:
         finally:
             self.closed += 1
 
-    def ask(self, *plans: EpisodePlan | None, wanted: Callable[[], bool] = lambda: True) -> list[Answer]:
+    def ask(self, *plans: EpisodePlan | None, wanted: Callable[[], bool] = lambda: True) -> list[GameAnswer]:
         """The answers to these requests, after which the player ends it."""
         desk = Desk()
         requests = [Request(ORDER, plan, wanted, Future()) for plan in plans]
@@ -232,4 +232,4 @@ def test_a_game_that_cannot_be_opened_is_refused_at_both_ends(error: Exception, 
     served.opening_error = error
     with pytest.raises(type(error), match=str(error)):
         served.ask(PLAN)
-    assert served.answers == [Answer(problem=str(error), is_refusal=True, leaves=True)]
+    assert served.answers == [GameAnswer(problem=str(error), is_refusal=True, leaves=True)]
