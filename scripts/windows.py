@@ -3,9 +3,8 @@
     python scripts/windows.py setup                   fetch what is missing; a second run takes a second
     python scripts/windows.py test [-- ARGUMENTS]     set up, then pytest under Wine, on a screen of its own
 
-Without arguments, pytest runs the unit suite of arena, live, sim, calibration and view, and a training. Programs come
-with apt, the rest with pip, pinned with hashes (windows_parts.py); all of it stays in .windows/ (1.8 GB). Nothing is
-left running.
+Without arguments, pytest runs the unit tests of what differs on Windows (windows_suite.py). Programs come with apt, the
+rest with pip, pinned with hashes (windows_parts.py); all of it stays in .windows/ (1.8 GB). Nothing is left running.
 Exit code 2: the machine lacks something that the message names; 1: Wine did not start, or a test failed.
 """
 
@@ -26,6 +25,7 @@ from scripts.windows_parts import install_programs, install_python  # noqa: E402
 from scripts.windows_prefix import make_prefix  # noqa: E402
 from scripts.windows_program import SessionError  # noqa: E402
 from scripts.windows_session import Session, open_session  # noqa: E402
+from scripts.windows_suite import WHERE_WINDOWS_DIFFERS  # noqa: E402
 
 CACHE = ROOT / ".windows"
 STOPPED = 130
@@ -33,13 +33,8 @@ STOPPED = 130
 LOOK_S = 1.0
 """Seconds between two looks at what pytest has printed."""
 
-_UNIT = ("-q", "-m", "not (slow or standin or realtime or window or wine)")
-SUITES = (
-    (*_UNIT, "tests/arena", "tests/live", "tests/sim"),
-    (*_UNIT, "tests/calibration", "tests/view", "tests/test_file_lock.py", "tests/test_other_processors.py"),
-)
-"""What pytest is given, in two processes of about the same duration: the tests of what plays and calibrates, of the
-view, of the lock, which differs on Windows, and of a training's bytes, which do not."""
+SUITE = ("-q", "-m", "not (slow or standin or realtime or window or wine)", *WHERE_WINDOWS_DIFFERS)
+"""What pytest is given."""
 
 PYTEST = ("-m", "pytest", "-p", "no:cacheprovider")
 
@@ -57,7 +52,7 @@ def main(arguments: Sequence[str] | None = None, cache: Path = CACHE) -> int:
             if wanted.command == "setup":
                 return 0
             with open_session(cache) as session:
-                return max(run_pytest(session, suite) for suite in ([wanted.arguments] if wanted.arguments else SUITES))
+                return run_pytest(session, wanted.arguments or SUITE)
     except MissingError as error:
         say(str(error))
         return 2
