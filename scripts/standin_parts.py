@@ -18,6 +18,9 @@ from pathlib import Path
 NODE_FOLDER = Path(__file__).resolve().parent / "standin"
 OLDEST_NODE = 18
 INSTALL_S = 600.0
+APT = Path("/var/lib/apt")
+"""Where apt has its lists: who updates them finds another one busy."""
+
 
 Say = Callable[[str], None]
 
@@ -94,7 +97,9 @@ def install_programs(say: Say, log: Path) -> None:
 
 
 def apt_install(who: str, packages: Sequence[str], say: Say, log: Path) -> None:
-    """Install Debian packages; MissingError, which says that ``who`` needs them, where that is impossible."""
+    """Install Debian packages, one program at a time; MissingError, which names ``who``, where that is impossible."""
+    from scripts.cache_lock import alone  # which needs this module's names
+
     by_hand = f"sudo apt-get install --no-install-recommends {' '.join(packages)}"
     if shutil.which("apt-get") is None:
         raise MissingError(f"{who} needs programs that it can only get with apt; on Debian or Ubuntu: {by_hand}")
@@ -102,9 +107,10 @@ def apt_install(who: str, packages: Sequence[str], say: Say, log: Path) -> None:
         raise MissingError(f"{who} needs programs that only root can install: {by_hand}")
     say(f"installing with apt: {' '.join(packages)}")
     quiet = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    for arguments in (["update"], ["install", "-y", "--no-install-recommends", *packages]):
-        if not run_logged(["apt-get", *arguments], log, env=quiet):
-            raise MissingError(f"apt-get {arguments[0]} failed (see {log}); run it by hand: {by_hand}")
+    with alone(APT, say, "installation with apt"):
+        for arguments in (["update"], ["install", "-y", "--no-install-recommends", *packages]):
+            if not run_logged(["apt-get", *arguments], log, env=quiet):
+                raise MissingError(f"apt-get {arguments[0]} failed (see {log}); run it by hand: {by_hand}")
 
 
 def check_node() -> None:

@@ -40,3 +40,11 @@ def pytest_report_header() -> str:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The stand-in, once up, takes more than a core to itself: the tests that need it come last."""
     items.sort(key=lambda item: item.get_closest_marker("standin") is not None)
+
+
+@pytest.hookimpl(optionalhook=True)  # under Wine there is no xdist
+def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
+    """With ``--dist loadgroup``, tests that share what is opened once are run by one process."""
+    from tests.together import scheduler
+
+    return scheduler(config, log)

@@ -1,6 +1,6 @@
 """A real window's game, served to a learner: both ends in processes of their own, over a real scheduler on loopback.
 
-Never beside other tests: the window is drawn in real time.
+Beside two other windows at most: they are drawn in real time.
 """
 
 import json

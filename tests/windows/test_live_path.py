@@ -1,6 +1,6 @@
 """Everything a player on Windows does, under Wine: read, doctor, calibrate, play, serve, in a rehearsal window.
 
-Never beside other tests: the window is drawn in real time. What was built is judged by what the window's client says.
+Beside two other windows at most: they are drawn in real time. What was built is judged by what the client says.
 """
 
 import json

@@ -1,0 +1,35 @@
+"""Which tests one of xdist's processes runs together, with ``--dist loadgroup``: those that share what is opened once.
+
+xdist's own marks of groups have no effect with pytest 9.2, which keeps a test's name elsewhere.
+"""
+
+import pytest
+from xdist.scheduler import LoadScopeScheduling  # type: ignore[import-untyped]
+
+TOGETHER = {
+    "tests/windows/": "a Wine desktop, whose folder no second one may use",
+    "tests/test_games_end_to_end.py": "a window with its arena",
+    "tests/live/desktop/test_xwayland.py": "Wayland desktops",
+    "tests/test_wheel.py": "an environment with everything that the wheel needs",
+    "tests/docs/test_site.py": "the built site",
+    "tests/cli/test_reproduce.py": "whole reproductions",
+    "tests/cli/test_cluster.py": "a cluster",
+}
+"""Files and folders of tests, and what theirs share."""
+
+
+class TogetherScheduling(LoadScopeScheduling):  # type: ignore[misc]  # xdist has no types
+    """Others are given out one by one, behind those."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        return scope_of(nodeid)
+
+
+def scope_of(nodeid: str) -> str:
+    """What a test is given out with: the same for those that share something, and its own name for any other."""
+    return next((place for place in TOGETHER if nodeid.startswith(place)), nodeid)
+
+
+def scheduler(config: pytest.Config, log: object) -> TogetherScheduling | None:
+    """Who gives out the tests; None where xdist does it in a way of its own."""
+    return TogetherScheduling(config, log) if config.getoption("dist") == "loadgroup" else None
