@@ -11,6 +11,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from mc_nested.workers.cluster.keys import AUTHORITY, CERTIFICATE, KEY
+from scripts.window_display import WITH_THIS_PROCESS
 
 START_S = 60.0
 """Seconds that a program may take to start."""
@@ -63,7 +64,7 @@ def tls_words(keys: Path) -> tuple[str, ...]:
 
 
 def _started(log: Path, *words: str) -> subprocess.Popen[bytes]:
-    program = [sys.executable, "-m", "dask", *words]
+    program = [*(WITH_THIS_PROCESS if sys.platform == "linux" else ()), sys.executable, "-m", "dask", *words]
     with log.open("ab") as file:
         return subprocess.Popen(program, stdin=subprocess.DEVNULL, stdout=file, stderr=file)  # noqa: S603 - Dask's own
 

@@ -20,6 +20,9 @@ PROGRAMS = (XVFB, OPENBOX, SETXKBMAP, XRANDR)
 LIBRARIES = ("libgl1", "libgl1-mesa-dri", "libxcursor1", "libxi6", "libxinerama1", "libxrandr2")
 """Debian's packages of what GLFW and OpenGL load."""
 
+WITH_THIS_PROCESS = ("setpriv", "--pdeathsig", "TERM", "--")
+"""What a command begins with that must not outlive the process that starts it, even where that one is killed."""
+
 SIZE = (1400, 1000)
 PATIENCE_S = 10.0
 
@@ -66,11 +69,16 @@ def set_layout(layout: str, env: Mapping[str, str]) -> None:
 def running(
     command: list[str], *, env: dict[str, str] | None = None, keep: tuple[int, ...] = (), log: Path | None = None
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """A process, while the block lasts; its output goes to ``log``, or nowhere."""
+    """A process, while the block and this process last; its output goes to ``log``, or nowhere."""
     with ExitStack() as opened:
         output = opened.enter_context(log.open("wb")) if log else subprocess.DEVNULL
         process = subprocess.Popen(  # noqa: S603 - fixed commands of the scripts
-            command, env=env, stdin=subprocess.DEVNULL, stdout=output, stderr=output, pass_fds=keep
+            [*WITH_THIS_PROCESS, *command],
+            env=env,
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=output,
+            pass_fds=keep,
         )
         try:
             yield process

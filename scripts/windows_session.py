@@ -1,7 +1,7 @@
 """A Windows desktop under Wine, for as long as a block runs: a screen, a window manager, Wine's server, programs in it.
 
 Standard library only, Linux only. Every process is ended by its own pid. Where this process is killed, the kernel sends
-Wine's processes SIGTERM.
+Wine's processes a signal.
 """
 
 import os
@@ -11,7 +11,7 @@ from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from scripts.window_display import OPENBOX, open_display, running
+from scripts.window_display import OPENBOX, WITH_THIS_PROCESS, open_display, running
 from scripts.windows_orphans import adopting
 from scripts.windows_parts import ROOT, WINE, WINESERVER, windows_path
 from scripts.windows_program import SessionError, WindowsProgram
@@ -21,7 +21,8 @@ PATIENCE_S = 20.0
 START_S = 180.0
 """Seconds in which Wine must have started, or made its prefix, on a busy machine."""
 
-_WITH_THIS_PROCESS = ("setpriv", "--pdeathsig", "TERM", "--")
+_ENDED_WITH_THIS_PROCESS = ("setpriv", "--pdeathsig", "INT", "--")
+"""For Wine's server, which ends the programs of its prefix at SIGINT alone."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ class Session:
     @contextmanager
     def started(self, *arguments: str, cwd: Path = ROOT, **env: str) -> Iterator[WindowsProgram]:
         """The Windows Python with these arguments, until the end of the block; then it is ended, if it still runs."""
-        command = [*_WITH_THIS_PROCESS, WINE.required(), str(self.cache / "python" / "python.exe"), *arguments]
+        command = [*WITH_THIS_PROCESS, WINE.required(), str(self.cache / "python" / "python.exe"), *arguments]
         with (
             subprocess.Popen(  # noqa: S603 - this project's own programs
                 command,
@@ -104,7 +105,7 @@ def run_wine(arguments: Sequence[str], env: Mapping[str, str], log: Path) -> Non
     with log.open("ab") as output:
         try:
             done = subprocess.run(  # noqa: S603 - fixed commands
-                [*_WITH_THIS_PROCESS, WINE.required(), *arguments],
+                [*WITH_THIS_PROCESS, WINE.required(), *arguments],
                 env=dict(env),
                 stdin=subprocess.DEVNULL,
                 stdout=output,
@@ -121,7 +122,7 @@ def run_wine(arguments: Sequence[str], env: Mapping[str, str], log: Path) -> Non
 @contextmanager
 def open_wineserver(env: Mapping[str, str], log: Path) -> Iterator[None]:
     """Wine's server in the foreground, kept between programs. At its end it ends every program of its prefix."""
-    command = [*_WITH_THIS_PROCESS, WINESERVER.required(), "--foreground", "--persistent"]
+    command = [*_ENDED_WITH_THIS_PROCESS, WINESERVER.required(), "--foreground", "--persistent"]
     with adopting(), running(command, env=dict(env), log=log):
         try:
             yield

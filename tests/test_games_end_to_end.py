@@ -25,7 +25,7 @@ from Xlib.ext import xtest
 from mc_nested.arena.scenario import Scenario
 from scripts.dask_programs import scheduler
 from scripts.rehearsal_window import ROOT, RehearsalWindow, mc_nested, open_rehearsal
-from scripts.window_display import open_display
+from scripts.window_display import WITH_THIS_PROCESS, open_display
 from tests.learn.made_experiments import DOT, MATERIALS, scenario_text
 
 pytestmark = pytest.mark.window
@@ -98,7 +98,8 @@ class Program:
 
     def __init__(self, words: list[str], folder: Path, env: dict[str, str]) -> None:
         self._log = folder / f"{words[0]}.log"
-        command, env = [sys.executable, "-m", "mc_nested.cli", *words], {**env, "PYTHONPATH": str(ROOT)}
+        command = [*WITH_THIS_PROCESS, sys.executable, "-m", "mc_nested.cli", *words]
+        env = {**env, "PYTHONPATH": str(ROOT)}
         with self._log.open("wb") as log:
             self.process = subprocess.Popen(command, cwd=folder, env=env, stdout=log, stderr=log)
 

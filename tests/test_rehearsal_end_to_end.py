@@ -29,7 +29,7 @@ from mc_nested.live.profile.store import load_profile
 from mc_nested.live.recording.recording_file import facts_of
 from scripts.bench_rehearsal import CONDITIONS, USUAL, Condition, play
 from scripts.rehearsal_window import ROOT, RehearsalWindow, mc_nested, open_rehearsal
-from scripts.window_display import open_display
+from scripts.window_display import WITH_THIS_PROCESS, open_display
 from sim.client.game.world import AIR
 from tests.design_files.written import HUT, sponge
 from tests.made_once import made_once
@@ -185,7 +185,7 @@ class Training:
         self.words += ["--backend", "live", "--profile", str(profile)]
 
     def start(self, *words: str) -> "subprocess.Popen[str]":
-        command = [sys.executable, "-m", "mc_nested.cli", *(words or self.words)]
+        command = [*WITH_THIS_PROCESS, sys.executable, "-m", "mc_nested.cli", *(words or self.words)]
         env = {**self.rehearsal.env, "PYTHONPATH": str(ROOT)}
         return subprocess.Popen(command, env=env, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 

@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from typing import Any
 
+from scripts.window_display import WITH_THIS_PROCESS
 from tests.docs.pages import Step
 from tests.docs.shell import LONGEST_S, Shell, StepError
 
@@ -75,7 +76,7 @@ class RehearsalWindows:
         env = {**self._shell.env, **{name: display[name] for name in ("DISPLAY", "XDG_SESSION_TYPE")}}
         log = self._shell.home / "rehearsal.log"
         with log.open("w") as output:
-            words = shlex.split(step.text)
+            words = [*WITH_THIS_PROCESS, *shlex.split(step.text)]
             window = subprocess.Popen(words, cwd=self._shell.work, env=env, stdout=output, stderr=subprocess.STDOUT)
         self._opened.callback(window.wait)
         self._opened.callback(window.terminate)

@@ -1,12 +1,12 @@
 """What the tests of the real devices share: an X server of their own."""
 
 import os
-import subprocess
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
 
+from scripts.window_display import running
 from tests.standin_fixture import Standin
 
 
@@ -15,14 +15,9 @@ def _x_screen() -> Iterator[dict[str, str]]:
     """The environment of an empty X screen of 1024 x 768, whose server ends with the context."""
     read, write = os.pipe()
     command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1024x768x24", "-nolisten", "tcp", "-noreset"]
-    server = subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL)
-    os.close(write)
-    try:
-        with os.fdopen(read) as numbers:
-            yield {**os.environ, "DISPLAY": f":{numbers.readline().strip()}"}
-    finally:
-        server.terminate()
-        server.wait(10)
+    with os.fdopen(read) as numbers, running(command, keep=(write,)):
+        os.close(write)
+        yield {**os.environ, "DISPLAY": f":{numbers.readline().strip()}"}
 
 
 @pytest.fixture

@@ -11,6 +11,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from scripts.standin_parts import XVFB
+from scripts.window_display import WITH_THIS_PROCESS
 from scripts.xwayland_parts import DBUS, MUTTER, WESTON, XWAYLAND
 
 SIZE = (1024, 768)
@@ -97,7 +98,12 @@ def _running(
 ) -> Iterator[None]:
     """The program, until the context ends, and what it then leaves behind of those that it started."""
     process = subprocess.Popen(
-        command, env=env, pass_fds=kept, stdout=output, stderr=subprocess.STDOUT, start_new_session=True
+        [*WITH_THIS_PROCESS, *command],
+        env=env,
+        pass_fds=kept,
+        stdout=output,
+        stderr=subprocess.STDOUT,
+        start_new_session=True,
     )
     try:
         yield
