@@ -156,7 +156,7 @@ def test_it_reads_a_picture(installed: Installed) -> None:
     assert found["pitch"] == 65.0
 
 
-@pytest.mark.window
+@pytest.mark.slow  # and not of the windows: it opens one and closes it, and plays nothing
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the display is Xvfb's")
 def test_it_rehearses(installed: Installed, display: dict[str, str]) -> None:
     from Xlib import X  # Linux alone has it
