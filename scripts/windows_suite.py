@@ -27,7 +27,6 @@ WHERE_WINDOWS_DIFFERS = {
     "tests/calibration/test_profile_facts.py": "profiles in files",
     "tests/calibration/test_profile_files.py": "profiles in files",
     "tests/calibration/test_starting_profile.py": "profiles in files, and files that can't be written",
-    "tests/calibration/test_stopped.py": "a file that stays as it was, to the byte, whatever stops a calibration",
     "tests/calibration/test_write_result.py": "a profile and its pictures, written in an order",
     "tests/view": "the view: a console's streams, keys and letters, and files that two programs share",
     "tests/sim/window": "the rehearsal window's keys, time and truth file",

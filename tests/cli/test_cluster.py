@@ -61,13 +61,23 @@ def test_an_experiment_writes_the_same_bytes(jobs: str, url: str, words: list[st
     assert content(tmp_path / "there") == content(here)
 
 
+@pytest.fixture(scope="module")
+def long(words: list[str]) -> list[str]:
+    return [*words, "--episodes", "1500", "--jobs", "2", "--seed", "1"]
+
+
+@pytest.fixture(scope="module")
+def whole(long: list[str], tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    out = tmp_path_factory.mktemp("experiments") / "whole"
+    assert run(*long, "--out", out) == 0
+    return content(out)
+
+
 @pytest.mark.parametrize(("first", "then"), [([], ["--cluster", "URL"]), (["--cluster", "URL"], [])])
 def test_it_is_stopped_on_one_side_and_goes_on_at_the_other(
-    first: list[str], then: list[str], url: str, words: list[str], tmp_path: Path
+    first: list[str], then: list[str], url: str, long: list[str], whole: dict[str, bytes], tmp_path: Path
 ) -> None:
-    long = [*words, "--episodes", "1500", "--jobs", "2", "--seed", "1"]
-    whole, cut = tmp_path / "whole", tmp_path / "cut"
-    assert run(*long, "--out", whole) == 0
+    cut = tmp_path / "cut"
     stopped = [sys.executable, "-m", "mc_nested.cli", *long, "--out", str(cut)]
     training = subprocess.Popen([*stopped, *(word.replace("URL", url) for word in first)])
     while training.poll() is None and not list(cut.glob("units/*/outcome.json")):
@@ -76,7 +86,7 @@ def test_it_is_stopped_on_one_side_and_goes_on_at_the_other(
     assert training.wait(60) == 130
     assert any((job / "checkpoint").is_dir() for job in (cut / "units").iterdir() if job.is_dir())
     assert run("reproduce", "--resume", cut, *(word.replace("URL", url) for word in then)) == 0
-    assert content(cut) == content(whole)
+    assert content(cut) == whole
 
 
 def test_a_sweep_and_a_benchmark_write_the_same_bytes_with_a_worker_that_a_nanny_keeps(
