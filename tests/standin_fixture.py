@@ -16,6 +16,9 @@ from scripts.standin_processes import load_state, wait_until
 
 Block = tuple[int, int, int]
 
+LONGEST_S, STOPS_WITHIN_S = 1800.0, 60.0
+"""Seconds that the script may take: it may be fetching everything over a slow connection."""
+
 
 @dataclass(frozen=True)
 class Standin:
@@ -60,8 +63,16 @@ class Standin:
 
 
 def _run(command: str) -> subprocess.CompletedProcess[str]:
+    """Run the script to its end; at Ctrl+C to this process alone it is told so, and ends what it has started."""
     script = [sys.executable, str(ROOT / "scripts" / "standin.py"), command]
-    return subprocess.run(script, capture_output=True, text=True, timeout=1800, check=False)
+    with subprocess.Popen(script, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        try:
+            out, err = process.communicate(timeout=LONGEST_S)
+        except BaseException:
+            process.terminate()
+            process.communicate(timeout=STOPS_WITHIN_S)
+            raise
+    return subprocess.CompletedProcess(script, process.returncode, out, err)
 
 
 @pytest.fixture(scope="session")
