@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.live.devices import Frame, Region
@@ -97,7 +97,6 @@ def chat_over(size: tuple[int, int], scale: int, version: str, said: list[str], 
     st.booleans(),
     st.text("iIlW@.jg_", min_size=1, max_size=45),
 )
-@settings(max_examples=60, deadline=None)
 def test_no_pixel_of_messages_or_of_the_typed_line_is_left_in_any_window(
     width: int, height: int, scale: int, version: str, is_known: bool, text: str
 ) -> None:

@@ -112,7 +112,8 @@ def test_a_client_listens_on_no_port(cluster: SchedulerAddress) -> None:
         assert {each.laddr.port for each in psutil.Process().net_connections() if each.status == "LISTEN"} == before
 
 
-def test_a_scheduler_that_is_not_there_is_said_in_one_line() -> None:
+def test_a_scheduler_that_is_not_there_is_said_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(connection, "CONNECT_S", 0.5)
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
