@@ -38,7 +38,7 @@ def test_a_training_is_evaluated_and_played_without_torch(trained: Path) -> None
     assert f"score {max(scores):g} of 21" in played.stdout
 
 
-@pytest.mark.parametrize("verb", ["evaluate", "play"])
+@pytest.mark.parametrize("verb", ["evaluate", pytest.param("play", marks=pytest.mark.slow)])
 def test_a_training_of_an_older_version_says_that_it_needs_torch(trained: Path, tmp_path: Path, verb: str) -> None:
     for name in ("config.toml", "episodes.csv"):
         (tmp_path / name).write_bytes((trained / name).read_bytes())

@@ -150,7 +150,7 @@ def test_a_hole_in_a_marked_arena_is_refilled_or_found_before_it_walks(floor: st
         assert client.realm.player.feet == (0.5, 64.0, 0.5)
 
 
-@pytest.mark.parametrize(("size", "middle"), [(15, 7), (20, 10)])
+@pytest.mark.parametrize(("size", "middle"), [(15, 7), pytest.param(20, 10, marks=pytest.mark.slow)])
 def test_in_a_marked_arena_it_walks_in_the_middle_and_comes_back(size: int, middle: int, tmp_path: Path) -> None:
     client = VirtualClient(seed=2, pitch=20.0, swaps_sides=True)
     arena = Arena.around((-20, 64, 31), "east", size=size)
