@@ -72,8 +72,8 @@ STATUSES: dict[str, Status] = {
 
 @pytest.fixture(autouse=True)
 def often(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It looks fifty times a second, and closes soon, so that nothing here waits long for it."""
-    monkeypatch.setattr(looking, "LOOK_EVERY_S", 0.02)
+    """It looks more often, and closes soon, so that nothing here waits long for it; each look costs milliseconds."""
+    monkeypatch.setattr(looking, "LOOK_EVERY_S", 0.1)
     monkeypatch.setattr(looking, "CLOSES_AFTER_S", 0.05)
 
 
@@ -92,7 +92,7 @@ async def until_it_looks(app: ViewApp, pilot: Pilot[None]) -> None:
     assert isinstance(app, CountedApp)
     before = app.looks
     while app.looks < before + 2:
-        await pilot.pause(0.005)
+        await pilot.pause(0.02)
 
 
 SIZES = {"80x24": (80, 24), "200x60": (200, 60), "40x24": (40, 24)}

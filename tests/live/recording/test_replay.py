@@ -125,7 +125,7 @@ def test_materials_that_are_taken_in_hand_are_decided_alike(tmp_path: Path) -> N
 
 def test_an_episode_with_mishaps_is_followed_too(tmp_path: Path) -> None:
     client = VirtualClient(seed=2)
-    client.mishaps.plan("pause", 4.0)
+    client.mishaps.plan("pause", 1.5)
     failed = record_play(tmp_path / "play", 12, client)
     seen = replay(tmp_path / "play", FONT)
     assert client.mishaps.happened
