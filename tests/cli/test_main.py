@@ -25,7 +25,7 @@ def test_a_stream_that_does_not_know_epsilon_writes_something_else(monkeypatch: 
     for stream in streams.values():
         stream.write("ε")
         stream.flush()
-    assert streams["stderr"].buffer.getvalue() == b"?"  # type: ignore[attr-defined]  # a BytesIO's
+    assert streams["stderr"].buffer.getvalue() == b"?"
 
 
 def test_what_nobody_reads_any_more_is_dropped_without_an_error() -> None:

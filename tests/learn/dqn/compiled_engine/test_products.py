@@ -30,8 +30,10 @@ def product(a: Float32s, b: Float32s) -> Float32s:
 def part(matrix: Float32s) -> Float32s:
     """The same matrix, which lies by rows or by columns, as a part of a larger one; the rest is not to be read."""
     if matrix.flags.f_contiguous:
-        return part(matrix.T).T
-    found = np.full((len(matrix) + 2, matrix.shape[1] + 2), np.nan, np.float32)[1:-1, 1:-1]
+        turned: Float32s = part(matrix.T).T
+        return turned
+    larger = np.full((len(matrix) + 2, matrix.shape[1] + 2), np.nan, np.float32)
+    found: Float32s = larger[1:-1, 1:-1]
     found[:] = matrix
     return found
 
