@@ -9,14 +9,20 @@ from hypothesis import HealthCheck, settings
 
 from tests.live.vision.real_pictures import VARIABLE
 from tests.standin_fixture import standin
+from tests.time_limits import bound
 from tests.window_fixture import display, window_programs
 from tests.windows_fixture import windows
 
 __all__ = ["display", "standin", "window_programs", "windows"]
 
+# Hypothesis tries few examples every day, and many with pytest --hypothesis-profile=all, which pytest-xdist's processes
+# are told, too: they get the command's options. No test has a number of its own unless a reason stands beside it.
 # How long an example takes says something of the machine, not of the code.
-settings.register_profile("any machine", deadline=None, suppress_health_check=[HealthCheck.too_slow])
-settings.load_profile("any machine")
+for profile, examples in (("everyday", 15), ("all", 100)):
+    settings.register_profile(
+        profile, max_examples=examples, deadline=None, suppress_health_check=[HealthCheck.too_slow]
+    )
+settings.load_profile("everyday")
 
 # A shell that starts the tests in the background has SIGINT ignored, in every process that they start, too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -37,8 +43,11 @@ def pytest_report_header() -> str:
     return f"real pictures: {folder}" if folder else f"real pictures: none are read, {VARIABLE} names no folder"
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The stand-in, once up, takes more than a core to itself: the tests that need it come last."""
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Every test has a limit; those that need the stand-in come last: once up, it takes more than a core to itself."""
+    if config.pluginmanager.hasplugin("timeout"):
+        for item in items:
+            bound(item)
     items.sort(key=lambda item: item.get_closest_marker("standin") is not None)
 
 

@@ -12,9 +12,9 @@ LEFTOVERS = pytest.mark.filterwarnings(
 """For modules whose tests open connections of Dask's."""
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture(autouse=True, scope="module")
 def leftovers() -> Iterator[None]:
-    """They are collected before the next test, which may belong to another module."""
+    """They are collected before the next module; after each test, it would cost more than most of the tests."""
     yield
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

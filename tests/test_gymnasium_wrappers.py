@@ -61,7 +61,7 @@ def play(env: gymnasium.Env[Any, Any], actions: list[Action]) -> dict[str, Any]:
     return info
 
 
-@pytest.mark.parametrize("name", ["diamond", "house"])
+@pytest.mark.parametrize("name", ["diamond", pytest.param("house", marks=pytest.mark.slow)])
 def test_record_video_films_every_step_of_an_episode(name: str, tmp_path: Path) -> None:
     scenario = load_scenario(name)
     actions = build(scenario)

@@ -7,7 +7,7 @@ import pytest
 from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from gymnasium.wrappers.vector import RecordEpisodeStatistics
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action
@@ -32,7 +32,6 @@ def of_envs() -> NextStepAutoreset:
 
 @pytest.mark.parametrize("make", [arrays, of_envs])
 @given(seed=st.integers(0, 2**32 - 1), material=st.sampled_from([None, "wood", "stone"]))
-@settings(max_examples=15)
 def test_it_steps_as_gymnasiums_own_over_single_arenas(make: Any, seed: int, material: str | None) -> None:
     random = np.random.default_rng(seed)
     ours, theirs = make(), SyncVectorEnv([lambda: arena_env(LINE)] * RUNS)

@@ -1,7 +1,7 @@
 """The scripted builder: every design to its optimum, by the rules, without wasting a block."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Cell
@@ -47,7 +47,6 @@ def scenarios(draw: st.DrawFn) -> Scenario:
 
 
 @given(scenarios())
-@settings(max_examples=200)
 def test_any_design_off_the_near_edge_is_built_from_anywhere(scenario: Scenario) -> None:
     cell, placed = scenario.start, set[Cell]()
     for action in build(scenario):

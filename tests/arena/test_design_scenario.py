@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.builder import build
@@ -47,7 +47,6 @@ def small_designs(draw: st.DrawFn) -> Scenario:
 
 
 @given(small_designs())
-@settings(max_examples=100)
 def test_every_design_is_built_within_its_limit_and_never_in_fewer_steps_than_the_exact_search_finds(
     like: Scenario,
 ) -> None:

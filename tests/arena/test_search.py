@@ -1,7 +1,7 @@
 """The fewest steps: known ones, a plain search over small designs, and never more than the builder's."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action, Cell
@@ -39,7 +39,6 @@ cells = st.tuples(st.integers(1, 5), st.integers(1, 5))
     off=st.integers(0, 10),
     size=st.sampled_from([15, 16, 17, 32]),
 )
-@settings(max_examples=40)
 def test_a_plain_search_finds_the_same(design: frozenset[Cell], start: Cell, off: int, size: int) -> None:
     # From the near left corner to the far right one, where a row of bits ends.
     shift = size - 6 if off > 5 else off
@@ -51,7 +50,6 @@ def test_a_plain_search_finds_the_same(design: frozenset[Cell], start: Cell, off
 
 
 @given(scenarios_with_parts())
-@settings(max_examples=40)
 def test_a_plain_search_finds_the_same_part_after_part(scenario: Scenario) -> None:
     found = fewest_steps(scenario)
     assert found == FewestSteps(_plain_search(scenario), exact=True)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action
@@ -82,7 +82,6 @@ def test_an_ended_episode_stands_still_until_it_is_reset() -> None:
 
 
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=20)
 def test_arrays_and_single_arenas_agree(seed: int) -> None:
     random = np.random.default_rng(seed)
     arrays = single(3)
@@ -101,7 +100,6 @@ def test_arrays_and_single_arenas_agree(seed: int) -> None:
 
 
 @given(scenarios_with_parts(), st.integers(0, 2**32 - 1))
-@settings(max_examples=60)
 def test_with_parts_an_episodes_return_is_its_score_and_the_score_that_of_the_arena(
     scenario: Scenario, seed: int
 ) -> None:

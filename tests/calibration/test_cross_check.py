@@ -4,7 +4,7 @@ import dataclasses
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from calibration.context import CalibrationContext
@@ -28,7 +28,6 @@ def profile(tmp_path_factory: pytest.TempPathFactory) -> Profile:
     st.floats(-90, 90),
     st.sampled_from(["1.13.2", "1.16.5", "1.20.1", "1.21.11", "26.1"]),
 )
-@settings(max_examples=15, deadline=None)
 def test_the_two_agree_wherever_the_player_stands_and_looks(
     profile: Profile, x: float, z: float, yaw: float, pitch: float, version: str
 ) -> None:

@@ -2,8 +2,6 @@
 
 import json
 import shutil
-import subprocess
-import sys
 from importlib import resources
 from pathlib import Path
 
@@ -14,10 +12,10 @@ from mc_nested.learn.runs.policies import FILE as POLICIES
 from tests.cli.running import check_mistake, run
 
 
-def test_evaluate_prints_the_scores_of_the_summary_in_a_fresh_process(trained: Path) -> None:
-    command = [sys.executable, "-m", "mc_nested.cli", "evaluate", str(trained), "--json"]
-    printed = subprocess.run(command, capture_output=True, text=True, check=True)
-    found = json.loads(printed.stdout)
+def test_evaluate_prints_the_scores_of_the_summary(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """In a process of its own: test_without_torch.py."""
+    assert run("evaluate", trained, "--json") == 0
+    found = json.loads(capsys.readouterr().out)
     assert found["scores"] == json.loads((trained / "summary.json").read_text())["final_scores"]
     assert found["optimum"] == 21.0
 

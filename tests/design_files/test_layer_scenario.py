@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.builder import build
@@ -122,7 +122,6 @@ def test_shapes_in_which_a_builder_could_lock_itself_in_are_built_within_the_ste
 
 
 @given(st.integers(1, 40), st.integers(1, 40), st.data())
-@settings(max_examples=60)
 def test_any_layer_is_built_within_the_step_limit(width: int, length: int, data: st.DataObject) -> None:
     filled = data.draw(st.lists(st.booleans(), min_size=width * length, max_size=width * length).filter(any))
     volume = Volume(("air", "stone"), np.array(filled, np.int32).reshape(1, length, width))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.scenario_file import load_scenario
@@ -53,7 +53,6 @@ def drawings(draw: st.DrawFn) -> Drawing:
 
 
 @given(drawings(), st.sampled_from(list(WRITERS)))
-@settings(max_examples=200)
 def test_any_drawing_is_read_as_it_was_written(
     tmp_path_factory: pytest.TempPathFactory, drawing: Drawing, name: str
 ) -> None:

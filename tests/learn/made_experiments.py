@@ -17,7 +17,7 @@ BAR = Scenario("bar", frozenset({(6, 12), (7, 12), (8, 12)}), (7, 13), 9, MATERI
 def small_preset(episodes: int = 20) -> Preset:
     paper = load_preset("paper")
     update = paper.update.model_copy(update={"batch": 4, "learning_starts": 4, "target_period": 10})
-    changes = {"episodes": episodes, "evaluate_every": 5, "hidden": [4], "replay_capacity": 1000, "update": update}
+    changes = {"episodes": episodes, "evaluate_every": 5, "hidden": [4, 4], "replay_capacity": 1000, "update": update}
     return paper.model_copy(update=changes)
 
 

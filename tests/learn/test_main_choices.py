@@ -158,7 +158,7 @@ def test_a_run_learns_the_same_alone_in_a_batch_and_resumed(agent: str) -> None:
 
 @pytest.mark.parametrize("agent", ["nested", "hierarchical"])
 def test_excursions_and_imitation_go_part_by_part(agent: str) -> None:
-    tuned = load_preset("tuned").model_copy(update={"episodes": 250, "hidden": [16]})
+    tuned = load_preset("tuned").model_copy(update={"episodes": 250, "hidden": [16, 16]})
     trainer = finished(trainer_of([STRIPES], agent, tuned))
     assert trainer.kept_scores.tolist() == [STRIPES.optimum]
 

@@ -22,7 +22,7 @@ SMALL = replace(DOT, name="small", design=frozenset({(2, 3), (3, 3)}), start=(2,
 FEW = {"episodes": 12, "evaluate_every": 4}
 IMAGE = load_preset("image").model_copy(update=FEW)
 TUNED = load_preset("tuned").changed(engine="torch", **FEW)
-PAPER = load_preset("paper").changed(engine="torch", episodes=60, evaluate_every=20)
+PAPER = load_preset("paper").changed(engine="torch", episodes=24, evaluate_every=8)
 
 
 def trainer_of(agent_name: str, preset: Preset, scenarios: Sequence[Scenario], seed: int = 0) -> Trainer:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena import rules
@@ -81,7 +81,6 @@ def test_the_line_is_built_walking_backward(material: int) -> None:
     assert world.blocks == {arena.block_of(cell): block for cell in LINE.design}
 
 
-@settings(max_examples=60)
 @given(facings, st.lists(actions, max_size=14))
 def test_every_outcome_is_the_rules_outcome_and_the_worlds(facing: Facing, chosen: list[Action]) -> None:
     world = _world(facing)
@@ -102,7 +101,6 @@ def test_every_outcome_is_the_rules_outcome_and_the_worlds(facing: Facing, chose
         assert world.built == {arena.block_of(block) for block in placed}
 
 
-@settings(max_examples=60)
 @given(st.lists(actions, max_size=4), st.floats(0.0, 12.0), st.integers(-1, 250), st.integers(0, 3))
 def test_whatever_happens_no_key_stays_down_or_goes_to_another_window(
     chosen: list[Action], front_s: float, fail_after: int, refused: int
@@ -388,7 +386,6 @@ def test_the_step_to_repeat_names_the_profile_and_types_no_commands_where_it_has
         check_fits(_large(17), profile, "mine")
 
 
-@settings(max_examples=20)
 @given(facings, st.lists(actions, max_size=14))
 def test_in_a_larger_arena_a_scenario_ends_where_its_own_edge_is(facing: Facing, chosen: list[Action]) -> None:
     world = FakeGame(Profile(arena=Arena.around((-20, 64, 31), facing, size=18)))

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.errors import RunError
@@ -20,7 +20,6 @@ def test_the_table_is_plain_csv_with_unix_line_ends(tmp_path: Path) -> None:
     assert path.read_bytes() == b"agent,scenario,trial,episode,score,material,steps\nnested,line,3,30,20.5,stone,13\n"
 
 
-@settings(max_examples=30)
 @given(rows=st.lists(st.builds(Evaluation, NAMES, NAMES, COUNTS, COUNTS, SCORES, NAMES, COUNTS)))
 def test_what_is_written_is_read_back(tmp_path_factory: pytest.TempPathFactory, rows: list[Evaluation]) -> None:
     path = tmp_path_factory.mktemp("table") / "results.csv"

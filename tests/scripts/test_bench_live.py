@@ -22,6 +22,7 @@ def test_nothing_is_wrong_in_a_short_play_without_mishaps() -> None:
     assert sum([*counts.moves_s, *counts.placings_s]) < counts.played_s < 60
 
 
+@pytest.mark.slow
 def test_a_clients_older_pictures_are_found_by_calibration_and_played_with_as_well() -> None:
     found = calibrated_walk(VirtualClient(pitch=GROUND_PITCH, capture_latency_s=(0.075, 0.075)))
     assert found.input_latency_s + found.capture_latency_s == pytest.approx(0.075 + 0.0125 + FRAME_S / 2, abs=0.012)

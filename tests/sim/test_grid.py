@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action
@@ -20,7 +20,6 @@ LINE, ZIGZAG, DIAMOND = (load_scenario(name) for name in ("line", "zigzag", "dia
 
 
 @given(seed=st.integers(0, 2**32 - 1))
-@settings(max_examples=30)
 def test_arrays_and_single_arenas_agree_on_everything(seed: int) -> None:
     random = np.random.default_rng(seed)
     arrays, singles = GridVectorEnv([LINE] * 4), ArenaVectorEnv([arena_env(LINE) for _ in range(4)])
@@ -45,7 +44,6 @@ def test_arrays_and_single_arenas_agree_on_everything(seed: int) -> None:
 
 
 @given(scenarios_with_parts(), st.integers(0, 2**32 - 1))
-@settings(max_examples=60)
 def test_arrays_and_single_arenas_agree_on_everything_with_parts(scenario: Scenario, seed: int) -> None:
     random, materials = np.random.default_rng(seed), len(scenario.materials)
     scenario = dataclasses.replace(scenario, step_limit=20)
@@ -77,7 +75,6 @@ def corners(size: int) -> Scenario:
 
 
 @given(st.lists(st.sampled_from([5, 9, 15, 20, 32]), min_size=1, max_size=5), st.integers(0, 2**32 - 1))
-@settings(max_examples=30)
 def test_arenas_of_different_sizes_each_have_their_own_edge(sizes: list[int], seed: int) -> None:
     scenarios = [corners(size) for size in sizes]
     random = np.random.default_rng(seed)

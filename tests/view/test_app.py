@@ -9,6 +9,7 @@ import pytest
 from syrupy.assertion import SnapshotAssertion
 from textual.pilot import Pilot
 
+from mc_nested.view import app as looking
 from mc_nested.view.app import ViewApp
 from mc_nested.view.requests import Requests, ask_pause
 from mc_nested.view.status import FORMAT, ArenaSeen, Learning, Standing, Status
@@ -68,6 +69,32 @@ STATUSES: dict[str, Status] = {
     ),
 }
 
+
+@pytest.fixture(autouse=True)
+def often(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It looks more often, and closes soon, so that nothing here waits long for it; each look costs milliseconds."""
+    monkeypatch.setattr(looking, "LOOK_EVERY_S", 0.1)
+    monkeypatch.setattr(looking, "CLOSES_AFTER_S", 0.05)
+
+
+class CountedApp(ViewApp):
+    """The view, which counts how often it has looked."""
+
+    looks = 0
+
+    def _look(self) -> None:
+        super()._look()
+        self.looks += 1
+
+
+async def until_it_looks(app: ViewApp, pilot: Pilot[None]) -> None:
+    """Wait until it has looked twice more: a look may be going on."""
+    assert isinstance(app, CountedApp)
+    before = app.looks
+    while app.looks < before + 2:
+        await pilot.pause(0.02)
+
+
 SIZES = {"80x24": (80, 24), "200x60": (200, 60), "40x24": (40, 24)}
 
 
@@ -84,7 +111,7 @@ def shown(
     StatusFiles(folder).write(status)
 
     async def look() -> str:
-        app = ViewApp(folder, closes_at_end=closes_at_end, clock=lambda: status.at + after)
+        app = CountedApp(folder, closes_at_end=closes_at_end, clock=lambda: status.at + after)
         async with app.run_test(size=size, notifications=True) as pilot:
             await pilot.pause()
             await act(app, pilot)
@@ -127,9 +154,9 @@ def test_a_run_whose_process_is_gone_says_so(tmp_path: Path) -> None:
 
 
 def test_it_shows_what_is_published_while_it_looks(live: Path) -> None:
-    async def go_on(_app: ViewApp, pilot: Pilot[None]) -> None:
+    async def go_on(app: ViewApp, pilot: Pilot[None]) -> None:
         StatusFiles(live).write(LIVE.model_copy(update={"doing": "resets the arena"}))
-        await pilot.pause(1.0)
+        await until_it_looks(app, pilot)
 
     assert "resets the arena" in shown(live, LIVE, SIZES["80x24"], go_on)
 
@@ -147,9 +174,10 @@ def pressed(folder: Path, *keys: str, status: Status = LIVE, closes_at_end: bool
     requests = Requests(folder)
     heard: list[Heard] = []
 
-    async def press(_app: ViewApp, pilot: Pilot[None]) -> None:
+    async def press(app: ViewApp, pilot: Pilot[None]) -> None:
         await pilot.press(*keys)
-        await pilot.pause(0.5)
+        if not app._exit:
+            await until_it_looks(app, pilot)
         heard.append(Heard(requests.is_pause_asked(), requests.is_stop_asked()))
 
     return shown(folder, status, SIZES["80x24"], press, closes_at_end=closes_at_end), heard[0]
@@ -172,9 +200,9 @@ def test_keys_ask_the_run(live: Path, keys: list[str], wanted: Heard) -> None:
 
 
 def test_p_is_no_longer_offered_once_the_run_says_that_it_can_not_pause(live: Path) -> None:
-    async def learn(_app: ViewApp, pilot: Pilot[None]) -> None:
+    async def learn(app: ViewApp, pilot: Pilot[None]) -> None:
         StatusFiles(live).write(LIVE.model_copy(update={"can_pause": False}))
-        await pilot.pause(1.0)
+        await until_it_looks(app, pilot)
 
     assert "pause" not in shown(live, LIVE, SIZES["80x24"], learn)
 
@@ -250,9 +278,9 @@ def test_a_long_question_is_shown_whole_with_its_keys(live: Path) -> None:
 
 @pytest.mark.parametrize("size", SIZES)
 def test_an_arena_that_comes_later_is_shown_as_one_that_was_there(tmp_path: Path, live: Path, size: str) -> None:
-    async def come(_app: ViewApp, pilot: Pilot[None]) -> None:
+    async def come(app: ViewApp, pilot: Pilot[None]) -> None:
         StatusFiles(live).write(LIVE)
-        await pilot.pause(1.0)
+        await until_it_looks(app, pilot)
 
     later = shown(live, LIVE.model_copy(update={"arena": None}), SIZES[size], come)
 
@@ -298,11 +326,11 @@ def test_the_end_key_leads_back_to_now(live: Path) -> None:
 
 def test_it_closes_by_itself_once_the_run_has_ended(live: Path) -> None:
     async def end(app: ViewApp, pilot: Pilot[None]) -> None:
-        await pilot.pause(1.0)
+        await until_it_looks(app, pilot)
         assert app.is_running
         StatusFiles(live).write(STATUSES["ended"])
-        for _ in range(200):
-            await pilot.pause(0.1)
+        for _ in range(2000):
+            await pilot.pause(0.01)
             if not app.is_running or app._exit:
                 return
         pytest.fail("it stays open")
@@ -311,9 +339,9 @@ def test_it_closes_by_itself_once_the_run_has_ended(live: Path) -> None:
 
 
 def test_a_folder_that_disappears_leaves_what_was_seen(live: Path) -> None:
-    async def lose(_app: ViewApp, pilot: Pilot[None]) -> None:
+    async def lose(app: ViewApp, pilot: Pilot[None]) -> None:
         (live / "view" / "now.json").unlink()
-        await pilot.pause(0.7)
+        await until_it_looks(app, pilot)
 
     assert "moves back and places a block" in shown(live, LIVE, SIZES["80x24"], lose)
 

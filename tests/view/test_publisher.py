@@ -8,12 +8,19 @@ from pathlib import Path
 import pytest
 
 from mc_nested.errors import LiveError
+from mc_nested.view import publisher as publishing
 from mc_nested.view.board import Board
 from mc_nested.view.publisher import Publisher, press_ctrl_c
 from mc_nested.view.requests import STOP, YesOrNo, ask_pause, ask_to_go_on, ask_to_stop, give_answer
 from mc_nested.view.status_files import FOLDER, is_published, status_now
 
 PATIENCE_S = 20.0
+
+
+@pytest.fixture(autouse=True)
+def often(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It publishes, and hears, fifty times a second, so that nothing here waits long for it."""
+    monkeypatch.setattr(publishing, "PUBLISH_EVERY_S", 0.02)
 
 
 def until(holds: Callable[[], bool]) -> None:
@@ -23,8 +30,29 @@ def until(holds: Callable[[], bool]) -> None:
         time.sleep(0.01)
 
 
-def a_publisher(folder: Path, stop: Callable[[], None] | None = None) -> Publisher:
-    return Publisher(Board("train", "a title"), folder, lambda: ["it said this"], stop)
+def a_publisher(
+    folder: Path, stop: Callable[[], None] | None = None, lines: Callable[[], list[str]] | None = None
+) -> Publisher:
+    return Publisher(Board("train", "a title"), folder, lines or (lambda: ["it said this"]), stop)
+
+
+class Counted:
+    """The lines that a run said, and how often they were asked for: once each time that it is published.
+
+    It also stands for whether anybody sees a question, which is asked each time that an answer is looked for.
+    """
+
+    def __init__(self) -> None:
+        self.times = 0
+
+    def __call__(self) -> list[str]:
+        self.times += 1
+        return ["it said this"]
+
+    def until_asked_again(self) -> None:
+        """Once more from beginning to end: one may be going on."""
+        before = self.times
+        until(lambda: self.times >= before + 2)
 
 
 def test_a_run_is_published_at_once_and_while_it_goes_on(tmp_path: Path) -> None:
@@ -78,35 +106,37 @@ def test_a_pause_ends_with_the_run(tmp_path: Path) -> None:
 
 def test_a_stop_ends_a_pause_and_is_done_once(tmp_path: Path) -> None:
     stops: list[str] = []
-    with a_publisher(tmp_path, lambda: stops.append("stop")) as publisher:
+    lines = Counted()
+    with a_publisher(tmp_path, lambda: stops.append("stop"), lines) as publisher:
         ask_pause(tmp_path)
         until(lambda: publisher.is_paused)
         ask_to_stop(tmp_path)
         until(lambda: status_now(tmp_path).stopping)
         publisher.wait_while_paused()
         (tmp_path / FOLDER / STOP).unlink()
-        time.sleep(0.7)
+        lines.until_asked_again()
         ask_to_stop(tmp_path)
-        time.sleep(0.7)
+        lines.until_asked_again()
 
     assert stops == ["stop"]
 
 
-def asked(publisher: Publisher, answers: list[bool | None]) -> threading.Thread:
-    asking = threading.Thread(target=lambda: answers.append(publisher.answer("Clear it?")))
+def asked(publisher: Publisher, answers: list[bool | None], looks: Counted) -> threading.Thread:
+    asking = threading.Thread(target=lambda: answers.append(publisher.answer("Clear it?", lambda: bool(looks()))))
     asking.start()
     return asking
 
 
 def test_a_question_waits_for_its_own_answer(tmp_path: Path) -> None:
     answers: list[bool | None] = []
+    looks = Counted()
     with a_publisher(tmp_path) as publisher:
         for is_yes in (False, True):  # the same words twice are two questions
-            asking = asked(publisher, answers)
+            asking = asked(publisher, answers, looks)
             until(lambda: status_now(tmp_path).question == "Clear it?")
             number = status_now(tmp_path).question_number
             give_answer(tmp_path, YesOrNo(number=number - 1, is_yes=not is_yes))
-            time.sleep(0.7)
+            looks.until_asked_again()
             assert asking.is_alive()
             give_answer(tmp_path, YesOrNo(number=number, is_yes=is_yes))
             asking.join(PATIENCE_S)
@@ -121,18 +151,20 @@ def test_a_question_that_nobody_sees_any_more_has_no_answer(tmp_path: Path) -> N
 
 
 def test_a_folder_that_is_gone_costs_the_view_and_not_the_run(tmp_path: Path) -> None:
-    with a_publisher(tmp_path / "run") as publisher:
+    lines = Counted()
+    with a_publisher(tmp_path / "run", lines=lines) as publisher:
         shutil.rmtree(tmp_path / "run", ignore_errors=True)  # Windows keeps the lock, which is open
         publisher.board.does("trains")
-        time.sleep(0.7)
+        lines.until_asked_again()
         assert publisher._thread.is_alive()
 
 
 def test_a_status_that_can_not_be_written_costs_the_view_and_not_the_run(tmp_path: Path) -> None:
     stops: list[str] = []
-    with a_publisher(tmp_path, lambda: stops.append("stop")) as publisher:
+    lines = Counted()
+    with a_publisher(tmp_path, lambda: stops.append("stop"), lines) as publisher:
         publisher.board.show(arena="no arena")
-        time.sleep(0.7)
+        lines.until_asked_again()
         ask_to_stop(tmp_path)
         until(lambda: bool(stops))
         publisher.board.show(arena=None)

@@ -6,7 +6,7 @@ from contextlib import AbstractContextManager, contextmanager, suppress
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from calibration.doctor.check import CheckName
@@ -373,7 +373,6 @@ def interrupted(
     return open_devices
 
 
-@settings(max_examples=30)
 @given(at=st.integers(0, 60))
 def test_a_window_that_closes_at_any_moment_leaves_every_row_and_no_key_down(
     at: int, tmp_path_factory: pytest.TempPathFactory
@@ -387,7 +386,6 @@ def test_a_window_that_closes_at_any_moment_leaves_every_row_and_no_key_down(
     assert len(told) == (0 if statuses(found)["input"] == "pass" else 1)
 
 
-@settings(max_examples=30)
 @given(at=st.integers(0, 40))
 def test_ctrl_c_at_any_moment_leaves_no_key_down_and_every_file_as_it_was(
     at: int, tmp_path_factory: pytest.TempPathFactory

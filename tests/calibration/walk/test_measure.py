@@ -130,7 +130,7 @@ def test_a_walk_that_fails_brings_the_player_back(tmp_path: Path) -> None:
     assert (client.realm.player.yaw, client.realm.player.pitch) == (0.0, 20.0)
 
 
-@pytest.mark.parametrize("floor", [None, "stone"])
+@pytest.mark.parametrize("floor", [None, pytest.param("stone", marks=pytest.mark.slow)])
 def test_a_hole_in_a_marked_arena_is_refilled_or_found_before_it_walks(floor: str | None, tmp_path: Path) -> None:
     client = VirtualClient(seed=2, pitch=20.0)
     arena = Arena.around((-20, 64, 31), "east").model_copy(update={"floor": floor})
@@ -150,7 +150,19 @@ def test_a_hole_in_a_marked_arena_is_refilled_or_found_before_it_walks(floor: st
         assert client.realm.player.feet == (0.5, 64.0, 0.5)
 
 
-@pytest.mark.parametrize(("size", "middle"), [(15, 7), (20, 10)])
+def test_a_hole_is_refilled_before_any_key_is_tried(tmp_path: Path) -> None:
+    """A key that does nothing ends it as soon as it begins to walk."""
+    client = VirtualClient(seed=2, pitch=20.0)
+    arena = Arena.around((-20, 64, 31), "east").model_copy(update={"floor": "stone"})
+    x, y, z = arena.block_of((7, 7))
+    client.realm.world.put((x + 1, y - 1, z), "air")
+    profile = profile_of(client, tmp_path).model_copy(update={"arena": arena, "keys": KeysTable(left="j")})
+    with pytest.raises(UserError, match="the key j doesn't move the player left"):
+        measured(client, tmp_path, profile)
+    assert client.realm.world.block_at((x + 1, y - 1, z)) == "stone"
+
+
+@pytest.mark.parametrize(("size", "middle"), [(15, 7), pytest.param(20, 10, marks=pytest.mark.slow)])
 def test_in_a_marked_arena_it_walks_in_the_middle_and_comes_back(size: int, middle: int, tmp_path: Path) -> None:
     client = VirtualClient(seed=2, pitch=20.0, swaps_sides=True)
     arena = Arena.around((-20, 64, 31), "east", size=size)

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import textwrap
 from pathlib import Path
+from typing import Protocol
 
 import pytest
 import shellingham
@@ -31,6 +32,29 @@ def asked(folder: Path, **variables: str) -> subprocess.CompletedProcess[str]:
     )
 
 
+class AskedHere(Protocol):
+    """Asks as a shell does, but in this process: one of its own takes thirty times as long."""
+
+    def __call__(self, **variables: str) -> tuple[int, str]:
+        """Its exit code, and what it prints; nothing is printed as an error."""
+
+
+@pytest.fixture
+def asked_here(folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> AskedHere:
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr(sys, "argv", ["mc-nested"])
+
+    def ask(**variables: str) -> tuple[int, str]:
+        for name, value in {**variables, "HOME": str(folder), "XDG_CONFIG_HOME": str(folder)}.items():
+            monkeypatch.setenv(name, value)
+        code = run()
+        printed = capsys.readouterr()
+        assert printed.err == ""
+        return code, printed.out
+
+    return ask
+
+
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     (tmp_path / "runs" / "line").mkdir(parents=True)
@@ -40,10 +64,15 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
+def test_bash_gets_a_word_a_line_of_a_process_of_its_own(folder: Path) -> None:
+    answer = asked(folder, COMP_WORDS="mc-nested re", COMP_CWORD="1", _MC_NESTED_COMPLETE="complete_bash")
+    assert (answer.returncode, answer.stderr) == (0, "")
+    assert sorted(answer.stdout.split()) == sorted(["reproduce", "read", "rehearse", "recordings", "replay"])
+
+
 @pytest.mark.parametrize(
     ("typed", "completed"),
     [
-        ("re", ["reproduce", "read", "rehearse", "recordings", "replay"]),
         ("train --pre", ["--preset"]),
         ("train --preset t", ["tuned"]),
         ("train --scenario zig", ["zigzag"]),
@@ -61,40 +90,40 @@ def folder(tmp_path: Path) -> Path:
         ("nothing x", []),
     ],
 )
-def test_bash_gets_a_word_a_line(typed: str, completed: list[str], folder: Path) -> None:
+def test_bash_gets_what_can_stand_there(typed: str, completed: list[str], asked_here: AskedHere) -> None:
     words = ["mc-nested", *typed.split(" ")]
     variables = {"COMP_WORDS": " ".join(words), "COMP_CWORD": str(len(words) - 1)}
-    answer = asked(folder, **variables, _MC_NESTED_COMPLETE="complete_bash")
-    assert (answer.returncode, answer.stderr) == (0, "")
-    assert sorted(answer.stdout.split()) == sorted(completed)
+    code, answer = asked_here(**variables, _MC_NESTED_COMPLETE="complete_bash")
+    assert code == 0
+    assert sorted(answer.split()) == sorted(completed)
 
 
-def test_zsh_gets_the_help_beside_each(folder: Path) -> None:
-    answer = asked(folder, _TYPER_COMPLETE_ARGS="mc-nested train --pres", _MC_NESTED_COMPLETE="complete_zsh")
-    assert answer.stdout == """_arguments '*: :(("--preset":"hyper-parameters [paper]"))'\n"""
-    answer = asked(folder, _TYPER_COMPLETE_ARGS="mc-nested train --out ", _MC_NESTED_COMPLETE="complete_zsh")
-    assert answer.stdout == "_files\n"
+def test_zsh_gets_the_help_beside_each(asked_here: AskedHere) -> None:
+    asks = {"_MC_NESTED_COMPLETE": "complete_zsh"}
+    assert asked_here(**asks, _TYPER_COMPLETE_ARGS="mc-nested train --pres") == (
+        0,
+        """_arguments '*: :(("--preset":"hyper-parameters [paper]"))'\n""",
+    )
+    assert asked_here(**asks, _TYPER_COMPLETE_ARGS="mc-nested train --out ") == (0, "_files\n")
 
 
-def test_fish_gets_the_help_behind_a_tab_and_is_told_where_files_are_meant(folder: Path) -> None:
-    action = {"_MC_NESTED_COMPLETE": "complete_fish", "_TYPER_COMPLETE_FISH_ACTION": "get-args"}
-    answer = asked(folder, **action, _TYPER_COMPLETE_ARGS="mc-nested train --preset p")
-    assert answer.stdout == "paper\n"
-    answer = asked(folder, **action, _TYPER_COMPLETE_ARGS="mc-nested train --pres")
-    assert answer.stdout == "--preset\thyper-parameters [paper]\n"
-    action["_TYPER_COMPLETE_FISH_ACTION"] = "is-args"
-    assert asked(folder, **action, _TYPER_COMPLETE_ARGS="mc-nested train --preset p").returncode == 0
-    assert asked(folder, **action, _TYPER_COMPLETE_ARGS="mc-nested train --out ").returncode == 1
+def test_fish_gets_the_help_behind_a_tab_and_is_told_where_files_are_meant(asked_here: AskedHere) -> None:
+    asks = {"_MC_NESTED_COMPLETE": "complete_fish", "_TYPER_COMPLETE_FISH_ACTION": "get-args"}
+    assert asked_here(**asks, _TYPER_COMPLETE_ARGS="mc-nested train --preset p") == (0, "paper\n")
+    found = asked_here(**asks, _TYPER_COMPLETE_ARGS="mc-nested train --pres")
+    assert found == (0, "--preset\thyper-parameters [paper]\n")
+    asks["_TYPER_COMPLETE_FISH_ACTION"] = "is-args"
+    assert asked_here(**asks, _TYPER_COMPLETE_ARGS="mc-nested train --preset p")[0] == 0
+    assert asked_here(**asks, _TYPER_COMPLETE_ARGS="mc-nested train --out ")[0] == 1
 
 
-def test_powershell_gets_the_help_behind_colons(folder: Path) -> None:
-    answer = asked(
-        folder,
+def test_powershell_gets_the_help_behind_colons(asked_here: AskedHere) -> None:
+    found = asked_here(
         _MC_NESTED_COMPLETE="complete_powershell",
         _TYPER_COMPLETE_ARGS="mc-nested train --pres",
         _TYPER_COMPLETE_WORD_TO_COMPLETE="--pres",
     )
-    assert answer.stdout == "--preset:::hyper-parameters [paper]\n"
+    assert found == (0, "--preset:::hyper-parameters [paper]\n")
 
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash")

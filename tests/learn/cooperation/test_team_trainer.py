@@ -13,6 +13,7 @@ from tests.learn.cooperation.teams import LINE, SHORT, finish, trainer_of
 
 MORE = SHORT.model_copy(
     update={
+        "episodes": 10,
         "encoding": "one-hot",
         "updates_a_step": 2,
         "keep": "best",

@@ -39,4 +39,4 @@ def batch_of(rows: int, seed: int) -> Batch:
 def part(batch: Batch, rows: list[int]) -> Batch:
     """The named rows of a batch."""
     rest = {name: getattr(batch, name)[rows] for name in ("actions", "rewards", "discounts", "imitated", "weights")}
-    return Batch(states=batch.states[:, rows], **rest)
+    return Batch(states=np.ascontiguousarray(batch.states[:, rows]), **rest)  # as a replay's are: compiled once

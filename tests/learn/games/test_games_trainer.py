@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.scenario import Scenario
@@ -104,7 +104,6 @@ def test_a_game_that_begins_anew_has_left_what_it_had_out() -> None:
 MOVES = st.lists(st.tuples(st.integers(0, 2), st.sampled_from(["plan", "take", "take", "abandon"])), max_size=30)
 
 
-@settings(max_examples=15, deadline=None)
 @given(MOVES)
 def test_whatever_the_order_every_taken_episode_is_a_row_and_nothing_else_is(moves: list[tuple[int, str]]) -> None:
     learner, out, taken, greedy = learner_of(BENT, PAPER), dict[int, EpisodePlan](), 0, 0

@@ -61,7 +61,7 @@ def test_it_begins_anew_after_twice_as_many_steps_each_time(monkeypatch: pytest.
     assert [round(at / 2_000) for at in anew] == [1, 3, 7], "after 2,000 steps, 4,000 more, and 8,000 more"
 
 
-@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
 def test_it_finds_how_to_build_a_house_of_forty_blocks(seed: int) -> None:
     house = load_scenario("house")
     arena = arena_of(house)

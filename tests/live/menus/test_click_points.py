@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.errors import NotInFrontError, WrongScreenError
@@ -109,7 +109,6 @@ def named(name: str, seed: int, ground: int = 30, colour: Colour = WHITE) -> Fra
 
 
 @given(st.integers(0, 10**6), st.integers(10, 60))
-@settings(max_examples=20)
 def test_a_world_is_known_by_its_name_before_any_dark_ground(seed: int, ground: int) -> None:
     point = record_point("world", named("New World", 0), (200, 88), 2)
     assert looks_the_same(point, named("New World", seed, ground))

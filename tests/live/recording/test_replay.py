@@ -1,4 +1,5 @@
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -100,15 +101,15 @@ def test_nothing_recorded_in_that_time_is_an_error_that_leaves_no_file(recording
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_end_alone_is_kept_by_trimming(tmp_path: Path) -> None:
+def test_the_end_alone_is_kept_by_trimming(recording: Path, tmp_path: Path) -> None:
     folder = tmp_path / "play"
-    record_play(folder, 30)
+    shutil.copytree(recording, folder)
     before = overview_of(folder)
     trim(folder, 3600)
     after = overview_of(folder)
     assert (after.calls, after.actions, after.damage) == (
         before.calls - 1,
-        30,
+        60,
         (),
     )
     assert [path.name for path in folder.iterdir()] == ["00001.mcap"]
@@ -124,10 +125,11 @@ def test_materials_that_are_taken_in_hand_are_decided_alike(tmp_path: Path) -> N
 
 def test_an_episode_with_mishaps_is_followed_too(tmp_path: Path) -> None:
     client = VirtualClient(seed=2)
-    client.mishaps.plan("pause", 4.0)
-    failed = record_play(tmp_path / "play", 40, client)
+    client.mishaps.plan("pause", 1.5)
+    failed = record_play(tmp_path / "play", 12, client)
     seen = replay(tmp_path / "play", FONT)
-    assert (seen.differences, len(failed)) == ([], seen.actions - 40)
+    assert client.mishaps.happened
+    assert (seen.differences, len(failed)) == ([], seen.actions - 12)
 
 
 def test_what_ends_early_is_read_up_to_there(recording: Path, tmp_path: Path) -> None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.errors import FontError
@@ -61,7 +61,6 @@ def painter(size: tuple[int, int] = (854, 480), scale: int = 2, seed: int = 0) -
     st.sampled_from((WHITE, OLD_WHITE, HOVERED, GREY)),
     st.integers(0, 2**32 - 1),
 )
-@settings(max_examples=25)
 def test_each_button_is_found_within_two_gui_pixels_of_its_middle(
     screen: str, size: tuple[int, int], scale: int, colour: Colour, seed: int
 ) -> None:

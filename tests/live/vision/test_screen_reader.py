@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.live.devices import Frame, Region
@@ -126,7 +126,6 @@ def test_a_damaged_frame_reads_as_with_a_new_reader_and_the_next_one_is_read(nam
 
 
 @given(st.sampled_from(LAYOUTS), st.sampled_from(WORLDS), st.integers(0, 2**32 - 1))
-@settings(max_examples=40)
 def test_two_screens_after_each_other_are_read_as_each_alone(layout: Layout, kind: str, seed: int) -> None:
     rng = np.random.default_rng(seed)
     pictures = Pictures(np.zeros((480, 860, 3), np.uint8))

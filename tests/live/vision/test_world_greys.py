@@ -3,7 +3,7 @@
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.live.devices import Frame
@@ -60,7 +60,6 @@ def test_the_world_comes_out_as_if_nothing_lay_over_it(version: str, scale: int)
     assert np.mean(away > 2) < 0.01
 
 
-@settings(max_examples=10, deadline=None)
 @given(st.floats(40, 85), st.floats(-180, 180))
 def test_that_holds_wherever_the_agent_looks(pitch: float, yaw: float) -> None:
     client = client_looking(pitch, yaw)

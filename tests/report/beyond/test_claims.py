@@ -8,10 +8,13 @@ from mc_nested.report.beyond.claims import equal_budget, judge_beyond, of_topic
 from mc_nested.report.verdicts import Verdict
 from tests.report.beyond.made_arms import OPTIMUM, arm, trial_of, whole
 
+TRIALS = 8
+"""Enough for every verdict, and a fifteenth of the splits of ten that a test goes through."""
+
 Means = Callable[[str, str, int], float]
 
 
-def verdicts(means: Means, trials: int = 10, image_trials: int = 10) -> dict[str, Verdict]:
+def verdicts(means: Means, trials: int = TRIALS, image_trials: int = TRIALS) -> dict[str, Verdict]:
     judged = judge_beyond(whole(means, trials, image_trials))
     return {each.claim.letter: each.verdict for each in judged}
 
@@ -55,8 +58,8 @@ def test_a_lead_that_shrinks_speaks_against_its_growing_on_that_agent_alone(othe
 
 
 def test_images_behind_by_more_than_a_block_on_one_design_are_behind() -> None:
-    arms = whole(image_trials=10)
-    low = arm("images", "images", [trial_of([12.0 + 0.1 * trial] * 3) for trial in range(10)], "zigzag")
+    arms = whole(trials=TRIALS, image_trials=TRIALS)
+    low = arm("images", "images", [trial_of([12.0 + 0.1 * trial] * 3) for trial in range(TRIALS)], "zigzag")
     arms[low.key] = low
     claim = next(each for each in judge_beyond(arms) if each.claim.letter == "j2")
     assert claim.verdict is Verdict.FAILS
@@ -74,7 +77,7 @@ def test_a_single_trial_is_not_tested() -> None:
 
 
 def test_networks_that_do_not_grow_speak_against_it() -> None:
-    arms = whole()
+    arms = whole(trials=TRIALS)
     for count in (2, 4, 8):
         same = arm("materials", "hierarchical", [trial_of([3.0] * 3)] * 2, f"line, {count} materials", count, 3)
         arms[same.key] = same
@@ -92,10 +95,10 @@ def test_the_budget_is_what_the_poorest_trial_of_any_number_of_materials_had() -
 
 def test_a_third_agents_budget_does_not_cut_a_contest() -> None:
     """Hierarchical is behind at the end alone: seen, however few steps the single agent had."""
-    arms = whole()
+    arms = whole(trials=TRIALS)
     for count in (2, 8):
-        late = [trial_of([15.0] * 2 + [15.0 - count + 0.1 * trial] * 10) for trial in range(10)]
-        poor = [trial_of([15.0 + 0.1 * trial] * 2) for trial in range(10)]
+        late = [trial_of([15.0] * 2 + [15.0 - count + 0.1 * trial] * 10) for trial in range(TRIALS)]
+        poor = [trial_of([15.0 + 0.1 * trial] * 2) for trial in range(TRIALS)]
         for name, trials, networks in (("hierarchical", late, 1 + count), ("single", poor, 1)):
             own = arm("materials", name, trials, f"line, {count} materials", count, networks)
             arms[own.key] = own
@@ -105,5 +108,5 @@ def test_a_third_agents_budget_does_not_cut_a_contest() -> None:
 
 
 def test_all_but_what_is_counted_says_how_many_trials_would_decide_it() -> None:
-    for judged in judge_beyond(whole(as_the_paper_says)):
+    for judged in judge_beyond(whole(as_the_paper_says, TRIALS)):
         assert all(line.effect for line in judged.claim.evidence) == (judged.claim.letter != "l7")

@@ -4,23 +4,33 @@ import csv
 from pathlib import Path
 
 import cv2
+import pytest
 
+from mc_nested.report.beyond.claims import judge_beyond
 from mc_nested.report.beyond.files import write_beyond
-from mc_nested.report.beyond.text import in_words
+from mc_nested.report.beyond.text import beyond_text, in_words
+from mc_nested.report.verdicts import JudgedClaim
 from tests.report.beyond.made_arms import whole
 
 
-def test_the_same_results_give_the_same_bytes(tmp_path: Path) -> None:
-    for name in ("one", "two"):
-        (tmp_path / name).mkdir()
-        write_beyond(tmp_path / name, whole(), 10, 0)
+@pytest.fixture(scope="module")
+def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, tuple[JudgedClaim, ...]]:
+    """The folder of a whole run of ten trials, seed 7, and its claims."""
+    folder = tmp_path_factory.mktemp("beyond")
+    return folder, write_beyond(folder, whole(), 10, 7)
+
+
+def test_the_same_results_give_the_same_bytes(written: tuple[Path, object], tmp_path: Path) -> None:
+    write_beyond(tmp_path, whole(), 10, 7)
     for name in ("beyond.md", "beyond.png", "beyond.csv"):
-        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+        assert (tmp_path / name).read_bytes() == (written[0] / name).read_bytes()
 
 
-def test_the_report_has_every_claim_with_its_verdict_and_its_trials(tmp_path: Path) -> None:
-    claims = write_beyond(tmp_path, whole(), 10, 7)
-    text = (tmp_path / "beyond.md").read_text("utf-8")
+def test_the_report_has_every_claim_with_its_verdict_and_its_trials(
+    written: tuple[Path, tuple[JudgedClaim, ...]],
+) -> None:
+    folder, claims = written
+    text = (folder / "beyond.md").read_text("utf-8")
     assert "Seed 7: 10 trials" in text
     for judged in claims:
         claim = judged.claim
@@ -31,20 +41,18 @@ def test_the_report_has_every_claim_with_its_verdict_and_its_trials(tmp_path: Pa
     assert "last ten until 1,080 updates" in text
 
 
-def test_arms_that_end_at_the_optimum_have_no_last_ten_and_few_trials_are_said(tmp_path: Path) -> None:
-    write_beyond(tmp_path, whole(), 10, 0)
-    text = (tmp_path / "beyond.md").read_text("utf-8")
+def test_arms_that_end_at_the_optimum_have_no_last_ten_and_few_trials_are_said(written: tuple[Path, object]) -> None:
+    text = (written[0] / "beyond.md").read_text("utf-8")
     assert "| zigzag | images | 3 | 360 | - | - | 14.83 |" in text
     assert "| flag | nested | 10 | 360 | 15.00 |" in text
     assert text.count("3 trials are too few for any test") == 1
-    write_beyond(tmp_path, whole(image_trials=10), 10, 0)
-    assert "too few for any test" not in (tmp_path / "beyond.md").read_text("utf-8")
+    enough = whole(image_trials=10)
+    assert "too few for any test" not in beyond_text(enough, judge_beyond(enough), 10, 0)
 
 
-def test_every_evaluation_is_a_row(tmp_path: Path) -> None:
-    arms = whole(trials=2)
-    write_beyond(tmp_path, arms, 2, 0)
-    with (tmp_path / "beyond.csv").open(newline="", encoding="utf-8") as file:
+def test_every_evaluation_is_a_row(written: tuple[Path, object]) -> None:
+    arms = whole()
+    with (written[0] / "beyond.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == sum(len(trial) for arm in arms.values() for trial in arm.trials)
     assert rows[0] == {

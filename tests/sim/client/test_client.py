@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.live.devices import Clipboard, Clock, Display, Keyboard, Pointer, Region
@@ -52,7 +52,6 @@ def test_the_title_says_the_version_and_since_1_15_the_state(version: str, title
 
 
 @given(st.integers(0, 1000), st.integers(1, 12))
-@settings(max_examples=40)
 def test_a_hold_of_so_many_ticks_gives_as_many_or_one_more_or_less(seed: int, held: int) -> None:
     client = VirtualClient(seed=seed)
     client.clock.sleep(0.1)
@@ -118,7 +117,6 @@ def actions() -> st.SearchStrategy[list[tuple[str, float]]]:
 
 
 @given(st.integers(0, 99), actions(), st.booleans())
-@settings(max_examples=25)
 def test_the_same_seed_and_the_same_events_give_the_same_pictures(
     seed: int, chosen: list[tuple[str, float]], has_mishaps: bool
 ) -> None:
@@ -170,7 +168,6 @@ def test_an_older_picture_never_follows_a_newer_one() -> None:
 
 
 @given(st.integers(-50, 900), st.integers(-50, 500), st.integers(1, 900), st.integers(1, 500), st.integers(0, 5))
-@settings(max_examples=25)
 def test_a_region_is_that_part_of_the_whole_picture(left: int, top: int, width: int, height: int, moves: int) -> None:
     client, other = VirtualClient(seed=1), VirtualClient(seed=1)
     for each in (client, other):

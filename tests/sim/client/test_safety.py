@@ -3,7 +3,7 @@
 import contextlib
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action
@@ -24,7 +24,6 @@ class WayOutError(Exception):
 
 
 @pytest.mark.slow
-@settings(max_examples=40, deadline=None)
 @given(
     mishaps, actions, st.sampled_from(["return", "error", "interrupt", "stop"]), st.floats(0.0, 5.0), st.integers(0, 99)
 )
@@ -54,7 +53,6 @@ def test_no_key_is_left_down_and_none_goes_to_another_window(
 
 
 @pytest.mark.slow
-@settings(max_examples=25, deadline=None)
 @given(mishaps, actions, st.integers(0, 99))
 def test_an_outcome_is_what_the_world_holds_whatever_happens(
     planned: list[tuple[Kind, float]], chosen: list[Action], seed: int

@@ -198,6 +198,7 @@ def test_a_scheduler_that_is_lost_ends_it_with_one_line(tmp_path: Path) -> None:
             running.wait()
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_is_killed_ends_it_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(connection_module, "CONNECT_S", 1.0)
     with ExitStack() as stack:

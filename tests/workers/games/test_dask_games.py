@@ -3,7 +3,7 @@
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -35,7 +35,23 @@ __all__ = ["leftovers"]
 pytestmark = LEFTOVERS
 
 
-PATIENCE_S = 20.0
+PATIENCE_S = 60.0
+
+
+@pytest.fixture(autouse=True)
+def hasty(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Games and learners that wait shortly where nothing comes: for an answer's fetching, a look, a scheduler."""
+    monkeypatch.setattr(game_worker, "FETCHED_S", 0.5)
+    monkeypatch.setattr(game_worker, "TRY_AGAIN_S", 0.2)
+    monkeypatch.setattr(game_worker, "CONNECT_S", 2.0)
+    monkeypatch.setattr(dask_games, "LOOK_EVERY_S", 0.3)
+
+
+def until_so(happened: Callable[[], bool]) -> None:
+    end = time.monotonic() + PATIENCE_S
+    while not happened():
+        assert time.monotonic() < end
+        time.sleep(0.01)
 
 
 @pytest.fixture(scope="module")
@@ -67,6 +83,12 @@ def until(games: DaskGames, count: int) -> list[GameEvent]:
     return events
 
 
+def next_request(desk: Desk) -> Request:
+    while not (request := desk.next()):  # which waits for one itself
+        pass
+    return request
+
+
 def listening() -> set[tuple[str, int]]:
     """Addresses and ports on which this process listens."""
     psutil = pytest.importorskip("psutil")
@@ -84,8 +106,7 @@ def test_games_come_answer_and_go(address: SchedulerAddress, client: Client, des
         with GameWorker(address, "one", quiet):
             assert until(games, 1) == [Joined("one")]
             games.ask("one", plan)
-            while not (request := desk.next()):
-                pass
+            request = next_request(desk)
             assert request.order == ORDER
             assert request.plan
             assert request.plan.online.tobytes() == plan.online.tobytes()
@@ -115,14 +136,10 @@ def test_a_game_whose_network_is_gone_joins_again_and_breaks_off_what_it_played(
     with DaskGames(client, ORDER) as games, GameWorker(SchedulerAddress(proxy.address, None), "one", said.append):
         assert until(games, 1) == [Joined("one")]
         games.ask("one", None)
-        while not (request := desk.next()):
-            pass
+        request = next_request(desk)
         proxy.cut()
         assert until(games, 1) == [Left("one")]
-        end = time.monotonic() + PATIENCE_S
-        while request.is_wanted() and time.monotonic() < end:
-            time.sleep(0.05)
-        assert not request.is_wanted()
+        until_so(lambda: not request.is_wanted())
         request.answer.set_result(GameAnswer(problem="too late"))
         assert until(games, 1) == [Joined("one")]
         assert games.events(0.3) == []
@@ -137,19 +154,11 @@ def test_an_answer_of_a_game_that_has_left_since_counts_and_is_told_first(
         with GameWorker(address, "one", quiet):
             assert until(games, 1) == [Joined("one")]
             games.ask("one", None)
-            while not (request := desk.next()):
-                pass
+            request = next_request(desk)
             request.answer.set_result(GameAnswer())
-        time.sleep(0.3)
-        assert games.events(0.1) == [Answered("one", GameAnswer())]
+        assert games.events(PATIENCE_S) == [Answered("one", GameAnswer())]
         games.ask("one", None)
         assert games.events(1.0) == [Left("one")]
-
-
-def next_request(desk: Desk) -> Request:
-    while not (request := desk.next()):
-        pass
-    return request
 
 
 @pytest.mark.parametrize("looks", [True, False], ids=["while it looks", "while it doesn't look"])
@@ -165,9 +174,10 @@ def test_a_learner_whose_network_was_gone_asks_its_games_anew(
         assert until(games, 1) == [Joined("one")]
         games.ask("one", None)
         request = next_request(desk)
+        before = client.scheduler_comm
         proxy.cut()
-        if not looks:
-            time.sleep(3.0)
+        if not looks:  # and in the meantime Dask has connected it again
+            until_so(lambda: client.status == "running" and client.scheduler_comm not in (before, None))
         assert until(games, 2) == [Left("one"), Joined("one")]
         assert not request.is_wanted()
         request.answer.set_result(GameAnswer(problem="too late"))
@@ -189,11 +199,9 @@ def test_what_had_come_back_before_the_scheduler_was_lost_counts(
         assert until(games, 1) == [Joined("one")]
         games.ask("one", None)
         next_request(desk).answer.set_result(GameAnswer())
-        time.sleep(0.5)
+        until_so(games._asked["one"].done)
         killed.close()
-        end = time.monotonic() + PATIENCE_S
-        while client.status != "closed" and time.monotonic() < end:
-            time.sleep(0.01)
+        until_so(lambda: bool(client.status == "closed"))
         assert games.events(0.1) == [Answered("one", GameAnswer())]
         with pytest.raises(ClusterError, match=r"^the scheduler was lost"):
             games.events(0.1)
@@ -221,12 +229,8 @@ def test_a_learner_that_is_done_wants_no_answer_any_more(address: SchedulerAddre
         with DaskGames(client, ORDER) as games:
             assert until(games, 1) == [Joined("one")]
             games.ask("one", None)
-            while not (request := desk.next()):
-                pass
-        end = time.monotonic() + PATIENCE_S
-        while request.is_wanted() and time.monotonic() < end:
-            time.sleep(0.05)
-        assert not request.is_wanted()
+            request = next_request(desk)
+        until_so(lambda: not request.is_wanted())
         request.answer.set_result(GameAnswer())
 
 
@@ -259,6 +263,22 @@ def test_an_experiments_job_leaves_a_game_alone(address: SchedulerAddress, clien
         job = one_job("nested", [DOT], 1)
         executor = DaskJobs(client)
         future = executor.submit(job, tmp_path / "units" / job.name)
+        time.sleep(0.3)  # in which a game that took it would have begun
+        assert not future.running()
+        assert not future.done()
+        assert executor.reports() == []
+        future.cancel()
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("desk")
+def test_an_experiments_job_waits_beside_a_game_for_a_worker(
+    address: SchedulerAddress, client: Client, tmp_path: Path
+) -> None:
+    with GameWorker(address, "one", quiet):
+        job = one_job("nested", [DOT], 1)
+        executor = DaskJobs(client)
+        future = executor.submit(job, tmp_path / "units" / job.name)
         time.sleep(1.5)
         assert executor.reports() == []
         running = worker(tmp_path, address.url)
@@ -272,7 +292,6 @@ def test_an_experiments_job_leaves_a_game_alone(address: SchedulerAddress, clien
 @pytest.mark.skipif(sys.platform != "linux", reason="reads Linux's list of sockets")
 def test_each_try_to_join_again_leaves_nothing_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(game_worker, "START_S", 0.5)
-    monkeypatch.setattr(game_worker, "TRY_AGAIN_S", 0.1)
     made: list[distributed.Worker] = []
 
     def made_worker(*arguments: Any, **options: Any) -> distributed.Worker:
@@ -287,10 +306,7 @@ def test_each_try_to_join_again_leaves_nothing_open(tmp_path: Path, monkeypatch:
         stack.enter_context(GameWorker(SchedulerAddress(url, None), "one", quiet))
         killed.close()
         monkeypatch.setattr(distributed, "Worker", made_worker)
-        end = time.monotonic() + PATIENCE_S
-        while len(made) < 4 and time.monotonic() < end:
-            time.sleep(0.05)
-        assert len(made) >= 4
+        until_so(lambda: len(made) >= 4)
         # The last has its two ports still, and at most one before it is just closing them.
         assert len(listening() - before) <= 4
 

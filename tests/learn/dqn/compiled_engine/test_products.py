@@ -13,15 +13,39 @@ from mc_nested.learn.dqn.compiled_engine.tiles import ROWS, WIDTH, multiply_rows
 from mc_nested.learn.dqn.compiled_engine.turning import SIDE, turn_block
 
 GUARD = np.float32(-7)
-SIZES = st.integers(1, 40)
+SIZES = st.integers(2, 40)
 
 
 def product(a: Float32s, b: Float32s) -> Float32s:
-    """It, written between two columns that must stay as they are."""
+    """It, written between two columns that must stay as they are.
+
+    All three are parts of larger arrays: compiled once for all that lie so, and in seconds for each other layout.
+    """
     wide = np.full((len(a), b.shape[1] + 2), GUARD, np.float32)
-    multiply(a, b, wide[:, 1:-1])
+    multiply(part(a), part(b), wide[:, 1:-1])
     np.testing.assert_array_equal(wide[:, [0, -1]], GUARD)
     return np.ascontiguousarray(wide[:, 1:-1])
+
+
+def part(matrix: Float32s) -> Float32s:
+    """The same matrix, which lies by rows or by columns, as a part of a larger one; the rest is not to be read."""
+    if matrix.flags.f_contiguous:
+        turned: Float32s = part(matrix.T).T
+        return turned
+    larger = np.full((len(matrix) + 2, matrix.shape[1] + 2), np.nan, np.float32)
+    found: Float32s = larger[1:-1, 1:-1]
+    found[:] = matrix
+    return found
+
+
+@pytest.mark.parametrize("shape", [(1, 20, 33), (9, 1, 33), (9, 20, 1), (1, 1, 1)], ids=str)
+def test_one_row_one_term_and_one_column_are_matrices_too(shape: tuple[int, int, int]) -> None:
+    rows, terms, columns = shape
+    random = np.random.default_rng(1)
+    a, b = (random.standard_normal(each).astype(np.float32) for each in ((rows, terms), (terms, columns)))
+    found = np.full((rows, columns), GUARD, np.float32)
+    multiply(a, b, found)
+    np.testing.assert_allclose(found, a.astype(np.float64) @ b, rtol=0, atol=2e-5)
 
 
 @given(SIZES, SIZES, SIZES, st.booleans(), st.booleans())

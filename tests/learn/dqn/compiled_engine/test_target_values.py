@@ -8,7 +8,7 @@ from mc_nested.learn.dqn.compiled_engine.target_values import AT_ONCE, TargetVal
 from mc_nested.learn.dqn.state_space import StateSpace
 from tests.learn.dqn.compiled_engine.test_networks import reference
 
-SIZES = (3, 4, 8)
+SIZES = (3, 4, 4, 8)
 
 
 def test_every_state_has_its_networks_value_and_only_named_rows_are_renewed() -> None:
@@ -38,7 +38,7 @@ def test_a_table_pays_where_a_period_values_as_many_states_in_its_batches() -> N
 
 def test_without_a_table_nothing_is_kept_or_renewed() -> None:
     space = StateSpace(np.array([[14, 14, 100, 7]]), actions=8)
-    target = initial_parameters((4, 4, 8), np.random.default_rng(0))[None]
-    found = TargetValues(space, (4, 4, 8), target, tabulated=False)
+    target = initial_parameters((4, 4, 4, 8), np.random.default_rng(0))[None]
+    found = TargetValues(space, (4, 4, 4, 8), target, tabulated=False)
     found.renew(np.array([0]), target)
     assert found.values.shape == (1, 0, 8)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.live.devices import Frame
@@ -110,7 +110,6 @@ def test_far_away_everything_turns_into_the_sky() -> None:
     assert tuple(drawn(sight())[50, 100]) == SKY_BGR
 
 
-@settings(max_examples=30, deadline=None)
 @given(
     st.tuples(st.floats(-3, 3), st.floats(-3, 3)),
     st.floats(-180, 180),

@@ -1,0 +1,37 @@
+"""The command's first and last lines, in this process: what its streams can't write costs nothing."""
+
+import io
+import os
+import signal
+import sys
+
+import pytest
+
+from mc_nested import cli
+
+
+def test_a_stream_that_does_not_know_epsilon_writes_something_else(monkeypatch: pytest.MonkeyPatch) -> None:
+    streams = {name: io.TextIOWrapper(io.BytesIO(), encoding="ascii") for name in ("stdout", "stderr")}
+    for name, stream in streams.items():
+        monkeypatch.setattr(sys, name, stream)
+    before = signal.getsignal(signal.SIGINT)
+    try:
+        with pytest.raises(SystemExit) as ended:
+            cli.main(["--version"])
+        assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN, "quiet while Python ends"
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert not ended.value.code
+    for stream in streams.values():
+        stream.write("ε")
+        stream.flush()
+    assert streams["stderr"].buffer.getvalue() == b"?"
+
+
+def test_what_nobody_reads_any_more_is_dropped_without_an_error() -> None:
+    reads, writes = os.pipe()
+    with os.fdopen(writes, "w", encoding="utf-8") as stream:
+        stream.write("a last line")
+        os.close(reads)
+        cli._flush(stream)
+        stream.flush()  # as Python does when it ends
