@@ -95,14 +95,17 @@ class _Path:
 
     def __init__(self, points: list[_PathPoint], coastings: list[_Coasting], inertia: float) -> None:
         self._points, self._coastings, self._inertia = points, coastings, inertia
+        self._ways = [
+            (min(each.covered, each.end) - _ROUNDING, max(each.covered, each.end) + _ROUNDING, each)
+            for each in coastings
+        ]
 
     def matching(self, covered: float, slack: float) -> list[_PathPoint]:
         """The points that this distance can mean."""
         low, high = covered - slack, covered + slack
         found = [point for point in self._points if low <= point.covered <= high]
-        for coasting in self._coastings:
-            nearer, farther = sorted((coasting.covered, coasting.end))
-            if nearer - _ROUNDING <= high and farther + _ROUNDING >= low:
+        for nearest, farthest, coasting in self._ways:
+            if nearest <= high and farthest >= low:
                 found += [point for point in _points_of(coasting, self._inertia) if low <= point.covered <= high]
         return sorted(found)
 

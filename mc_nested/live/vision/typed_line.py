@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -88,7 +89,7 @@ def _colours_near(dots: Frame, near: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 def reads_as(dots: Frame, text: str, font: Font) -> bool:
     """Whether these dots, the whole line's, show exactly that text, and nothing behind it but the cursor."""
-    ink = dots[:GLYPH_ROWS].max(2) > _GROUND
+    ink = cv2.inRange(dots[:GLYPH_ROWS], (0, 0, 0), (_GROUND,) * 3) == 0
     seen = np.packbits(ink, axis=0, bitorder="little").tobytes()
     for line in (f"{text}_", text):
         for shown in _ends(line, len(seen), font):

@@ -64,17 +64,18 @@ class F3Layers:
         """The layers of one debug screen, from the back to the front."""
         if screen.layout == "26.4":
             return group_layers(screen, self._letters)
-        style = _STANDIN if screen.layout == "standin" else _VANILLA
+        is_standin = screen.layout == "standin"
         layers: list[Layer] = []
         for parts, is_right in ((left_parts(screen), False), (right_parts(screen), True)):
-            top = style.edge
+            top = (_STANDIN if is_standin else _VANILLA).edge
             for part in parts:
-                drawn, top = self._part(part, top, is_right, style)
+                drawn, top = self._part(part, top, is_right, is_standin)
                 layers += drawn
         return layers
 
-    def _drawn_part(self, part: Part, top: int, is_right: bool, style: _Style) -> tuple[list[Layer], int]:
+    def _drawn_part(self, part: Part, top: int, is_right: bool, is_standin: bool) -> tuple[list[Layer], int]:
         """One layer, or none if all lines are empty, and the top of what stands below, in GUI pixels."""
+        style = _STANDIN if is_standin else _VANILLA
         boxes: list[Layer] = []
         texts: list[Layer] = []
         for line in part:

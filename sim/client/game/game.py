@@ -75,6 +75,7 @@ class VirtualGame:
         self._rested_at: tuple[int, physics.Vector] | None = None
         self._looked: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
         self._looked_on_f3: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
+        self._shown_f3: tuple[tuple[object, ...], F3Screen | None] = ((), None)
         self._before = self._aim()
 
     @property
@@ -350,10 +351,18 @@ class VirtualGame:
             player.velocity = (0.0 if stays_x else east, up, 0.0 if stays_z else south)
             player.feet = feet
 
-    def _f3(self, fps: int, size: tuple[int, int]) -> F3Screen:
+    def _f3(self, fps: int, size: tuple[int, int]) -> F3Screen | None:
+        realm, player = self.realm, self.realm.player
+        hit = self.target_on_f3() if self._shows_target else None
+        is_reduced = realm.rule("reducedDebugInfo", "reduced_debug_info", False)
+        now = (player.feet, player.yaw, player.pitch, hit, realm.world.revision, is_reduced, fps, size)
+        if self._shown_f3[0] != now:
+            self._shown_f3 = now, self._new_f3(hit, fps, size, is_reduced=is_reduced)
+        return self._shown_f3[1]
+
+    def _new_f3(self, hit: ray.Hit | None, fps: int, size: tuple[int, int], *, is_reduced: bool) -> F3Screen:
         realm = self.realm
         player, edition = realm.player, self.edition
-        hit = self.target_on_f3() if self._shows_target else None
         name = realm.world.block_at(hit.block) if hit else ""
         return F3Screen(
             edition.layout,
@@ -363,7 +372,7 @@ class VirtualGame:
             player.pitch,
             target=Target(hit.block, edition.shown_id(name)) if hit else None,
             tags=tags_of(name, edition),
-            reduced=realm.rule("reducedDebugInfo", "reduced_debug_info", False),
+            reduced=is_reduced,
             version=edition.version,
             fps=fps,
             size=size,
