@@ -225,13 +225,9 @@ class VirtualClient:
 
     def _view(self) -> View:
         """What the game shows, in this window."""
-        view, settings = self.game.view(), self.settings
-        if settings.world == SEEN and self.game.is_in_world:
-            view = dataclasses.replace(view, sight=self.game.sight())
-        if view.f3 is None:
-            return view
+        settings = self.settings
         fps = round(settings.fps if settings.shown_fps is None else settings.shown_fps)
-        return dataclasses.replace(view, f3=dataclasses.replace(view.f3, fps=fps, size=self.window.size))
+        return self.game.view(fps, self.window.size, is_drawn=settings.world == SEEN)
 
     def _title(self) -> str:
         is_shared = len(self.realm.players) > 1

@@ -6,7 +6,6 @@ on the screen, the walker's end is known. If it matches none, or several that en
 walker is watched until it stands still.
 """
 
-from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
@@ -29,6 +28,10 @@ MORE_TICKS = 3
 
 LAG_TICKS = 12
 """Ticks that a hold may be felt longer: in a game that stalls the release comes late (FACTS: Keys; ten at once)."""
+
+
+_ROUNDING = 1e-6
+"""Blocks that the last point of a coasting, a sum of its steps, may lie off its end, which is worked out at once."""
 
 
 @dataclass(frozen=True)
@@ -72,21 +75,44 @@ class _PathPoint(NamedTuple):
     ticks_held: int
 
 
-class _Path:
-    """All points along one axis, found by the distance covered."""
+class _Coasting(NamedTuple):
+    """From where on no key is felt: how far from the path's beginning, the velocity there, the ticks that felt the key.
 
-    def __init__(self, points: list[_PathPoint]) -> None:
-        self._points = sorted(points)
-        self._covered = [point.covered for point in self._points]
+    ``end`` is where the walker comes to a stop.
+    """
+
+    covered: float
+    velocity: float
+    ticks_held: int
+    end: float
+
+
+class _Path:
+    """All points along one axis: those before the key is up for good, and those of each coasting after it.
+
+    Most coastings are never near where a walker is seen, so their points are worked out when they are asked for.
+    """
+
+    def __init__(self, points: list[_PathPoint], coastings: list[_Coasting], inertia: float) -> None:
+        self._points, self._coastings, self._inertia = points, coastings, inertia
+        self._ways = [
+            (min(each.covered, each.end) - _ROUNDING, max(each.covered, each.end) + _ROUNDING, each)
+            for each in coastings
+        ]
 
     def matching(self, covered: float, slack: float) -> list[_PathPoint]:
         """The points that this distance can mean."""
-        first, last = bisect_left(self._covered, covered - slack), bisect_right(self._covered, covered + slack)
-        return self._points[first:last]
+        low, high = covered - slack, covered + slack
+        found = [point for point in self._points if low <= point.covered <= high]
+        for nearest, farthest, coasting in self._ways:
+            if nearest <= high and farthest >= low:
+                found += [point for point in _points_of(coasting, self._inertia) if low <= point.covered <= high]
+        return sorted(found)
 
     def farthest_end(self, ticks_held: int) -> float:
         """The farthest end of the points where the key is up and at most so many ticks have felt it."""
-        return max(point.end for point in self._points if point.is_released and point.ticks_held <= ticks_held)
+        ends = [point.end for point in self._points if point.is_released and point.ticks_held <= ticks_held]
+        return max(ends + [coasting.end for coasting in self._coastings if coasting.ticks_held <= ticks_held])
 
 
 class WalkTracker:
@@ -157,29 +183,32 @@ class WalkTracker:
 
 @lru_cache(256)
 def _coasting_path(velocity: float, inertia: float) -> _Path:
-    return _Path(_coasting_points(0.0, velocity, inertia))
+    coasting = _Coasting(0.0, velocity, 0, coasting_distance(velocity, inertia))
+    return _Path([_PathPoint(0.0, coasting.end, velocity, True, 0)], [coasting], inertia)
 
 
 @lru_cache(64)
 def _hold_path(velocity: float, ticks: int, push: float, inertia: float) -> _Path:
     """Every point of a hold of about ``ticks`` ticks, of the coasting before it and of the coasting after it."""
     points: list[_PathPoint] = []
-    for waits, before in enumerate(_coasting_points(0.0, velocity, inertia)[: MORE_TICKS + 1]):
-        covered, speed = before.covered, before.velocity
+    coastings: list[_Coasting] = []
+    before = _Coasting(0.0, velocity, 0, coasting_distance(velocity, inertia))
+    starts = [(0.0, velocity), *((point.covered, point.velocity) for point in _points_of(before, inertia))]
+    for waits, (covered, speed) in enumerate(starts[: MORE_TICKS + 1]):
         points.append(_PathPoint(covered, covered, speed, False, 0))
         for held in range(1, ticks + (MORE_TICKS if waits else LAG_TICKS) + 1):
             step = step_of(speed, push)
             covered, speed = covered + step, step * inertia
             points.append(_PathPoint(covered, covered, speed, False, held))
-            if held >= ticks - MORE_TICKS:
-                points += _coasting_points(covered, speed, inertia, held)[1:]
-    return _Path(points)
+            if held >= ticks - MORE_TICKS and abs(speed) >= STANDSTILL:
+                coastings.append(_Coasting(covered, speed, held, covered + coasting_distance(speed, inertia)))
+    return _Path(points, coastings, inertia)
 
 
-def _coasting_points(covered: float, velocity: float, inertia: float, ticks_held: int = 0) -> list[_PathPoint]:
-    """The points from here on, with the key up, until the walker stands still."""
-    end = covered + coasting_distance(velocity, inertia)
-    points = [_PathPoint(covered, end, velocity, True, ticks_held)]
+def _points_of(coasting: _Coasting, inertia: float) -> list[_PathPoint]:
+    """The points behind the one where the key came up, until the walker stands still."""
+    covered, velocity, ticks_held, end = coasting
+    points: list[_PathPoint] = []
     while abs(velocity) >= STANDSTILL:
         covered, velocity = covered + velocity, velocity * inertia
         points.append(_PathPoint(covered, end, velocity, True, ticks_held))

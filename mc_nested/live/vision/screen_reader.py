@@ -53,6 +53,7 @@ class ScreenReader:
         self._font = font
         self._overlay = overlay
         self._stood: _Stood | None = None
+        self._last: tuple[Look, Reading] | None = None
         self.last_look: Look | None = None
 
     def read(self) -> Reading:
@@ -79,25 +80,36 @@ class ScreenReader:
         frame = self._display.grab(stood.region)
         if frame.shape[:2] != (stood.region.height, stood.region.width):
             return None
-        dots = GlyphGrid(frame, stood.overlay.scale, min(stood.overlay.colour), 0, stood.pitch)
-        lines = ScreenLines(dots, self._font, stood.overlay, stood.positions)
-        self.last_look = Look(frame, stood.region, lines)
-        reading = read_lines(lines)
+        if (reading := self._read_before(frame)) is None:
+            dots = GlyphGrid(frame, stood.overlay.scale, min(stood.overlay.colour), 0, stood.pitch)
+            lines = ScreenLines(dots, self._font, stood.overlay, stood.positions)
+            reading = self._note(Look(frame, stood.region, lines), read_lines(lines))
         # Only the whole screen can show that no block is looked at: its lines may have moved elsewhere.
         return reading if reading.target else None
 
     def _read_whole(self) -> Reading:
         frame = self._display.grab()
+        if reading := self._read_before(frame):
+            return reading
         self._stood = None
         found = find_debug_screen(frame, self._font, self._overlay)
         if found is None:
-            self.last_look = Look(frame, None, None)
-            return nothing_seen(self._overlay)
+            return self._note(Look(frame, None, None), nothing_seen(self._overlay))
         lines = ScreenLines(found.dots, self._font, found.overlay)
-        self.last_look = Look(frame, None, lines)
         reading = read_lines(lines, found.label)
         if reading.target:
             self._stood = _stood(lines)
+        return self._note(Look(frame, None, lines), reading)
+
+    def _read_before(self, frame: Frame) -> Reading | None:
+        """The last reading, where the display returned the very picture again that it was taken from."""
+        if self._last is None or frame is not self._last[0].frame or frame.flags.writeable:
+            return None
+        self.last_look, reading = self._last
+        return reading
+
+    def _note(self, look: Look, reading: Reading) -> Reading:
+        self.last_look, self._last = look, (look, reading)
         return reading
 
 

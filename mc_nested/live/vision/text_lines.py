@@ -240,9 +240,8 @@ def _is_whole(strip: _Strip, last: int, box: Box) -> bool:
     """
     if 0 in strip.boxed[last + 1 : last + 1 + box.behind] or any(strip.ink[last + 1 : last + 1 + box.behind]):
         return False
-    sides = strip.picture[:, last + box.behind : last + box.behind + 2].astype(np.int16)
-    if sides.shape[1] < 2:
+    first, second = (strip.picture[:, last + box.behind + side : last + box.behind + side + 1] for side in (0, 1))
+    if second.size == 0 or cv2.norm(first, second, cv2.NORM_INF) > _FLAT:
         return True
-    if np.abs(sides[:, 0] - sides[:, 1]).max() > _FLAT:
-        return True
-    return bool(np.abs(sides - box.grey).max() <= _LIKE_THE_BOX)
+    grey = np.full_like(first, box.grey)
+    return max(cv2.norm(side, grey, cv2.NORM_INF) for side in (first, second)) <= _LIKE_THE_BOX

@@ -1,8 +1,10 @@
 """The line that is being typed into the chat: whether it is there, and whether it holds a certain text."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.font import Font
@@ -17,6 +19,7 @@ from mc_nested.live.vision.text_colours import (
     PLAIN,
     RED,
     YELLOW,
+    Colour,
 )
 
 FIRST_COLUMNS = 8
@@ -25,11 +28,19 @@ FIRST_COLUMNS = 8
 _LEFT, _ABOVE_EDGE = 4, 12
 """Dots from the window's left side, and from its lower edge up to the line's top (FACTS: Screens and their buttons)."""
 
-_COLOURS = np.array(
-    [colour[::-1] for colour in (PLAIN, GREY, AQUA, YELLOW, GREEN, LIGHT_PURPLE, GOLD, RED)],
-    np.int16,
-)
-"""Blue, green, red of what is typed: plain, and as the parts of a command are coloured from 1.13 on."""
+_COLOURS = (PLAIN, GREY, AQUA, YELLOW, GREEN, LIGHT_PURPLE, GOLD, RED)
+"""What is typed is plain, and from 1.13 on the parts of a command are coloured. As many as a byte has bits."""
+
+
+def _near(colours: Sequence[Colour]) -> NDArray[np.uint8]:
+    """For a pixel's blue, green and red, by their values (3, 256): bit n where it is near that of colour n."""
+    values = np.arange(256)[:, np.newaxis, np.newaxis]
+    is_near = np.abs(values - np.array(colours)[:, ::-1].T) <= INK_SPREAD
+    return np.packbits(is_near, axis=2, bitorder="little")[..., 0].T
+
+
+_LETTER = _near(_COLOURS)
+_SHADOW = _near([(red >> 2, green >> 2, blue >> 2) for red, green, blue in _COLOURS])
 
 _GROUND = 150
 """Brighter than anything behind the line, which is half black; some channel of any text is brighter still."""
@@ -58,23 +69,27 @@ def typed_line_dots(frame: Frame, scale: int) -> Frame:
 
 def begins_a_line(dots: Frame, font: Font) -> bool:
     """Whether these dots, ``FIRST_COLUMNS`` of them in a row, show a shadowed letter of what is typed."""
-    shown = dots.astype(np.int16)
-    near = np.abs(shown[:, :, np.newaxis] - _COLOURS).max(3) <= INK_SPREAD
-    ink = near[:-1, :-1]
-    lit = ink.any(2)
-    if int(lit.sum()) < _LEAST_INK:
+    near = _colours_near(dots, _LETTER)
+    ink, below = near[:-1, :-1], near[1:, 1:]
+    lit = ink > 0
+    if np.count_nonzero(lit) < _LEAST_INK:
         return False
-    shadow = np.abs(shown[1:, 1:, np.newaxis] - (_COLOURS >> 2)).max(3) <= INK_SPREAD
-    casts = (ink & shadow).any(2)
-    if not (casts | near[1:, 1:].any(2))[lit].all():
+    casts = ink & _colours_near(dots[1:, 1:], _SHADOW)
+    if not (casts | below)[lit].all():
         return False
     columns = np.packbits(lit[:GLYPH_ROWS], axis=0, bitorder="little").tobytes()
     return any(columns.startswith(glyph + b"\0") for glyph in font.glyphs.values())
 
 
+def _colours_near(dots: Frame, near: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """Bit n of each dot (rows, columns) where it is near colour n."""
+    blue, green, red = near
+    return np.asarray(blue[dots[..., 0]] & green[dots[..., 1]] & red[dots[..., 2]])
+
+
 def reads_as(dots: Frame, text: str, font: Font) -> bool:
     """Whether these dots, the whole line's, show exactly that text, and nothing behind it but the cursor."""
-    ink = dots[:GLYPH_ROWS].max(2) > _GROUND
+    ink = cv2.inRange(dots[:GLYPH_ROWS], (0, 0, 0), (_GROUND,) * 3) == 0
     seen = np.packbits(ink, axis=0, bitorder="little").tobytes()
     for line in (f"{text}_", text):
         for shown in _ends(line, len(seen), font):

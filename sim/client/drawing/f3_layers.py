@@ -3,21 +3,19 @@
 The texts are in game/f3_text.py (FACTS: The F3 debug screen).
 """
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import Font
 from sim.client.drawing.f3_groups import group_layers
-from sim.client.drawing.layers import Blend, Layer, draw_all
+from sim.client.drawing.layers import Blend, Group, Layer, draw_all
 from sim.client.drawing.letters import Letters
 from sim.client.game.colours import Colour
-from sim.client.game.f3_text import F3Screen, TextLine, left_lines, right_lines
+from sim.client.game.f3_text import F3Screen, Part, TextLine, left_parts, right_parts
 
 
-@dataclass(frozen=True)
-class _Style:
+class _Style(NamedTuple):
     """How a client draws the screen, in GUI pixels; the alpha is out of 255, the colours are red, green, blue."""
 
     pitch: int
@@ -38,7 +36,7 @@ _STANDIN = _Style(pitch=10, empty=9, edge=1, box=(110, 110, 110), alpha=128, mar
 _VALUES: dict[str, Colour] = {"true": (85, 255, 85), "false": (255, 85, 85)}
 
 _KEPT = 512
-"""Lines whose layers are cached: a screen has about forty, and the next one shares most of them."""
+"""Parts whose layers are cached: a screen has about ten, and the next one shares most of them."""
 
 
 def paint(world: Frame, screen: F3Screen, font: Font) -> Frame:
@@ -54,32 +52,43 @@ def paint(world: Frame, screen: F3Screen, font: Font) -> Frame:
 
 
 class F3Layers:
-    """Debug screens as layers in a window ``width`` pixels wide; a line that didn't change is the same layer again."""
+    """Debug screens as layers in a window ``width`` pixels wide; a part that didn't change is the same layer again."""
 
     def __init__(self, letters: Letters, width: int) -> None:
         self._letters = letters
         # The last GUI pixel may be cut (FACTS: The F3 debug screen).
         self._columns = -(-width // letters.scale)
-        self._line = lru_cache(_KEPT)(self._drawn)
+        self._part = lru_cache(_KEPT)(self._drawn_part)
 
     def of(self, screen: F3Screen) -> list[Layer]:
         """The layers of one debug screen, from the back to the front."""
         if screen.layout == "26.4":
             return group_layers(screen, self._letters)
-        style = _STANDIN if screen.layout == "standin" else _VANILLA
+        is_standin = screen.layout == "standin"
         layers: list[Layer] = []
-        for lines, is_right in ((left_lines(screen), False), (right_lines(screen), True)):
-            drawn = [
-                self._line(line.text, line.value, line.underlined, top, is_right, style)
-                for line, top in _with_tops(lines, style)
-            ]
-            layers += [box for box, _ in drawn]
-            layers += [layer for _, texts in drawn for layer in texts]
+        for parts, is_right in ((left_parts(screen), False), (right_parts(screen), True)):
+            top = (_STANDIN if is_standin else _VANILLA).edge
+            for part in parts:
+                drawn, top = self._part(part, top, is_right, is_standin)
+                layers += drawn
         return layers
 
-    def _drawn(
-        self, text: str, value: str, underlined: bool, top: int, is_right: bool, style: _Style
-    ) -> tuple[Layer, list[Layer]]:
+    def _drawn_part(self, part: Part, top: int, is_right: bool, is_standin: bool) -> tuple[list[Layer], int]:
+        """One layer, or none if all lines are empty, and the top of what stands below, in GUI pixels."""
+        style = _STANDIN if is_standin else _VANILLA
+        boxes: list[Layer] = []
+        texts: list[Layer] = []
+        for line in part:
+            if line.text:
+                box, letters = self._drawn_line(line, top, is_right, style)
+                boxes.append(box)
+                texts += letters
+            top += style.pitch if line.text else style.empty
+        # An underline lies on the next line's box.
+        return [Group((*boxes, *texts))] if boxes else [], top
+
+    def _drawn_line(self, line: TextLine, top: int, is_right: bool, style: _Style) -> tuple[Layer, list[Layer]]:
+        text, value, underlined = line
         width = self._letters.width(text)
         left = self._columns - style.edge - width if is_right else style.edge
         margin = style.margin
@@ -97,12 +106,3 @@ class F3Layers:
     def _blend(self, gui: tuple[int, int, int, int], colour: Colour, alpha: int) -> Blend:
         scale = self._letters.scale
         return Blend((gui[0] * scale, gui[1] * scale, gui[2] * scale, gui[3] * scale), colour, alpha)
-
-
-def _with_tops(lines: list[TextLine], style: _Style) -> Iterator[tuple[TextLine, int]]:
-    """Each line that isn't empty, and its top in GUI pixels."""
-    top = style.edge
-    for line in lines:
-        if line.text:
-            yield line, top
-        top += style.pitch if line.text else style.empty

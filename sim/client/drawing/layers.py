@@ -6,6 +6,7 @@ new layer.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 import cv2
@@ -45,7 +46,7 @@ class Blend:
             under[:] = self.colour[::-1]
         elif len(set(self.colour)) == 1:
             rest = (255 - self.alpha) / 255
-            under[:] = cv2.convertScaleAbs(under, alpha=rest, beta=self.colour[0] * self.alpha / 255)
+            cv2.convertScaleAbs(under, under, rest, self.colour[0] * self.alpha / 255)
         else:
             over = np.array(self.colour[::-1], np.uint16) * self.alpha
             under[:] = (under.astype(np.uint16) * (255 - self.alpha) + over + 127) // 255
@@ -73,8 +74,8 @@ class Gradient:
 class Ink:
     """The dots of a text, made when they are first drawn.
 
-    ``dots`` returns two arrays (height, width, 3), blue green red: a mask of 255 where the background shows, and the
-    colours of the dots, 0 elsewhere.
+    ``dots`` returns two arrays: a mask (height, width) of 255 where there is a dot and 0 where the background shows,
+    and the dots' colours (height, width, 3), blue green red.
     """
 
     rect: Rect
@@ -82,12 +83,25 @@ class Ink:
 
     def draw(self, frame: Frame, part: Rect) -> None:
         left, top, right, bottom = part
-        under = frame[top:bottom, left:right]
         rows = slice(top - self.rect[1], bottom - self.rect[1])
         columns = slice(left - self.rect[0], right - self.rect[0])
-        keep, ink = self.dots()
-        np.bitwise_and(under, keep[rows, columns], out=under)
-        np.bitwise_or(under, ink[rows, columns], out=under)
+        mask, colours = self.dots()
+        cv2.copyTo(colours[rows, columns], mask[rows, columns], frame[top:bottom, left:right])
+
+
+@dataclass(frozen=True, eq=False)
+class Group:
+    """Layers, at least one, that come and go together."""
+
+    layers: Sequence[Layer]
+
+    @cached_property
+    def rect(self) -> Rect:
+        lefts, tops, rights, bottoms = zip(*(layer.rect for layer in self.layers), strict=True)
+        return min(lefts), min(tops), max(rights), max(bottoms)
+
+    def draw(self, frame: Frame, part: Rect) -> None:
+        draw_all(frame, self.layers, part)
 
 
 def intersection(one: Rect, other: Rect) -> Rect | None:

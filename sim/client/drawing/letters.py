@@ -2,7 +2,6 @@
 
 from functools import lru_cache, partial
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,7 +11,11 @@ from sim.client.game.colours import Colour
 
 _KEPT = 256
 _ROWS = 8
-_HIDES = np.array([(255,) * 3, (0,) * 3, (0,) * 3], np.uint8)
+_DOTS = [bytes(255 * (column >> row & 1) for column in range(256)) for row in range(_ROWS)]
+"""For each row of dots, 255 or 0 by a column's byte."""
+
+_SHEET = 512
+"""Pixels of which a sheet of one colour is a multiple as wide."""
 
 
 class Letters:
@@ -41,18 +44,27 @@ class Letters:
         return b"".join([glyphs.get(char, unknown) for char in text])
 
     def _drawn(self, text: str, colour: Colour, shadow: bool, size: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
-        columns = np.frombuffer(self._columns(text), np.uint8)[np.newaxis]
-        dots = np.unpackbits(columns, axis=0, bitorder="little").astype(bool)
-        whole = np.zeros((_ROWS + shadow, columns.shape[1] + shadow), np.uint8)
-        if shadow:
-            whole[1:, 1:][dots] = 2
-        whole[:_ROWS, : columns.shape[1]][dots] = 1
+        columns, step = self._columns(text), self.scale * size
+        rows = b"".join([columns.translate(row) for row in _DOTS])
+        lit = np.frombuffer(rows, np.uint8).reshape(_ROWS, len(columns))
+        if not shadow:
+            mask = _enlarged(lit, step)
+            height, width = mask.shape
+            return mask, _sheet(colour, height, -(-width // _SHEET) * _SHEET)[:, :width]
+        whole = np.zeros((_ROWS + 1, len(columns) + 1), np.uint8)
+        whole[1:, 1:] = lit
         # The game's shadow (FACTS: Screens and their buttons): the colour's upper six bits, shifted right by two.
-        shades = np.array([(0, 0, 0), colour[::-1], [(part & 0xFC) >> 2 for part in colour[::-1]]], np.uint8)
-        return self._enlarged(_HIDES[whole], size), self._enlarged(shades[whole], size)
+        colours = np.full((*whole.shape, 3), [(part & 0xFC) >> 2 for part in colour[::-1]], np.uint8)
+        colours[:_ROWS, :-1][lit > 0] = colour[::-1]
+        whole[:_ROWS, :-1] |= lit
+        return _enlarged(whole, step), _enlarged(colours, step)
 
-    def _enlarged(self, dots: NDArray[np.uint8], size: int) -> NDArray[np.uint8]:
-        step = self.scale * size
-        if not dots.size:
-            return dots
-        return np.asarray(cv2.resize(dots, None, fx=step, fy=step, interpolation=cv2.INTER_NEAREST), np.uint8)
+
+def _enlarged(dots: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
+    return dots.repeat(step, 1).repeat(step, 0)
+
+
+@lru_cache(32)
+def _sheet(colour: Colour, height: int, width: int) -> NDArray[np.uint8]:
+    """Nothing but that colour: texts without a shadow share it."""
+    return np.full((height, width, 3), colour[::-1], np.uint8)

@@ -21,11 +21,11 @@ class LayeredPicture:
         self._background = background
         self._layers: Sequence[Layer] = ()
         self._stale: list[Rect] = [self._whole]
-        self._last: tuple[Region | None, Frame] | None = None
+        self._grabbed: dict[Region | None, Frame] = {}
 
     def show(self, background: Frame, layers: Sequence[Layer]) -> None:
         """Show these layers over this background of the same size from now on."""
-        self._last = None
+        self._grabbed.clear()
         if background is not self._background:
             self._stale = [self._whole]
         else:
@@ -41,12 +41,10 @@ class LayeredPicture:
 
         It is read-only: where nothing has changed, the same array is returned again.
         """
-        if self._last is not None and self._last[0] == region:
-            return self._last[1]
-        frame = self._grab(region)
-        frame.flags.writeable = False
-        self._last = region, frame
-        return frame
+        if region not in self._grabbed:
+            frame = self._grabbed[region] = self._grab(region)
+            frame.flags.writeable = False
+        return self._grabbed[region]
 
     def _grab(self, region: Region | None) -> Frame:
         part = self._whole
@@ -55,12 +53,9 @@ class LayeredPicture:
             part = intersection(wanted, self._whole) or (0, 0, 0, 0)
         kept = []
         for stale in self._stale:
-            if intersection(stale, part):
-                left, top, right, bottom = stale
-                upper, lower = max(top, part[1]), min(bottom, part[3])
-                self._redraw((left, upper, right, lower))
-                kept += [(left, top, right, upper)] if top < upper else []
-                kept += [(left, lower, right, bottom)] if lower < bottom else []
+            if inside := intersection(stale, part):
+                self._redraw(inside)
+                kept += _around(stale, inside)
             else:
                 kept.append(stale)
         self._stale = kept
@@ -78,6 +73,19 @@ class LayeredPicture:
         left, top, right, bottom = part
         self._frame[top:bottom, left:right] = self._background[top:bottom, left:right]
         draw_all(self._frame, self._layers, part)
+
+
+def _around(rect: Rect, inside: Rect) -> list[Rect]:
+    """What is left of a rectangle without one inside it."""
+    left, top, right, bottom = rect
+    from_left, from_top, to_right, to_bottom = inside
+    around = [
+        (left, top, right, from_top),
+        (left, to_bottom, right, bottom),
+        (left, from_top, from_left, to_bottom),
+        (to_right, from_top, right, to_bottom),
+    ]
+    return [rect for rect in around if rect[0] < rect[2] and rect[1] < rect[3]]
 
 
 def _contains(one: Rect, other: Rect) -> bool:

@@ -3,6 +3,7 @@
 from collections import deque
 from dataclasses import dataclass
 from itertools import islice
+from typing import NamedTuple
 
 from sim.client.game.colours import RED, WHITE, Colour
 
@@ -23,8 +24,7 @@ class Message:
     born: int
 
 
-@dataclass(frozen=True)
-class ChatLine:
+class ChatLine(NamedTuple):
     """A message as it is seen; ``opacity`` is out of 8."""
 
     text: str
@@ -74,4 +74,6 @@ class VirtualChat:
 
 
 def _opacity(age: int) -> int:
+    if age <= _LASTS * 9 // 10:
+        return _STEPS
     return round(_STEPS * min(1.0, max(0.0, 10 * (1 - age / _LASTS))) ** 2)

@@ -30,7 +30,7 @@ class Edition:
         """Whether this version is that one or a newer one."""
         return self._numbers >= numbers
 
-    @property
+    @cached_property
     def layout(self) -> Layout:
         """The layout of its debug screen (FACTS: The F3 debug screen)."""
         return next(layout for first, layout in _LAYOUTS if self.since(*first))

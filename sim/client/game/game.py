@@ -11,7 +11,7 @@ from sim.client.game.commands import chat_line
 from sim.client.game.edition import Edition
 from sim.client.game.f3_text import F3Screen
 from sim.client.game.gaits import Gaits
-from sim.client.game.keys import GameKeys
+from sim.client.game.keys import HOTBAR, GameKeys
 from sim.client.game.realm import SLOTS, Realm
 from sim.client.game.screens import DEATH_WAIT, IN_WORLD, Effect, MenuState, ScreenName
 from sim.client.game.view import Eye, Sight, View
@@ -75,6 +75,7 @@ class VirtualGame:
         self._rested_at: tuple[int, physics.Vector] | None = None
         self._looked: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
         self._looked_on_f3: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
+        self._shown_f3: tuple[tuple[object, ...], F3Screen | None] = ((), None)
         self._before = self._aim()
 
     @property
@@ -174,21 +175,24 @@ class VirtualGame:
             if self.realm.player.feet[1] < self.realm.world.floor - _VOID:
                 self.die()
 
-    def view(self) -> View:
-        """What the game shows now."""
+    def view(self, fps: int = 60, size: tuple[int, int] = (854, 480), *, is_drawn: bool = False) -> View:
+        """What the game shows now; its debug screen names ``fps`` frames a second and a window of that size in pixels.
+
+        ``is_drawn`` adds the world as the player sees it.
+        """
         player = self.realm.player
         is_ready = self.screen != "death" or self.ticks - self._since >= DEATH_WAIT
         state = MenuState(self.screen, is_ready, self.is_world_chosen, self.reason)
         if not self.is_in_world:
             return View(state, (0, 0, 0), pointer=self.pointer, notices=self.notices)
         pointer = (-1, -1) if self.screen == "world" else self.pointer
-        scene = block_of(player.feet)
+        scene, sight = block_of(player.feet), self.sight() if is_drawn else None
         if self.hides_hud:
-            return View(state, scene, pointer=pointer, notices=self.notices)
+            return View(state, scene, pointer=pointer, notices=self.notices, sight=sight)
         return View(
             state,
             scene,
-            self._f3() if self.has_f3 else None,
+            self._f3(fps, size) if self.has_f3 else None,
             tuple(player.hotbar),
             player.slot,
             self.chat.lines(self.ticks),
@@ -196,6 +200,7 @@ class VirtualGame:
             player.mode == "creative",
             pointer,
             self.notices,
+            sight,
         )
 
     def sight(self) -> Sight:
@@ -257,18 +262,20 @@ class VirtualGame:
         """Handle keys in order: the hotbar, attacks, uses, a held use, the inventory; the chat last."""
         keys, player = self.keys, self.realm.player
         self._use_delay = max(0, self._use_delay - 1)
-        target = self.target_block(self.reach())
-        for slot in range(SLOTS):
-            if keys.presses(f"hotbar.{slot}"):
+        for slot, binding in enumerate(HOTBAR):
+            if keys.presses(binding):
                 player.slot = slot
         if keys.presses("drop"):
             player.hotbar[player.slot] = None
-        if keys.presses("attack") and target is not None and player.mode == "creative":
-            self.realm.world.put(target.block, AIR)
-        for _ in range(keys.presses("use")):
-            self._use(target)
-        if keys.is_held("use") and not self._use_delay:
-            self._use(target)
+        attacks, uses = keys.presses("attack"), keys.presses("use")
+        if attacks or uses or keys.is_held("use"):
+            target = self.target_block(self.reach())
+            if attacks and target is not None and player.mode == "creative":
+                self.realm.world.put(target.block, AIR)
+            for _ in range(uses):
+                self._use(target)
+            if keys.is_held("use") and not self._use_delay:
+                self._use(target)
         if keys.presses("inventory"):
             self.open("inventory")
         elif keys.presses("chat"):
@@ -344,10 +351,18 @@ class VirtualGame:
             player.velocity = (0.0 if stays_x else east, up, 0.0 if stays_z else south)
             player.feet = feet
 
-    def _f3(self) -> F3Screen:
+    def _f3(self, fps: int, size: tuple[int, int]) -> F3Screen | None:
+        realm, player = self.realm, self.realm.player
+        hit = self.target_on_f3() if self._shows_target else None
+        is_reduced = realm.rule("reducedDebugInfo", "reduced_debug_info", False)
+        now = (player.feet, player.yaw, player.pitch, hit, realm.world.revision, is_reduced, fps, size)
+        if self._shown_f3[0] != now:
+            self._shown_f3 = now, self._new_f3(hit, fps, size, is_reduced=is_reduced)
+        return self._shown_f3[1]
+
+    def _new_f3(self, hit: ray.Hit | None, fps: int, size: tuple[int, int], *, is_reduced: bool) -> F3Screen:
         realm = self.realm
         player, edition = realm.player, self.edition
-        hit = self.target_on_f3() if self._shows_target else None
         name = realm.world.block_at(hit.block) if hit else ""
         return F3Screen(
             edition.layout,
@@ -357,6 +372,8 @@ class VirtualGame:
             player.pitch,
             target=Target(hit.block, edition.shown_id(name)) if hit else None,
             tags=tags_of(name, edition),
-            reduced=realm.rule("reducedDebugInfo", "reduced_debug_info", False),
+            reduced=is_reduced,
             version=edition.version,
+            fps=fps,
+            size=size,
         )

@@ -6,6 +6,9 @@ Movement counts where a key is down at a tick; everything else counts its presse
 from collections import Counter
 from collections.abc import Mapping
 
+HOTBAR = tuple(f"hotbar.{slot}" for slot in range(9))
+"""The actions that choose a slot."""
+
 BINDINGS = {
     "w": "forward",
     "s": "back",
@@ -20,7 +23,7 @@ BINDINGS = {
     "/": "command",
     "left button": "attack",
     "right button": "use",
-    **{str(slot + 1): f"hotbar.{slot}" for slot in range(9)},
+    **{str(number): action for number, action in enumerate(HOTBAR, 1)},
 }
 """The game's own keys."""
 
