@@ -8,16 +8,20 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import sysconfig
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 ENVIRONMENT = ROOT / ".venv"
 STAMP = ENVIRONMENT / "installed"
 OLDEST_PYTHON = (3, 10)
+ENDS_WITHIN_S = 20.0
+"""Seconds for a command to end by itself, after the terminal's Ctrl+C, before it is asked, and asked more firmly."""
 
 
 def main_python(extras: Sequence[str] = ()) -> Path:
@@ -47,10 +51,38 @@ def install(python: Path, extras: Sequence[str], project: Sequence[str]) -> None
 
 
 def run(command: Sequence[str | Path], variables: Mapping[str, str] | None = None) -> int:
-    """Run a command in the project's root, with these environment variables too, and return its exit code."""
-    environment = {**os.environ, **(variables or {})}
-    words = [str(part) for part in command]
-    return subprocess.run(words, cwd=ROOT, env=environment, check=False).returncode  # noqa: S603 - our own
+    """Run a command in the project's root, with these environment variables too, and return its exit code.
+
+    Ctrl+C ends it before it is raised.
+    """
+    process = start(command, variables)
+    try:
+        return process.wait()
+    finally:
+        end(process)
+
+
+def start(
+    command: Sequence[str | Path], variables: Mapping[str, str] | None = None, output: int | None = None
+) -> subprocess.Popen[bytes]:
+    """Start a command in the project's root, with these environment variables too; ``output`` is a file's number."""
+    words, everything = [str(part) for part in command], {**os.environ, **(variables or {})}
+    return subprocess.Popen(words, cwd=ROOT, env=everything, stdout=output, stderr=output and subprocess.STDOUT)  # noqa: S603 - our own
+
+
+def end(process: subprocess.Popen[bytes]) -> None:
+    """End a command that still runs, and what it has started: as Ctrl+C does, unless that is under way already."""
+    asks: Sequence[Callable[[], None]] = (
+        lambda: None,
+        lambda: process.send_signal(signal.SIGINT if os.name == "posix" else signal.SIGTERM),
+        process.terminate,
+        process.kill,
+    )
+    for ask in asks:
+        if process.poll() is None:
+            ask()
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(ENDS_WITHIN_S)
 
 
 def _make_environment() -> None:

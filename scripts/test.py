@@ -1,10 +1,19 @@
-"""README's second command: every check that a commit must pass, in the project's own environment.
+"""README's second command: the checks that a commit must pass, in the project's own environment; with --all, every one.
 
-Usage: python scripts/test.py
+Usage: python scripts/test.py [--all | --only NAME]
+
+Every check is run, even after one has failed. Exit code 1 where any failed, 130 after Ctrl+C.
 """
 
+import argparse
+import shutil
+import subprocess
 import sys
+import tempfile
 import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
@@ -14,7 +23,7 @@ EXTRAS = ["dev", "bench"]
 """What is installed beside the project: bench brings stable-baselines3, which an example and the benchmark train."""
 
 REAL = "standin or realtime or window or wine"
-"""The markers of the tests that play in real time: never two of them at once."""
+"""The markers of the tests that play in real time."""
 
 OTHERS = f"slow or {REAL}"
 """The markers of the tests that the unit suite leaves out."""
@@ -32,40 +41,152 @@ KERNELS = [
 ]
 """Tests of compiled code that is quick enough in plain Python, where an index out of bounds is an error."""
 
-CHECKS = {
-    "lint": ["ruff", "check", "."],
-    "format": ["ruff", "format", "--check", "."],
-    "types": ["mypy"],
-    "import contracts": ["lint-imports"],
-    "documentation": ["mkdocs", "build", "--strict"],
-    "compiled code in plain Python": ["pytest", *KERNELS, "--cov", "--cov-report=", "--cov-fail-under=0"],
-    "unit tests": ["pytest", "-n", "2", "-m", f"not ({OTHERS})", "--cov", "--cov-append", "--cov-report="],
-    "branch coverage": ["coverage", "report", "--skip-covered"],
-    "slow tests": ["pytest", "-n", "2", "-m", f"slow and not ({REAL})"],
-    "real-time tests": ["pytest", "-m", REAL],
+LOOK_S = 0.5
+"""Seconds between two looks at a check that runs beside others."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """One row: a command of the environment, and about how many minutes it takes on two cores.
+
+    ``variables`` are environment variables; ``downloads`` what it fetches on a new machine; ``is_beside`` whether it
+    runs beside the checks that follow, which wait more than they compute, and comes after them wherever both could run.
+    """
+
+    command: Sequence[str]
+    minutes: float
+    variables: Mapping[str, str] = field(default_factory=dict)
+    downloads: str = ""
+    is_beside: bool = False
+
+
+STATIC = {
+    "lint": Check(["ruff", "check", "."], 0.1),
+    "format": Check(["ruff", "format", "--check", "."], 0.1),
+    "types": Check(["mypy"], 0.7),
+    "import contracts": Check(["lint-imports"], 0.2),
 }
 
+UNIT = ["pytest", "-n", "2", "-m", f"not ({OTHERS})"]
 
-VARIABLES = {
-    "compiled code in plain Python": {"NUMBA_DISABLE_JIT": "1"},
-    "documentation": {"NO_MKDOCS_2_WARNING": "1"},  # it says that mkdocs-material ends in 2027
+COMMIT = {**STATIC, "unit tests": Check(UNIT, 3)}
+"""What a commit must pass."""
+
+ALL = {
+    **STATIC,
+    # The warning says that mkdocs-material ends in 2027.
+    "documentation": Check(["mkdocs", "build", "--strict"], 0.3, {"NO_MKDOCS_2_WARNING": "1"}),
+    "compiled code in plain Python": Check(
+        ["pytest", *KERNELS, "--cov", "--cov-report=", "--cov-fail-under=0"], 0.8, {"NUMBA_DISABLE_JIT": "1"}
+    ),
+    "unit tests": Check([*UNIT, "--hypothesis-profile=all", "--cov", "--cov-append", "--cov-report="], 6),
+    "branch coverage": Check(["coverage", "report", "--skip-covered"], 0.2),
+    "slow tests": Check(
+        ["pytest", "-n", "2", "--dist", "loadgroup", "-m", f"slow and not ({REAL})"], 25, is_beside=True
+    ),
+    "real-time tests": Check(
+        ["pytest", "-n", "3", "--dist", "loadgroup", "-m", "realtime or window or wine"],
+        15,
+        downloads="1.8 GB for Wine and a Windows Python",
+    ),
+    "stand-in tests": Check(["pytest", "-m", "standin"], 8, downloads="0.8 GB for the stand-in, a game in a browser"),
 }
-"""Environment variables of a check."""
+"""Everything that CI runs."""
 
 
-def main() -> int:
-    """Run every check, even after one failed; 1 where any failed."""
-    python = environment.main_python(EXTRAS)
-    outcome = {}
-    for name, command in CHECKS.items():
-        print(f"\n== {name}: {' '.join(command)}", flush=True)
-        began = time.monotonic()
-        code = environment.run([python.parent / command[0], *command[1:]], VARIABLES.get(name))
-        outcome[name] = code, time.monotonic() - began
-    print()
-    for name, (code, seconds) in outcome.items():
-        print(f"{'failed' if code else 'passed'}  {name} ({seconds:.0f} s)")
-    return 1 if any(code for code, _ in outcome.values()) else 0
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the checks that are asked for; returns the exit code."""
+    parser = argparse.ArgumentParser(description="The checks that a commit must pass, and with --all every other.")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--all", action="store_true", help="everything that CI runs")
+    which.add_argument("--only", metavar="NAME", choices=ALL, help=f"one check of --all: {', '.join(ALL)}")
+    wanted = parser.parse_args(arguments)
+    checks = {wanted.only: ALL[wanted.only]} if wanted.only else ALL if wanted.all else COMMIT
+    print("\n".join(announcement(checks)), flush=True)
+    try:
+        outcomes = run_all(checks, environment.main_python(EXTRAS).parent)
+    except KeyboardInterrupt:
+        print("\nstopped")
+        return 130
+    print("\n" + "\n".join(table(outcomes)))
+    return 1 if any(code for code, _ in outcomes.values()) else 0
+
+
+def announcement(checks: Mapping[str, Check]) -> list[str]:
+    """What will be run, how long that takes, and what is fetched for it."""
+    rows = [f"  {name:<30} about {check.minutes:g} min" for name, check in checks.items()]
+    beside = [check.minutes for check in checks.values() if check.is_beside]
+    alone = sum(check.minutes for check in checks.values() if not check.is_beside)
+    real = sum(check.minutes for name, check in checks.items() if name in ("real-time tests", "stand-in tests"))
+    minutes = alone + max(0.0, sum(beside) - real)
+    downloads = ["the project's packages, torch among them, if .venv lacks them"]
+    downloads += [f"{check.downloads}, on Linux as root" for check in checks.values() if check.downloads]
+    return [
+        *("Runs, on two cores:", *rows),
+        f"About {minutes:.0f} minutes in all; more the first time, when what is compiled is compiled.",
+        f"Downloads: {'; '.join(downloads)}.",
+    ]
+
+
+def run_all(checks: Mapping[str, Check], programs: Path) -> dict[str, tuple[int, float]]:
+    """Each check's exit code and how many seconds it took; one that runs beside others is shown after them."""
+    outcomes: dict[str, tuple[int, float]] = {}
+    with ExitStack() as stack:
+        beside: dict[str, BesideRun] = {}
+        for name, check in checks.items():
+            command: list[str | Path] = [programs / check.command[0], *check.command[1:]]
+            print(f"\n== {name}: {' '.join(check.command)}", flush=True)
+            if check.is_beside and len(checks) > 1:
+                print("runs beside the checks that follow, and is shown after them", flush=True)
+                beside[name] = stack.enter_context(running_beside(command, check.variables))
+                continue
+            began = time.monotonic()
+            outcomes[name] = environment.run(command, check.variables), time.monotonic() - began
+        for name, run in beside.items():
+            print(f"\n== {name}, beside the checks before", flush=True)
+            outcomes[name] = run.show()
+    return {name: outcomes[name] for name in checks}
+
+
+@dataclass(frozen=True)
+class BesideRun:
+    """A command that runs since ``began``, and the file that it prints into."""
+
+    process: subprocess.Popen[bytes]
+    printed: Path
+    began: float
+
+    def show(self) -> tuple[int, float]:
+        """Print what it has printed, and what it goes on to print; returns its exit code and how long it took."""
+        with self.printed.open(encoding="utf-8", errors="replace") as printed:
+            while True:
+                code = self.process.poll()
+                print(printed.read(), end="", flush=True)
+                if code is not None:
+                    return code, time.monotonic() - self.began
+                time.sleep(LOOK_S)
+
+
+@contextmanager
+def running_beside(command: Sequence[str | Path], variables: Mapping[str, str]) -> Iterator[BesideRun]:
+    """A command that gives way to others until the block ends, and ends with it."""
+    # nice counts among the processes of one session alone, so this gets none of its own.
+    gives_way = ["nice", "-n", "19"] if shutil.which("nice") else []
+    with tempfile.TemporaryDirectory() as folder:
+        printed = Path(folder) / "printed.txt"
+        with printed.open("wb") as output:
+            process = environment.start([*gives_way, *command], variables, output.fileno())
+        try:
+            yield BesideRun(process, printed, time.monotonic())
+        finally:
+            environment.end(process)
+
+
+def table(outcomes: Mapping[str, tuple[int, float]]) -> list[str]:
+    """A row a check: whether it passed, and how long it took."""
+    return [
+        f"{'failed' if code else 'passed'}  {name:<30} {seconds:6.0f} s" for name, (code, seconds) in outcomes.items()
+    ]
 
 
 if __name__ == "__main__":

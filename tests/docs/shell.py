@@ -12,7 +12,7 @@ from tests.docs.pages import ROOT, Step
 from tests.docs.rules import FILES
 from tests.docs.virtual_desktop import YES
 
-LONGEST_S = 180.0
+LONGEST_S = 360.0
 """A command that takes longer, even on a busy machine, needs smaller sizes (rules.py)."""
 
 OPTIONS = {"lang": "en_us", "guiScale": "2", "autoJump": "false", "pauseOnLostFocus": "false", "fullscreen": "false"}

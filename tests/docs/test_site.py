@@ -12,7 +12,7 @@ from urllib.parse import unquote, urldefrag
 import pytest
 
 from scripts.documentation.command_reference import options_of, verbs
-from scripts.test import CHECKS, VARIABLES
+from scripts.test import ALL
 from tests.docs.pages import ROOT, pages
 
 pytestmark = pytest.mark.slow
@@ -53,9 +53,10 @@ class PageReader(HTMLParser):
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The site as scripts/test.py builds it."""
     folder = tmp_path_factory.mktemp("site")
-    program, *words = CHECKS["documentation"]
+    check = ALL["documentation"]
+    program, *words = check.command
     command = [sys.executable, "-m", program, *words, "--site-dir", str(folder)]
-    environment = {**os.environ, **VARIABLES["documentation"]}
+    environment = {**os.environ, **check.variables}
     built = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
     assert built.returncode == 0, built.stderr
     assert "WARNING" not in built.stderr

@@ -1,14 +1,93 @@
-"""What scripts/test.py runs is there: a test file that has moved would leave its check with nothing to run."""
+"""scripts/test.py: what it says, that it goes on after a failure, and that what it runs is there."""
 
+import os
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-from scripts.test import KERNELS
+from scripts.test import ALL, COMMIT, KERNELS, Check, announcement, main, run_all, table
 
 ROOT = Path(__file__).parents[2]
+PYTHON = Path(sys.executable)
+
+# Starts what stays, and says so; ends what it has started when it is ended.
+STAYS = (
+    "import subprocess, sys; "
+    "subprocess.run([sys.executable, '-c', 'import time; print(1, flush=True); time.sleep(60)'])"
+)
+
+
+def script(code: str, *, is_beside: bool = False) -> Check:
+    return Check([PYTHON.name, "-c", code], 1, is_beside=is_beside)
 
 
 @pytest.mark.parametrize("path", KERNELS)
 def test_tests_of_compiled_code_are_where_it_looks_for_them(path: str) -> None:
     assert (ROOT / path).is_file()
+
+
+def test_a_commit_needs_nothing_that_all_does_not_have() -> None:
+    assert set(COMMIT) < set(ALL)
+
+
+def test_it_says_how_long_each_check_takes_and_what_is_fetched() -> None:
+    checks = {
+        "quick": Check(["a"], 0.5),
+        "beside": Check(["b"], 10, is_beside=True),
+        "real-time tests": Check(["c"], 4, downloads="1.8 GB for Wine"),
+    }
+    said = announcement(checks)
+    assert "  beside                         about 10 min" in said
+    assert any(line.startswith("About 10 minutes in all") for line in said)  # 0.5 + 4, and the 6 that are left of 10
+    assert any("1.8 GB for Wine" in line for line in said)
+
+
+def test_a_failure_ends_nothing_and_stands_in_the_table(capfd: pytest.CaptureFixture[str]) -> None:
+    checks = {
+        "first": script("import sys; sys.exit(3)"),
+        "beside": script("print('from beside')", is_beside=True),
+        "last": script("print('from the last')"),
+    }
+    outcomes = run_all(checks, PYTHON.parent)
+    assert [code for code, _ in outcomes.values()] == [3, 0, 0]
+    assert list(outcomes) == ["first", "beside", "last"]
+    said = capfd.readouterr().out
+    assert said.index("\nfrom the last") < said.index("\nfrom beside")
+    assert [row.split()[:2] for row in table(outcomes)] == [
+        ["failed", "first"],
+        ["passed", "beside"],
+        ["passed", "last"],
+    ]
+
+
+def test_a_check_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["--only", "nothing"])
+    assert ended.value.code == 2
+    assert "invalid choice: 'nothing'" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows sends no signal to a group")
+@pytest.mark.parametrize("is_beside", [False, True])
+def test_ctrl_c_ends_everything_that_was_started(*, is_beside: bool) -> None:
+    checks = "{'beside': beside, 'stays': stays}" if is_beside else "{'stays': stays}"
+    program = (
+        "import sys; from pathlib import Path; from scripts.test import Check, run_all\n"
+        f"stays = Check([Path(sys.executable).name, '-c', {STAYS!r}], 1)\n"
+        "beside = Check(stays.command, 1, is_beside=True)\n"
+        f"run_all({checks}, Path(sys.executable).parent)"
+    )
+    command = [sys.executable, "-c", program]
+    with subprocess.Popen(
+        command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, start_new_session=True
+    ) as running:
+        assert running.stdout is not None
+        while running.stdout.readline() != "1\n":
+            pass
+        os.killpg(running.pid, signal.SIGINT)  # as the terminal does
+        running.wait(30)
+        with pytest.raises(ProcessLookupError):
+            os.killpg(running.pid, 0)  # nobody of the group is left

@@ -194,7 +194,8 @@ def _hold_path(velocity: float, ticks: int, push: float, inertia: float) -> _Pat
     coastings: list[_Coasting] = []
     before = _Coasting(0.0, velocity, 0, coasting_distance(velocity, inertia))
     starts = [(0.0, velocity), *((point.covered, point.velocity) for point in _points_of(before, inertia))]
-    for waits, (covered, speed) in enumerate(starts[: MORE_TICKS + 1]):
+    for waits, start in enumerate(starts[: MORE_TICKS + 1]):
+        covered, speed = start
         points.append(_PathPoint(covered, covered, speed, False, 0))
         for held in range(1, ticks + (MORE_TICKS if waits else LAG_TICKS) + 1):
             step = step_of(speed, push)

@@ -36,7 +36,7 @@ def _near(colours: Sequence[Colour]) -> NDArray[np.uint8]:
     """For a pixel's blue, green and red, by their values (3, 256): bit n where it is near that of colour n."""
     values = np.arange(256)[:, np.newaxis, np.newaxis]
     is_near = np.abs(values - np.array(colours)[:, ::-1].T) <= INK_SPREAD
-    return np.packbits(is_near, axis=2, bitorder="little")[..., 0].T
+    return np.asarray(np.packbits(is_near, axis=2, bitorder="little")[..., 0].T, np.uint8)
 
 
 _LETTER = _near(_COLOURS)

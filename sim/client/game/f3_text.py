@@ -155,9 +155,7 @@ def _position(screen: F3Screen) -> list[Part]:
     chunk = f"Chunk: {inside} in {x >> 4} {y >> 4} {z >> 4}"
     if layout in ("1.19.3-1.21.8", "1.21.9-26.3", "26.4"):
         chunk = f"Chunk: {x >> 4} {y >> 4} {z >> 4} [{x >> 4 & 31} {z >> 4 & 31} in r.{x >> 9}.{z >> 9}.mca]"
-    section = (
-        [f"Section-relative: {x & 15:02d} {y & 15:02d} {z & 15:02d}"] if layout in ("1.21.9-26.3", "26.4") else []
-    )
+    section = [f"Section-relative: {x & 15:02d} {y & 15:02d} {z & 15:02d}"] if layout in ("1.21.9-26.3", "26.4") else []
     return [
         _plain(f"XYZ: {px:.3f} / {py:.5f} / {pz:.3f}"),
         _plain(block, *section, chunk),

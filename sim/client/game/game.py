@@ -267,15 +267,7 @@ class VirtualGame:
                 player.slot = slot
         if keys.presses("drop"):
             player.hotbar[player.slot] = None
-        attacks, uses = keys.presses("attack"), keys.presses("use")
-        if attacks or uses or keys.is_held("use"):
-            target = self.target_block(self.reach())
-            if attacks and target is not None and player.mode == "creative":
-                self.realm.world.put(target.block, AIR)
-            for _ in range(uses):
-                self._use(target)
-            if keys.is_held("use") and not self._use_delay:
-                self._use(target)
+        self._handle_clicks()
         if keys.presses("inventory"):
             self.open("inventory")
         elif keys.presses("chat"):
@@ -283,6 +275,19 @@ class VirtualGame:
         elif keys.presses("command"):
             self.open("chat")
             self.chat.insert("/")
+
+    def _handle_clicks(self) -> None:
+        keys = self.keys
+        attacks, uses = keys.presses("attack"), keys.presses("use")
+        if not (attacks or uses or keys.is_held("use")):
+            return
+        target = self.target_block(self.reach())
+        if attacks and target is not None and self.realm.player.mode == "creative":
+            self.realm.world.put(target.block, AIR)
+        for _ in range(uses):
+            self._use(target)
+        if keys.is_held("use") and not self._use_delay:
+            self._use(target)
 
     def _use(self, target: ray.Hit | None) -> None:
         """Right-click: place the block in hand, unless the game refuses (FACTS: Standing, looking, placing)."""

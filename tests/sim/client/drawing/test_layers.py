@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mc_nested.live.devices import Frame
-from sim.client.drawing.layers import Blend, Gradient, Ink, Rect, draw_all, intersection
+from sim.client.drawing.layers import Blend, Gradient, Group, Ink, Rect, draw_all, intersection
 from sim.client.game.colours import Colour
 
 
@@ -63,15 +63,24 @@ def test_a_part_of_a_gradient_is_that_part_of_the_whole() -> None:
 
 
 def test_ink_hides_the_background_at_its_dots_alone() -> None:
-    keep, ink = np.full((2, 2, 3), 255, np.uint8), np.zeros((2, 2, 3), np.uint8)
-    keep[0, 1], ink[0, 1] = 0, (1, 2, 3)
+    mask, colours = np.zeros((2, 2), np.uint8), np.full((2, 2, 3), (1, 2, 3), np.uint8)
+    mask[0, 1] = 255
     frame = grey(100)
-    draw_all(frame, [Ink((4, 5, 6, 7), lambda: (keep, ink))], (0, 0, 20, 10))
+    draw_all(frame, [Ink((4, 5, 6, 7), lambda: (mask, colours))], (0, 0, 20, 10))
     assert frame[5, 5].tolist() == [1, 2, 3]
     frame[5, 5] = 100
     assert (frame == 100).all()
-    draw_all(frame, [Ink((4, 5, 6, 7), lambda: (keep, ink))], (5, 5, 6, 6))
+    draw_all(frame, [Ink((4, 5, 6, 7), lambda: (mask, colours))], (5, 5, 6, 6))
     assert frame[5, 5].tolist() == [1, 2, 3]
+
+
+def test_a_group_is_as_large_as_its_layers_and_draws_them_in_their_order() -> None:
+    group = Group((Blend((3, 2, 6, 4), (10, 10, 10), 255), Blend((5, 1, 9, 3), (20, 20, 20), 255)))
+    assert group.rect == (3, 1, 9, 4)
+    frame = grey(0)
+    draw_all(frame, [group], (4, 2, 20, 10))
+    assert frame[2, 3:10, 0].tolist() == [0, 10, 20, 20, 20, 20, 0]
+    assert not frame[1].any()
 
 
 def test_later_layers_are_over_earlier_ones_and_only_in_the_part() -> None:

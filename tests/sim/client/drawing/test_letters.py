@@ -38,7 +38,7 @@ def test_a_text_is_as_wide_as_its_letters_with_a_gap_after_each() -> None:
 def test_a_character_that_the_font_lacks_is_a_question_mark() -> None:
     letters = Letters(FONT, 1)
     assert letters.width("\u6728") == letters.width("?")
-    shown, expected = (letters.text(text, 0, 0, WHITE).dots()[1] for text in ("\u6728", "?"))
+    shown, expected = (letters.text(text, 0, 0, WHITE).dots()[0] for text in ("\u6728", "?"))
     assert np.array_equal(shown, expected)
 
 
@@ -48,19 +48,18 @@ def test_a_large_text_covers_twice_the_size_at_its_scale(shadow: bool, rect: tup
     text = letters.text("!", 2, 3, WHITE, shadow=shadow, size=2)
     assert letters.width("!") == 2
     assert text.rect == rect
-    keep, ink = text.dots()
-    assert keep.shape == ink.shape == (rect[3] - rect[1], rect[2] - rect[0], 3)
+    mask, colours = text.dots()
+    assert mask.shape == (rect[3] - rect[1], rect[2] - rect[0])
+    assert colours.shape == (*mask.shape, 3)
 
 
 def test_the_colour_is_written_blue_green_red_and_the_shadow_a_quarter_of_it() -> None:
-    keep, ink = Letters(FONT, 1).text("!", 0, 0, (200, 101, 7), shadow=True).dots()
-    assert ink[0, 0].tolist() == [7, 101, 200]
-    assert keep[0, 0].tolist() == [0, 0, 0]
-    assert ink[1, 1].tolist() == [1, 25, 50]
-    assert keep[0, 1].tolist() == [255, 255, 255]
-    assert ink[0, 1].tolist() == [0, 0, 0]
+    mask, colours = Letters(FONT, 1).text("!", 0, 0, (200, 101, 7), shadow=True).dots()
+    assert colours[0, 0].tolist() == [7, 101, 200]
+    assert colours[1, 1].tolist() == [1, 25, 50]
+    assert (mask[0, 0], mask[1, 1], mask[0, 1]) == (255, 255, 0)
 
 
 def test_an_empty_text_has_no_dots() -> None:
-    keep, ink = Letters(FONT, 2).text("", 0, 0, WHITE).dots()
-    assert keep.size == ink.size == 0
+    mask, colours = Letters(FONT, 2).text("", 0, 0, WHITE).dots()
+    assert mask.size == colours.size == 0
