@@ -7,7 +7,8 @@
 lag, lost keys and so on). Actions are drawn uniformly from those that the rules don't void. An episode ends after 60
 steps, when no block is left, or when an action fails: then it is thrown away, and the reset recovers. An outcome that
 differs from the client's world is a wrong cell or a wrong block. An outcome that matches the world but not the rules is
-unnoticed: the action did not happen. Times are the game's, for one call of act(). ``reader`` is what
+unnoticed: the action did not happen. Times are the game's, for one call of act(). ``cpu_ms_per_action`` is the
+processor's time for an action of the clean run, resets included: client, drawing, reading and body. ``reader`` is what
 scripts/bench_reader.py measures. Exit code 1 if anything was wrong.
 
 With --latency-ms pictures are so old, from and to, and the walk is calibrated first: latencies are the profile's, as
@@ -272,6 +273,7 @@ def report(clean: PlayCounts, soak: PlayCounts, reader: bench_reader.Result) -> 
         "clean": {**figures(clean), "unnoticed": clean.unnoticed},
         "reader": dataclasses.asdict(reader),
         "speed_over_real_time": round(clean.played_s / clean.cpu_s, 1),
+        "cpu_ms_per_action": round(1000 * clean.cpu_s / clean.actions, 3),
     }
 
 

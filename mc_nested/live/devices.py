@@ -62,7 +62,10 @@ class Display(Protocol):
         """Whether a key pressed now would reach this window."""
 
     def grab(self, region: Region | None = None) -> Frame:
-        """A picture of the client area, or of a region of it."""
+        """A picture of the client area, or of a region of it.
+
+        Where one that can't be written to is returned again, the very same array, nothing has changed since.
+        """
 
 
 class Keyboard(Protocol):

@@ -107,6 +107,25 @@ def test_that_no_block_is_looked_at_is_only_said_of_the_whole_window() -> None:
         assert pictures.grabbed.pop() is None
 
 
+def test_the_very_picture_that_was_read_is_not_read_again() -> None:
+    sky = dataclasses.replace(screen(), target=None)  # so the whole window is pictured each time
+    reader, pictures = opened(sky)
+    pictures.frame = painted(sky)
+    pictures.frame.flags.writeable = False
+    first, look = reader.read(), reader.last_look
+    assert first == expected(sky)
+    assert reader.read() is first
+    assert reader.last_look is look
+
+
+def test_a_picture_that_can_be_written_to_is_read_each_time() -> None:
+    sky = dataclasses.replace(screen(), target=None)
+    reader, pictures = opened(sky)
+    moved = dataclasses.replace(sky, xyz=(9.0, 64.0, 3.5))
+    pictures.frame[:] = painted(moved)
+    assert reader.read() == expected(moved)
+
+
 def spoilt(frame: Frame, name: str) -> Frame:
     if name == "shifted":
         return np.roll(frame, 7, 0)

@@ -118,3 +118,22 @@ def test_a_layer_beyond_the_window_is_drawn_up_to_its_edge() -> None:
     picture.show(world, [layer, beyond])
     picture.grab()
     assert (layer.parts, beyond.parts) == ([(0, 0, 3, 3)], [])
+
+
+def test_a_narrow_part_is_all_that_is_drawn_for_it_and_the_rest_follows_later() -> None:
+    picture, layer = LayeredPicture(np.zeros((20, 40, 3), np.uint8)), Note((0, 0, 40, 20))
+    picture.show(np.zeros((20, 40, 3), np.uint8), [layer])
+    assert picture.grab(Region(8, 5, 4, 6)).all()
+    assert layer.parts == [(8, 5, 12, 11)]
+    assert (picture.grab() == 1).all()  # each pixel once
+
+
+def test_two_regions_are_each_the_same_array_until_something_changes() -> None:
+    world = np.zeros((20, 40, 3), np.uint8)
+    picture = LayeredPicture(world)
+    regions = Region(0, 0, 40, 5), Region(0, 10, 40, 5)
+    first, second = (picture.grab(region) for region in regions)
+    assert picture.grab(regions[0]) is first
+    assert picture.grab(regions[1]) is second
+    picture.show(world, [Blend((0, 0, 40, 20), WHITE, 255)])
+    assert picture.grab(regions[0]) is not first
