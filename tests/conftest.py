@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 from collections.abc import Iterator
 
 import pytest
@@ -23,6 +24,11 @@ for profile, examples in (("everyday", 15), ("all", 100)):
         profile, max_examples=examples, deadline=None, suppress_health_check=[HealthCheck.too_slow]
     )
 settings.load_profile("everyday")
+
+# Containers often tell Python to keep no bytecode, so that images stay small. Here, each of pytest-xdist's processes
+# would compile every test anew, in ten seconds, and each program that a test starts the whole project, in one.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
 
 # A shell that starts the tests in the background has SIGINT ignored, in every process that they start, too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
