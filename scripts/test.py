@@ -67,7 +67,7 @@ STATIC = {
     "import contracts": Check(["lint-imports"], 0.2),
 }
 
-UNIT = ["pytest", "-n", "2", "-m", f"not ({OTHERS})"]
+UNIT = ["pytest", "-n", "2", "--dist", "loadfile", "-m", f"not ({OTHERS})"]
 
 COMMIT = {**STATIC, "unit tests": Check(UNIT, 3)}
 """What a commit must pass."""
