@@ -22,6 +22,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterable, Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -249,6 +250,7 @@ def _possible(cell: Cell, placed: set[Cell], size: int) -> Iterator[Action]:
             yield action
 
 
+@cache
 def _font() -> Font:
     return font_of(drawn_atlas())
 

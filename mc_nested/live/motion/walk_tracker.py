@@ -31,7 +31,7 @@ LAG_TICKS = 12
 
 
 _ROUNDING = 1e-6
-"""Blocks that the last point of a coasting, a sum of its steps, may lie off its end, which is worked out at once."""
+"""Blocks that a sum of steps may lie off what is worked out at once."""
 
 
 @dataclass(frozen=True)
@@ -78,13 +78,36 @@ class _PathPoint(NamedTuple):
 class _Coasting(NamedTuple):
     """From where on no key is felt: how far from the path's beginning, the velocity there, the ticks that felt the key.
 
-    ``end`` is where the walker comes to a stop.
+    ``nearest`` and ``farthest`` are bounds of all its points, ``inertia`` the share of a step that is left.
     """
 
     covered: float
     velocity: float
     ticks_held: int
-    end: float
+    nearest: float
+    farthest: float
+    inertia: float
+
+    @property
+    def end(self) -> float:
+        """Where the walker comes to a stop."""
+        return self.covered + coasting_distance(self.velocity, self.inertia)
+
+    def points(self) -> list[_PathPoint]:
+        """The points behind the one where the key came up, until the walker stands still."""
+        covered, velocity, end = self.covered, self.velocity, self.end
+        points: list[_PathPoint] = []
+        while abs(velocity) >= STANDSTILL:
+            covered, velocity = covered + velocity, velocity * self.inertia
+            points.append(_PathPoint(covered, end, velocity, True, self.ticks_held))
+        return points
+
+
+def _coasting_from(covered: float, velocity: float, ticks_held: int, inertia: float) -> _Coasting:
+    # It would come so far if it never stood still; a margin is left for rounding.
+    limit = covered + velocity / (1 - inertia)
+    nearest, farthest = (covered, limit) if velocity > 0 else (limit, covered)
+    return _Coasting(covered, velocity, ticks_held, nearest - _ROUNDING, farthest + _ROUNDING, inertia)
 
 
 class _Path:
@@ -93,20 +116,16 @@ class _Path:
     Most coastings are never near where a walker is seen, so their points are worked out when they are asked for.
     """
 
-    def __init__(self, points: list[_PathPoint], coastings: list[_Coasting], inertia: float) -> None:
-        self._points, self._coastings, self._inertia = points, coastings, inertia
-        self._ways = [
-            (min(each.covered, each.end) - _ROUNDING, max(each.covered, each.end) + _ROUNDING, each)
-            for each in coastings
-        ]
+    def __init__(self, points: list[_PathPoint], coastings: list[_Coasting]) -> None:
+        self._points, self._coastings = points, coastings
 
     def matching(self, covered: float, slack: float) -> list[_PathPoint]:
         """The points that this distance can mean."""
         low, high = covered - slack, covered + slack
         found = [point for point in self._points if low <= point.covered <= high]
-        for nearest, farthest, coasting in self._ways:
-            if nearest <= high and farthest >= low:
-                found += [point for point in _points_of(coasting, self._inertia) if low <= point.covered <= high]
+        for coasting in self._coastings:
+            if coasting.nearest <= high and coasting.farthest >= low:
+                found += [point for point in coasting.points() if low <= point.covered <= high]
         return sorted(found)
 
     def farthest_end(self, ticks_held: int) -> float:
@@ -183,8 +202,8 @@ class WalkTracker:
 
 @lru_cache(256)
 def _coasting_path(velocity: float, inertia: float) -> _Path:
-    coasting = _Coasting(0.0, velocity, 0, coasting_distance(velocity, inertia))
-    return _Path([_PathPoint(0.0, coasting.end, velocity, True, 0)], [coasting], inertia)
+    coasting = _coasting_from(0.0, velocity, 0, inertia)
+    return _Path([_PathPoint(0.0, coasting.end, velocity, True, 0)], [coasting])
 
 
 @lru_cache(64)
@@ -192,9 +211,8 @@ def _hold_path(velocity: float, ticks: int, push: float, inertia: float) -> _Pat
     """Every point of a hold of about ``ticks`` ticks, of the coasting before it and of the coasting after it."""
     points: list[_PathPoint] = []
     coastings: list[_Coasting] = []
-    before = _Coasting(0.0, velocity, 0, coasting_distance(velocity, inertia))
-    starts = [(0.0, velocity), *((point.covered, point.velocity) for point in _points_of(before, inertia))]
-    for waits, start in enumerate(starts[: MORE_TICKS + 1]):
+    before = _coasting_from(0.0, velocity, 0, inertia).points()[:MORE_TICKS]
+    for waits, start in enumerate([(0.0, velocity), *((point.covered, point.velocity) for point in before)]):
         covered, speed = start
         points.append(_PathPoint(covered, covered, speed, False, 0))
         for held in range(1, ticks + (MORE_TICKS if waits else LAG_TICKS) + 1):
@@ -202,15 +220,5 @@ def _hold_path(velocity: float, ticks: int, push: float, inertia: float) -> _Pat
             covered, speed = covered + step, step * inertia
             points.append(_PathPoint(covered, covered, speed, False, held))
             if held >= ticks - MORE_TICKS and abs(speed) >= STANDSTILL:
-                coastings.append(_Coasting(covered, speed, held, covered + coasting_distance(speed, inertia)))
-    return _Path(points, coastings, inertia)
-
-
-def _points_of(coasting: _Coasting, inertia: float) -> list[_PathPoint]:
-    """The points behind the one where the key came up, until the walker stands still."""
-    covered, velocity, ticks_held, end = coasting
-    points: list[_PathPoint] = []
-    while abs(velocity) >= STANDSTILL:
-        covered, velocity = covered + velocity, velocity * inertia
-        points.append(_PathPoint(covered, end, velocity, True, ticks_held))
-    return points
+                coastings.append(_coasting_from(covered, speed, held, inertia))
+    return _Path(points, coastings)

@@ -7,6 +7,7 @@ black nor near white. Where a column is neither, the line ends, or something lie
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 
 import cv2
 import numpy as np
@@ -72,8 +73,7 @@ class Line:
     has_value: bool = False
 
 
-@dataclass(frozen=True)
-class _Strip:
+class _Strip(NamedTuple):
     """One line: its pixels, and a byte a column of ink and of lying in a box."""
 
     picture: Frame

@@ -44,7 +44,7 @@ class Blend:
         under = frame[top:bottom, left:right]
         if self.alpha == 255:
             under[:] = self.colour[::-1]
-        elif len(set(self.colour)) == 1:
+        elif self.colour[0] == self.colour[1] == self.colour[2]:
             rest = (255 - self.alpha) / 255
             cv2.convertScaleAbs(under, under, rest, self.colour[0] * self.alpha / 255)
         else:

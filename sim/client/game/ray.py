@@ -1,14 +1,13 @@
 """The ray of sight: from the eye through the grid of blocks to the first one that stops it."""
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from mc_nested.live.model.reading import Block
 from sim.client.game.physics import IsSolid, Vector
 
 
-@dataclass(frozen=True)
-class Hit:
+class Hit(NamedTuple):
     """The block hit, the cell before it on the ray, and the distance of its face from the eye, in blocks."""
 
     block: Block

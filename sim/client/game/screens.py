@@ -5,7 +5,7 @@ Positions and sizes are in GUI pixels; ``width`` and ``height`` are the window's
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from sim.client.game.colours import GREY, WHITE, Colour
 from sim.client.game.edition import Edition
@@ -85,8 +85,7 @@ class Menu:
     buttons: tuple[Widget, ...] = ()
 
 
-@dataclass(frozen=True)
-class MenuState:
+class MenuState(NamedTuple):
     """What the look of a screen depends on: ``is_ready`` is whether its buttons are active yet."""
 
     name: ScreenName

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from mc_nested.live.model.reading import Block
 from sim.client.game.chat import ChatLine
@@ -35,8 +36,7 @@ class Sight:
     held: str | None = None
 
 
-@dataclass(frozen=True)
-class View:
+class View(NamedTuple):
     """One moment. ``f3`` is None while the debug screen is off, ``typed`` while the chat is closed.
 
     ``scene`` is the block that the player is in: the world behind shifts with it. ``pointer`` is the mouse in GUI
