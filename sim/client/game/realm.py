@@ -1,7 +1,7 @@
 """What a saved world holds and commands can change: the blocks, the player, the game rules."""
 
 from dataclasses import dataclass, field
-from typing import Literal, NamedTuple
+from typing import Literal
 
 from sim.client.game.edition import Edition
 from sim.client.game.physics import AT_REST, Vector
@@ -14,7 +14,8 @@ STANDING = (1.8, 1.62)
 """Height of the player and of the eyes, in blocks (FACTS: Standing, looking, placing)."""
 
 
-class Stack(NamedTuple):
+@dataclass(frozen=True)
+class Stack:
     """Some blocks of one kind, the name without namespace."""
 
     block: str
