@@ -57,7 +57,7 @@ def test_the_file_is_on_the_disk_before_it_replaces_the_old_one(
 
 
 def test_what_a_killed_process_left_is_recognised_and_removed(tmp_path: Path) -> None:
-    kept = tmp_path / "state.pt"
+    kept = tmp_path / "state.npz"
     kept.write_text("whole")
     with atomic_write(kept) as unfinished:
         unfinished.write_text("half")
@@ -65,4 +65,4 @@ def test_what_a_killed_process_left_is_recognised_and_removed(tmp_path: Path) ->
         assert not is_leftover(kept)
         (tmp_path / f"copy-{unfinished.name}").write_text("half")  # as if killed here
     remove_leftovers(tmp_path)
-    assert [path.name for path in tmp_path.iterdir()] == ["state.pt"]
+    assert [path.name for path in tmp_path.iterdir()] == ["state.npz"]

@@ -21,7 +21,7 @@ def team_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def files_of(path: Path) -> dict[str, bytes]:
     """Everything but what names the time or the order of saves."""
-    names = ("config.toml", "episodes.csv", "evaluations.csv", "curve.png", "team.png", "checkpoint/state.pt")
+    names = ("config.toml", "episodes.csv", "evaluations.csv", "curve.png", "team.png", "checkpoint/state.npz")
     return {name: (path / name).read_bytes() for name in names}
 
 
@@ -98,7 +98,7 @@ def test_one_that_only_begun_can_be_resumed_and_a_damaged_one_says_so(
     assert run("runs", "list", begun, "--json") == 0
     assert json.loads(capsys.readouterr().out)["runs"][0]["state"] == "can be resumed"
     (begun / "checkpoint").mkdir()
-    (begun / "checkpoint" / "state.pt").write_bytes((team_run / "checkpoint" / "state.pt").read_bytes()[:1000])
+    (begun / "checkpoint" / "state.npz").write_bytes((team_run / "checkpoint" / "state.npz").read_bytes()[:1000])
     assert run("runs", "list", begun, "--json") == 0
     assert json.loads(capsys.readouterr().out)["runs"][0]["state"] == "damaged"
 

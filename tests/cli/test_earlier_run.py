@@ -5,19 +5,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import torch
 
+from mc_nested.arrays import Arrays
 from mc_nested.cli.earlier_run import earlier_run
 from mc_nested.errors import RunError
 from mc_nested.learn.imagination.beliefs import Belief
 from mc_nested.learn.imagination.learnt_rules import learn_rules
 from mc_nested.learn.runs.checkpoint import FILE
-from mc_nested.learn.runs.policies import FILE as POLICIES
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 from tests.cli.made_imagination import BESIDE, SMALL, write_preset, write_scenario
 from tests.cli.running import run, table
+from tests.learn.runs.changed_arrays import change_arrays
 
 
 @pytest.fixture(scope="module")
@@ -105,15 +105,17 @@ def test_a_training_without_an_imagination_gives_its_policy_as_before(trained: P
     assert earlier_run(trained, RunFolder.open(tmp_path / "on")).game is None
 
 
+def forget(state: Arrays) -> None:
+    for name in [name for name in state if name.startswith("imagination.")]:
+        del state[name]
+
+
 def test_a_checkpoint_without_its_learnt_game_is_one_line(
     files: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run(*words(files, "small"), "--out", tmp_path / "cut") == 0
     checkpoint = tmp_path / "cut" / "checkpoint"
-    saved = torch.load(checkpoint / FILE, weights_only=True)
-    saved["arrays"] = {name: kept for name, kept in saved["arrays"].items() if not name.startswith("imagination.")}
-    torch.save(saved, checkpoint / FILE)
-    (checkpoint / POLICIES).unlink()
+    change_arrays(checkpoint / FILE, forget)
     capsys.readouterr()
     assert run(*words(files, "small"), "--from", tmp_path / "cut", "--out", tmp_path / "new") == 2
     said = capsys.readouterr().err

@@ -5,11 +5,11 @@ import shutil
 from importlib import resources
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from mc_nested.learn.runs.policies import FILE as POLICIES
+from mc_nested.learn.runs.checkpoint import FILE
 from tests.cli.running import check_mistake, run
+from tests.learn.runs.changed_arrays import change_arrays
 
 
 def test_evaluate_prints_the_scores_of_the_summary(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -50,26 +50,10 @@ def test_policies_that_do_not_fit_the_run_are_one_line(
 ) -> None:
     copy, new = tmp_path / "copy", tmp_path / "new"
     shutil.copytree(trained, copy)
-    file = copy / "checkpoint" / POLICIES
-    with np.load(file) as found:
-        arrays = {name: found[name] for name in found.files if name != "kept.low"}
-    np.savez(file, allow_pickle=False, **arrays)
+    file = copy / "checkpoint" / FILE
+    change_arrays(file, lambda state: state.pop("kept.low"))
     assert run(*(word.replace("RUN", str(copy)).replace("NEW", str(new)) for word in words)) == 2
     printed = capsys.readouterr()
     assert printed.out == ""
-    assert printed.err == (
-        f"mc-nested: {file}: has no array low: delete this file, the checkpoint beside it holds the policies too\n"
-    )
+    assert printed.err == (f"mc-nested: {file}: has no array low: bring back a whole copy, or train the run again\n")
     assert not new.exists()
-
-
-def test_policies_in_a_file_of_another_kind_are_taken_from_the_checkpoint(
-    trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    shutil.copytree(trained, tmp_path / "copy")
-    with (tmp_path / "copy" / "checkpoint" / POLICIES).open("wb") as file:
-        np.save(file, np.zeros(3))
-    assert run("evaluate", trained) == 0
-    expected = capsys.readouterr().out
-    assert run("evaluate", tmp_path / "copy") == 0
-    assert capsys.readouterr().out == expected

@@ -22,6 +22,7 @@ from mc_nested.cli import games_at_play, serve_game
 from mc_nested.cli.virtual_games import VirtualPlay, open_virtual_games
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.preset import load_preset
+from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import connected
@@ -172,8 +173,8 @@ def test_one_game_in_lockstep_learns_what_train_learns_by_itself(
     for table in ("episodes.csv", "evaluations.csv"):
         assert (together / table).read_bytes() == (alone / table).read_bytes()
     with (
-        np.load(alone / "checkpoint" / "policies.npz") as ours,
-        np.load(together / "checkpoint" / "policies.npz") as its,
+        np.load(alone / "checkpoint" / FILE) as ours,
+        np.load(together / "checkpoint" / FILE) as its,
     ):
         assert all((ours[name] == its[name]).all() for name in ours.files if name.startswith("kept."))
     game.send_signal(signal.SIGINT)

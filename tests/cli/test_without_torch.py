@@ -1,4 +1,4 @@
-"""Only learning needs torch: everything that plays, looks or calibrates runs where it can't be imported."""
+"""The torch engine alone needs torch: everything else runs where it can't be imported, training included."""
 
 import json
 import subprocess
@@ -8,12 +8,17 @@ from pathlib import Path
 import pytest
 
 from mc_nested.cli.app import VERBS
-from mc_nested.learn.runs.policies import FILE as POLICIES
-from tests.cli.running import run
 
-LEARNING = ("train", "cooperate", "reproduce", "sweep", "benchmark")
+BLOCKED = """
+import sys
 
-BLOCKED = "import sys; sys.modules['torch'] = None; "
+class NoTorch:
+    def find_spec(self, name, *_):
+        if name.partition(".")[0] == "torch":
+            raise ModuleNotFoundError(name)
+
+sys.meta_path.insert(0, NoTorch())
+"""
 COMMAND = BLOCKED + "from mc_nested.cli.app import main; main(sys.argv[1:])"
 
 
@@ -22,35 +27,30 @@ def without_torch(code: str, *arguments: str | Path) -> subprocess.CompletedProc
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
-def test_every_verb_that_does_not_learn_loads_without_torch() -> None:
-    modules = [f"mc_nested.cli.{verb.replace('-', '_')}" for verb in VERBS if verb not in LEARNING]
+def test_every_verb_loads_without_torch() -> None:
+    modules = [f"mc_nested.cli.{verb.replace('-', '_')}" for verb in VERBS]
     modules += ["calibration.calibrate_all", "sim.client.client", "mc_nested.live.session"]
     loaded = without_torch(f"{BLOCKED}import importlib; [importlib.import_module(name) for name in {modules}]")
     assert loaded.returncode == 0, loaded.stderr
 
 
-def test_a_training_is_evaluated_and_played_without_torch(trained: Path) -> None:
-    scores = json.loads((trained / "summary.json").read_text())["final_scores"]
-    evaluated = without_torch(COMMAND, "evaluate", trained, "--json")
+@pytest.mark.parametrize("preset", ["paper", "live"])
+def test_a_training_is_saved_evaluated_and_played_without_torch(preset: str, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    made = without_torch(COMMAND, "train", "--preset", preset, "--episodes", "3", "--out", out)
+    assert made.returncode == 0, made.stderr
+    (score,) = json.loads((out / "summary.json").read_text())["final_scores"]
+    evaluated = without_torch(COMMAND, "evaluate", out, "--json")
     assert evaluated.returncode == 0, evaluated.stderr
-    assert json.loads(evaluated.stdout)["scores"] == scores
-    played = without_torch(COMMAND, "play", trained)
+    assert json.loads(evaluated.stdout)["scores"] == [score]
+    played = without_torch(COMMAND, "play", out)
     assert played.returncode == 0, played.stderr
-    assert f"score {max(scores):g} of 21" in played.stdout
+    assert f"score {score:g} of 21" in played.stdout
 
 
-@pytest.mark.parametrize("verb", ["evaluate", "play"])
-def test_a_training_of_an_older_version_says_that_it_needs_torch(
-    trained: Path, tmp_path: Path, verb: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for name in ("config.toml", "episodes.csv"):
-        (tmp_path / name).write_bytes((trained / name).read_bytes())
-    (tmp_path / "checkpoint").mkdir()
-    for path in (trained / "checkpoint").iterdir():
-        if path.name != POLICIES:
-            (tmp_path / "checkpoint" / path.name).write_bytes(path.read_bytes())
-    monkeypatch.setitem(sys.modules, "torch", None)  # which is what the processes above do before anything else
-    assert run(verb, tmp_path) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1
-    assert "reading a checkpoint needs torch: install torch" in said
+def test_the_torch_engine_says_that_torch_is_missing(tmp_path: Path) -> None:
+    asked = without_torch(COMMAND, "train", "--engine", "torch", "--episodes", "3", "--out", tmp_path / "run")
+    assert asked.returncode == 2
+    assert asked.stderr.count("\n") == 1
+    assert "torch is missing: install torch, or take --engine compiled" in asked.stderr
+    assert not (tmp_path / "run").exists()

@@ -277,7 +277,7 @@ def writing(folder: Path) -> Iterator[None]:
     """While something is written in a job's folder: RunError, one line if the disk refuses."""
     try:
         yield
-    except (OSError, RuntimeError) as error:  # torch raises a RuntimeError if it can't write
+    except OSError as error:
         raise RunError(f"{folder}: can't be written ({error}): make room") from error
 
 

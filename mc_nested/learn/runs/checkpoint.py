@@ -1,14 +1,15 @@
 """A training on disk: if the process is killed at any moment, the last save or the new one is there, whole.
 
-``state.pt`` is rewritten at every save. What only grows (a replay's transitions, finished episodes) goes into a
-journal, one more file per save, so that a save costs only what was added. Both hold torch tensors by name.
+``state.npz`` is rewritten at every save. What only grows (a replay's transitions, finished episodes) goes into a
+journal, one more file per save, so that a save costs only what was added. Both hold NumPy arrays by name.
 """
 
 import hashlib
 import json
+import zipfile
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
-from pickle import UnpicklingError
 from typing import Any, Protocol
 
 import numpy as np
@@ -18,10 +19,13 @@ from mc_nested.arrays import Arrays
 from mc_nested.atomic_file import atomic_write, remove_leftovers
 from mc_nested.errors import RunError
 
-FILE, WHOLE_JOURNAL = "state.pt", "journal.pt"
+FILE, WHOLE_JOURNAL = "state.npz", "journal.npz"
 
-FORMAT = 1
-"""Version of the files. A file without one was written before there were versions, and has this one."""
+FORMAT = 2
+"""Version of the files."""
+
+ABOUT = "about"
+"""The array that holds what a file says of itself: an object, as JSON."""
 
 MOST_JOURNALS = 64
 """Journals kept side by side before they are merged into one."""
@@ -69,13 +73,13 @@ class Checkpoint:
         return self.file.exists()
 
     def save(self, training: Journalled, finished: bool = False) -> None:
-        """Save the training as it is now; OSError or RuntimeError if the disk refuses, the last save is intact then.
+        """Save the training as it is now; OSError if the disk refuses, the last save is intact then.
 
         The files of a finished training don't depend on how often it was saved and resumed.
         """
         self._folder.mkdir(parents=True, exist_ok=True)
         merge = finished or len(self._journals) >= MOST_JOURNALS
-        name = WHOLE_JOURNAL if finished else f"journal-{self._next:06d}.pt"
+        name = WHOLE_JOURNAL if finished else f"journal-{self._next:06d}.npz"
         journals = [name] if merge else [*self._journals, name]
         self._write(name, training.journal(None if merge else self._marks), {})
         self._write(FILE, training.state(), {"format": FORMAT, "identity": self.identity, "journals": journals})
@@ -85,30 +89,29 @@ class Checkpoint:
         self._journals, self._next, self._marks = journals, self._next + 1, training.marks()
 
     def state(self) -> Arrays:
-        """The last saved state; RunError if it is gone, damaged, newer or another training's, or torch is missing."""
-        arrays: Arrays = self._open()["arrays"]
-        return arrays
+        """The last saved state; RunError if it is gone, damaged, newer or another training's."""
+        return self._open()[1]
 
     def load_into(self, training: Journalled) -> None:
         """Continue the training from its last save; RunError as for ``state``."""
-        found = self._open()
-        journals = [self._read(name)["arrays"] for name in found["journals"]]
+        about, state = self._open()
+        journals = [self._read(name)[1] for name in about["journals"]]
         try:
-            training.load(found["arrays"], journals)
+            training.load(state, journals)
         except (KeyError, ValueError) as error:
             raise self._damaged(FILE) from error
         remove_leftovers(self._folder)
-        self._journals, self._marks = found["journals"], training.marks()
-        self._next = 1 + max((int(number) for name in self._journals if (number := name[8:-3]).isdigit()), default=-1)
+        self._journals, self._marks = about["journals"], training.marks()
+        self._next = 1 + max((int(number) for name in self._journals if (number := name[8:-4]).isdigit()), default=-1)
 
-    def _open(self) -> dict[str, Any]:
+    def _open(self) -> tuple[dict[str, Any], Arrays]:
         if not self.exists:
             raise RunError(f"{self.file}: the checkpoint is gone: bring back a copy, or train again in a new folder")
-        found = self._read(FILE)
-        if found.get("format", FORMAT) > FORMAT:
-            raise RunError(f"{self._folder / FILE}: written by a newer mc-nested: update mc-nested to open it")
-        self.check_identity(found.get("identity"))
-        return found
+        about, state = self._read(FILE)
+        if about["format"] > FORMAT:
+            raise RunError(f"{self.file}: written by a newer mc-nested: update mc-nested to open it")
+        self.check_identity(about["identity"])
+        return about, state
 
     def check_identity(self, found: str | None) -> None:
         """RunError unless that is the fingerprint of what is trained here."""
@@ -118,34 +121,28 @@ class Checkpoint:
                 f"config.toml: put back the config.toml it was trained with"
             )
 
-    def _write(self, name: str, arrays: Mapping[str, NDArray[Any]], beside: Mapping[str, Any]) -> None:
-        import torch  # it takes 200 MB, which a process that only waits for others doesn't need
-
-        # torch saves no two tensors of different types that begin at one address, as an empty array may beside another.
-        own = {key: np.ascontiguousarray(kept) if kept.size else kept.copy() for key, kept in arrays.items()}
-        tensors = {key: torch.from_numpy(kept) for key, kept in own.items()}
+    def _write(self, name: str, arrays: Mapping[str, NDArray[Any]], about: Mapping[str, Any]) -> None:
         with atomic_write(self._folder / name) as path, path.open("wb") as file:
-            torch.save({**beside, "arrays": tensors}, file)
+            np.savez(file, allow_pickle=False, **{ABOUT: np.array(json.dumps(about)), **arrays})
 
-    def _read(self, name: str) -> dict[str, Any]:
+    def _read(self, name: str) -> tuple[dict[str, Any], Arrays]:
+        """What a file says of itself, and its arrays."""
         try:
-            import torch
-        except ImportError as error:
-            raise RunError(f"{self._folder / name}: reading a checkpoint needs torch: install torch") from error
-        try:
-            found = torch.load(self._folder / name, map_location="cpu", weights_only=True)
-            return {**found, "arrays": {key: kept.numpy() for key, kept in found["arrays"].items()}}
+            # Opened here: NumPy leaves a file open that it can't read.
+            with (self._folder / name).open("rb") as file, np.load(file, allow_pickle=False) as found:
+                arrays = dict(found)
+            return json.loads(str(arrays.pop(ABOUT))), arrays
         except (
             OSError,
-            RuntimeError,
-            EOFError,
-            UnpicklingError,
-            KeyError,
-            TypeError,
             ValueError,
-            AttributeError,
+            TypeError,
+            KeyError,
+            EOFError,
+            RuntimeError,
+            zlib.error,
+            zipfile.BadZipFile,
         ) as error:
-            raise self._damaged(name) from error
+            raise self._damaged(name) from error  # TypeError: NumPy finds one array; RuntimeError: a password
 
     def _damaged(self, name: str) -> RunError:
         return RunError(

@@ -44,7 +44,7 @@ def writing_in(path: Path, verb: str) -> Iterator[None]:
     """Around writing there: RunError, one line that says how to resume, if the disk refuses."""
     try:
         yield
-    except (OSError, RuntimeError) as error:  # torch raises a RuntimeError if it can't write
+    except OSError as error:
         raise RunError(
             f"{path}: can't be written ({error}): make room, then mc-nested {verb} --resume {path} "
             f"goes on from the last checkpoint"

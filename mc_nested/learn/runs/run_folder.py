@@ -6,6 +6,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from mc_nested.arena.scenario import Scenario
@@ -17,7 +18,6 @@ from mc_nested.learn.imagination.imagination import learnt_game
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.checkpoint import Checkpoint
 from mc_nested.learn.runs.folder_kind import FORMAT, check_free
-from mc_nested.learn.runs.policies import load_policies, misfit_of, save_policies
 from mc_nested.learn.runs.run_files import begin_folder, read_config, wall_s_so_far, write_results, writing_in
 from mc_nested.learn.state_dict import part_of
 from mc_nested.learn.training import Training
@@ -96,8 +96,8 @@ class RunFolder:
         So a training that is killed here can't be resumed without its start.
         """
         try:
-            self._save_checkpoint(trainer)
-        except (OSError, RuntimeError) as error:  # torch raises a RuntimeError if it can't write
+            self.checkpoint.save(trainer, finished=trainer.finished)
+        except OSError as error:
             shutil.rmtree(self.path / "checkpoint", ignore_errors=True)
             raise RunError(f"{self.path}: can't be written ({error}): make room and begin again") from error
 
@@ -117,23 +117,19 @@ class RunFolder:
         """
         summary = {**summarise(self.config, self.scenario, trainer, wall_s), **(beside or {})}
         with self.writing():
-            self._save_checkpoint(trainer)
+            self.checkpoint.save(trainer, finished=trainer.finished)
             write_results(self.path, trainer.episode_rows, trainer.evaluation_rows, summary)
         return summary
 
     def kept(self) -> Arrays:
         """The networks of the policies that the trials keep, by role, and their ``scores``, as last saved.
 
-        Read without torch, except from a folder of an older version. RunError if nothing was saved yet, or it is
-        damaged, of other shapes or another training's.
+        RunError if nothing was saved yet, or it is damaged, of other shapes or another training's.
         """
         if self.only_begun:
             raise RunError(f"{self.path}: nothing is trained yet: go on with mc-nested train --resume {self.path}")
-        shapes = self._shapes_kept()
-        if policies := load_policies(self.checkpoint, shapes):
-            return policies
         kept = part_of(self.checkpoint.state(), "kept")
-        if misfit := misfit_of(kept, shapes):
+        if misfit := _misfit_of(kept, self._shapes_kept()):
             raise RunError(f"{self.checkpoint.file}: {misfit}: bring back a whole copy, or train the run again")
         return kept
 
@@ -157,10 +153,6 @@ class RunFolder:
         alone = self.new_agent(1).online()
         networks = {role: (len(online) * trials, online.shape[1]) for role, online in alone.items()}
         return {**networks, "scores": (trials,)}
-
-    def _save_checkpoint(self, trainer: Training) -> None:
-        self.checkpoint.save(trainer, finished=trainer.finished)
-        save_policies(self.checkpoint, trainer.kept)
 
     @property
     def has_begun(self) -> bool:
@@ -217,3 +209,17 @@ def _played_until(trainer: Training, trial: int, episode: int | None) -> dict[st
     greedy = [row for row in trainer.evaluation_rows if row.trial == trial and row.episode <= episode]
     steps = sum(row.steps for row in played) + sum(row.steps for row in greedy)
     return {"episodes": len(played) + len(greedy), "steps": steps}
+
+
+def _misfit_of(kept: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> str | None:
+    """What keeps these arrays from being policies of these shapes, by name, and their ``scores``; None if they fit."""
+    for name, shape in shapes.items():
+        if name not in kept:
+            return f"has no array {name}"
+        array = kept[name]
+        if array.shape != shape:
+            return f"its array {name} is {array.shape}, it should be {shape}"
+        # A policy that was never played has the score -inf.
+        if array.dtype.kind != "f" or not (np.isfinite(array) | (name == "scores") & np.isneginf(array)).all():
+            return f"its array {name} holds what is no number"
+    return None

@@ -21,7 +21,6 @@ from mc_nested.learn.experiments.sweep import SweepConfig, Variant
 from mc_nested.learn.runs.checkpoint import FILE as STATE
 from mc_nested.learn.runs.checkpoint import fingerprint
 from mc_nested.learn.runs.folder_lock import folder_lock
-from mc_nested.learn.runs.policies import FILE as POLICIES
 from tests.learn.made_experiments import BAR, DOT, small_preset
 from tests.learn.runs.test_run_folder import begun, trainer_in
 
@@ -126,14 +125,6 @@ def test_a_damaged_one_says_why(trained: Path, tmp_path: Path, file: str, conten
     assert facts.state == "damaged"
     assert why in facts.why
     assert "\n" not in facts.why
-
-
-def test_a_policies_file_that_is_gone_is_no_damage(trained: Path, tmp_path: Path) -> None:
-    shutil.copytree(trained, tmp_path / "run")
-    (tmp_path / "run" / "checkpoint" / POLICIES).unlink()
-    facts = facts_of(tmp_path / "run")
-    assert facts is not None
-    assert facts.state == "finished"
 
 
 BOTH = ["nested", "single"]

@@ -62,7 +62,7 @@ def test_a_saved_learner_goes_on_to_the_bit_and_says_what_it_came_to(tmp_path: P
     resumed = learner_in(reopened)
     reopened.checkpoint.load_into(resumed)
     assert reopened.save(finish(resumed, play), 1.0) == summary
-    for name in ("episodes.csv", "evaluations.csv", "summary.json", "checkpoint/state.pt", "checkpoint/policies.npz"):
+    for name in ("episodes.csv", "evaluations.csv", "summary.json", "checkpoint/state.npz"):
         assert (halved.path / name).read_bytes() == (whole.path / name).read_bytes(), name
     assert summary["episodes_done"] == [12]
     assert summary["final_scores"] == [resumed.kept_scores[0]]

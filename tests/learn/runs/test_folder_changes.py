@@ -15,7 +15,7 @@ from mc_nested.learn.runs.folder_lock import folder_lock
 def run(tmp_path: Path) -> Path:
     folder = tmp_path / "runs" / "one"
     (folder / "checkpoint").mkdir(parents=True)
-    (folder / "checkpoint" / "state.pt").touch()
+    (folder / "checkpoint" / "state.npz").touch()
     (folder / "config.toml").touch()
     return folder
 
@@ -23,7 +23,7 @@ def run(tmp_path: Path) -> Path:
 def test_a_run_gets_another_name_where_it_is(run: Path) -> None:
     assert rename_folder(run, "two") == run.with_name("two")
     assert not run.exists()
-    assert (run.with_name("two") / "checkpoint" / "state.pt").exists()
+    assert (run.with_name("two") / "checkpoint" / "state.npz").exists()
 
 
 @pytest.mark.parametrize("name", ["", " ", "../two", "a/b", "/two", ".", ".."])
@@ -45,7 +45,7 @@ def test_where_somebody_writes_nothing_is_changed(run: Path) -> None:
         for change in (lambda: rename_folder(run, "two"), lambda: delete_folder(run)):
             with pytest.raises(RunError, match=f"process {os.getpid()} is writing there"):
                 change()
-    assert (run / "checkpoint" / "state.pt").exists()
+    assert (run / "checkpoint" / "state.npz").exists()
 
 
 def test_a_run_is_deleted_with_all_it_holds_and_nothing_else(run: Path) -> None:

@@ -13,12 +13,11 @@ from mc_nested.arena.scenario_file import table_of
 from mc_nested.arrays import Arrays
 from mc_nested.errors import PresetError, RunError
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
-from mc_nested.learn.runs.policies import FILE as POLICIES
-from mc_nested.learn.runs.policies import save_policies
 from mc_nested.learn.runs.run_folder import RunConfig, RunFolder, summarise
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 from tests.learn.made_experiments import DOT, small_preset
+from tests.learn.runs.changed_arrays import change_arrays
 
 
 def config_of(trials: int = 2, profile: str | None = None) -> RunConfig:
@@ -120,7 +119,7 @@ def test_what_was_played_to_the_optimum_counts_the_greedy_episodes_too(tmp_path:
     assert (summary["wall_s"], summary["optimum"], summary["networks"]) == (1.235, 11.0, 2)
 
 
-def test_the_kept_policies_are_those_of_the_checkpoint_with_or_without_their_own_file(tmp_path: Path) -> None:
+def test_the_kept_policies_are_those_of_the_checkpoint(tmp_path: Path) -> None:
     folder = begun(tmp_path)
     with pytest.raises(RunError, match=f"nothing is trained yet: .* --resume {re.escape(str(tmp_path))}$"):
         folder.kept()
@@ -128,13 +127,10 @@ def test_the_kept_policies_are_those_of_the_checkpoint_with_or_without_their_own
     while not trainer.finished:
         trainer.tick()
     folder.save(trainer, 1.0)
-    with_file = RunFolder.open(tmp_path).kept()
-    (tmp_path / "checkpoint" / POLICIES).unlink()
-    without = RunFolder.open(tmp_path).kept()
-    for found in (with_file, without):
-        assert {name: (array.dtype, array.tobytes()) for name, array in found.items()} == {
-            name: (array.dtype, array.tobytes()) for name, array in trainer.kept.items()
-        }
+    found = RunFolder.open(tmp_path).kept()
+    assert {name: (array.dtype, array.tobytes()) for name, array in found.items()} == {
+        name: (array.dtype, array.tobytes()) for name, array in trainer.kept.items()
+    }
 
 
 def test_a_disk_that_refuses_is_one_line_and_leaves_nothing_half_begun(
@@ -155,15 +151,17 @@ def test_a_disk_that_refuses_is_one_line_and_leaves_nothing_half_begun(
 
 
 DAMAGES: dict[str, Callable[[Arrays], object]] = {
-    "has no array low": lambda kept: kept.pop("low"),
-    "has no array scores": lambda kept: kept.pop("scores"),
-    "its array main is (1, 7), it should be (2, ": lambda kept: kept.update(main=np.zeros((1, 7), np.float32)),
-    "its array scores is (3,), it should be (2,)": lambda kept: kept.update(scores=np.zeros(3)),
-    "its array low holds what is no number": lambda kept: kept["low"].fill(np.nan),
-    "its array scores holds what is no number": lambda kept: kept["scores"].fill(np.nan),
-    "its array main holds what is no number": lambda kept: kept.update(main=kept["main"].astype(str)),
+    "has no array low": lambda state: state.pop("kept.low"),
+    "has no array scores": lambda state: state.pop("kept.scores"),
+    "its array main is (1, 7), it should be (2, ": lambda state: state.update(
+        {"kept.main": np.zeros((1, 7), np.float32)}
+    ),
+    "its array scores is (3,), it should be (2,)": lambda state: state.update({"kept.scores": np.zeros(3)}),
+    "its array low holds what is no number": lambda state: state["kept.low"].fill(np.nan),
+    "its array scores holds what is no number": lambda state: state["kept.scores"].fill(np.nan),
+    "its array main holds what is no number": lambda state: state.update({"kept.main": state["kept.main"].astype(str)}),
 }
-"""What policies can have wrong that were made by hand, by what is said of them."""
+"""What a checkpoint can have wrong that was made by hand, by what is said of it."""
 
 
 @pytest.mark.parametrize("says", DAMAGES)
@@ -171,21 +169,8 @@ def test_policies_that_do_not_fit_are_one_line_that_names_the_file(says: str, tm
     folder = begun(tmp_path)
     trainer = trainer_in(folder)
     folder.save(trainer, 1.0)
-    kept = {name: array.copy() for name, array in trainer.kept.items()}
-    save_policies(folder.checkpoint, kept)
-    assert folder.kept().keys() == kept.keys()
-    DAMAGES[says](kept)
-    save_policies(folder.checkpoint, kept)
-    with pytest.raises(RunError, match=re.escape(f"{tmp_path / 'checkpoint' / POLICIES}: {says}")) as caught:
+    assert folder.kept().keys() == trainer.kept.keys()
+    change_arrays(folder.checkpoint.file, DAMAGES[says])
+    with pytest.raises(RunError, match=re.escape(f"{folder.checkpoint.file}: {says}")) as caught:
         folder.kept()
-    assert str(caught.value).endswith(": delete this file, the checkpoint beside it holds the policies too")
-
-
-def test_a_checkpoint_without_fitting_policies_is_damaged(tmp_path: Path) -> None:
-    folder = begun(tmp_path)
-    trainer = trainer_in(folder)
-    trainer.kept["main"].fill(np.nan)
-    folder.save(trainer, 1.0)
-    (tmp_path / "checkpoint" / POLICIES).unlink()
-    with pytest.raises(RunError, match="its array main holds what is no number: bring back a whole copy"):
-        folder.kept()
+    assert str(caught.value).endswith(": bring back a whole copy, or train the run again")

@@ -1,0 +1,16 @@
+"""Files of arrays that somebody has changed."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from mc_nested.arrays import Arrays
+
+
+def change_arrays(file: Path, change: Callable[[Arrays], object]) -> None:
+    """Change what a checkpoint's file holds."""
+    with np.load(file) as found:
+        arrays = dict(found)
+    change(arrays)
+    np.savez(file, allow_pickle=False, **arrays)
