@@ -100,7 +100,8 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator
     folder = tmp_path_factory.mktemp("installed")
     subprocess.run([sys.executable, "-m", "venv", str(folder / "venv")], check=True)
     try:
-        environment.install(folder / "venv" / BIN / "python", ["rehearse"], [str(wheel)])
+        # What is never imported needn't be compiled: that takes as long as unpacking.
+        environment.install(folder / "venv" / BIN / "python", ["rehearse"], ["--no-compile", str(wheel)])
     except SystemExit as failed:
         missing(str(failed))
     (folder / "work").mkdir()

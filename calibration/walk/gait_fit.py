@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.optimize import fmin
 
 from mc_nested.errors import NotConfirmedError
-from mc_nested.live.model.kinematics import TICK_S, Gait, hold_path
+from mc_nested.live.model.kinematics import TICK_S, Gait, hold_path, hold_paths
 
 Float64Array = NDArray[np.float64]
 
@@ -65,6 +65,10 @@ class GaitModel:
     def path(self, ticks: int) -> tuple[float, ...]:
         """The position after each tick of a hold from rest, in blocks from its beginning, until standstill."""
         return hold_path(ticks, self.push, self.inertia)
+
+    def paths(self, most: int) -> list[tuple[float, ...]]:
+        """The paths of the holds of 0 to ``most`` ticks."""
+        return hold_paths(most, self.push, self.inertia)
 
     def covered(self, ticks: int) -> float:
         """Blocks that a hold of so many ticks covers until standstill."""
@@ -170,18 +174,20 @@ class _FitProblem:
         self._most = int(self._candidates.max())
         self._positions = np.concatenate([np.array(trace.covered) for trace in traces])
         lengths = [len(trace.covered) for trace in traces]
-        self._owner = np.repeat(np.arange(len(traces)), lengths)
+        self._of_positions = self._candidates[np.repeat(np.arange(len(traces)), lengths)]
         self._starts = np.cumsum([0, *lengths[:-1]])
         self._ends = np.array([trace.covered[-1] for trace in traces])
 
     def cost(self, model: GaitModel) -> float:
         """Mean square error, each position capped, between the traces and their nearest paths."""
-        paths = [model.path(ticks) for ticks in range(self._most + 1)]
-        longest = max(len(path) for path in paths)
+        paths = model.paths(self._most)
+        longest = max(map(len, paths))
         # A path stays where it ends.
-        table = np.array([[*path, *[path[-1]] * (longest - len(path))] for path in paths])
-        rows = table[self._candidates[self._owner]]
-        errors = np.abs(rows - self._positions[:, np.newaxis, np.newaxis]).min(2)
+        table = np.array([path + path[-1:] * (longest - len(path)) for path in paths])
+        # This is done thousands of times: in place, and the nearest over the first axis, which is the quick one.
+        off = np.take(table.T.copy(), self._of_positions, axis=1)
+        np.abs(np.subtract(off, self._positions[:, np.newaxis], out=off), out=off)
+        errors = off.min(0)
         squares = np.minimum(errors, _OUTLIER) ** 2
         of_positions = np.add.reduceat(squares, self._starts, axis=0)
         of_ends = np.minimum(np.abs(table[self._candidates, -1] - self._ends[:, np.newaxis]), _OUTLIER) ** 2

@@ -42,12 +42,35 @@ def step_of(velocity: float, push: float = 0.0) -> float:
 
 def hold_path(ticks: int, push: float = PUSH, inertia: float = INERTIA) -> tuple[float, ...]:
     """The position after each tick of a hold of ``ticks`` ticks from rest, in blocks, until standstill."""
-    positions, position, velocity = [0.0], 0.0, 0.0
-    while len(positions) <= ticks or velocity >= STANDSTILL:
-        step = step_of(velocity, push if len(positions) <= ticks else 0.0)
-        position, velocity = position + step, step * inertia
+    positions, velocities = _held(ticks, push, inertia)
+    return (*positions, *_coasted(positions[-1], velocities[-1], inertia))
+
+
+def hold_paths(most: int, push: float, inertia: float) -> list[tuple[float, ...]]:
+    """The paths of the holds of 0 to ``most`` ticks, each as of ``hold_path``."""
+    positions, velocities = _held(most, push, inertia)
+    return [
+        (*positions[: ticks + 1], *_coasted(positions[ticks], velocities[ticks], inertia)) for ticks in range(most + 1)
+    ]
+
+
+def _held(ticks: int, push: float, inertia: float) -> tuple[list[float], list[float]]:
+    """The positions and velocities before the first and after each of so many ticks with the key down."""
+    positions, velocities = [0.0], [0.0]
+    for _ in range(ticks):
+        step = step_of(velocities[-1], push)
+        positions.append(positions[-1] + step)
+        velocities.append(step * inertia)
+    return positions, velocities
+
+
+def _coasted(position: float, velocity: float, inertia: float) -> list[float]:
+    """The positions after each tick with the key up, until standstill."""
+    positions = []
+    while velocity >= STANDSTILL:
+        position, velocity = position + velocity, velocity * inertia
         positions.append(position)
-    return tuple(positions)
+    return positions
 
 
 def displacement(ticks: int, inertia: float = INERTIA) -> float:

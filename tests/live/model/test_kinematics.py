@@ -10,6 +10,7 @@ from mc_nested.live.model.kinematics import (
     coasting_distance,
     displacement,
     hold_path,
+    hold_paths,
     nearest_ticks,
     plan_hold,
     push_of,
@@ -103,6 +104,10 @@ def test_a_path_holds_each_ticks_position_until_standstill() -> None:
     # Steps of a hold of two ticks with push 0.1 and inertia 0.1: 0.1, 0.11, 0.011; then 0.0011 is a standstill.
     assert hold_path(2, 0.1, 0.1) == pytest.approx((0.0, 0.1, 0.21, 0.221))
     assert hold_path(0) == (0.0,)
+
+
+def test_the_paths_of_all_holds_are_those_of_each() -> None:
+    assert hold_paths(12, 0.1, 0.7) == [hold_path(ticks, 0.1, 0.7) for ticks in range(13)]
 
 
 def test_other_ground_covers_another_distance() -> None:
