@@ -5,8 +5,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 from mc_nested.cli.app import VERBS
 
 BLOCKED = """
@@ -34,10 +32,9 @@ def test_every_verb_loads_without_torch() -> None:
     assert loaded.returncode == 0, loaded.stderr
 
 
-@pytest.mark.parametrize("preset", ["paper", "live"])
-def test_a_training_is_saved_evaluated_and_played_without_torch(preset: str, tmp_path: Path) -> None:
+def test_a_training_is_saved_evaluated_and_played_without_torch(tmp_path: Path) -> None:
     out = tmp_path / "run"
-    made = without_torch(COMMAND, "train", "--preset", preset, "--episodes", "3", "--out", out)
+    made = without_torch(COMMAND, "train", "--preset", "live", "--episodes", "3", "--out", out)
     assert made.returncode == 0, made.stderr
     (score,) = json.loads((out / "summary.json").read_text())["final_scores"]
     evaluated = without_torch(COMMAND, "evaluate", out, "--json")
