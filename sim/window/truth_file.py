@@ -1,9 +1,12 @@
 """The world as it truly is, in a file that tests read: the client writes it, not the code under test."""
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from mc_nested.atomic_file import atomic_write
+from mc_nested.live.model.reading import Block
 from sim.client.client import VirtualClient
 
 
@@ -16,29 +19,35 @@ class TruthFile:
 
     def __init__(self, path: Path, client: VirtualClient) -> None:
         self._path, self._client = path, client
-        self._written = ""
+        self._seen: Mapping[Block, str] = {}
+        self._built: list[list[int | str]] = []
+        self._written: dict[str, Any] = {}
 
     def write(self) -> None:
         """Write it, unless nothing has changed but the time."""
-        text = self._text()
-        if text == self._written:
+        truth = self._truth()
+        if truth == self._written:
             return
-        self._written = text
+        self._written = truth
         with atomic_write(self._path) as unfinished:
-            unfinished.write_text(text, encoding="utf-8")
+            unfinished.write_text(json.dumps(truth), encoding="utf-8")
 
-    def _text(self) -> str:
+    def _truth(self) -> dict[str, Any]:
         client, player = self._client, self._client.realm.player
         stack = player.hotbar[player.slot]
-        return json.dumps(
-            {
-                "screen": client.game.screen,
-                "feet": player.feet,
-                "yaw": player.yaw,
-                "pitch": player.pitch,
-                "block_in_hand": stack.block if stack else None,
-                "built": [[*block, name] for block, name in sorted(client.built.items())],
-                "keys_down": sorted(client.game.keys.physical),
-                "is_in_front": client.window.is_in_front,
-            }
-        )
+        return {
+            "screen": client.game.screen,
+            "feet": player.feet,
+            "yaw": player.yaw,
+            "pitch": player.pitch,
+            "block_in_hand": stack.block if stack else None,
+            "built": self._listed(client.realm.world.seen()),
+            "keys_down": sorted(client.game.keys.physical),
+            "is_in_front": client.window.is_in_front,
+        }
+
+    def _listed(self, built: Mapping[Block, str]) -> list[list[int | str]]:
+        """Each block's x, y, z and name, in order; the same list again for the same mapping."""
+        if built is not self._seen:
+            self._seen, self._built = built, [[*block, name] for block, name in sorted(built.items())]
+        return self._built

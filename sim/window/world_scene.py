@@ -1,5 +1,7 @@
 """The world in three dimensions, through OpenGL: the floor, the blocks, the one looked at, and the one in the hand."""
 
+from collections.abc import Mapping
+
 import moderngl
 import numpy as np
 
@@ -81,6 +83,8 @@ class WorldScene:
         vertex = _with_constants(_VERTEX)
         self._blocks = context.program(vertex_shader=vertex, fragment_shader=_with_constants(_FRAGMENT))
         self._lines = context.program(vertex_shader=vertex, fragment_shader=_BLACK)
+        self._built: tuple[Mapping[Block, str], Block] = ({}, (0, 0, 0))
+        self._cubes = cubes(*self._built)
 
     def draw(self, realm: Realm, eye: Eye, size: tuple[int, int], target: Block | None) -> None:
         """The world as seen from ``eye``, in a window of ``size`` pixels; ``target`` is outlined."""
@@ -93,7 +97,7 @@ class WorldScene:
         self._look(perspective @ view((x, y, z), eye.yaw, eye.pitch), origin)
         floor = row_of((0.0, world.floor - origin[1] - _LOWER, 0.0), block_colour(world.floor_block))
         self._render(self._blocks, floor_square(), floor)
-        self._render(self._blocks, unit_cube(), cubes(world.built(), origin))
+        self._render(self._blocks, unit_cube(), self._cubes_of(world.seen(), origin))
         if target is not None:
             at = (float(target[0] - origin[0]), float(target[1] - origin[1]), float(target[2] - origin[2]))
             self._render(self._lines, outline(), row_of(at, (0, 0, 0)), moderngl.LINES)
@@ -105,6 +109,12 @@ class WorldScene:
             self._context.enable(moderngl.CULL_FACE)
             self._render(self._blocks, unit_cube(), row_of((0.0, 0.0, 0.0), block_colour(stack.block)))
             self._context.disable(moderngl.CULL_FACE)
+
+    def _cubes_of(self, built: Mapping[Block, str], origin: Block) -> Floats:
+        """What ``cubes`` makes of it, made anew only for another mapping or origin."""
+        if built is not self._built[0] or origin != self._built[1]:
+            self._built, self._cubes = (built, origin), cubes(built, origin)
+        return self._cubes
 
     def _look(self, camera: Matrix, origin: Block) -> None:
         for program in (self._blocks, self._lines):

@@ -3,7 +3,7 @@
 import sys
 import time
 
-SPIN_S = 0.016 if sys.platform == "win32" else 0.002
+SPIN_S = {"win32": 0.016, "linux": 0.0005}.get(sys.platform, 0.002)
 """The end of a wait, in seconds, spent in a loop: as long as a sleep may overshoot (FACTS: Input and windows)."""
 
 
