@@ -85,7 +85,7 @@ ALL = {
         ["pytest", "-n", "2", "--dist", "loadgroup", "-m", f"slow and not ({REAL})"], 25, is_beside=True
     ),
     "real-time tests": Check(
-        ["pytest", "-n", "3", "--dist", "loadgroup", "-m", "realtime or window or wine"],
+        ["pytest", "-n", "2", "--dist", "loadgroup", "-m", "realtime or window or wine"],
         15,
         downloads="1.8 GB for Wine and a Windows Python",
     ),

@@ -1,6 +1,6 @@
 """A real window's game, served to a learner: both ends in processes of their own, over a real scheduler on loopback.
 
-Beside two other windows at most: they are drawn in real time.
+Beside one other window at most: they are drawn in real time.
 """
 
 import json

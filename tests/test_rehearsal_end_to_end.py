@@ -1,6 +1,6 @@
 """From a bare profile to the pixels of a real window and back: the rehearsal's, checked by what its client says.
 
-Beside two other windows at most: they are drawn in real time.
+Beside one other window at most: they are drawn in real time.
 """
 
 import json

@@ -1,6 +1,6 @@
 """Everything a player on Windows does, under Wine: read, doctor, calibrate, play, serve, in a rehearsal window.
 
-Beside two other windows at most: they are drawn in real time. What was built is judged by what the client says.
+Beside one other window at most: they are drawn in real time. What was built is judged by what the client says.
 """
 
 import json

@@ -3,7 +3,9 @@
 import sys
 import time
 
-SPIN_S = {"win32": 0.016, "linux": 0.0005}.get(sys.platform, 0.002)
+_SLEEPS_IN_STEPS = sys.platform == "win32" and sys.version_info < (3, 11)
+
+SPIN_S = 0.016 if _SLEEPS_IN_STEPS else {"linux": 0.0005}.get(sys.platform, 0.002)
 """The end of a wait, in seconds, spent in a loop: as long as a sleep may overshoot (FACTS: Input and windows)."""
 
 
