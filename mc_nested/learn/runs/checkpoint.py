@@ -108,18 +108,16 @@ class Checkpoint:
         if not self.exists:
             raise RunError(f"{self.file}: the checkpoint is gone: bring back a copy, or train again in a new folder")
         about, state = self._read(FILE)
+        if not {"format", "identity", "journals"} <= about.keys():
+            raise self._damaged(FILE)
         if about["format"] > FORMAT:
             raise RunError(f"{self.file}: written by a newer mc-nested: update mc-nested to open it")
-        self.check_identity(about["identity"])
-        return about, state
-
-    def check_identity(self, found: str | None) -> None:
-        """RunError unless that is the fingerprint of what is trained here."""
-        if found != self.identity:
+        if about["identity"] != self.identity:
             raise RunError(
                 f"{self.file}: the checkpoint belongs to another scenario, agent or preset than this run's "
                 f"config.toml: put back the config.toml it was trained with"
             )
+        return about, state
 
     def _write(self, name: str, arrays: Mapping[str, NDArray[Any]], about: Mapping[str, Any]) -> None:
         with atomic_write(self._folder / name) as path, path.open("wb") as file:
@@ -131,7 +129,7 @@ class Checkpoint:
             # Opened here: NumPy leaves a file open that it can't read.
             with (self._folder / name).open("rb") as file, np.load(file, allow_pickle=False) as found:
                 arrays = dict(found)
-            return json.loads(str(arrays.pop(ABOUT))), arrays
+            return dict(json.loads(str(arrays.pop(ABOUT)))), arrays
         except (
             OSError,
             ValueError,

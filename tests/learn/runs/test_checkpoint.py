@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from mc_nested.arrays import Arrays
 from mc_nested.errors import RunError
 from mc_nested.learn.runs import checkpoint as checkpoint_module
-from mc_nested.learn.runs.checkpoint import FILE, FORMAT, Checkpoint
+from mc_nested.learn.runs.checkpoint import ABOUT, FILE, FORMAT, Checkpoint
+from tests.learn.runs.changed_arrays import change_arrays
 
 IDENTITY = {"scenario": "line", "preset": {"batch": 32, "hidden": [32, 32]}}
 
@@ -139,6 +140,14 @@ def test_a_file_of_one_array_is_no_checkpoint(tmp_path: Path) -> None:
     Checkpoint(tmp_path, IDENTITY).save(Counts())
     with (tmp_path / FILE).open("wb") as file:
         np.save(file, np.zeros(3))
+    with pytest.raises(RunError, match="damaged or cut short"):
+        loaded(tmp_path)
+
+
+@pytest.mark.parametrize("says", ["no JSON", "[1]", "{}", '{"format": 2, "identity": "0"}'])
+def test_a_file_that_says_something_else_of_itself_is_no_checkpoint(tmp_path: Path, says: str) -> None:
+    Checkpoint(tmp_path, IDENTITY).save(Counts())
+    change_arrays(tmp_path / FILE, lambda arrays: arrays.update({ABOUT: np.array(says)}))
     with pytest.raises(RunError, match="damaged or cut short"):
         loaded(tmp_path)
 
