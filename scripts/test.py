@@ -123,7 +123,7 @@ def announcement(checks: Mapping[str, Check]) -> list[str]:
     downloads += [f"{check.downloads}, on Linux as root" for check in checks.values() if check.downloads]
     return [
         *("Runs, on two cores:", *rows),
-        f"About {minutes:.0f} minutes in all; more the first time, when what is compiled is compiled.",
+        f"About {max(1, round(minutes))} min in all; more the first time, when what is compiled is compiled.",
         f"Downloads: {'; '.join(downloads)}.",
     ]
 

@@ -19,7 +19,7 @@ TOGETHER = {
 
 
 class TogetherScheduling(LoadScopeScheduling):  # type: ignore[misc]  # xdist has no types
-    """Others are given out one by one, behind those."""
+    """Tests outside ``TOGETHER`` are given out one by one, after the groups."""
 
     def _split_scope(self, nodeid: str) -> str:
         return scope_of(nodeid)

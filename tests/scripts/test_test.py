@@ -41,7 +41,7 @@ def test_it_says_how_long_each_check_takes_and_what_is_fetched() -> None:
     }
     said = announcement(checks)
     assert "  beside                         about 10 min" in said
-    assert any(line.startswith("About 10 minutes in all") for line in said)  # 0.5 + 4, and the 6 that are left of 10
+    assert any(line.startswith("About 10 min in all") for line in said)  # 0.5 + 4, and the 6 that are left of 10
     assert any("1.8 GB for Wine" in line for line in said)
 
 

@@ -5,6 +5,7 @@ journal, one more file per save, so that a save costs only what was added. Both 
 """
 
 import hashlib
+import io
 import json
 import zipfile
 import zlib
@@ -14,6 +15,7 @@ from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict
 
 from mc_nested.arrays import Arrays
 from mc_nested.atomic_file import atomic_write, remove_leftovers
@@ -21,14 +23,27 @@ from mc_nested.errors import RunError
 
 FILE, WHOLE_JOURNAL = "state.npz", "journal.npz"
 
-FORMAT = 2
+FORMAT = 1
 """Version of the files."""
 
+FORMER = "state.pt"
+"""What the state's file was named while it held torch tensors."""
+
 ABOUT = "about"
-"""The array that holds what a file says of itself: an object, as JSON."""
+"""The array of the state's file that holds what it says of itself, as JSON."""
 
 MOST_JOURNALS = 64
 """Journals kept side by side before they are merged into one."""
+
+
+class _About(BaseModel):
+    """The version of a checkpoint's files, what is trained, and the names of its journals."""
+
+    model_config = ConfigDict(strict=True)
+
+    format: int
+    identity: str
+    journals: list[str]
 
 
 class Journalled(Protocol):
@@ -81,8 +96,9 @@ class Checkpoint:
         merge = finished or len(self._journals) >= MOST_JOURNALS
         name = WHOLE_JOURNAL if finished else f"journal-{self._next:06d}.npz"
         journals = [name] if merge else [*self._journals, name]
-        self._write(name, training.journal(None if merge else self._marks), {})
-        self._write(FILE, training.state(), {"format": FORMAT, "identity": self.identity, "journals": journals})
+        about = _About(format=FORMAT, identity=self.identity, journals=journals)
+        self._write(name, training.journal(None if merge else self._marks))
+        self._write(FILE, {ABOUT: np.array(about.model_dump_json()), **training.state()})
         for old in self._journals:
             if old not in journals:
                 (self._folder / old).unlink(missing_ok=True)
@@ -95,52 +111,49 @@ class Checkpoint:
     def load_into(self, training: Journalled) -> None:
         """Continue the training from its last save; RunError as for ``state``."""
         about, state = self._open()
-        journals = [self._read(name)[1] for name in about["journals"]]
+        journals = [self._read(name) for name in about.journals]
         try:
             training.load(state, journals)
-        except (KeyError, ValueError) as error:
+        except (KeyError, IndexError, TypeError, ValueError) as error:
             raise self._damaged(FILE) from error
         remove_leftovers(self._folder)
-        self._journals, self._marks = about["journals"], training.marks()
+        self._journals, self._marks = about.journals, training.marks()
         self._next = 1 + max((int(number) for name in self._journals if (number := name[8:-4]).isdigit()), default=-1)
 
-    def _open(self) -> tuple[dict[str, Any], Arrays]:
+    def _open(self) -> tuple[_About, Arrays]:
+        former = self._folder / FORMER
+        if former.exists():
+            raise RunError(f"{former}: written by a version that was never released: train the run again")
         if not self.exists:
             raise RunError(f"{self.file}: the checkpoint is gone: bring back a copy, or train again in a new folder")
-        about, state = self._read(FILE)
-        if not {"format", "identity", "journals"} <= about.keys():
-            raise self._damaged(FILE)
-        if about["format"] > FORMAT:
+        state = self._read(FILE)
+        try:
+            about = _About.model_validate_json(str(state.pop(ABOUT)))
+        except (KeyError, ValueError) as error:
+            raise self._damaged(FILE) from error
+        if about.format > FORMAT:
             raise RunError(f"{self.file}: written by a newer mc-nested: update mc-nested to open it")
-        if about["identity"] != self.identity:
+        if about.identity != self.identity:
             raise RunError(
                 f"{self.file}: the checkpoint belongs to another scenario, agent or preset than this run's "
                 f"config.toml: put back the config.toml it was trained with"
             )
         return about, state
 
-    def _write(self, name: str, arrays: Mapping[str, NDArray[Any]], about: Mapping[str, Any]) -> None:
+    def _write(self, name: str, arrays: Mapping[str, NDArray[Any]]) -> None:
         with atomic_write(self._folder / name) as path, path.open("wb") as file:
-            np.savez(file, allow_pickle=False, **{ABOUT: np.array(json.dumps(about)), **arrays})
+            np.savez(file, allow_pickle=False, **arrays)
 
-    def _read(self, name: str) -> tuple[dict[str, Any], Arrays]:
-        """What a file says of itself, and its arrays."""
+    def _read(self, name: str) -> Arrays:
         try:
-            # Opened here: NumPy leaves a file open that it can't read.
-            with (self._folder / name).open("rb") as file, np.load(file, allow_pickle=False) as found:
-                arrays = dict(found)
-            return dict(json.loads(str(arrays.pop(ABOUT)))), arrays
-        except (
-            OSError,
-            ValueError,
-            TypeError,
-            KeyError,
-            EOFError,
-            RuntimeError,
-            zlib.error,
-            zipfile.BadZipFile,
-        ) as error:
-            raise self._damaged(name) from error  # TypeError: NumPy finds one array; RuntimeError: a password
+            with zipfile.ZipFile(self._folder / name) as archive:
+                # Each entry is read whole, and so checked, before NumPy reads what its header says.
+                return {
+                    entry.removesuffix(".npy"): np.load(io.BytesIO(archive.read(entry)), allow_pickle=False)
+                    for entry in archive.namelist()
+                }
+        except (OSError, ValueError, EOFError, RuntimeError, zlib.error, zipfile.BadZipFile) as error:
+            raise self._damaged(name) from error  # RuntimeError: zipfile finds a password
 
     def _damaged(self, name: str) -> RunError:
         return RunError(

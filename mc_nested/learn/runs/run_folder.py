@@ -140,8 +140,9 @@ class RunFolder:
         """
         if self.config.preset.imagination is None:
             return None
+        imagination = part_of(self.checkpoint.state(), "imagination")
         try:
-            return learnt_game(part_of(self.checkpoint.state(), "imagination"), trial)
+            return learnt_game(imagination, trial)
         except (KeyError, IndexError) as error:
             raise RunError(
                 f"{self.checkpoint.file}: holds no learnt game of trial {trial}: bring back a whole copy, or train the "
