@@ -82,11 +82,11 @@ ALL = {
     "unit tests": Check([*UNIT, "--hypothesis-profile=all", "--cov", "--cov-append", "--cov-report="], 5),
     "branch coverage": Check(["coverage", "report", "--skip-covered"], 0.2),
     "slow tests": Check(
-        ["pytest", "-n", "2", "--dist", "loadgroup", "-m", f"slow and not ({REAL})"], 25, is_beside=True
+        ["pytest", "-n", "2", "--dist", "loadgroup", "-m", f"slow and not ({REAL})"], 28, is_beside=True
     ),
     "real-time tests": Check(
         ["pytest", "-n", "2", "--dist", "loadgroup", "-m", "realtime or window or wine"],
-        14,
+        18,
         downloads="1.8 GB for Wine and a Windows Python",
     ),
     "stand-in tests": Check(["pytest", "-m", "standin"], 6, downloads="0.8 GB for the stand-in, a game in a browser"),
