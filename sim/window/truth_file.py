@@ -25,29 +25,30 @@ class TruthFile:
 
     def write(self) -> None:
         """Write it, unless nothing has changed but the time."""
-        truth = self._truth()
+        truth = {**truth_of(self._client), "built": self._listed(self._client.realm.world.seen())}
         if truth == self._written:
             return
         self._written = truth
         with atomic_write(self._path) as unfinished:
             unfinished.write_text(json.dumps(truth), encoding="utf-8")
 
-    def _truth(self) -> dict[str, Any]:
-        client, player = self._client, self._client.realm.player
-        stack = player.hotbar[player.slot]
-        return {
-            "screen": client.game.screen,
-            "feet": player.feet,
-            "yaw": player.yaw,
-            "pitch": player.pitch,
-            "block_in_hand": stack.block if stack else None,
-            "built": self._listed(client.realm.world.seen()),
-            "keys_down": sorted(client.game.keys.physical),
-            "is_in_front": client.window.is_in_front,
-        }
-
     def _listed(self, built: Mapping[Block, str]) -> list[list[int | str]]:
         """Each block's x, y, z and name, in order; the same list again for the same mapping."""
         if built is not self._seen:
             self._seen, self._built = built, [[*block, name] for block, name in sorted(built.items())]
         return self._built
+
+
+def truth_of(client: VirtualClient) -> dict[str, Any]:
+    """What the file holds, but for ``built``."""
+    player = client.realm.player
+    stack = player.hotbar[player.slot]
+    return {
+        "screen": client.game.screen,
+        "feet": player.feet,
+        "yaw": player.yaw,
+        "pitch": player.pitch,
+        "block_in_hand": stack.block if stack else None,
+        "keys_down": sorted(client.game.keys.physical),
+        "is_in_front": client.window.is_in_front,
+    }

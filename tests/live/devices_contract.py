@@ -17,6 +17,7 @@ from mc_nested.live.devices import Devices
 from mc_nested.live.model.kinematics import TICK_S
 from scripts.rehearsal_window import TruthReader
 from sim.client.client import VirtualClient
+from sim.window.truth_file import truth_of
 
 SOON_S = 0.5
 CLICKS = 20
@@ -86,20 +87,7 @@ def answers(devices: Devices, truth: Truth) -> dict[str, Any]:
 def virtual_answers() -> dict[str, Any]:
     """The virtual client's."""
     client = VirtualClient(floor_block="grass_block")
-
-    def truth() -> dict[str, Any]:
-        player = client.realm.player
-        stack = player.hotbar[player.slot]
-        return {
-            "screen": client.game.screen,
-            "feet": player.feet,
-            "yaw": player.yaw,
-            "pitch": player.pitch,
-            "block_in_hand": stack.block if stack else None,
-            "keys_down": sorted(client.game.keys.physical),
-        }
-
-    return answers(client.devices, truth)
+    return answers(client.devices, lambda: truth_of(client))
 
 
 def main() -> None:
