@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from mc_nested.live.vision.font import Font
+from sim.client.game.options import GameOptions
 from sim.client.game.physics import Vector
 from sim.client.game.realm import Mode
 
@@ -46,6 +47,7 @@ class ClientSettings:
     has_f3: bool = True
     shows_target: bool = True
     pauses_unfocused: bool = True
+    options: GameOptions = field(default_factory=GameOptions)
     slipperiness: float = 0.6
     speed: float = 1.0
     swaps_sides: bool = False
