@@ -15,6 +15,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.reading import Block
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.vision.font import Font, font_of
 from sim.client.desktop.clipboard import VirtualClipboard
@@ -38,7 +39,7 @@ from sim.client.game.view import View
 from sim.client.game.world import AIR, VirtualWorld
 from sim.client.game.world_folder import read_world, write_world
 from sim.client.mishaps import Mishaps
-from sim.client.settings import ClientSettings, Size, gui_scale
+from sim.client.settings import ClientSettings, Size, scales
 
 TICK_S = 0.05
 
@@ -137,9 +138,16 @@ class VirtualClient:
         return {cell_at(arena.position_of((x + 0.5, float(y), z + 0.5))) for x, y, z in standing}
 
     @property
+    def scales(self) -> Scales:
+        """The scales that the window gets."""
+        settings, options = self.settings, self.settings.options
+        wanted = options.gui_scale if settings.scale is None else settings.scale
+        return scales(self.window.size, wanted, options.debug_gui_scale, self.edition)
+
+    @property
     def scale(self) -> int:
         """The GUI scale that the window gets."""
-        return gui_scale(self.window.size, self.settings.scale)
+        return self.scales.gui
 
     @property
     def holds_pointer(self) -> bool:
@@ -149,7 +157,7 @@ class VirtualClient:
     def new_layers(self) -> ViewLayers:
         """What a view's GUI is made of, in the window's present size."""
         settings = self.settings
-        return ViewLayers(self.window.size, self.scale, self._font, self.edition, settings.words)
+        return ViewLayers(self.window.size, self.scales, self._font, self.edition, settings.words)
 
     # What can happen to it.
 
@@ -221,7 +229,7 @@ class VirtualClient:
 
     def _new_painter(self) -> Painter:
         settings, size = self.settings, self.window.size
-        return Painter(size, self.scale, self._font, self.edition, settings.world, settings.seed, settings.words)
+        return Painter(size, self.scales, self._font, self.edition, settings.world, settings.seed, settings.words)
 
     def _view(self) -> View:
         """What the game shows, in this window."""

@@ -46,18 +46,16 @@ def paint(world: Frame, screen: F3Screen, font: Font) -> Frame:
     """
     frame: Frame = world.copy()
     height, width = world.shape[:2]
-    layers = F3Layers(Letters(font, screen.gui_scale), width).of(screen)
+    layers = F3Layers(Letters(font, screen.gui_scale), -(-width // screen.gui_scale)).of(screen)
     draw_all(frame, layers, (0, 0, width, height))
     return frame
 
 
 class F3Layers:
-    """Debug screens as layers in a window ``width`` pixels wide; a part that didn't change is the same layer again."""
+    """Debug screens as layers in a window ``columns`` GUI pixels wide; an unchanged part is the same layer again."""
 
-    def __init__(self, letters: Letters, width: int) -> None:
-        self._letters = letters
-        # The last GUI pixel may be cut (FACTS: The F3 debug screen).
-        self._columns = -(-width // letters.scale)
+    def __init__(self, letters: Letters, columns: int) -> None:
+        self._letters, self._columns = letters, columns
         self._part = lru_cache(_KEPT)(self._drawn_part)
 
     def of(self, screen: F3Screen) -> list[Layer]:

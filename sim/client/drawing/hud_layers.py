@@ -16,6 +16,12 @@ _PITCH = 9
 _OPAQUE = 8
 _AXES: tuple[Colour, ...] = ((255, 0, 0), (0, 255, 0), (127, 127, 255))
 
+_HOTBAR_FRAME = {0: 0, 1: 0x93, 2: 0x5D, 19: 0x7E, 20: 0x5D, 21: 0}
+"""The greys of the hotbar's rows that let nothing through, from its top (FACTS: Screens and their buttons)."""
+
+_CHOSEN: Colour = (240, 240, 240)
+"""The frame around the chosen slot."""
+
 
 class HudLayers:
     """The layers in a window of a size in GUI pixels; what didn't change is the same layer again."""
@@ -60,9 +66,16 @@ class HudLayers:
 
     def _drawn_hotbar(self, hotbar: tuple[Stack | None, ...], slot: int) -> list[Layer]:
         left, top = self._width // 2 - 91, self._height - 22
-        layers: list[Layer] = [self._fill((left, top, left + 182, top + 22), (0, 0, 0), 128)]
+        layers: list[Layer] = [
+            self._fill((left, top, left + 182, top + 22), (0, 0, 0), 128),
+            *(
+                self._fill((left, top + row, left + 182, top + row + 1), (shade, shade, shade))
+                for row, shade in _HOTBAR_FRAME.items()
+            ),
+        ]
         chosen = left + 20 * slot
-        layers.append(self._fill((chosen - 1, top - 1, chosen + 23, top + 22), (255, 255, 255), 100))
+        ring = ((-1, -1, 23, 2), (-1, 2, 2, 20), (20, 2, 23, 20), (-1, 20, 23, 22))
+        layers += [self._fill((chosen + x, top + y, chosen + w, top + h), _CHOSEN) for x, y, w, h in ring]
         for index, stack in enumerate(hotbar):
             if stack is None:
                 continue
