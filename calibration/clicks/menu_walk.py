@@ -66,7 +66,7 @@ class MenuWalk:
         self._recovery.recover()
         self._before = wait_until_standing_still(connection)
         self._size = self._display.size()
-        self.scale = self._screen.scale()
+        self.scale = self._screen.gui_scale()
 
     def note(self, text: str) -> None:
         """Record a line for the person."""

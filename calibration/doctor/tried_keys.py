@@ -113,7 +113,7 @@ def is_slot_seen_to_change(window: TriedWindow, keys: KeysTable, shown_s: float 
     ``shown_s`` is how long a press may take to be seen, in seconds.
     """
     contents = window.world().contents
-    scale = (contents.scale if contents else None) or 1
+    scale = contents.scales.gui if contents and contents.scales else 1
     before = _bar(window.devices, scale)
     window.controller.tap(keys.hotbar[0])
     window.controller.wait(shown_s)

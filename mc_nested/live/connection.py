@@ -7,11 +7,13 @@ from mc_nested.errors import ProfileError
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.journal import Journal, NoJournal
-from mc_nested.live.profile.fingerprint import check_single_player
+from mc_nested.live.model.versions import draws_text_over_menus
+from mc_nested.live.profile.fingerprint import check_single_player, game_in
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import load_font
 from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
+from mc_nested.live.vision.layout import VANILLA
 
 
 class GameConnection:
@@ -41,6 +43,8 @@ class GameConnection:
         self.is_server_allowed = is_server_allowed
         self.journal = journal or NoJournal()
         self._screen = on_screen(screen) if screen else None
+        if self._screen is not None:
+            controller.guard_world(self._screen.shows_world)
         self._on_screen = on_screen
 
     def __enter__(self) -> "GameConnection":
@@ -107,4 +111,7 @@ def connect(
 
 def screen_for(profile: Profile, devices: Devices) -> WindowScreen:
     """What reads the window with the profile's font and layout; ProfileError or FontError without a usable font."""
-    return WindowScreen(devices.display, load_font(profile.screen.font_path()), overlay_of(profile))
+    font, overlay, display = load_font(profile.screen.font_path()), overlay_of(profile), devices.display
+    version = game_in(display.title(), profile.game).version
+    is_vanilla = overlay is None or overlay.layout.name == VANILLA.name
+    return WindowScreen(display, font, overlay, text_over_menus=is_vanilla and draws_text_over_menus(version))

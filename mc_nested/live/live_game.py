@@ -88,7 +88,7 @@ class LiveGame:
         self._body = Body(profile, connection)
         self._chat = Chat(profile, connection)
         self._recovery = Recovery(profile, connection, points)
-        self._last_frames = LastFrames(connection.devices.display, evidence, connection.screen.seen_scale)
+        self._last_frames = LastFrames(connection.devices.display, evidence, self._gui_scale)
         self.log = ActionLog(self._body.effort)
         self._commands = reset_commands(profile, scenario.start, [material.block for material in scenario.materials])
         self._cell: Cell | None = None
@@ -186,6 +186,10 @@ class LiveGame:
         if outcome.placed is not None:
             self._placed[outcome.placed] = self._shown_id
         return outcome
+
+    def _gui_scale(self) -> int | None:
+        scales = self.connection.screen.seen_scales()
+        return scales.gui if scales else None
 
     def _with_evidence(self, error: LiveError) -> LiveError:
         """The same error, which also says where the last frames were saved, if there are any."""

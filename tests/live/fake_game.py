@@ -14,6 +14,7 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Button, Devices, Frame, Keyboard, Pointer, Region
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.reading import Block, Reading, Target
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.game_screen import GameScreen
 from mc_nested.live.vision.menu_labels import MenuButton
@@ -249,6 +250,12 @@ class FakeScreen:
     def read_position(self) -> tuple[float, float, float] | None:
         return self.read().xyz
 
+    def shows_world(self) -> bool:
+        return not self.is_chat_open()
+
+    def shows_death(self) -> bool:
+        return False
+
     def is_chat_open(self) -> bool:
         return self._game.typed() is not None
 
@@ -261,11 +268,11 @@ class FakeScreen:
     def position_of(self, text: str) -> tuple[int, int] | None:
         raise NotImplementedError(f"the fake game has no menu, nor {text!r} on it")
 
-    def scale(self) -> int:
+    def gui_scale(self) -> int:
         return 2
 
-    def seen_scale(self) -> int | None:
-        return 2
+    def seen_scales(self) -> Scales | None:
+        return Scales(2, 2)
 
 
 class FakeDisplay:

@@ -2,9 +2,6 @@
 
 from typing import Protocol
 
-import cv2
-import numpy as np
-
 from mc_nested.live.devices import Display, Frame, Region
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.scales import Scales, largest_gui_scale

@@ -1,9 +1,10 @@
-"""The words of a pause without a menu: F3+Esc leaves the world as bright as it was (FACTS: Screens and their buttons)."""
+"""The words of a pause without a menu, by F3+Esc: the world stays bright (FACTS: Screens and their buttons)."""
 
 from functools import lru_cache
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.font import Font
@@ -44,11 +45,11 @@ def shows_pause(frame: Frame, scale: int, font: Font) -> bool:
 
 
 @lru_cache(8)
-def _columns(font: Font) -> tuple[np.ndarray, ...]:
+def _columns(font: Font) -> tuple[NDArray[np.uint8], ...]:
     return tuple(np.frombuffer(font.columns(words).rstrip(b"\0"), np.uint8) for words in WORDS)
 
 
-def _is_there(seen: np.ndarray, words: np.ndarray) -> bool:
+def _is_there(seen: NDArray[np.uint8], words: NDArray[np.uint8]) -> bool:
     """Whether most of the words' columns with ink stand somewhere around the middle."""
     ink = words > 0
     middle = (len(seen) - len(words)) // 2

@@ -9,7 +9,7 @@ from calibration.doctor.examination import Examination
 from calibration.doctor.repair import repair
 from calibration.installation.processes import Process
 from mc_nested.errors import ProfileError
-from mc_nested.live.profile.tables import Profile, ScreenTable
+from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
 from tests.calibration.doctor.examined import GOOD, Computer, opened, statuses
 from tests.calibration.doctor.test_examination import no_session, no_window, several
@@ -65,7 +65,8 @@ def test_the_options_of_1_12_are_repaired_in_their_own_form(computer: Computer) 
 
 
 def test_the_gui_scale_is_that_of_the_profile(computer: Computer) -> None:
-    computer.save(Profile(screen=ScreenTable(font=str(computer.font), gui_scale=3)))
+    calibrated = CalibratedTable(date="2026-11-21", gui_scale=3)
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font)), calibrated=calibrated))
     repaired_in(computer, computer.examined(no_window))
     assert "guiScale:3\n" in computer.options.read_text("utf-8")
 

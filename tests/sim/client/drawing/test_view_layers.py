@@ -1,3 +1,4 @@
+from mc_nested.live.model.scales import Scales
 from sim.client.drawing.view_layers import ViewLayers
 from sim.client.game.edition import Edition
 from sim.client.game.f3_text import F3Screen
@@ -11,7 +12,7 @@ HOTBAR = (Stack("stone", 64), *[None] * 8)
 
 
 def layers() -> ViewLayers:
-    return ViewLayers((854, 480), 2, FONT, Edition("1.16.5"), {})
+    return ViewLayers((854, 480), Scales(2, 2), FONT, Edition("1.16.5"), {})
 
 
 def test_in_the_world_there_are_hotbar_debug_screen_and_typed_line() -> None:
