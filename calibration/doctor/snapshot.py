@@ -9,7 +9,6 @@ from mc_nested.live.menus.screens import ScreenName, menu_name
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.scales import Scales
 from mc_nested.live.model.timing import PERSON_LOOK_S
-from mc_nested.live.model.versions import draws_text_over_menus
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.debug_screen import nothing_seen, read_found
@@ -64,8 +63,8 @@ def take_snapshot(devices: Devices, font: Font | None, overlay: Overlay | None =
     is_in_front, frame = display.is_in_front(), display.grab()
     contents = None
     if is_in_front and font is not None:
-        is_over = draws_text_over_menus(version_in(display.title()) or "")
-        contents = contents_of(frame, font, overlay, WindowScreen(display, font, overlay, text_over_menus=is_over))
+        screen = WindowScreen(display, font, version=version_in(display.title()) or "")
+        contents = contents_of(frame, font, overlay, screen)
     window = Fingerprint(display.title(), display.size(), contents.scales if contents else None)
     area = devices.area() if devices.area else None
     points = (area.width, area.height) if area else None

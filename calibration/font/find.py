@@ -157,7 +157,9 @@ def _way_from_menu(context: CalibrationContext, profile: Profile, candidates: Se
     """The way out of the menu that one of the fonts reads; None where none does."""
     connection = context.connection
     for each in candidates:
-        way = Recovery(profile, connection.with_screen(WindowScreen(connection.devices.display, each.font)))
+        display = connection.devices.display
+        screen = WindowScreen(display, each.font, version=game_in(display.title(), profile.game).version)
+        way = Recovery(profile, connection.with_screen(screen))
         if way.screen_name() not in ("unknown", "world"):
             return way
     return None

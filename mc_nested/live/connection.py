@@ -7,13 +7,11 @@ from mc_nested.errors import ProfileError
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.journal import Journal, NoJournal
-from mc_nested.live.model.versions import draws_text_over_menus
 from mc_nested.live.profile.fingerprint import check_single_player, game_in
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import load_font
 from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
-from mc_nested.live.vision.layout import VANILLA
 
 
 class GameConnection:
@@ -113,5 +111,4 @@ def screen_for(profile: Profile, devices: Devices) -> WindowScreen:
     """What reads the window with the profile's font and layout; ProfileError or FontError without a usable font."""
     font, overlay, display = load_font(profile.screen.font_path()), overlay_of(profile), devices.display
     version = game_in(display.title(), profile.game).version
-    is_vanilla = overlay is None or overlay.layout.name == VANILLA.name
-    return WindowScreen(display, font, overlay, text_over_menus=is_vanilla and draws_text_over_menus(version))
+    return WindowScreen(display, font, overlay, version)

@@ -5,10 +5,11 @@ from typing import Protocol
 from mc_nested.live.devices import Display, Frame, Region
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.scales import Scales, largest_gui_scale
+from mc_nested.live.model.versions import draws_text_over_menus
 from mc_nested.live.vision.font import SPACE, Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
 from mc_nested.live.vision.hotbar import HotbarLook, bottom_dots, bottom_region, hotbar_look, typed_dots
-from mc_nested.live.vision.layout import Overlay
+from mc_nested.live.vision.layout import VANILLA, Overlay
 from mc_nested.live.vision.menu_labels import MenuButton, MenuLabels
 from mc_nested.live.vision.overlay import SCALES, find_overlay
 from mc_nested.live.vision.pause_words import pause_region, shows_pause
@@ -72,16 +73,16 @@ class WindowScreen:
         display: the game's window.
         font: the font that reads it.
         overlay: how the debug screen is drawn; without it that is found.
-        text_over_menus: the debug screen lies over menus, so that reading it doesn't show that none is open.
+        version: the game's. From 1.21.9 on the debug screen lies over menus, so that reading it doesn't show that none
+            is open.
     """
 
-    def __init__(
-        self, display: Display, font: Font, overlay: Overlay | None = None, *, text_over_menus: bool = False
-    ) -> None:
+    def __init__(self, display: Display, font: Font, overlay: Overlay | None = None, version: str = "") -> None:
         self.font = font
         self._display, self._font, self._overlay = display, font, overlay
         self._reader = ScreenReader(display, font, overlay)
-        self._text_over_menus = text_over_menus
+        is_vanilla = overlay is None or overlay.layout.name == VANILLA.name
+        self._text_over_menus = is_vanilla and draws_text_over_menus(version)
         self._gui: tuple[tuple[int, int], int] | None = None
         self._debug: tuple[tuple[int, int], int] | None = None
 

@@ -23,6 +23,9 @@ class ChatScreen(FakeScreen):
         self.open_from_look = 10**6
         self.typed_instead: str | None = None
 
+    def shows_world(self) -> bool:
+        return True
+
     def is_chat_open(self) -> bool:
         self.looks += 1
         self.seen.append(self._game.typed())

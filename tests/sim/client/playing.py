@@ -28,10 +28,15 @@ def read(client: VirtualClient) -> Reading:
     return read_debug_screen(client.display.grab(), FONT, Overlay(client.scale, VANILLA, (224, 224, 224)))
 
 
+def screen_of(client: VirtualClient) -> WindowScreen:
+    """What reads the client's window."""
+    return WindowScreen(client.display, FONT, version=client.settings.version)
+
+
 def connection_to(client: VirtualClient, *, is_server_allowed: bool = False) -> GameConnection:
     """The client, read with its own font."""
     controller = InputController(client.devices, InputTable())
-    screen = WindowScreen(client.display, FONT)
+    screen = screen_of(client)
     return GameConnection(client.devices, controller, screen, is_server_allowed=is_server_allowed)
 
 
