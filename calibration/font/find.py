@@ -21,6 +21,7 @@ from mc_nested.live.devices import SWITCH_KEYS, Frame
 from mc_nested.live.menus.recovery import UNKNOWN_S, Recovery
 from mc_nested.live.menus.wait_for_player import wait_for_front
 from mc_nested.live.model.timing import PERSON_LOOK_S
+from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.debug_screen import read_debug_screen
