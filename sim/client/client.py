@@ -79,6 +79,7 @@ class VirtualClient:
             keys=GameKeys(SIDES_SWAPPED if settings.swaps_sides else BINDINGS),
             ground=Ground(settings.slipperiness, settings.speed),
             shows_target=settings.shows_target,
+            options=settings.options,
             on_leave=self._save,
             on_enter=self._load,
         )
