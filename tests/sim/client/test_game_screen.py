@@ -104,6 +104,33 @@ def test_a_letter_that_is_lost_keeps_the_line_from_being_sent() -> None:
     assert client.realm.day_time == 6000
 
 
+@pytest.mark.parametrize("scale", [1, 2, 3, 4, 5, 6])
+@pytest.mark.parametrize("draft", ["/tp @s 1 2 3", "hello", "W", "~@#", "it"])
+def test_a_draft_is_an_open_chat_and_is_deleted_before_a_line_is_typed(draft: str, scale: int) -> None:
+    client = VirtualClient(version="26.1", size=(320 * scale + 7, 240 * scale + 3), scale=scale, world="bright")
+    client.game.chat.draft = draft
+    client.clock.sleep(0.2)
+    connection = _connection(client)
+    assert not connection.screen.is_chat_open()
+    connection.controller.confirm_screen("world")
+    Chat(Profile(), connection).send("/time set 1")
+    client.clock.sleep(0.2)
+    assert (client.realm.day_time, client.game.chat.draft) == (1, "")
+
+
+@pytest.mark.parametrize("scale", range(1, 9))
+def test_whatever_letter_a_draft_begins_with_it_is_an_open_chat(scale: int) -> None:
+    client = VirtualClient(version="26.1", size=(320 * scale + 7, 240 * scale + 3), scale=scale, world="dark")
+    screen, letters = _screen(client), FONT.glyphs.keys() - {"."}
+    for letter in letters:
+        client.game.chat.draft = f"{letter}ox"
+        client.game.open("chat")
+        client.clock.sleep(0.2)
+        assert screen.is_chat_open(), letter
+        client.game.chat.close(keeps_draft=False)
+        client.game.open("world")
+
+
 class ElsewhereScreen(WindowScreen):
     """What reads a game that draws its chat where the game itself doesn't."""
 
