@@ -1,6 +1,7 @@
 """Random debug screens and worlds behind them, to test a reader on. The same seed gives the same frames."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +11,10 @@ from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.overlay import SCALES
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.scenery import WORLDS, random_world
-from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+from sim.client.game.debug_entries import TUTORIAL, known_entries, shown_entries
+from sim.client.game.edition import Edition, Layout
+from sim.client.game.f3_screen import BY_ENTRIES, F3Screen
+from sim.client.game.f3_text import LAYOUTS
 
 __all__ = ["WINDOWS", "WORLDS", "expected", "frames", "random_screen", "random_world"]
 
@@ -27,6 +31,10 @@ _IDS = ("stone", "oak_planks", "oak_log", "grass_block", "dirt", "polished_black
 _OLD_IDS = ("stone", "planks", "log", "grass", "stone_brick_stairs", "tnt", "wool")
 """Of 1.12, whose row of the id is that of the Facing line."""
 
+_BY_ENTRIES: dict[Layout, tuple[str, ...]] = {
+    "1.21.9-26.3": ("1.21.9", "1.21.11", "26.1", "26.2", "26.3"),
+    "26.4": ("26.4-snapshot-2", "26.4", "27.1"),
+}
 _PROPERTIES = (("axis", "y"), ("snowy", "false"), ("waterlogged", "true"), ("facing", "north"))
 _TAGS = ("minecraft:planks", "minecraft:mineable/axe", "c:villager_job_sites")
 
@@ -72,8 +80,26 @@ def random_screen(
         tags=() if is_standin or is_old else _TAGS[: int(rng.integers(len(_TAGS) + 1))],
         # A fluid without a block behind it is not read for sure: that block may be covered.
         fluid=block if target and rng.random() < 0.2 else None,
-        swapped=layout == "1.21.9-26.3" and bool(rng.random() < 0.5),
+        **_chosen(rng, layout, block),
     )
+
+
+def _chosen(rng: np.random.Generator, layout: Layout, block: Block) -> dict[str, Any]:
+    """From 1.21.9 on, a version, and entries that are on with the tutorial's or in their place."""
+    if layout not in BY_ENTRIES:
+        return {}
+    version = str(rng.choice(_BY_ENTRIES[layout]))
+    known = known_entries(Edition(version))
+    asked = shown_entries(TUTORIAL, Edition(version), has_f3=True)
+    needed = {"player_position", *(entry for entry in asked if entry.startswith("looking_at_block"))}
+    kept = needed if rng.random() < 0.3 else {*needed, *asked}
+    more = {entry for entry in known if rng.random() < 0.1}
+    return {
+        "version": version,
+        "entries": tuple(sorted(kept | more)),
+        "has_f3": bool(rng.random() < 0.7),
+        "entity": (block[0] + 0.5, float(block[1]), block[2] + 0.5) if rng.random() < 0.2 else None,
+    }
 
 
 def expected(screen: F3Screen) -> Reading:

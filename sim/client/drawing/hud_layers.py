@@ -34,7 +34,7 @@ class HudLayers:
         """Crosshair and hotbar."""
         if not view.hotbar:
             return []
-        return [*self._crosshair(view.f3 is not None), *self._hotbar(view.hotbar, view.slot)]
+        return [*self._crosshair(view.f3 is not None and view.f3.has_axes), *self._hotbar(view.hotbar, view.slot)]
 
     def chat(self, lines: tuple[ChatLine, ...], typed: TypedLine | None) -> list[Layer]:
         """The chat's lines, the newest at the bottom, and the line being typed."""

@@ -31,7 +31,7 @@ class ViewLayers:
     ) -> None:
         letters = Letters(font, scale)
         gui = (-(-size[0] // scale), -(-size[1] // scale))
-        self._f3 = F3Layers(letters, size[0])
+        self._f3 = F3Layers(letters, size)
         self._hud = HudLayers(letters, gui, edition)
         self._menu = MenuLayers(letters, gui, edition, words)
         # The same layers again, so that what doesn't change isn't drawn again.

@@ -6,10 +6,12 @@ from collections.abc import Callable
 from mc_nested.live.model.reading import Target
 from sim.client.game import bodies, physics, ray
 from sim.client.game.block_tags import tags_of
+from sim.client.game.box_columns import stood_after
 from sim.client.game.chat import ChatLine, TypedLine, VirtualChat
 from sim.client.game.commands import chat_line
+from sim.client.game.debug_entries import TUTORIAL, DebugEntries, shown_entries
 from sim.client.game.edition import Edition
-from sim.client.game.f3_text import F3Screen
+from sim.client.game.f3_screen import BY_ENTRIES, F3Screen, Stood
 from sim.client.game.gaits import Gaits
 from sim.client.game.keys import HOTBAR, GameKeys
 from sim.client.game.options import HIDDEN, GameOptions
@@ -41,7 +43,7 @@ class VirtualGame:
         realm: the world, changed as it is played.
         keys: the key bindings and their state.
         ground: the floor that the player walks on.
-        shows_target: whether the debug screen names the block looked at; 1.21.9 and later do so only if set.
+        debug_entries: what the debug screen shows, from 1.21.9 on.
         options: what its options.txt says.
         on_leave: called with the realm when the world is saved.
         on_enter: returns the realm when the world is entered again.
@@ -53,7 +55,7 @@ class VirtualGame:
         *,
         keys: GameKeys | None = None,
         ground: physics.Ground = physics.STONE,
-        shows_target: bool = True,
+        debug_entries: DebugEntries = TUTORIAL,
         options: GameOptions | None = None,
         on_leave: Callable[[Realm], None] = lambda _: None,
         on_enter: Callable[[Realm], Realm] = lambda realm: realm,
@@ -73,7 +75,7 @@ class VirtualGame:
         self.is_world_chosen = False
         self.reason = ""
         self.notices: tuple[str, ...] = ()
-        self._shows_target = shows_target
+        self.debug_entries = debug_entries
         self._on_leave, self._on_enter = on_leave, on_enter
         self._since = 0
         self._use_delay = self._attack_delay = 0
@@ -86,6 +88,7 @@ class VirtualGame:
         self._looked: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
         self._looked_on_f3: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
         self._shown_f3: tuple[tuple[object, ...], F3Screen | None] = ((), None)
+        self._stood: Stood = ((), ())
         self._before = self._aim()
 
     @property
@@ -213,10 +216,12 @@ class VirtualGame:
             if self.realm.player.feet[1] < self.realm.world.floor - _VOID:
                 self.die()
 
-    def view(self, fps: int = 60, size: tuple[int, int] = (854, 480), *, is_drawn: bool = False) -> View:
+    def view(
+        self, fps: int = 60, size: tuple[int, int] = (854, 480), scale: int = 2, *, is_drawn: bool = False
+    ) -> View:
         """What the game shows now; its debug screen names ``fps`` frames a second and a window of that size in pixels.
 
-        ``is_drawn`` adds the world as the player sees it.
+        ``scale`` is that of the debug screen. ``is_drawn`` adds the world as the player sees it.
         """
         player = self.realm.player
         is_ready = self.screen != "death" or self.ticks - self._since >= DEATH_WAIT
@@ -226,11 +231,13 @@ class VirtualGame:
         pointer = (-1, -1) if self.screen == "world" else self.pointer
         scene, sight = block_of(player.feet), self.sight() if is_drawn else None
         if self.hides_hud:
-            return View(state, scene, pointer=pointer, notices=self.notices, sight=sight)
+            # From 1.21.9 on a screen that is open shows the debug text all the same.
+            f3 = self._f3(fps, size, scale) if self.screen != "world" and self.edition.since(1, 21, 9) else None
+            return View(state, scene, f3, pointer=pointer, notices=self.notices, sight=sight)
         return View(
             state,
             scene,
-            self._f3(fps, size) if self.has_f3 else None,
+            self._f3(fps, size, scale),
             tuple(player.hotbar),
             player.slot,
             self._messages(),
@@ -406,22 +413,44 @@ class VirtualGame:
             player.velocity = (0.0 if stays_x else east, up, 0.0 if stays_z else south)
             player.feet = feet
 
-    def _f3(self, fps: int, size: tuple[int, int]) -> F3Screen | None:
+    def _f3(self, fps: int, size: tuple[int, int], scale: int) -> F3Screen | None:
         realm, player = self.realm, self.realm.player
-        hit = self.target_on_f3() if self._shows_target else None
         is_reduced = self.is_info_reduced
-        now = (player.feet, player.yaw, player.pitch, hit, realm.world.revision, is_reduced, fps, size)
+        entries: tuple[str, ...] | None = None
+        if self.edition.layout in BY_ENTRIES:
+            entries = self._shown_entries(has_f3=self.has_f3, is_reduced=is_reduced)
+        if not (self.has_f3 if entries is None else entries):
+            self._shown_f3, self._stood = ((), None), ((), ())
+            return None
+        hit = self.target_on_f3()
+        about = (player.feet, player.yaw, player.pitch, hit, realm.world.revision, fps, size, scale)
+        now = (*about, is_reduced, entries, self.has_f3)
         if self._shown_f3[0] != now:
-            self._shown_f3 = now, self._new_f3(hit, fps, size, is_reduced=is_reduced)
+            self._shown_f3 = now, self._new_f3(hit, fps, size, scale, entries, is_reduced=is_reduced)
         return self._shown_f3[1]
 
-    def _new_f3(self, hit: ray.Hit | None, fps: int, size: tuple[int, int], *, is_reduced: bool) -> F3Screen:
+    def _shown_entries(self, *, has_f3: bool, is_reduced: bool) -> tuple[str, ...]:
+        return shown_entries(self.debug_entries, self.edition, has_f3=has_f3, is_reduced=is_reduced)
+
+    def _new_f3(
+        self,
+        hit: ray.Hit | None,
+        fps: int,
+        size: tuple[int, int],
+        scale: int,
+        entries: tuple[str, ...] | None,
+        *,
+        is_reduced: bool,
+    ) -> F3Screen:
         realm = self.realm
         player, edition = realm.player, self.edition
         name = realm.world.block_at(hit.block) if hit else ""
-        return F3Screen(
+        before = self._shown_f3[1]
+        if before is not None and before.entries != entries:
+            self._stood = ((), ())
+        screen = F3Screen(
             edition.layout,
-            1,
+            scale,
             player.feet,
             (player.yaw + 180.0) % 360.0 - 180.0,
             player.pitch,
@@ -431,4 +460,10 @@ class VirtualGame:
             version=edition.version,
             fps=fps,
             size=size,
+            entries=entries,
+            has_f3=self.has_f3,
+            stood=self._stood,
         )
+        if edition.layout == "26.4":
+            self._stood = stood_after(screen, screen.rows)
+        return screen
