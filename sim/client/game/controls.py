@@ -58,9 +58,14 @@ class Controls:
             self._f3_used = game.screen != "world"
 
     def character(self, text: str) -> None:
-        """A character comes, which a key typed or a program sent: only the chat takes any, and none beside Ctrl."""
-        if self._game.screen == "chat" and not self._game.keys.physical.intersection(_CONTROL):
-            self._game.chat.insert(text)
+        """A character comes, which a key typed or a program sent; beside Ctrl none counts."""
+        game = self._game
+        if game.keys.physical.intersection(_CONTROL):
+            return
+        if game.screen == "chat":
+            game.chat.insert(text)
+        elif game.screen == "debug_options":
+            game.searched += text
 
     def button(
         self, button: str, position: tuple[int, int], size: tuple[int, int], now: float, *, is_down: bool
@@ -147,6 +152,8 @@ class Controls:
             self._escape()
         elif key == "e" and game.screen == "inventory":
             game.open("world")
+        elif key == "backspace" and game.screen == "debug_options":
+            game.searched = game.searched[:-1]
         elif key == _FRIENDS and game.screen in FRIENDS:
             game.close_friends()
         elif key == "enter" and game.screen == "worlds" and game.is_world_chosen and game.edition.since(1, 16):

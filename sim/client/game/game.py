@@ -1,7 +1,7 @@
 """The game itself, a tick at a time: moving, placing, screens, chat. It knows no pixels and no latencies."""
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from mc_nested.live.model.reading import Target
 from sim.client.game import bodies, physics, ray
@@ -9,7 +9,8 @@ from sim.client.game.block_tags import tags_of
 from sim.client.game.box_columns import stood_after
 from sim.client.game.chat import ChatLine, TypedLine, VirtualChat
 from sim.client.game.commands import chat_line
-from sim.client.game.debug_entries import TUTORIAL, DebugEntries, shown_entries
+from sim.client.game.debug_entries import GAME_DEFAULT, PERFORMANCE, TUTORIAL, DebugEntries, shown_entries
+from sim.client.game.debug_options import choices
 from sim.client.game.edition import Edition
 from sim.client.game.f3_screen import BY_ENTRIES, F3Screen, Stood
 from sim.client.game.gaits import Gaits
@@ -18,7 +19,7 @@ from sim.client.game.options import HIDDEN, GameOptions
 from sim.client.game.realm import SLOTS, Realm
 from sim.client.game.screens import DEATH_WAIT, IN_WORLD, PAUSING, MenuState, ScreenName
 from sim.client.game.view import Eye, Sight, View
-from sim.client.game.widgets import Effect
+from sim.client.game.widgets import Effect, EntryChange
 from sim.client.game.world import AIR, block_of
 
 REPEAT_TICKS = 4
@@ -32,6 +33,15 @@ SIGHT = 20.0
 
 _REACH = {"creative": 5.0, "survival": 4.5}
 _LOADING_TICKS = {"loading": 40, "saving": 20}
+_PROFILES: Mapping[Effect, DebugEntries] = {"default_profile": GAME_DEFAULT, "performance_profile": PERFORMANCE}
+_LEADS_TO: Mapping[Effect, ScreenName] = {
+    "resume": "world",
+    "to_title": "title",
+    "to_worlds": "worlds",
+    "to_servers": "servers",
+    "enter_world": "loading",
+    "enter_selected": "loading",
+}
 _VOID = 64
 """Blocks below the floor at which a falling player dies."""
 
@@ -75,7 +85,7 @@ class VirtualGame:
         self.is_world_chosen = False
         self.reason = ""
         self.notices: tuple[str, ...] = ()
-        self.debug_entries = debug_entries
+        self.debug_entries, self.searched = debug_entries, ""
         self._on_leave, self._on_enter = on_leave, on_enter
         self._since = 0
         self._use_delay = self._attack_delay = 0
@@ -119,6 +129,7 @@ class VirtualGame:
             self.keys.leave_world()
         if screen == "chat":
             self.chat.open(typed)
+        self.searched = ""
         self.screen, self._since, self.is_world_chosen = screen, self.ticks, False
 
     def leave_chat(self) -> None:
@@ -140,27 +151,23 @@ class VirtualGame:
         if self.options.chat_visibility != HIDDEN:
             self._sent.append(line)
 
-    def do(self, effect: Effect) -> None:
+    def do(self, effect: Effect | EntryChange) -> None:
         """Carry out the effect of a button."""
-        if effect == "resume":
-            self.open("world")
+        if isinstance(effect, EntryChange):
+            self.debug_entries = {**self.debug_entries, effect.entry: effect.status}
+        elif effect in _PROFILES:
+            self.debug_entries = _PROFILES[effect]
+        elif effect in _LEADS_TO:
+            self.open(_LEADS_TO[effect])
         elif effect == "leave":
             self._on_leave(self.realm)
             self.open("saving")
         elif effect == "respawn":
             self._respawn()
-        elif effect == "to_title":
-            self.open("title")
-        elif effect == "to_worlds":
-            self.open("worlds")
-        elif effect == "to_servers":
-            self.open("servers")
         elif effect == "behind":
             self.close_friends()
         elif effect == "select_world":
             self.is_world_chosen = True
-        elif effect in ("enter_world", "enter_selected"):
-            self.open("loading")
 
     def die(self) -> None:
         """Kill the player, who loses the hotbar unless the rules keep it."""
@@ -226,6 +233,9 @@ class VirtualGame:
         player = self.realm.player
         is_ready = self.screen != "death" or self.ticks - self._since >= DEATH_WAIT
         state = MenuState(self.screen, is_ready, self.is_world_chosen, self.reason)
+        if self.screen == "debug_options":
+            shown = choices(self.debug_entries, self.edition, self.searched)
+            state = state._replace(choices=shown, searched=self.searched)
         if not self.is_in_world:
             return View(state, (0, 0, 0), pointer=self.pointer, notices=self.notices)
         pointer = (-1, -1) if self.screen == "world" else self.pointer

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Literal, NamedTuple
 
 from sim.client.game.colours import GREY, WHITE, Colour
+from sim.client.game.debug_options import Choice, debug_options
 from sim.client.game.edition import Edition
 from sim.client.game.widgets import Menu, MenuText, Panel, Widget
 
@@ -57,13 +58,18 @@ _OLD_GRID = ((-154, 72), (-76, 72), (4, 72), (82, 72))
 
 
 class MenuState(NamedTuple):
-    """What the look of a screen depends on: ``is_ready`` is whether its buttons are active yet."""
+    """What the look of a screen depends on: ``is_ready`` is whether its buttons are active yet.
+
+    ``choices`` are those of the debug options, found by the text ``searched``.
+    """
 
     name: ScreenName
     is_ready: bool = True
     is_chosen: bool = False
     reason: str = ""
     world: str = "New World"
+    choices: tuple[Choice, ...] = ()
+    searched: str = ""
 
 
 def menu(state: MenuState, edition: Edition, width: int, height: int) -> Menu:
@@ -180,6 +186,10 @@ def _friends(_state: MenuState, _edition: Edition, width: int, height: int) -> M
     return Menu((MenuText("Loading friends", width // 2, height // 2),), (*tabs, inside, beside), (panel,))
 
 
+def _debug_options(state: MenuState, edition: Edition, width: int, height: int) -> Menu:
+    return debug_options(state.choices, state.searched, edition, width, height)
+
+
 def _icons(count: int, width: int, top: int) -> tuple[Widget, ...]:
     """A row of so many buttons with pictures, in the middle."""
     side, gap = _ICONS
@@ -224,6 +234,7 @@ _MENUS: dict[ScreenName, Callable[[MenuState, Edition, int, int], Menu]] = {
     "servers": _servers,
     "pause": _pause,
     "paused": _paused,
+    "debug_options": _debug_options,
     "friends": _friends,
     "title_friends": _friends,
     "death": _death,

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from sim.client.game.colours import WHITE, Colour
+from sim.client.game.debug_entries import Status
 
 Effect = Literal[
     "",
@@ -17,8 +18,17 @@ Effect = Literal[
     "enter_world",
     "enter_selected",
     "behind",
+    "default_profile",
+    "performance_profile",
 ]
 """What a click does: nothing for buttons that no test needs."""
+
+
+class EntryChange(NamedTuple):
+    """What another click does: show an entry of the debug screen always, with F3, or never."""
+
+    entry: str
+    status: Status
 
 
 @dataclass(frozen=True)
@@ -32,7 +42,7 @@ class Widget:
     left: int
     top: int
     width: int
-    does: Effect = ""
+    does: Effect | EntryChange = ""
     height: int = 20
     is_active: bool = True
     is_drawn: bool = True

@@ -1,6 +1,7 @@
 import pytest
 
 from sim.client.game.controls import Controls
+from sim.client.game.debug_entries import GAME_DEFAULT, PERFORMANCE
 from sim.client.game.edition import Edition
 from sim.client.game.game import VirtualGame
 from sim.client.game.options import GameOptions
@@ -124,6 +125,24 @@ def test_f3_and_f6_opens_the_debug_options_since_1_21_9(version: str, screen: Sc
     assert played.game.screen == screen
     played.tap("esc")
     assert played.game.screen == ("pause" if screen == "world" else "world")
+
+
+def test_a_click_on_a_debug_options_button_shows_the_block_looked_at() -> None:
+    played = Played("26.1")
+    played.game.do("default_profile")
+    played.tap("f3", "f6")
+    played.type(*"looking_x")
+    played.tap("backspace")
+    shown = played.game.view().menu
+    assert (shown.searched, shown.choices[0]) == ("looking_", ("looking_at_block_state", "never"))
+    button = next(each for each in menu(shown, played.game.edition, *SIZE).buttons if each.label == "In Overlay")
+    played.click_at(round(button.middle[0]), round(button.middle[1]))
+    assert played.game.debug_entries == {**GAME_DEFAULT, "looking_at_block_state": "inOverlay"}
+    done = next(each for each in menu(shown, played.game.edition, *SIZE).buttons if each.label == "Done")
+    played.click_at(round(done.middle[0]), round(done.middle[1]))
+    assert str(played.game.screen) == "world"
+    played.game.do("performance_profile")
+    assert played.game.debug_entries == PERFORMANCE
 
 
 @pytest.mark.parametrize("screen", ["world", "pause", "paused", "title"])
