@@ -21,6 +21,7 @@ from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.profile.tables import WindowTable
 from mc_nested.live.vision.font import font_of, load_font
 from sim.client.drawing.font import drawn_atlas
+from sim.client.game.debug_entries import GAME_DEFAULT, DebugEntries, names_block, read_profile
 from sim.client.game.edition import Edition
 from sim.client.game.options import LARGEST_SCALE, parse_options
 from sim.client.settings import ClientSettings, Size
@@ -31,6 +32,7 @@ SMALLEST: Size = (320, 240)
 LARGEST: Size = (7680, 4320)
 
 INSTALL = "pip install -c constraints.txt -e '.[rehearse]'"
+PROFILE = "debug-profile.json"
 LOWEST_FPS, HIGHEST_FPS = 5.0, 300.0
 LONGEST_LAG_MS = 500.0
 SEEDS = 1_000_000
@@ -53,6 +55,10 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         typer.Option(
             metavar="NAME=VALUE", help="a line of the game's options.txt, such as toggleUse=true; more than once"
         ),
+    ] = None,
+    debug_profile: Annotated[
+        Path | None,
+        typer.Option(help="a debug-profile.json: what the debug screen shows from 1.21.9 on (default: the game's own)"),
     ] = None,
     fps: Annotated[
         float | None, typer.Option(min=LOWEST_FPS, max=HIGHEST_FPS, help="frames a second (default: the monitor's)")
@@ -85,6 +91,7 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         floor_block="grass_block" if edition.since(1, 13) else "stone",
         pauses_unfocused=options.pause_on_lost_focus,
         options=options,
+        debug_entries=_entries(debug_profile, edition),
     )
     if truth is not None and not truth.parent.is_dir():
         raise UserError(f"{truth.parent} is no folder: name a file in a folder that exists")
@@ -98,6 +105,11 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             " Press F3+P in the window, or it pauses while another is in front." if settings.pauses_unfocused else ""
         )
         typer.echo(f"Rehearsing Minecraft {version}.{pauses}")
+        if edition.since(1, 21, 9) and not names_block(settings.debug_entries, edition):
+            typer.echo(
+                "Its debug screen names no block yet, as in the game: press F3+F6 there, type looking_at_block, and"
+            )
+            typer.echo("set the first one to In Overlay (In F3 to 1.21.10).")
         typer.echo("To learn calibration, run this in another terminal, and switch to the window:")
         typer.echo(f"  mc-nested calibrate all --profile rehearsal --font {font or _font_picture()}")
         if mishaps:
@@ -121,6 +133,22 @@ def _lines(options: Iterable[str]) -> Iterator[str]:
         if not equals:
             raise UserError(f"{option!r} is no option: write NAME=VALUE, such as toggleUse=true")
         yield f"{name}:{value}"
+
+
+def _entries(path: Path | None, edition: Edition) -> DebugEntries:
+    """The entries that a debug-profile.json stands for; the game's own without one."""
+    if path is None:
+        return GAME_DEFAULT
+    if not edition.since(1, 21, 9):
+        raise UserError(f"Minecraft {edition.version} has no {PROFILE}: it came with 1.21.9")
+    try:
+        text = path.read_text("utf-8")
+    except (OSError, UnicodeError) as error:
+        raise UserError(f"{path} can't be read ({error}): name a {PROFILE}") from error
+    try:
+        return read_profile(text, edition)
+    except UserError as error:
+        raise UserError(f"{path}: {error}") from error
 
 
 def _size(text: str) -> Size:

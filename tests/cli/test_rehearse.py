@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from sim.client.game.debug_entries import GAME_DEFAULT
 from sim.client.game.options import GameOptions
 from tests.cli.running import run
 
@@ -45,6 +46,8 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str | Path) -> str:
         (["--option", "toggleUse"], "'toggleUse' is no option: write NAME=VALUE"),
         (["--version", "26.1", "--option", "toggleUse=on"], "toggleUse can't be 'on': give true or false"),
         (["--option", "toggleUse=true"], "Minecraft 1.20.1 has no option toggleUse: it came with 1.21.9"),
+        (["--debug-profile", "missing.json"], "Minecraft 1.20.1 has no debug-profile.json: it came with 1.21.9"),
+        (["--version", "26.1", "--debug-profile", "missing.json"], "missing.json can't be read"),
         (["--option", "fov=70"], "no option 'fov' is known: name one of guiScale, "),
         (["--fps", "1"], "--fps"),
         (["--lag", "-1"], "--lag"),
@@ -122,6 +125,25 @@ if sys.platform.startswith("linux"):
     ) -> None:
         assert run("rehearse", *words) == 0
         assert opened[0].settings.scale == scale
+
+    def test_the_debug_screen_shows_the_games_own_entries_or_those_of_the_profile(
+        opened: list["Rehearsal"], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        profile = tmp_path / "debug-profile.json"
+        profile.write_text('{"DataVersion":4671,"custom":{"minecraft:looking_at_block":"inOverlay"}}', "utf-8")
+        assert run("rehearse", "--version", "1.21.11") == 0
+        assert opened[0].settings.debug_entries == GAME_DEFAULT
+        assert "press F3+F6 there" in capsys.readouterr().out
+        assert run("rehearse", "--version", "1.21.11", "--debug-profile", profile) == 0
+        assert opened[1].settings.debug_entries == {"looking_at_block": "inOverlay"}
+        assert "F3+F6" not in capsys.readouterr().out
+
+    @pytest.mark.parametrize("text", ["", "{", "[]", '{"custom":{"minecraft:fps":"sometimes"}}', '{"profile":"mine"}'])
+    def test_a_damaged_debug_profile_is_one_line(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        profile = tmp_path / "debug-profile.json"
+        profile.write_text(text, "utf-8")
+        said = refused(capsys, "--version", "26.1", "--debug-profile", profile)
+        assert f"{profile}: no debug-profile.json of Minecraft 26.1" in said
 
     def test_options_are_lines_of_options_txt(opened: list["Rehearsal"], capsys: pytest.CaptureFixture[str]) -> None:
         words = ["--option", "toggleUse=true", "--option", "pauseOnLostFocus=false"]
