@@ -18,6 +18,7 @@ from mc_nested.live.vision.chat_region import without_chat
 from mc_nested.live.vision.game_screen import WindowScreen
 from mc_nested.live.vision.last_frames import LastFrames
 from sim.client.client import VirtualClient
+from sim.client.game.options import GameOptions
 from tests.sim.client.playing import FONT, arena_of, command, connection_to, play
 
 LINE = load_scenario("line")
@@ -129,6 +130,27 @@ def test_whatever_letter_a_draft_begins_with_it_is_an_open_chat(scale: int) -> N
         assert screen.is_chat_open(), letter
         client.game.chat.close(keeps_draft=False)
         client.game.open("world")
+
+
+def test_a_line_on_a_ground_too_light_to_be_read_is_not_sent_and_the_error_names_the_option() -> None:
+    options = GameOptions(text_background_opacity=0.0, background_for_chat_only=False)
+    client = VirtualClient(version="26.1", world="bright", options=options)
+    client.clock.sleep(0.2)
+    connection = _connection(client)
+    connection.controller.confirm_screen("world")
+    with pytest.raises(NotConfirmedError, match=r"Options > Accessibility > Text Background is Chat"):
+        Chat(Profile(), connection).send("/time set 1")
+    assert (client.game.screen, client.realm.day_time, client.window.down) == ("world", 6000, set())
+
+
+def test_where_the_background_is_of_the_chat_alone_its_opacity_keeps_nothing_from_being_read() -> None:
+    client = VirtualClient(version="26.1", world="bright", options=GameOptions(text_background_opacity=0.0))
+    client.clock.sleep(0.2)
+    connection = _connection(client)
+    connection.controller.confirm_screen("world")
+    Chat(Profile(), connection).send("/time set 1")
+    client.clock.sleep(0.2)
+    assert client.realm.day_time == 1
 
 
 class ElsewhereScreen(WindowScreen):
