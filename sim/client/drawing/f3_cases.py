@@ -27,8 +27,14 @@ REACHES = (16, 1_000, 100_000, 29_999_000)
 ROOMY = 480
 """GUI pixels of width from which on two columns have room for any coordinates."""
 
+_WIDE = 620
+"""GUI pixels from which on the boxes of 26.4 lie beside each other; at its default scale all windows are as wide."""
+
 _IDS = ("stone", "oak_planks", "oak_log", "grass_block", "dirt", "polished_blackstone_brick_wall", "tnt", "white_wool")
-_OLD_IDS = ("stone", "planks", "log", "grass", "stone_brick_stairs", "tnt", "wool")
+_OLD_WIDE = 620
+"""GUI pixels from which on the boxes of 26.4 lie beside each other; at its default scale all windows are as wide."""
+
+_IDS = ("stone", "planks", "log", "grass", "stone_brick_stairs", "tnt", "wool")
 """Of 1.12, whose row of the id is that of the Facing line."""
 
 _BY_ENTRIES: dict[Layout, tuple[str, ...]] = {
@@ -50,6 +56,8 @@ def frames(font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS
         layout = LAYOUTS[count % len(LAYOUTS)]
         width, height = windows[(count // len(LAYOUTS)) % len(windows)]
         scale = min(1 + (count // (len(LAYOUTS) * len(windows))) % len(SCALES), width // 320, height // 240)
+        if layout == "26.4":
+            scale = min(scale, max(1, width // _WIDE))
         # Where the columns are near each other, the position and the block looked at share a row.
         reaches = REACHES if -(-width // scale) >= ROOMY else REACHES[:-1]
         screen = random_screen(rng, layout, scale, reaches)
@@ -63,7 +71,8 @@ def random_screen(
     """A screen with coordinates of one of these reaches, any view, and mostly a target block."""
     reach = float(rng.choice(reaches))
     x, z = (float(value) for value in rng.uniform(-reach, reach, 2))
-    near = tuple(int(value) for value in np.floor((x, rng.uniform(-64, 319), z)) + rng.integers(-4, 5, 3))
+    y = float(rng.uniform(-64, 319))
+    near = tuple(int(value) for value in np.floor((x, y, z)) + rng.integers(-4, 5, 3))
     block: Block = (near[0], near[1], near[2])
     target = rng.random() < 0.8
     is_standin, is_old = layout == "standin", layout == "1.8-1.12"
@@ -72,7 +81,7 @@ def random_screen(
     return F3Screen(
         layout,
         gui_scale,
-        (x, float(rng.uniform(-64, 319)), z),
+        (x, y, z),
         float(rng.uniform(-180, 180)),
         float(rng.uniform(-90, 90)),
         target=Target(block, name if is_standin else f"minecraft:{name}") if target else None,
