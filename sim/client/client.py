@@ -79,7 +79,8 @@ class VirtualClient:
             self._new_realm(joins.realm if joins else None),
             keys=GameKeys(SIDES_SWAPPED if settings.swaps_sides else BINDINGS),
             ground=Ground(settings.slipperiness, settings.speed),
-            shows_target=settings.shows_target,
+            debug_entries=settings.debug_entries,
+            options=settings.options,
             on_leave=self._save,
             on_enter=self._load,
         )
@@ -235,7 +236,7 @@ class VirtualClient:
         """What the game shows, in this window."""
         settings = self.settings
         fps = round(settings.fps if settings.shown_fps is None else settings.shown_fps)
-        return self.game.view(fps, self.window.size, is_drawn=settings.world == SEEN)
+        return self.game.view(fps, self.window.size, self.scale, is_drawn=settings.world == SEEN)
 
     def _title(self) -> str:
         is_shared = len(self.realm.players) > 1

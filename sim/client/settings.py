@@ -6,6 +6,7 @@ from pathlib import Path
 
 from mc_nested.live.model.scales import Scales, largest_gui_scale
 from mc_nested.live.vision.font import Font
+from sim.client.game.debug_entries import TUTORIAL, DebugEntries
 from sim.client.game.edition import Edition
 from sim.client.game.options import GameOptions
 from sim.client.game.physics import Vector
@@ -23,11 +24,11 @@ class ClientSettings:
     ``world`` is the kind of world behind the text, of ``scenery.WORLDS``, bright or dark, or ``scenery.SEEN``: what the
     player sees. ``shown_fps`` are the frames a second that the debug screen names; None for ``fps``. ``font`` is the
     project's own if it is None. Latencies are from and to, in seconds: until an event reaches the game, and the age of
-    a picture. ``feet``, ``yaw`` and ``pitch`` are where the player starts, and restarts after a death. ``shows_target``
-    is whether the debug screen names the block looked at. ``slipperiness`` is the floor's, ``speed`` an effect's factor
-    on every push. With ``swaps_sides``, A goes right and D left. ``words`` are the menus' texts in another language, by
-    their English. With a ``world_folder`` the world is written into it whenever it is left, and read from it when it is
-    entered.
+    a picture. ``feet``, ``yaw`` and ``pitch`` are where the player starts, and restarts after a death.
+    ``debug_entries`` are what the debug screen shows from 1.21.9 on: as our tutorial asks, which is the game's default
+    and the block looked at. ``slipperiness`` is the floor's, ``speed`` an effect's factor on every push. With
+    ``swaps_sides``, A goes right and D left. ``words`` are the menus' texts in another language, by their English. With
+    a ``world_folder`` the world is written into it whenever it is left, and read from it when it is entered.
     """
 
     seed: int = 0
@@ -47,7 +48,7 @@ class ClientSettings:
     mode: Mode = "creative"
     has_cheats: bool = True
     has_f3: bool = True
-    shows_target: bool = True
+    debug_entries: DebugEntries = field(default_factory=lambda: TUTORIAL)
     pauses_unfocused: bool = True
     options: GameOptions = field(default_factory=GameOptions)
     slipperiness: float = 0.6

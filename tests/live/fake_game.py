@@ -75,6 +75,7 @@ class FakeGame:
         self._game_keys: set[str] = set()
         self._clicks = 0
         self._chat: str | None = None
+        self.draft = ""
         self._events: list[tuple[float, int, Callable[[], None]]] = []
         self._count = itertools.count()
         self._next_tick = self.clock.now() + self.phase
@@ -145,8 +146,10 @@ class FakeGame:
             if name == "enter":
                 self._run(self._chat)
                 self._chat = None
+            elif name == "backspace":
+                self._chat = ""
         elif name == keys.chat:
-            self._chat = ""
+            self._chat = self.draft
         elif name in keys.hotbar:
             self.slot = keys.hotbar.index(name)
         elif name == "right button":

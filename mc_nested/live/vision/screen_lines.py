@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
+from mc_nested.live.vision.facts import fact_from
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
 from mc_nested.live.vision.layout import Overlay, ScreenLayout
@@ -90,7 +91,7 @@ class ScreenLines:
 
     def at(self, row: int, start: int) -> Line:
         if (row, start) not in self._lines:
-            self._lines[row, start] = line_from(self.dots, self._font, self.overlay, (row, start), self._right_end)
+            self._lines[row, start] = self._read(row, start, self._right_end)
             self.rows_read.add(row)
         return self._lines[row, start]
 
@@ -114,11 +115,15 @@ class ScreenLines:
         if text == line.text:
             return line
         # What follows is the world beside the line's box. In the right column a line ends where the column does.
-        if not line.is_left or UNKNOWN in text:
+        if UNKNOWN in text or not (line.is_left or self.layout.has_facts):
             return None
         end = line.start + len(self._font.columns(text)) - 2
-        shorter = line_from(self.dots, self._font, self.overlay, (line.row, line.start), end)
+        shorter = self._read(line.row, line.start, end)
         return shorter if shorter.text == text else None
+
+    def _read(self, row: int, start: int, end: int | None) -> Line:
+        read = fact_from if self.layout.has_facts else line_from
+        return read(self.dots, self._font, self.overlay, (row, start), end)
 
     def _positions(self, label: str) -> list[GridPosition]:
         if label not in self.positions_seen:

@@ -5,8 +5,8 @@ from functools import lru_cache
 from sim.client.drawing.block_colours import block_colour
 from sim.client.drawing.layers import Blend, Layer, Rect
 from sim.client.drawing.letters import Letters
-from sim.client.game.chat import ChatLine
-from sim.client.game.colours import Colour
+from sim.client.game.chat import ChatLine, TypedLine
+from sim.client.game.colours import DRAFT, PLAIN, Colour
 from sim.client.game.edition import Edition
 from sim.client.game.realm import Stack
 from sim.client.game.view import View
@@ -40,15 +40,15 @@ class HudLayers:
         """Crosshair and hotbar."""
         if not view.hotbar:
             return []
-        return [*self._crosshair(view.f3 is not None), *self._hotbar(view.hotbar, view.slot)]
+        return [*self._crosshair(view.f3 is not None and view.f3.has_axes), *self._hotbar(view.hotbar, view.slot)]
 
-    def chat(self, lines: tuple[ChatLine, ...], typed: str | None) -> list[Layer]:
+    def chat(self, lines: tuple[ChatLine, ...], typed: TypedLine | None) -> list[Layer]:
         """The chat's lines, the newest at the bottom, and the line being typed."""
         layers: list[Layer] = []
         row = 0
         for line in lines:
             for text in reversed(self._wrapped(line.text)):
-                layers += self._line(text, line.colour, line.opacity, row)
+                layers += self._line(line._replace(text=text), row)
                 row += 1
         return layers + (self._input(typed) if typed is not None else [])
 
@@ -97,19 +97,25 @@ class HudLayers:
                 lines[-1] = longer
         return lines
 
-    def _drawn_line(self, text: str, colour: Colour, opacity: int, row: int) -> list[Layer]:
+    def _drawn_line(self, line: ChatLine, row: int) -> list[Layer]:
+        text, colour, opacity, ground = line
         bottom = self._chat_bottom - _PITCH * row
         faded = (colour[0] * opacity // _OPAQUE, colour[1] * opacity // _OPAQUE, colour[2] * opacity // _OPAQUE)
         return [
-            self._fill((0, bottom - _PITCH, _CHAT_WIDTH + 8, bottom), (0, 0, 0), 128 * opacity // _OPAQUE),
+            self._fill((0, bottom - _PITCH, _CHAT_WIDTH + 8, bottom), (0, 0, 0), ground * opacity // _OPAQUE),
             self._letters.text(text, 4, bottom - _PITCH + 1, faded, shadow=True),
         ]
 
-    def _drawn_input(self, typed: str) -> list[Layer]:
-        shown = f"{typed}_"
-        while self._letters.width(shown) > self._width - 8:
+    def _drawn_input(self, typed: TypedLine) -> list[Layer]:
+        letters, top = self._letters, self._height - 12
+        shown, cursor = typed.text, "_"
+        while letters.width(shown + cursor) > self._width - 8:
             shown = shown[1:]
+        ground = self._fill((2, self._height - 14, self._width - 2, self._height - 2), (0, 0, 0), typed.ground)
+        if not typed.is_draft:
+            return [ground, letters.text(shown + cursor, 4, top, PLAIN, shadow=True)]
         return [
-            self._fill((2, self._height - 14, self._width - 2, self._height - 2), (0, 0, 0), 128),
-            self._letters.text(shown, 4, self._height - 12, (224, 224, 224), shadow=True),
+            ground,
+            letters.text(shown, 4, top, DRAFT, shadow=True, is_slanted=True),
+            letters.text(cursor, 4 + letters.width(shown), top, PLAIN, shadow=True),
         ]

@@ -37,8 +37,8 @@ class ViewLayers:
         gui = (-(-size[0] // scales.gui), -(-size[1] // scales.gui))
         # With a scale of its own the debug screen takes whole GUI pixels alone (FACTS: The F3 debug screen).
         is_own = scales.debug != scales.gui
-        columns = size[0] // scales.debug if is_own else gui[0]
-        self._f3 = F3Layers(Letters(font, scales.debug) if is_own else letters, columns)
+        own = (size[0] // scales.debug, size[1] // scales.debug)
+        self._f3 = F3Layers(Letters(font, scales.debug) if is_own else letters, own if is_own else gui)
         self._hud = HudLayers(letters, gui, edition)
         self._menu = MenuLayers(letters, gui, edition, words)
         # The same layers again, so that what doesn't change isn't drawn again.
