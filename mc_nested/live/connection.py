@@ -7,7 +7,7 @@ from mc_nested.errors import ProfileError
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.journal import Journal, NoJournal
-from mc_nested.live.profile.fingerprint import check_single_player
+from mc_nested.live.profile.fingerprint import check_single_player, game_in
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import load_font
@@ -80,6 +80,15 @@ class GameConnection:
     def check_single_player(self) -> None:
         """DesktopError if the window's title says that others may play there, unless that is allowed."""
         check_single_player(self.devices.display.title(), is_server_allowed=self.is_server_allowed)
+
+
+def prepare_keyboard(profile: Profile, devices: Devices) -> None:
+    """Press keys as the game in that window takes them; DesktopError where this keyboard lacks one of the profile's.
+
+    Nothing is pressed. The version is the one in the window's title, or else the profile's.
+    """
+    if game_in(devices.display.title(), profile.game).takes_symbols:
+        devices.keyboard.go_by_symbols(profile.keys.pressed())
 
 
 def connect(

@@ -22,9 +22,9 @@ class ClientSettings:
     if it is None. Latencies are from and to, in seconds: until an event reaches the game, and the age of a picture.
     ``feet``, ``yaw`` and ``pitch`` are where the player starts, and restarts after a death. ``shows_target`` is whether
     the debug screen names the block looked at. ``slipperiness`` is the floor's, ``speed`` an effect's factor on every
-    push. With ``swaps_sides``, A goes right and D left. ``words`` are the menus' texts in another language, by their
-    English. With a ``world_folder`` the world is written into it whenever it is left, and read from it when it is
-    entered.
+    push. With ``swaps_sides``, A goes right and D left. ``layout`` is the keyboard's, of ``layouts.LAYOUTS``.
+    ``words`` are the menus' texts in another language, by their English. With a ``world_folder`` the world is written
+    into it whenever it is left, and read from it when it is entered.
     """
 
     seed: int = 0
@@ -49,6 +49,7 @@ class ClientSettings:
     slipperiness: float = 0.6
     speed: float = 1.0
     swaps_sides: bool = False
+    layout: str = "us"
     world_folder: Path | None = None
     words: Mapping[str, str] = field(default_factory=dict)
 
