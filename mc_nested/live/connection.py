@@ -84,6 +84,15 @@ class GameConnection:
         check_single_player(self.devices.display.title(), is_server_allowed=self.is_server_allowed)
 
 
+def prepare_keyboard(profile: Profile, devices: Devices) -> None:
+    """Press keys as the game in that window takes them; DesktopError where this keyboard lacks one of the profile's.
+
+    Nothing is pressed. The version is the one in the window's title, or else the profile's.
+    """
+    if game_in(devices.display.title(), profile.game).takes_symbols:
+        devices.keyboard.go_by_symbols(profile.keys.pressed())
+
+
 def connect(
     profile: Profile,
     devices: Devices,

@@ -216,7 +216,7 @@ class LiveGame:
     def _take_in_hand(self, material: int) -> None:
         if material != self._material:
             self._body.check_screen()
-            self._controller.tap(self._profile.keys.hotbar[material])
+            self._controller.tap_alone(self._profile.keys.hotbar[material])
             self._material = material
 
     def _prepare(self, material: int) -> None:
@@ -225,7 +225,7 @@ class LiveGame:
         else:
             self._send_reset_commands()
         self._body.check_screen()
-        self._controller.tap(self._profile.keys.hotbar[material])
+        self._controller.tap_alone(self._profile.keys.hotbar[material])
         self._body.arrive(self._scenario.start)
 
     def _restore_world(self, world: WorldTable) -> None:

@@ -5,7 +5,7 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.live.connection import connect
+from mc_nested.live.connection import connect, prepare_keyboard
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
 from mc_nested.live.input.panic import Stop
@@ -59,6 +59,7 @@ def open_live_game(  # noqa: PLR0913 - each of a session's parts can be another,
     check_fits(scenario, profile, profile_name)
     load_font(profile.screen.font_path())
     with open_devices(profile.window.title) as window, open_recorder(profile, window) as recording:
+        prepare_keyboard(profile, window)
         devices = recording.devices(window)
         if line := later_version_line(game_in(devices.display.title(), profile.game).version):
             say(line)

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from mc_nested.arena.action import Cell
+from mc_nested.live.desktop.keyboard import DesktopKeyboard
 from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.reading import Block
@@ -22,7 +23,7 @@ from sim.client.desktop.clipboard import VirtualClipboard
 from sim.client.desktop.clock import VirtualClock
 from sim.client.desktop.display import VirtualDisplay
 from sim.client.desktop.frames import Frames
-from sim.client.desktop.keyboard import VirtualKeyboard
+from sim.client.desktop.keyboard import VirtualKeySender
 from sim.client.desktop.pointer import VirtualPointer
 from sim.client.desktop.window import VirtualWindow
 from sim.client.drawing.font import drawn_atlas
@@ -100,7 +101,9 @@ class VirtualClient:
             self._title,
             self._view(),
         )
-        self.keyboard = VirtualKeyboard(self.window, self.controls)
+        self.keyboard = DesktopKeyboard(
+            VirtualKeySender(self.window, self.controls, settings.layout, is_lwjgl_2=not self.edition.since(1, 13))
+        )
         self.pointer = VirtualPointer(self.clock, self.window, self.game, self.controls, lambda: self.scale)
         self.devices = Devices(
             self.display,

@@ -27,8 +27,9 @@ class ClientSettings:
     a picture. ``feet``, ``yaw`` and ``pitch`` are where the player starts, and restarts after a death.
     ``debug_entries`` are what the debug screen shows from 1.21.9 on: as our tutorial asks, which is the game's default
     and the block looked at. ``slipperiness`` is the floor's, ``speed`` an effect's factor on every push. With
-    ``swaps_sides``, A goes right and D left. ``words`` are the menus' texts in another language, by their English. With
-    a ``world_folder`` the world is written into it whenever it is left, and read from it when it is entered.
+    ``swaps_sides``, A goes right and D left. ``layout`` is the keyboard's, of ``layouts.LAYOUTS``. ``words`` are the
+    menus' texts in another language, by their English. With a ``world_folder`` the world is written into it whenever it
+    is left, and read from it when it is entered.
     """
 
     seed: int = 0
@@ -54,6 +55,7 @@ class ClientSettings:
     slipperiness: float = 0.6
     speed: float = 1.0
     swaps_sides: bool = False
+    layout: str = "us"
     world_folder: Path | None = None
     words: Mapping[str, str] = field(default_factory=dict)
 

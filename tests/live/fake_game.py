@@ -7,7 +7,7 @@ import heapq
 import itertools
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 
 from mc_nested.live.connection import GameConnection
@@ -303,6 +303,9 @@ class FakeKeyboard:
     def __init__(self, game: FakeGame, fail_after: int = -1) -> None:
         self._game = game
         self._calls_left = fail_after
+
+    def go_by_symbols(self, keys: Collection[str]) -> None:
+        raise NotImplementedError(f"the fake game goes by places, for {keys}, too")
 
     def press(self, key: str) -> None:
         self._game.send(key, is_down=True)

@@ -128,6 +128,12 @@ class InputController:
         self._press_key(key, until, on)
         self.wait_until(until)
 
+    def tap_alone(self, key: str) -> None:
+        """Tap a key in the world once nothing else is down: to 1.12 Shift makes another key of it (FACTS: Keys)."""
+        while self._held:
+            self.wait_until(max(held.due for held in list(self._held.values())))
+        self.tap(key)
+
     def click(self, button: Button) -> None:
         """Press a button in the world. It is released after the profile's ``click_s``, during a later wait."""
         self._permit("world")

@@ -87,6 +87,11 @@ class GameVersion(ProfileTable):
             return "1.12"
         return "1.13" if numbers < (1, 17) else "1.17"
 
+    @property
+    def takes_symbols(self) -> bool:
+        """Whether it takes a key by what it makes, and not by its place (FACTS: Input and windows)."""
+        return self.dialect == "1.12"
+
 
 class KeysTable(ProfileTable):
     """Which key does what in this game, named by what a US keyboard has at its place: w, /, f3, left.shift."""
@@ -104,6 +109,11 @@ class KeysTable(ProfileTable):
     hotbar: Annotated[tuple[Key, ...], Field(min_length=9, max_length=9)] = Field(
         default=tuple("123456789"), description="the keys of the nine hotbar slots, from the left"
     )
+
+    def pressed(self) -> list[str]:
+        """The keys that are pressed into the game; the panic key is the player's."""
+        uses = (self.forward, self.back, self.left, self.right, self.sneak, self.chat, self.debug)
+        return [*uses, *self.hotbar]
 
     @field_validator("*")
     @classmethod

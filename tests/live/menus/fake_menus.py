@@ -1,5 +1,6 @@
 """A game of menus on a clock of its own, behind the device protocols: which screen is shown, and where presses lead."""
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -121,6 +122,9 @@ class FakeMenus:
 
     def move(self, x: int, y: int) -> None:
         self._mouse = (x, y)
+
+    def go_by_symbols(self, keys: Collection[str]) -> None:
+        raise NotImplementedError(keys)
 
     def press(self, key: str | Button) -> None:
         if key == "left":

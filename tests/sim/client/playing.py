@@ -1,7 +1,7 @@
 """The unchanged live path on a virtual client: what session.py wires to a desktop, wired to the client."""
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.live.connection import GameConnection
+from mc_nested.live.connection import GameConnection, prepare_keyboard
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.model.coordinates import Facing
@@ -42,6 +42,7 @@ def connection_to(client: VirtualClient, *, is_server_allowed: bool = False) -> 
 
 def play(client: VirtualClient, scenario: Scenario, facing: Facing = "south") -> LiveGame:
     profile = Profile(game=GameVersion(version=client.settings.version), arena=arena_of(client, facing))
+    prepare_keyboard(profile, client.devices)
     return LiveGame(
         scenario,
         profile,
