@@ -14,6 +14,8 @@ from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.input.watchdog import watched
 from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.menus.wait_for_player import wait_for_front
+from mc_nested.live.model.versions import later_version_line
+from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.opened import OpenRecorder, no_recorder
 
@@ -52,6 +54,8 @@ def context_opener(
                 on_screen=recording.screen,
             )
             stop = recording.stopping(controller.stop)
+            if line := later_version_line(game_in(devices.display.title(), profile.game).version):
+                say(line)
             with connection, watched(controller), open_panic_switch(profile.keys.panic, stop):
                 yield CalibrationContext(connection, say, ask_in_terminal(ask, say, devices))
 

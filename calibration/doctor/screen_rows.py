@@ -1,12 +1,12 @@
 """The debug screen's checks: on and readable, not reduced, with position and looked-at lines."""
 
-import re
 from collections.abc import Mapping
 
 from calibration.doctor.check import Check, CheckName, check_from_message
 from calibration.doctor.options_rows import FIX
 from calibration.doctor.snapshot import ScreenContents, WindowSnapshot
 from calibration.installation.options_txt import OptionsTxt
+from mc_nested.live.model.versions import version_numbers
 from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.overlay import POSITION, REDUCED
 
@@ -115,4 +115,4 @@ def _target_line(contents: ScreenContents, version: str | None) -> Check:
 
 def _has_switch(version: str) -> bool:
     """Whether the version shows the line only if that is switched on (FACTS: The F3 debug screen)."""
-    return tuple(int(part) for part in re.findall(r"\d+", version)) >= (1, 21, 9)
+    return version_numbers(version) >= (1, 21, 9)

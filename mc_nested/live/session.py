@@ -14,7 +14,8 @@ from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.live_game import LiveGame, check_fits
 from mc_nested.live.menus.point_pictures import load_click_points
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
-from mc_nested.live.profile.fingerprint import Fingerprint, check_fit
+from mc_nested.live.model.versions import later_version_line
+from mc_nested.live.profile.fingerprint import Fingerprint, check_fit, game_in
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.live.recording.opened import OpenRecorder, no_recorder
 from mc_nested.live.vision.font import load_font
@@ -58,6 +59,8 @@ def open_live_game(  # noqa: PLR0913 - each of a session's parts can be another,
     load_font(profile.screen.font_path())
     with open_devices(profile.window.title) as window, open_recorder(profile, window) as recording:
         devices = recording.devices(window)
+        if line := later_version_line(game_in(devices.display.title(), profile.game).version):
+            say(line)
         journals = Journals(*([journal] if journal else []), recording)
         connection = connect(
             profile, devices, is_server_allowed=is_server_allowed, journal=journals, on_screen=recording.screen

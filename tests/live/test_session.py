@@ -2,13 +2,13 @@
 
 import dataclasses
 import re
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
 
 import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.errors import FontError, NotInFrontError, ProfileError, StoppedError
+from mc_nested.errors import DesktopError, FontError, LiveError, NotInFrontError, ProfileError, StoppedError
 from mc_nested.live.input.panic import Stop
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable, WindowTable
@@ -43,6 +43,14 @@ def test_a_game_that_does_not_fit_is_not_opened_and_nothing_is_pressed(
     assert not client.window.down
     assert not client.window.strays
     assert not client.built
+
+
+def test_a_version_later_than_all_known_ones_is_played_with_one_line_about_it(tmp_path: Path) -> None:
+    profile, said = saved(Profile(screen=font_in(tmp_path), arena=ARENA), tmp_path), list[str]()
+    client = VirtualClient(ClientSettings(version="27.1"))
+    with suppress(LiveError, DesktopError), open_live_game(LINE, profile, said.append, open_devices=opener(client, [])):
+        pass
+    assert said[0].startswith("Minecraft 27.1 is later than 26.4")
 
 
 def test_a_profile_that_can_not_be_played_with_opens_no_window(tmp_path: Path) -> None:

@@ -13,7 +13,9 @@ from mc_nested.errors import ProfileError
 from mc_nested.live.model.key_names import canonical, check_key
 from mc_nested.live.model.kinematics import INERTIA, SNEAKING, walk_response
 from mc_nested.live.model.timing import CAPTURE_LATENCY_S, INPUT_LATENCY_S
+from mc_nested.live.model.versions import is_minecrafts, version_numbers
 from mc_nested.live.profile.arena import Arena, ProfileTable
+from mc_nested.live.profile.window_title import GAME_TITLE
 from mc_nested.live.vision.layout import LayoutName
 
 Dialect = Literal["1.12", "1.13", "1.17"]
@@ -43,7 +45,7 @@ class WindowTable(ProfileTable):
     """Which window is the game's."""
 
     title: str = Field(
-        default=r"^Minecraft(?: \w+)?\*? \d",
+        default=GAME_TITLE,
         description="a regular expression that is found in the title of the game's window",
     )
 
@@ -68,13 +70,20 @@ class GameVersion(ProfileTable):
         default="1.21", description="the game's version, as its title screen says"
     )
 
+    @field_validator("version")
+    @classmethod
+    def _is_minecrafts(cls, version: str) -> str:
+        if not is_minecrafts(version):
+            raise ValueError(f"Minecraft has no version {version!r}: write what its title screen says, such as 1.21.10")
+        return version
+
     @property
     def dialect(self) -> Dialect:
         """The syntax of this version's commands; versions named by years (26.1) are newer than 1.21."""
-        major, minor = (int(part) for part in re.findall(r"\d+", self.version)[:2])
-        if (major, minor) < (1, 13):
+        numbers = version_numbers(self.version)
+        if numbers < (1, 13):
             return "1.12"
-        return "1.13" if (major, minor) < (1, 17) else "1.17"
+        return "1.13" if numbers < (1, 17) else "1.17"
 
 
 class KeysTable(ProfileTable):
