@@ -9,6 +9,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from calibration.doctor.chat_rows import chat_mends
 from calibration.doctor.examination import Examination
 from calibration.doctor.options_rows import gui_scale_row
 from calibration.installation.options_txt import SAFE, OptionsTxt
@@ -30,7 +31,7 @@ def repair(examination: Examination, say: Callable[[str], None]) -> bool:
     if problem := _why_open(examination):
         say(f"nothing was changed: {problem}")
         return False
-    wanted = {**SAFE, **_gui_scale(examination)}
+    wanted = {**SAFE, **_gui_scale(examination), **chat_mends(examination.options)}
     changes = examination.options.changes(wanted)
     if not changes:
         say(f"nothing to fix: {examination.options.path} is as it should be")

@@ -37,8 +37,19 @@ key_key.chat:key.keyboard.t
 key_key.attack:key.mouse.left
 key_key.use:key.mouse.right
 key_key.hotbar.1:key.keyboard.1
+toggleAttack:false
+toggleUse:false
+saveChatDrafts:false
+debugGuiScale:0
+chatVisibility:0
+textBackgroundOpacity:0.5
+backgroundForChatOnly:true
+key_key.friends:key.keyboard.unknown
+key_key.debug.overlay:key.keyboard.f3
+key_key.debug.modifier:key.keyboard.f3
+key_key.debug.copyLocation:key.keyboard.c
 """
-"""An options.txt with nothing to mend."""
+"""An options.txt of 26.3 with nothing to mend."""
 
 
 class Computer:

@@ -64,6 +64,23 @@ def test_the_options_of_1_12_are_repaired_in_their_own_form(computer: Computer) 
     assert computer.options.read_bytes() == expected.encode()
 
 
+def test_the_options_of_26_3_are_repaired_too_and_any_scale_of_the_debug_screen_stays(computer: Computer) -> None:
+    spoilt = (
+        GOOD.replace("toggleUse:false", "toggleUse:true")
+        .replace("toggleAttack:false", "toggleAttack:true")
+        .replace("saveChatDrafts:false", "saveChatDrafts:true")
+        .replace("chatVisibility:0", "chatVisibility:2")
+        .replace("Opacity:0.5", "Opacity:0.1")
+        .replace("ChatOnly:true", "ChatOnly:false")
+        .replace("friends:key.keyboard.unknown", "friends:key.keyboard.o")
+        .replace("debugGuiScale:0", "debugGuiScale:-1")
+    )
+    computer.options.write_text(spoilt, "utf-8")
+    assert repaired_in(computer, computer.examined(no_window))[0]
+    repaired = GOOD.replace("Opacity:0.5", "Opacity:0.1").replace("debugGuiScale:0", "debugGuiScale:-1")
+    assert computer.options.read_text("utf-8") == repaired
+
+
 def test_the_gui_scale_is_that_of_the_profile(computer: Computer) -> None:
     computer.save(Profile(screen=ScreenTable(font=str(computer.font), gui_scale=3)))
     repaired_in(computer, computer.examined(no_window))
