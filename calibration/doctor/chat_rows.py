@@ -2,10 +2,8 @@
 
 from collections.abc import Mapping
 
-from calibration.doctor.check import Check, CheckName
+from calibration.doctor.check import FIX, Check, CheckName
 from calibration.installation.options_txt import NO_KEY, OptionsTxt, key_name
-
-FIX = "close the game and run mc-nested doctor --fix"
 
 CHAT_CHECKS = (CheckName.CHAT_VISIBILITY, CheckName.TEXT_BACKGROUND, CheckName.FRIENDS_KEY)
 

@@ -7,6 +7,9 @@ from typing import Literal
 Status = Literal["pass", "warn", "fail", "skip"]
 """Good; works, but not always; keeps the agent from playing; can't be known now."""
 
+FIX = "close the game and run mc-nested doctor --fix"
+"""What to do about a file of the game's that the doctor can mend."""
+
 
 class CheckName(str, Enum):
     """Every check, in the order of the table; the value is the name that the table and the JSON show."""
@@ -23,6 +26,7 @@ class CheckName(str, Enum):
     REDUCED_DEBUG_INFO = "reduced debug info"
     POSITION_LINE = "position line"
     TARGET_LINE = "looked-at line"
+    DEBUG_ENTRIES = "debug entries"
     OPTIONS = "options.txt"
     PAUSE_ON_LOST_FOCUS = "pauseOnLostFocus"
     AUTO_JUMP = "autoJump"

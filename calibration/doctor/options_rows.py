@@ -1,7 +1,7 @@
 """The checks of options.txt: where it is, and each option that may keep an agent from playing."""
 
-from calibration.doctor.chat_rows import CHAT_CHECKS, FIX, chat_rows
-from calibration.doctor.check import Check, CheckName, check_from_message
+from calibration.doctor.chat_rows import CHAT_CHECKS, chat_rows
+from calibration.doctor.check import FIX, Check, CheckName, check_from_message
 from calibration.installation.folders import GameFolder
 from calibration.installation.options_txt import ACTIONS, FIXED, OptionsTxt, is_same_key, load_options
 from mc_nested.errors import ProfileError

@@ -51,6 +51,12 @@ key_key.debug.copyLocation:key.keyboard.c
 """
 """An options.txt of 26.3 with nothing to mend."""
 
+ENTRIES = (
+    '{"DataVersion":4671,"custom":{"minecraft:player_position":"alwaysOn","minecraft:looking_at_block":"alwaysOn",'
+    '"minecraft:looking_at_block_state":"alwaysOn"}}'
+)
+"""A debug-profile.json with nothing to mend, in any version that has one."""
+
 
 class Computer:
     """A home with one game folder, a font and a profile in it, and a desktop with a game's window or without one.
@@ -64,8 +70,10 @@ class Computer:
         self.system = System("linux", home, {})
         self.options = home / ".minecraft" / "options.txt"
         self.options.parent.mkdir()
+        self.entries = self.options.with_name("debug-profile.json")
         if options is not None:
             self.options.write_text(options, "utf-8")
+            self.entries.write_text(ENTRIES, "utf-8")
         self.font = home / "ascii.png"
         self.font.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
         self.profile = home / "mine.toml"

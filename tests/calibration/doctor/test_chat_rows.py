@@ -10,8 +10,8 @@ from calibration.installation.options_txt import OptionsTxt, parse_options
 from tests.calibration.doctor.examined import GOOD
 
 
-def options(*change: str) -> OptionsTxt:
-    return parse_options(GOOD.replace(*change).encode() if change else GOOD.encode(), Path("options.txt"))
+def options(before: str = "", after: str = "") -> OptionsTxt:
+    return parse_options(GOOD.replace(before, after).encode(), Path("options.txt"))
 
 
 def row_of(name: CheckName, of: OptionsTxt) -> Check:

@@ -5,10 +5,11 @@ from pathlib import Path
 import pytest
 
 from calibration.doctor.check import Check, CheckName
-from calibration.doctor.screen_rows import SCREEN_CHECKS, SWITCH_ON, reduced_by_options, screen_rows
+from calibration.doctor.screen_rows import SCREEN_CHECKS, reduced_by_options, screen_rows
 from calibration.doctor.snapshot import ScreenContents, WindowSnapshot
 from calibration.installation.options_txt import parse_options
 from mc_nested.live.menus.screens import ScreenName
+from mc_nested.live.model.debug_entries import switch_on
 from mc_nested.live.model.reading import Reading, Target
 from mc_nested.live.profile.fingerprint import Fingerprint
 
@@ -75,11 +76,12 @@ def test_a_reduced_debug_screen_fails_with_its_remedy() -> None:
 @pytest.mark.parametrize(
     ("pitch", "version", "status", "fix"),
     [
-        (30.0, "1.21.9", "fail", SWITCH_ON),
-        (30.0, "26.1", "fail", SWITCH_ON),
+        (30.0, "1.21.9", "fail", "press F3+F6 in the game, and set looking_at_block to Always"),
+        (30.0, "1.21.11", "fail", "press F3+F6 in the game, and set looking_at_block to Always"),
+        (30.0, "26.1", "fail", "press F3+F6 in the game, and set looking_at_block_state to Always"),
         (30.0, "1.21.8", "fail", "stand on solid ground, out of the water"),
         (29.9, "1.21.9", "skip", "look down at the ground, and run this again"),
-        (30.0, "", "fail", SWITCH_ON),
+        (30.0, "", "fail", switch_on(None)),
         (None, "1.21.9", "skip", ""),
     ],
 )
