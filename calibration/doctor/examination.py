@@ -125,7 +125,7 @@ def _examine_window(
     overlay = overlay_of(settings)
     snapshot = findings.snapshot = wait_until_readable(devices, font, overlay, say)
     findings.add(
-        *window_rows(snapshot, profile), *screen_rows(snapshot), fit_row(profile_name, profile, snapshot.window)
+        *window_rows(snapshot, profile), *screen_rows(snapshot, font), fit_row(profile_name, profile, snapshot.window)
     )
     with InputController(devices, settings.input) as controller:
         findings.add(input_row(devices, controller, lambda: take_snapshot(devices, font, overlay), settings.keys))

@@ -3,10 +3,13 @@
 from collections.abc import Mapping
 
 from calibration.doctor.check import FIX, Check, CheckName, check_from_message
+from calibration.doctor.picture_faults import picture_fault
 from calibration.doctor.snapshot import ScreenContents, WindowSnapshot
 from calibration.installation.options_txt import OptionsTxt
+from mc_nested.live.devices import Frame
 from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, has_entries, switch_on
 from mc_nested.live.profile.window_title import version_in
+from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.overlay import POSITION, REDUCED
 
 SCREEN_CHECKS = (
@@ -33,14 +36,17 @@ REDUCED_OFF = (
 )
 
 
-def screen_rows(snapshot: WindowSnapshot) -> list[Check]:
-    """The checks of what the window shows."""
+def screen_rows(snapshot: WindowSnapshot, font: Font | None) -> list[Check]:
+    """The checks of what the window shows; ``font`` is the one that it was read with."""
     contents = snapshot.contents
     if contents is None:
         reason = "no font to read it with" if snapshot.is_in_front else "another window is in front"
         return [Check(name, "skip", reason) for name in SCREEN_CHECKS]
     if contents.line is None:
-        return [_absent(contents), *(Check(name, "skip", "the debug screen isn't seen") for name in SCREEN_CHECKS[1:])]
+        return [
+            _absent(contents, snapshot.picture, font),
+            *(Check(name, "skip", "the debug screen isn't seen") for name in SCREEN_CHECKS[1:]),
+        ]
     return [
         _debug_screen(contents),
         _reduced_debug_info(contents),
@@ -57,10 +63,11 @@ def reduced_by_options(options: OptionsTxt, known: Mapping[CheckName, Check]) ->
     return None
 
 
-def _absent(contents: ScreenContents) -> Check:
+def _absent(contents: ScreenContents, picture: Frame | None, font: Font | None) -> Check:
     if contents.screen in OTHER_SCREENS:
         return Check(CheckName.DEBUG_SCREEN, "fail", *OTHER_SCREENS[contents.screen])
-    return check_from_message(CheckName.DEBUG_SCREEN, "fail", contents.reading.problem or "")
+    fault = picture_fault(picture, font) if picture is not None and font is not None else None
+    return check_from_message(CheckName.DEBUG_SCREEN, "fail", fault or contents.reading.problem or "")
 
 
 def _debug_screen(contents: ScreenContents) -> Check:

@@ -23,7 +23,7 @@ PLACE = {"pos": [1, 2, 3], "state": 0}
 
 
 def in_order(tags: Mapping[str, Any], *, is_size_last: bool) -> dict[str, Any]:
-    return dict(reversed(tags.items())) if is_size_last else dict(tags)
+    return dict(reversed(list(tags.items()))) if is_size_last else dict(tags)
 
 
 def corner(x: int, y: int, z: int) -> dict[str, int]:

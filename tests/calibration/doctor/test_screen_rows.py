@@ -24,7 +24,7 @@ def snapshot(
 
 
 def rows(of: WindowSnapshot) -> dict[str, tuple[str, str, str]]:
-    return {row.name.value: (row.status, row.detail, row.fix) for row in screen_rows(of)}
+    return {row.name.value: (row.status, row.detail, row.fix) for row in screen_rows(of, None)}
 
 
 def test_a_debug_screen_that_is_read_passes() -> None:
@@ -39,7 +39,7 @@ def test_a_debug_screen_that_is_read_passes() -> None:
 @pytest.mark.parametrize(("is_in_front", "reason"), [(True, "no font to read it with"), (False, "another window")])
 def test_what_can_not_be_checked_is_skipped(is_in_front: bool, reason: str) -> None:
     unseen = WindowSnapshot(Fingerprint("Minecraft", (854, 480), None), (854, 480), None, is_in_front, None)
-    checks = screen_rows(unseen)
+    checks = screen_rows(unseen, None)
     assert [check.name for check in checks] == list(SCREEN_CHECKS)
     assert all(check.status == "skip" and check.detail.startswith(reason) for check in checks)
 
