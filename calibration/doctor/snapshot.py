@@ -1,7 +1,7 @@
 """A snapshot of the game's window: its title and size, the screen that it shows, and the debug screen's reading."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from mc_nested.live.deadline import Deadline
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Frame
@@ -43,6 +43,7 @@ class WindowSnapshot:
     """A snapshot; ``picture_size`` is in pixels, ``points`` the window's size in points of the desktop, if known.
 
     ``contents`` is None if another window is in front, since the picture may be of that, or if there is no font.
+    ``picture`` is the frame itself.
     """
 
     window: Fingerprint
@@ -50,6 +51,7 @@ class WindowSnapshot:
     points: tuple[int, int] | None
     is_in_front: bool
     contents: ScreenContents | None
+    picture: Frame | None = field(default=None, compare=False, repr=False)
 
     @property
     def is_world(self) -> bool:
@@ -68,7 +70,7 @@ def take_snapshot(devices: Devices, font: Font | None, overlay: Overlay | None =
     window = Fingerprint(display.title(), display.size(), contents.scales if contents else None)
     area = devices.area() if devices.area else None
     points = (area.width, area.height) if area else None
-    return WindowSnapshot(window, (frame.shape[1], frame.shape[0]), points, is_in_front, contents)
+    return WindowSnapshot(window, (frame.shape[1], frame.shape[0]), points, is_in_front, contents, frame)
 
 
 def contents_of(frame: Frame, font: Font, overlay: Overlay | None, screen: GameScreen) -> ScreenContents:
