@@ -28,13 +28,13 @@ ROOMY = 480
 """GUI pixels of width from which on two columns have room for any coordinates."""
 
 _WIDE = 620
-"""GUI pixels from which on the boxes of 26.4 lie beside each other; at its default scale all windows are as wide."""
+"""GUI pixels from which on any two columns, and the boxes of 26.4 in any, lie beside each other.
+
+All windows are as wide for 26.4 at its default scale.
+"""
 
 _IDS = ("stone", "oak_planks", "oak_log", "grass_block", "dirt", "polished_blackstone_brick_wall", "tnt", "white_wool")
-_OLD_WIDE = 620
-"""GUI pixels from which on the boxes of 26.4 lie beside each other; at its default scale all windows are as wide."""
-
-_IDS = ("stone", "planks", "log", "grass", "stone_brick_stairs", "tnt", "wool")
+_OLD_IDS = ("stone", "planks", "log", "grass", "stone_brick_stairs", "tnt", "wool")
 """Of 1.12, whose row of the id is that of the Facing line."""
 
 _BY_ENTRIES: dict[Layout, tuple[str, ...]] = {
@@ -60,15 +60,23 @@ def frames(font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS
             scale = min(scale, max(1, width // _WIDE))
         # Where the columns are near each other, the position and the block looked at share a row.
         reaches = REACHES if -(-width // scale) >= ROOMY else REACHES[:-1]
-        screen = random_screen(rng, layout, scale, reaches)
+        screen = random_screen(rng, layout, scale, reaches, has_more=width >= _WIDE * scale)
         yield screen, paint(random_world(rng, WORLDS[int(rng.integers(len(WORLDS)))], width, height), screen, font)
         count += 1
 
 
 def random_screen(
-    rng: np.random.Generator, layout: Layout, gui_scale: int, reaches: tuple[int, ...] = REACHES
+    rng: np.random.Generator,
+    layout: Layout,
+    gui_scale: int,
+    reaches: tuple[int, ...] = REACHES,
+    *,
+    has_more: bool = True,
 ) -> F3Screen:
-    """A screen with coordinates of one of these reaches, any view, and mostly a target block."""
+    """A screen with coordinates of one of these reaches, any view, and mostly a target block.
+
+    From 1.21.9 on it may have other entries than the tutorial asks for, unless ``has_more`` is false.
+    """
     reach = float(rng.choice(reaches))
     x, z = (float(value) for value in rng.uniform(-reach, reach, 2))
     y = float(rng.uniform(-64, 319))
@@ -89,7 +97,7 @@ def random_screen(
         tags=() if is_standin or is_old else _TAGS[: int(rng.integers(len(_TAGS) + 1))],
         # A fluid without a block behind it is not read for sure: that block may be covered.
         fluid=block if target and rng.random() < 0.2 else None,
-        **_chosen(rng, layout, block),
+        **(_chosen(rng, layout, block) if has_more else {}),
     )
 
 
