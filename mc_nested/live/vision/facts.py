@@ -10,6 +10,7 @@ from functools import lru_cache
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame
@@ -41,6 +42,9 @@ _BEHIND = 2
 
 _DARKEST = 22
 """Of the ground under a title, which is 27 at least."""
+
+_SOME = 3
+"""Rows in which ground of one colour that began to lie over a line would hardly be like the ground beside it."""
 
 _FLAT = 2
 """Levels by which ground of one colour may vary, or differ from the column beside it where it goes on."""
@@ -81,7 +85,7 @@ def _fact_in(
         if any(name_columns[at : last + 1]):  # something else is written over it
             text = name + UNKNOWN
     is_whole = _is_whole(picture, columns_of(ink), ground > 0, boxed, last)
-    return Line(text, row, first, first + last, is_whole, first < left), 0 in boxed
+    return Line(text, row, first, first + last, is_whole, first < left, last >= at), 0 in boxed
 
 
 def _with_value(name: str, at: int, columns: bytes, font: Font, last: int) -> tuple[str, int]:
@@ -116,9 +120,14 @@ def _is_whole(picture: Frame, ink: bytes, ground: Bools, boxed: bytes, last: int
     if last < 0 or 0 in boxed[behind] or any(ink[behind]) or len(boxed) < last + 1 + _BEHIND:
         return False
     before, one, two = (picture[:, last + step].astype(np.int16) for step in (0, 1, 2))
-    goes_on = np.abs(before - one).max(1)[ground[:, last]].max(initial=0) <= _FLAT
-    if goes_on and np.abs(one - two).max() <= _FLAT:
+    if _goes_on(before[ground[:, last]], one[ground[:, last]]) and _goes_on(one, two):
         return True
     three = picture[:, last + 3 : last + 4]
     is_flat = np.ptp(two, axis=0).max() <= _FLAT
     return not is_flat or not three.size or int(np.abs(two - three[:, 0]).max()) > _FLAT
+
+
+def _goes_on(one: NDArray[np.int16], other: NDArray[np.int16]) -> bool:
+    """Whether one column of ground (rows, 3) goes on in the next, in some of its rows."""
+    alike = np.abs(one - other).max(1, initial=0) <= _FLAT
+    return int(np.count_nonzero(alike)) >= min(_SOME, len(one))

@@ -17,7 +17,7 @@ from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
 from mc_nested.live.vision.layout import BOXES, VANILLA, Overlay
 from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.text_colours import INK_SPREAD, WHITE, Colour
-from mc_nested.live.vision.text_lines import UNKNOWN, is_text, positions_of
+from mc_nested.live.vision.text_lines import UNKNOWN, Line, is_text, positions_of
 
 SCALES = (8, 7, 6, 5, 4, 3, 2, 1)
 """The GUI scales that are looked for: the larger, the fewer dots there are to look through."""
@@ -101,18 +101,18 @@ def _measured(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -
     """The overlay's colour from the ink of a known line, its layout from where the lines beside it stand."""
     colour, _ = _ink_of(dots, font, label, position)
     boxes = Overlay(dots.scale, BOXES, colour)
-    if _has_facts(fact_from(dots, font, boxes, position).text, label):
+    if _is_of_boxes(fact_from(dots, font, boxes, position), label):
         return boxes
     overlays = [Overlay(dots.scale, layout, colour) for layout in (VANILLA, STANDIN)]
     return max(overlays, key=lambda overlay: _known_beside(dots, font, overlay, position))
 
 
-def _has_facts(text: str, label: str) -> bool:
+def _is_of_boxes(line: Line, label: str) -> bool:
     """Whether a line that begins with ``label`` is one of 26.4 on, read as such."""
-    version = version_in(text)
+    version = version_in(line.text)
     if version is not None:
         return version >= FIRST_WITH_BOXES
-    return label.endswith(":") and text.startswith(label) and UNKNOWN not in text[: len(label) + 2] and text != label
+    return line.has_value and line.text.startswith(label) and UNKNOWN not in line.text[: len(label) + 2]
 
 
 def version_in(text: str) -> tuple[int, ...] | None:

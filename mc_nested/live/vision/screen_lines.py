@@ -9,7 +9,7 @@ from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
 from mc_nested.live.vision.layout import Overlay, ScreenLayout
 from mc_nested.live.vision.notices import may_hide_lines
-from mc_nested.live.vision.text_lines import UNKNOWN, Line, line_from, line_up_to, positions_of
+from mc_nested.live.vision.text_lines import UNKNOWN, Line, is_text, line_from, line_up_to, positions_of
 
 WHOLE = r"(-?(?:0|[1-9]\d{0,7}))"
 """A whole number as the game prints it: no zeros before it, and no coordinate has more than eight digits."""
@@ -39,6 +39,9 @@ class DebugLines(Protocol):
 
     def ending(self, row: int, end: int) -> Line | None:
         """The line whose last ink is in column ``end``, read to the left; None where no ink is there."""
+
+    def begins(self, row: int, start: int) -> bool:
+        """Whether a line begins there, as far as its first letters say."""
 
     def right_column(self) -> Sequence[Line]:
         """The lines of the right column, the upper ones first; none where the layout doesn't say where it ends."""
@@ -101,6 +104,9 @@ class ScreenLines:
         if line is not None:
             self._ended.append(line)
         return line
+
+    def begins(self, row: int, start: int) -> bool:
+        return is_text(self.dots, self._font, self.overlay, (row, start))
 
     def right_column(self) -> Sequence[Line]:
         if self._right_end is None:
@@ -172,6 +178,15 @@ def cut_to(lines: DebugLines, line: Line, text: str) -> Line:
 def not_a_form(line: Line | None) -> Unreadable:
     """What to raise where a line has another form than it should."""
     return Unreadable(f"a line reads {shown(line.text if line else '')}: {CLEAR}")
+
+
+def check_nothing_over(lines: DebugLines, line: Line) -> None:
+    """A line on which one of the right column may lie is unreadable: that one is drawn later.
+
+    Where its box covers the next letter, its own first letter stands just behind the end of this line's box.
+    """
+    if line.is_left and lines.begins(line.row, line.end + lines.layout.box.behind + 1):
+        raise Unreadable(f"a line of the right column lies over {shown(line.text)}: {CLEAR}")
 
 
 def check_whole(line: Line) -> None:

@@ -1,7 +1,7 @@
 """The block looked at from 26.4 on: a box of its own, in either column (FACTS: The F3 debug screen).
 
-Its title is ``Looking At Block``, its first facts are ``Coordinates`` and ``Type``; a fluid's and an entity's box have the
-same, under titles of their own. Where nothing is looked at there is no box.
+Its title is ``Looking At Block``, its first facts are ``Coordinates`` and ``Type``; a fluid's and an entity's box have
+the same, under titles of their own. Where nothing is looked at there is no box.
 """
 
 import re
@@ -57,9 +57,13 @@ def target_in_box(lines: DebugLines, player: XYZ) -> Target | None:
         raise not_a_form(kind if form else place)
     x, y, z = (int(part) for part in form.groups()[1:])
     if any(abs(part - own) > _RANGE for part, own in zip((x, y, z), player, strict=True)):
+<<<<<<< HEAD
         raise Unreadable(
             f"no block at {x}, {y}, {z} can be looked at from the player's position: look again, or {CLEAR}"
         )
+=======
+        raise Unreadable(f"no block at {x}, {y}, {z} can be looked at from where the player is: look again, or {CLEAR}")
+>>>>>>> f3
     whole = cut_to(lines, place, form[1])
     if abs(z) < _LEAST:
         check_whole(whole)
@@ -72,8 +76,8 @@ def _below(lines: DebugLines, title: Line, label: str, row: int, start: int) -> 
     found = [line for line in lines.starting(label) if line.row == row and abs(line.start - start) <= _NAMES]
     if len(found) != 1:
         raise Unreadable(
-            f"below {title.text!r} no {label.strip(':')} can be seen: switch minecraft:looking_at_block_state on (F3+F6), "
-            f"or {CLEAR}"
+            f"below {title.text!r} no {label.strip(':')} can be seen: switch minecraft:looking_at_block_state on "
+            f"(F3+F6), or {CLEAR}"
         )
     return found[0]
 
@@ -88,6 +92,6 @@ def _check_nothing_hidden(lines: DebugLines) -> None:
             raise Unreadable(f"what {shown(line.text)} belongs to can't be seen: {CLEAR}")
     if lines.may_be_covered():
         raise Unreadable(
-            "both columns of the debug screen are full, so the block looked at may have no room: switch some of its lines "
-            "off (F3+F6), or set a smaller debug scale (debugGuiScale)"
+            "both columns of the debug screen are full, so the block looked at may have no room: switch some of its "
+            "lines off (F3+F6), or set a smaller debug scale (debugGuiScale)"
         )

@@ -120,7 +120,7 @@ def _line_in(
 def is_text(dots: GlyphGrid, font: Font, overlay: Overlay, start: GridPosition) -> bool:
     """Whether a line begins at this row and column, as far as its first three characters say."""
     row, first = start
-    if not 0 <= row < dots.rows:
+    if not (0 <= row < dots.rows and 0 <= first < dots.columns):
         return False
     text, _ = decode(_in_the_box(_strip_of(dots.strip(row, first, first + _THREE_LETTERS), overlay.colour)), font)
     return len(text) > 2 and UNKNOWN not in text[:3]

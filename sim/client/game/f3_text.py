@@ -16,8 +16,8 @@ from sim.client.game.places import chunk_of, towards
 
 __all__ = ["LAYOUTS", "F3Screen", "Layout", "Part", "TextLine", "both_columns", "left_lines", "right_lines"]
 
-LAYOUTS: tuple[Layout, ...] = tuple(layout for layout in get_args(Layout) if layout != "26.4")
-"""Those that can be read."""
+LAYOUTS: tuple[Layout, ...] = get_args(Layout)
+"""All of them."""
 
 _EMPTY: Part = (TextLine(),)
 
