@@ -1,9 +1,11 @@
 """The window's checks: found, in front, its size, and how many pixels there are to a point of the desktop."""
 
-from calibration.doctor.check import Check, CheckName
+from calibration.doctor.check import Check, CheckName, check_from_message
 from calibration.doctor.snapshot import WindowSnapshot
 from mc_nested.live.devices import SWITCH_KEYS
+from mc_nested.live.model.versions import later_version_line
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.profile.window_title import version_in
 
 LEAST = (320, 240)
 """The smallest window that the game lays its screens out for (FACTS: The F3 debug screen)."""
@@ -18,11 +20,17 @@ _RATIO_TOLERANCE = 0.01
 def window_rows(snapshot: WindowSnapshot, profile: Profile | None) -> list[Check]:
     """The checks of an open window."""
     return [
-        Check(CheckName.WINDOW, "pass", repr(snapshot.window.title)),
+        window_row(snapshot.window.title),
         front_row(snapshot),
         scaling_row(snapshot),
         size_row(snapshot, profile),
     ]
+
+
+def window_row(title: str) -> Check:
+    """The window's title, and whether its version is known."""
+    line = later_version_line(version_in(title) or "")
+    return check_from_message(CheckName.WINDOW, "warn", line) if line else Check(CheckName.WINDOW, "pass", repr(title))
 
 
 def front_row(snapshot: WindowSnapshot) -> Check:

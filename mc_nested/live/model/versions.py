@@ -47,6 +47,6 @@ def later_version_line(version: str) -> str | None:
         return None
     newest = ".".join(map(str, NEWEST))
     return (
-        f"Minecraft {version} is later than {newest}, the newest that is known here, and is played as that: see in "
-        "mc-nested calibrate report whether the screen, the menus and the commands are as expected"
+        f"Minecraft {version} is later than {newest}, the newest that is known here, and is played as that: look in "
+        "the calibration's report whether screen, menus and commands are as expected (mc-nested calibrate report)"
     )

@@ -9,11 +9,12 @@ from mc_nested.live.model.versions import draws_text_over_menus
 from mc_nested.live.vision.font import SPACE, Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
 from mc_nested.live.vision.hotbar import HotbarLook, bottom_dots, bottom_region, hotbar_look, typed_dots
-from mc_nested.live.vision.layout import VANILLA, Overlay
+from mc_nested.live.vision.layout import Overlay
 from mc_nested.live.vision.menu_labels import MenuButton, MenuLabels
 from mc_nested.live.vision.overlay import SCALES, find_overlay
 from mc_nested.live.vision.pause_words import pause_region, shows_pause
 from mc_nested.live.vision.screen_reader import Look, ScreenReader
+from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.text_colours import INK_SPREAD, WHITE
 from mc_nested.live.vision.typed_line import FIRST_COLUMNS, begins_a_line, reads_as, typed_line_dots, typed_line_region
 
@@ -81,8 +82,8 @@ class WindowScreen:
         self.font = font
         self._display, self._font, self._overlay = display, font, overlay
         self._reader = ScreenReader(display, font, overlay)
-        is_vanilla = overlay is None or overlay.layout.name == VANILLA.name
-        self._text_over_menus = is_vanilla and draws_text_over_menus(version)
+        is_standin = overlay is not None and overlay.layout.name == STANDIN.name
+        self._text_over_menus = not is_standin and draws_text_over_menus(version)
         self._gui: tuple[tuple[int, int], int] | None = None
         self._debug: tuple[tuple[int, int], int] | None = None
 

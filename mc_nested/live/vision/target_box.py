@@ -57,13 +57,7 @@ def target_in_box(lines: DebugLines, player: XYZ) -> Target | None:
         raise not_a_form(kind if form else place)
     x, y, z = (int(part) for part in form.groups()[1:])
     if any(abs(part - own) > _RANGE for part, own in zip((x, y, z), player, strict=True)):
-<<<<<<< HEAD
-        raise Unreadable(
-            f"no block at {x}, {y}, {z} can be looked at from the player's position: look again, or {CLEAR}"
-        )
-=======
         raise Unreadable(f"no block at {x}, {y}, {z} can be looked at from where the player is: look again, or {CLEAR}")
->>>>>>> f3
     whole = cut_to(lines, place, form[1])
     if abs(z) < _LEAST:
         check_whole(whole)

@@ -3,7 +3,7 @@
 import pytest
 
 from calibration.doctor.snapshot import WindowSnapshot
-from calibration.doctor.window_rows import front_row, scaling_row, size_row, window_rows
+from calibration.doctor.window_rows import front_row, scaling_row, size_row, window_row, window_rows
 from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.tables import Profile, ScreenTable
@@ -86,3 +86,11 @@ def test_another_window_in_front_is_a_fault() -> None:
     assert front_row(snapshot((854, 480), None)).status == "pass"
     rows = window_rows(snapshot((854, 480), None), None)
     assert [row.name.value for row in rows] == ["game's window", "in front", "display scaling", "size and GUI scale"]
+
+
+def test_a_version_later_than_all_known_ones_is_played_and_says_what_to_look_at() -> None:
+    row = window_row("Minecraft 27.1 - Singleplayer")
+    assert (row.status, row.detail.startswith("Minecraft 27.1 is later than 26.4")) == ("warn", True)
+    assert row.fix.startswith("look in the calibration's report")
+    assert window_row("Minecraft 26.4").status == "pass"
+    assert window_row("A pack of mods 99").status == "pass"
