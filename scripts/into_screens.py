@@ -9,6 +9,7 @@ from mc_nested.live.input.input_controller import InputController, PressTarget
 from mc_nested.live.profile.tables import InputTable
 from sim.client.client import VirtualClient
 from sim.client.desktop.display import GRAB_S
+from sim.client.game.screens import ScreenName
 
 FORGOTTEN_S = 1.0
 """After this time a press is taken to have been lost on the way."""
@@ -28,10 +29,10 @@ class ScreenPresses:
         game, controls = client.game, client.controls
         open_screen, key, button = game.open, controls.key, controls.button
 
-        def watched_open(screen: str) -> None:
+        def watched_open(screen: ScreenName, typed: str = "") -> None:
             if game.screen == "world":
                 self._opened_at = client.clock.now()
-            open_screen(screen)  # type: ignore[arg-type]  # the same names
+            open_screen(screen, typed)
 
         def watched_key(name: str, *, is_down: bool) -> None:
             self._arrived(f"key {name}", is_down=is_down)
