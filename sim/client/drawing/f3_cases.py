@@ -34,6 +34,9 @@ All windows are as wide for 26.4 at its default scale.
 """
 
 _IDS = ("stone", "oak_planks", "oak_log", "grass_block", "dirt", "polished_blackstone_brick_wall", "tnt", "white_wool")
+_LONG = 16
+"""Letters of an id that has no room beside the other column in a narrow window."""
+
 _OLD_IDS = ("stone", "planks", "log", "grass", "stone_brick_stairs", "tnt", "wool")
 """Of 1.12, whose row of the id is that of the Facing line."""
 
@@ -84,7 +87,9 @@ def random_screen(
     block: Block = (near[0], near[1], near[2])
     target = rng.random() < 0.8
     is_standin, is_old = layout == "standin", layout == "1.8-1.12"
-    ids = _OLD_IDS if is_old else _IDS
+    ids: tuple[str, ...] = _OLD_IDS if is_old else _IDS
+    if layout in BY_ENTRIES and not has_more:  # the id and the chunk stand beside each other
+        ids = tuple(each for each in ids if len(each) < _LONG)
     name = ids[int(rng.integers(len(ids)))]
     return F3Screen(
         layout,
