@@ -63,8 +63,7 @@ def _rows(frame: Frame, overlay: Overlay) -> bytes:
 def _by_line(ink: Bools, pitch: int) -> Bools:
     """For each line of text, whether there is ink in one of its rows of dots."""
     count = (len(ink) - _FIRST - GLYPH_ROWS) // pitch
-    lines: Bools = ink[_FIRST : _FIRST + count * pitch].reshape(count, pitch)[:, :GLYPH_ROWS].any(axis=1)
-    return lines
+    return np.asarray(np.any(ink[_FIRST : _FIRST + count * pitch].reshape(count, pitch)[:, :GLYPH_ROWS], axis=1))
 
 
 def _bars(frame: Frame, scale: int) -> bytes:

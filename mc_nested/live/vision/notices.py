@@ -7,6 +7,7 @@ beside something else; by clear rows above and below its letters; and none of th
 
 import numpy as np
 
+from mc_nested.arrays import Bools
 from mc_nested.live.vision.glyph_grid import GlyphGrid
 from mc_nested.live.vision.text_colours import INK_SPREAD, PLAIN
 
@@ -44,8 +45,7 @@ def may_hide_lines(dots: GlyphGrid) -> bool:
     for top in range(0, picture.shape[0] - HEIGHT + 1, HEIGHT):
         rows = picture[top + _CORNER : top + HEIGHT - _CORNER]
         flat = (rows.max(0) - rows.min(0)).max(1) <= _FLAT
-        margins = np.lib.stride_tricks.sliding_window_view(flat[_BORDER:], _MARGIN - _BORDER).all(1)
-        for left in np.flatnonzero(margins[: columns - _NEAREST]):
+        for left in _margins(flat)[: columns - _NEAREST].nonzero()[0].tolist():
             margin = slice(left + _BORDER, left + _MARGIN)
             if left < first or np.ptp(rows[:, margin], axis=(0, 1)).max() > _FLAT:
                 continue
@@ -61,3 +61,9 @@ def may_hide_lines(dots: GlyphGrid) -> bool:
             if np.count_nonzero(text) < _FEW:
                 return True
     return False
+
+
+def _margins(flat: Bools) -> Bools:
+    """For each column, whether a margin of flat columns begins behind a border there."""
+    found: Bools = np.all(np.lib.stride_tricks.sliding_window_view(flat[_BORDER:], _MARGIN - _BORDER), axis=1)
+    return found
