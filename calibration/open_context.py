@@ -7,13 +7,15 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 
 from calibration.context import CalibrationContext
-from mc_nested.live.connection import GameConnection
+from mc_nested.live.connection import GameConnection, prepare_keyboard
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.input.watchdog import watched
 from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.menus.wait_for_player import wait_for_front
+from mc_nested.live.model.versions import later_version_line
+from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.opened import OpenRecorder, no_recorder
 
@@ -42,6 +44,7 @@ def context_opener(
             # Imported here, since it needs the display that is open only now.
             from mc_nested.live.desktop.panic import open_panic_switch
 
+            prepare_keyboard(profile, window)
             devices = recording.devices(window)
             controller = InputController(devices, profile.input)
             connection = GameConnection(
@@ -52,6 +55,8 @@ def context_opener(
                 on_screen=recording.screen,
             )
             stop = recording.stopping(controller.stop)
+            if line := later_version_line(game_in(devices.display.title(), profile.game).version):
+                say(line)
             with connection, watched(controller), open_panic_switch(profile.keys.panic, stop):
                 yield CalibrationContext(connection, say, ask_in_terminal(ask, say, devices))
 

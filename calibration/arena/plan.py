@@ -5,11 +5,11 @@ border       a ring of blocks on the ground around the arena's cells
 # # # # # # # # #     the floor, under the cells and the border
 """
 
-import re
 from collections.abc import Sequence
 
 from mc_nested.live.menus.commands import clear_command, item_command
 from mc_nested.live.model.reading import Block
+from mc_nested.live.model.versions import version_numbers
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import Profile
 
@@ -120,11 +120,6 @@ def gamerules(version: str) -> tuple[str, ...]:
     if version_numbers(version) >= (1, 21, 11):
         return "advance_time", "advance_weather", "spawn_mobs"
     return "doDaylightCycle", "doWeatherCycle", "doMobSpawning"
-
-
-def version_numbers(version: str) -> tuple[int, ...]:
-    """A version as numbers; years (26.1) are newer than 1.21."""
-    return tuple(int(part) for part in re.findall(r"\d+", version)[:3])
 
 
 def box_text(box: Box) -> str:

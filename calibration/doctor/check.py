@@ -7,6 +7,9 @@ from typing import Literal
 Status = Literal["pass", "warn", "fail", "skip"]
 """Good; works, but not always; keeps the agent from playing; can't be known now."""
 
+FIX = "close the game and run mc-nested doctor --fix"
+"""What to do about a file of the game's that the doctor can mend."""
+
 
 class CheckName(str, Enum):
     """Every check, in the order of the table; the value is the name that the table and the JSON show."""
@@ -23,13 +26,21 @@ class CheckName(str, Enum):
     REDUCED_DEBUG_INFO = "reduced debug info"
     POSITION_LINE = "position line"
     TARGET_LINE = "looked-at line"
+    DEBUG_ENTRIES = "debug entries"
     OPTIONS = "options.txt"
     PAUSE_ON_LOST_FOCUS = "pauseOnLostFocus"
     AUTO_JUMP = "autoJump"
     GUI_SCALE = "guiScale"
+    DEBUG_GUI_SCALE = "debugGuiScale"
     FORCE_UNICODE_FONT = "forceUnicodeFont"
     FULLSCREEN = "fullscreen"
     TOGGLE_CROUCH = "toggleCrouch"
+    TOGGLE_ATTACK = "toggleAttack"
+    TOGGLE_USE = "toggleUse"
+    CHAT_VISIBILITY = "chatVisibility"
+    SAVE_CHAT_DRAFTS = "saveChatDrafts"
+    TEXT_BACKGROUND = "textBackgroundOpacity"
+    FRIENDS_KEY = "friends key"
     LANGUAGE = "language"
     KEYS = "keys"
     CLIPBOARD = "clipboard"

@@ -8,16 +8,19 @@ from pathlib import Path
 
 from calibration.doctor.check import Check, CheckName, check_from_message
 from calibration.doctor.clipboard_row import clipboard_row
+from calibration.doctor.entries_row import entries_row, installed_version, target_row_by_entries
 from calibration.doctor.input_row import input_row
 from calibration.doctor.options_rows import option_rows, options_row
 from calibration.doctor.profile_rows import fit_row, font_row, profile_row
 from calibration.doctor.screen_rows import reduced_by_options, screen_rows
 from calibration.doctor.snapshot import WindowSnapshot, take_snapshot, wait_until_readable
 from calibration.doctor.window_rows import window_rows
-from calibration.installation.folders import GameFolder, System, game_folders
+from calibration.installation.debug_profile import DebugProfile, data_version_in
+from calibration.installation.folders import GameFolder, System, client_jars, game_folders, jar_version
 from calibration.installation.options_txt import OptionsTxt
 from calibration.installation.processes import Process, folders_played, is_same_folder, running_processes
 from mc_nested.errors import DesktopError, NoWindowError
+from mc_nested.live.connection import prepare_keyboard
 from mc_nested.live.desktop import open_desktop, session_kind
 from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.input.input_controller import InputController
@@ -31,7 +34,8 @@ class Examination:
     """All checks, in the order of ``CheckName``, and what a repair needs to know.
 
     ``folder`` and ``options`` are the game's. ``is_window_closed`` is whether the desktop has no window of the game,
-    None if there was no desktop to look at. ``processes`` are the running programs, None if unknown.
+    None if there was no desktop to look at. ``processes`` are the running programs, None if unknown. ``entries`` is
+    what the game's debug-profile.json says, ``data_version`` that of the installed version's jar; None if unknown.
     """
 
     checks: Sequence[Check]
@@ -40,6 +44,8 @@ class Examination:
     options: OptionsTxt | None
     is_window_closed: bool | None
     processes: Sequence[Process] | None
+    entries: DebugProfile | None = None
+    data_version: int | None = None
 
 
 @dataclass
@@ -97,8 +103,10 @@ def examine(
     running = processes() if processes else running_processes(system.platform)
     folder = _folder(system, _version(findings.snapshot, profile), running)
     options = _examine_files(profile_name, profile, findings, system, folder, font)
+    entries = _examine_entries(profile, findings, folder, options)
     checks = [findings.checks.get(each) or Check(each, "skip", skip_reason) for each in CheckName]
-    return Examination(checks, profile or Profile(), folder, options, is_closed, running)
+    data_version = _data_version(system, entries.version) if entries is not None else None
+    return Examination(checks, profile or Profile(), folder, options, is_closed, running, entries, data_version)
 
 
 def _examine_window(
@@ -118,8 +126,13 @@ def _examine_window(
     overlay = overlay_of(settings)
     snapshot = findings.snapshot = wait_until_readable(devices, font, overlay, say)
     findings.add(
-        *window_rows(snapshot, profile), *screen_rows(snapshot), fit_row(profile_name, profile, snapshot.window)
+        *window_rows(snapshot, profile), *screen_rows(snapshot, font), fit_row(profile_name, profile, snapshot.window)
     )
+    try:
+        prepare_keyboard(settings, devices)
+    except DesktopError as error:
+        findings.add(check_from_message(CheckName.INPUT, "fail", str(error)))
+        return
     with InputController(devices, settings.input) as controller:
         findings.add(input_row(devices, controller, lambda: take_snapshot(devices, font, overlay), settings.keys))
 
@@ -147,6 +160,26 @@ def _examine_files(
     if options is not None and (reduced := reduced_by_options(options, findings.checks)):
         findings.add(reduced)
     return options
+
+
+def _examine_entries(
+    profile: Profile | None, findings: _Findings, folder: GameFolder | None, options: OptionsTxt | None
+) -> DebugProfile | None:
+    """The checks of the debug screen's entries, with what the window has shown. Returns what their file says."""
+    calibrated = profile.calibrated.version if profile and profile.calibrated else None
+    in_title = version_in(findings.snapshot.window.title) if findings.snapshot else None
+    version = installed_version(in_title, folder, options, calibrated)
+    entries, check = entries_row(folder, version, findings.checks)
+    findings.add(check)
+    if target := target_row_by_entries(entries, findings.checks):
+        findings.add(target)
+    return entries
+
+
+def _data_version(system: System, version: str) -> int | None:
+    """The data version that the client's jar of that version says to be of, if there is one."""
+    jars = client_jars(system, version)[:1]
+    return next((data_version_in(jar) for jar in jars if jar_version(jar) == version), None)
 
 
 def _version(snapshot: WindowSnapshot | None, profile: Profile | None) -> str | None:

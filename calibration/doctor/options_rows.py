@@ -1,13 +1,12 @@
 """The checks of options.txt: where it is, and each option that may keep an agent from playing."""
 
-from calibration.doctor.check import Check, CheckName, check_from_message
+from calibration.doctor.chat_rows import CHAT_CHECKS, chat_rows
+from calibration.doctor.check import FIX, Check, CheckName, check_from_message
 from calibration.installation.folders import GameFolder
-from calibration.installation.options_txt import ACTIONS, MOUSE, OptionsTxt, is_same_key, load_options
+from calibration.installation.options_txt import ACTIONS, FIXED, OptionsTxt, is_same_key, load_options
 from mc_nested.errors import ProfileError
 from mc_nested.live.profile.tables import KeysTable
 from mc_nested.live.vision.overlay import SCALES
-
-FIX = "close the game and run mc-nested doctor --fix"
 
 SWITCHES = (
     Check(
@@ -19,12 +18,31 @@ SWITCHES = (
     ),
     Check(CheckName.FULLSCREEN, "warn", "a game that fills the screen hides all else", "press F11 in the game"),
     Check(CheckName.TOGGLE_CROUCH, "fail", "a sneak key let go goes on sneaking", "Options > Controls > Sneak: Hold"),
+    Check(
+        CheckName.TOGGLE_ATTACK,
+        "fail",
+        "one click goes on breaking blocks",
+        "Options > Controls > Attack/Destroy: Hold",
+    ),
+    Check(CheckName.TOGGLE_USE, "fail", "one click goes on placing blocks", "Options > Controls > Use/Place: Hold"),
+    Check(
+        CheckName.SAVE_CHAT_DRAFTS,
+        "warn",
+        "a line that was broken off comes back when the chat is opened, and has to be emptied first",
+        "Options > Chat Settings > Save Unsent Chats: OFF",
+    ),
 )
 """The check of each option that should be false, if it is true."""
 
-OPTION_CHECKS = (*(row.name for row in SWITCHES), CheckName.GUI_SCALE, CheckName.LANGUAGE, CheckName.KEYS)
+OPTION_CHECKS = (
+    *(row.name for row in SWITCHES),
+    *(CheckName.GUI_SCALE, CheckName.DEBUG_GUI_SCALE, *CHAT_CHECKS, CheckName.LANGUAGE, CheckName.KEYS),
+)
 
 _ENGLISH = "en_"
+
+_AS_GUI = -1
+"""``debugGuiScale`` for the GUI scale's own value."""
 
 
 def options_row(folder: GameFolder | None) -> tuple[OptionsTxt | None, Check]:
@@ -46,6 +64,8 @@ def option_rows(options: OptionsTxt | None, keys: KeysTable, window: tuple[int, 
     return [
         *(_switch(row, options.values.get(row.name.value)) for row in SWITCHES),
         gui_scale_row(options.values.get("guiScale"), window),
+        debug_scale_row(options.values.get("debugGuiScale"), options.values.get("guiScale"), window),
+        *chat_rows(options),
         _language(options.values.get("lang")),
         keys_row(options, keys),
     ]
@@ -61,7 +81,7 @@ def gui_scale_row(value: str | None, window: tuple[int, int] | None) -> Check:
         if wanted == 0:
             return Check(row, "warn", "Auto: with the window's size it changes too", fix)
         return Check(row, "pass", value) if wanted <= most else Check(row, "fail", f"{value}: {most} at most", fix)
-    largest = max(1, min(window[0] // 320, window[1] // 240))
+    largest = _largest_scale(window)
     scale, said = (min(wanted, largest), value) if wanted else (largest, "Auto")
     if scale > most:
         return Check(row, "fail", f"{said}, {scale} in this window: {most} at most can be read", fix)
@@ -70,10 +90,31 @@ def gui_scale_row(value: str | None, window: tuple[int, int] | None) -> Check:
     return Check(row, "pass", f"{said}, {scale} in this window" if scale != wanted else said)
 
 
+def debug_scale_row(value: str | None, gui: str | None, window: tuple[int, int] | None) -> Check:
+    """The scale of the debug screen's text, from 26.3 on: any will do (FACTS: The F3 debug screen)."""
+    row, fix = CheckName.DEBUG_GUI_SCALE, f"press F3+F6 > GUI Scale: Auto, or {FIX}"
+    if value is None:
+        return Check(row, "skip", "the file doesn't say: this version may not have it")
+    if not value.removeprefix("-").isdecimal() or int(value) < _AS_GUI:
+        return Check(row, "warn", f"{value}, which is no scale", fix)
+    said = {_AS_GUI: f"{value}, as the GUI scale", 0: "Auto"}.get(int(value), value)
+    if window is None or gui is None or not gui.isdecimal():
+        return Check(row, "pass", said)
+    largest = _largest_scale(window)
+    of_gui = min(int(gui), largest) or largest
+    scale = min(int(value), largest) or largest // 2
+    # It counts only where it is the smaller one.
+    return Check(row, "pass", f"{said}, {scale if 0 < scale < of_gui else of_gui} in this window")
+
+
+def _largest_scale(window: tuple[int, int]) -> int:
+    return max(1, min(window[0] // 320, window[1] // 240))
+
+
 def keys_row(options: OptionsTxt, keys: KeysTable) -> Check:
     """Whether the game's keys are those that the profile presses."""
-    wanted = {action: getattr(keys, name) for name, action in ACTIONS.items()}
-    wanted |= {f"hotbar.{slot}": key for slot, key in enumerate(keys.hotbar, 1)} | MOUSE
+    wanted = {action: getattr(keys, name) for action, name in ACTIONS.items()}
+    wanted |= {f"hotbar.{slot}": key for slot, key in enumerate(keys.hotbar, 1)} | FIXED
     bound = {action: options.key(action) for action in wanted if f"key_key.{action}" in options.values}
     if not bound:
         return Check(CheckName.KEYS, "skip", "the file doesn't say")

@@ -1,6 +1,6 @@
-"""``doctor --fix``: writes safe values into options.txt, after a backup, and only while the game is closed.
+"""``doctor --fix``: mends options.txt and debug-profile.json, after a backup, and only while the game is closed.
 
-The game keeps its options in memory and writes the whole file when it ends: changes made meanwhile are lost.
+The game keeps both in memory and writes the whole files: changes made meanwhile are lost.
 """
 
 import os
@@ -9,20 +9,25 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from calibration.doctor.chat_rows import chat_mends
 from calibration.doctor.examination import Examination
 from calibration.doctor.options_rows import gui_scale_row
-from calibration.installation.options_txt import SAFE, OptionsTxt
+from calibration.installation.options_txt import SAFE
 from calibration.installation.processes import may_have_open
 from mc_nested.errors import ProfileError
 
 GUI_SCALE = 2
 """Replaces an Auto or too large GUI scale if the profile has none: it fits any window from 640 x 480 on."""
 
+_NEW_FILE_MODE = 0o644
+"""A temporary file is its maker's alone; a file of the game's can be read by all."""
+
 
 def repair(examination: Examination, say: Callable[[str], None]) -> bool:
-    """Write the safe values into the game's options.txt; say what was changed, or why nothing was. True if it was.
+    """Write the safe values into the game's options.txt, and what is needed into its debug-profile.json.
 
-    ProfileError if the file can't be written; it is unchanged then.
+    Says what was changed, or why nothing was. True if anything was. ProfileError if a file can't be written; it is
+    unchanged then.
     """
     if examination.options is None or examination.folder is None:
         say("nothing to fix: no options.txt was read")
@@ -30,19 +35,38 @@ def repair(examination: Examination, say: Callable[[str], None]) -> bool:
     if problem := _why_open(examination):
         say(f"nothing was changed: {problem}")
         return False
-    wanted = {**SAFE, **_gui_scale(examination)}
-    changes = examination.options.changes(wanted)
-    if not changes:
+    has_changed = False
+    for mend in (_mend_options, _mend_entries):
+        if summary := mend(examination):
+            say(summary)
+            has_changed = True
+    if not has_changed:
         say(f"nothing to fix: {examination.options.path} is as it should be")
-        return False
-    try:
-        backup = _replace(examination.options, examination.options.with_values(wanted))
-    except OSError as error:
-        path = examination.options.path
-        raise ProfileError(f"{path}: can't be written ({error.strerror or error}): mend its permissions") from error
+    return has_changed
+
+
+def _mend_options(examination: Examination) -> str | None:
+    """Write the safe values into options.txt; what was changed, None if nothing was."""
+    options = examination.options
+    if options is None:
+        return None
+    wanted = {**SAFE, **_gui_scale(examination), **chat_mends(options)}
+    changes = options.changes(wanted)
+    if not changes:
+        return None
+    backup = _replace(options.path, b"".join(options.lines), b"".join(options.with_values(wanted).lines))
     summary = ", ".join(f"{name} {before} -> {after}" for name, (before, after) in changes.items())
-    say(f"{examination.options.path}: {summary}; as it was: {backup}")
-    return True
+    return f"{options.path}: {summary}; as it was: {backup}"
+
+
+def _mend_entries(examination: Examination) -> str | None:
+    """Switch the needed entries of the debug screen on; what was changed, None if nothing was."""
+    entries = examination.entries
+    if entries is None or not (entries.off or entries.problem):
+        return None
+    backup = _replace(entries.path, entries.data, entries.mended(examination.data_version))
+    on = " and ".join(entries.off or entries.needed)
+    return f"{entries.path}: {on} switched on; {f'as it was: {backup}' if backup else 'there was none'}"
 
 
 def _why_open(examination: Examination) -> str | None:
@@ -65,23 +89,34 @@ def _gui_scale(examination: Examination) -> dict[str, str]:
     if gui_scale_row(value, None).status not in ("warn", "fail"):
         return {}
     calibrated = examination.profile.calibrated
-    scale = examination.profile.screen.gui_scale or (calibrated and calibrated.gui_scale) or GUI_SCALE
+    scale = (calibrated and calibrated.gui_scale) or GUI_SCALE
     return {"guiScale": str(scale)}
 
 
-def _replace(before: OptionsTxt, after: OptionsTxt) -> Path:
-    """Replace the file atomically, after a backup under an unused name; returns the backup."""
-    path = before.path.resolve()  # several instances may share one file by links
-    if path.read_bytes() != b"".join(before.lines):
-        raise ProfileError(f"{path}: has changed meanwhile: close the game, and run this again")
+def _replace(named: Path, before: bytes | None, after: bytes) -> Path | None:
+    """Replace a file atomically, after a backup under an unused name; returns the backup, None where no file was."""
+    path = named.resolve()  # several instances may share one file by links
+    try:
+        if (path.read_bytes() if path.exists() else None) != before:
+            raise ProfileError(f"{path}: has changed meanwhile: close the game, and run this again")
+        return _written(path, after)
+    except OSError as error:
+        raise ProfileError(f"{named}: can't be written ({error.strerror or error}): mend its permissions") from error
+
+
+def _written(path: Path, data: bytes) -> Path | None:
     handle, beside = tempfile.mkstemp(dir=path.parent, prefix=path.name, suffix=".part")
     try:
         with os.fdopen(handle, "wb") as file:
-            file.write(b"".join(after.lines))
+            file.write(data)
             file.flush()
             os.fsync(file.fileno())
-        shutil.copymode(path, beside)
-        backup = _backup(path)
+        backup = None
+        if path.exists():
+            shutil.copymode(path, beside)
+            backup = _backup(path)
+        else:
+            Path(beside).chmod(_NEW_FILE_MODE)
         Path(beside).replace(path)
     except BaseException:
         Path(beside).unlink(missing_ok=True)

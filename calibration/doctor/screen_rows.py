@@ -1,13 +1,15 @@
 """The debug screen's checks: on and readable, not reduced, with position and looked-at lines."""
 
-import re
 from collections.abc import Mapping
 
-from calibration.doctor.check import Check, CheckName, check_from_message
-from calibration.doctor.options_rows import FIX
+from calibration.doctor.check import FIX, Check, CheckName, check_from_message
+from calibration.doctor.picture_faults import picture_fault
 from calibration.doctor.snapshot import ScreenContents, WindowSnapshot
 from calibration.installation.options_txt import OptionsTxt
+from mc_nested.live.devices import Frame
+from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, has_entries, switch_on
 from mc_nested.live.profile.window_title import version_in
+from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.overlay import POSITION, REDUCED
 
 SCREEN_CHECKS = (
@@ -28,24 +30,23 @@ OTHER_SCREENS = {
 }
 """Each screen that may be there instead of the world: what it is, and what to do."""
 
-LOOKING_DOWN_DEG = 30.0
-"""At this pitch or more the player looks at the ground, at most some 3 blocks away."""
-
-SWITCH_ON = "press F3+F6 in the game, and set 'looking at block' to Always"
 REDUCED_OFF = (
     "Options > Chat Settings > Reduced Debug Info: OFF, and the gamerule reducedDebugInfo (1.21.11+: "
     "reduced_debug_info) to false"
 )
 
 
-def screen_rows(snapshot: WindowSnapshot) -> list[Check]:
-    """The checks of what the window shows."""
+def screen_rows(snapshot: WindowSnapshot, font: Font | None) -> list[Check]:
+    """The checks of what the window shows; ``font`` is the one that it was read with."""
     contents = snapshot.contents
     if contents is None:
         reason = "no font to read it with" if snapshot.is_in_front else "another window is in front"
         return [Check(name, "skip", reason) for name in SCREEN_CHECKS]
     if contents.line is None:
-        return [_absent(contents), *(Check(name, "skip", "the debug screen isn't seen") for name in SCREEN_CHECKS[1:])]
+        return [
+            _absent(contents, snapshot.picture, font),
+            *(Check(name, "skip", "the debug screen isn't seen") for name in SCREEN_CHECKS[1:]),
+        ]
     return [
         _debug_screen(contents),
         _reduced_debug_info(contents),
@@ -62,10 +63,11 @@ def reduced_by_options(options: OptionsTxt, known: Mapping[CheckName, Check]) ->
     return None
 
 
-def _absent(contents: ScreenContents) -> Check:
+def _absent(contents: ScreenContents, picture: Frame | None, font: Font | None) -> Check:
     if contents.screen in OTHER_SCREENS:
         return Check(CheckName.DEBUG_SCREEN, "fail", *OTHER_SCREENS[contents.screen])
-    return check_from_message(CheckName.DEBUG_SCREEN, "fail", contents.reading.problem or "")
+    fault = picture_fault(picture, font) if picture is not None and font is not None else None
+    return check_from_message(CheckName.DEBUG_SCREEN, "fail", fault or contents.reading.problem or "")
 
 
 def _debug_screen(contents: ScreenContents) -> Check:
@@ -73,7 +75,7 @@ def _debug_screen(contents: ScreenContents) -> Check:
         return Check(CheckName.DEBUG_SCREEN, "fail", *OTHER_SCREENS["chat"])
     problem = contents.reading.problem
     if problem is None or contents.line != POSITION:
-        return Check(CheckName.DEBUG_SCREEN, "pass", f"on, at GUI scale {contents.scale}")
+        return Check(CheckName.DEBUG_SCREEN, "pass", f"on, at GUI scale {contents.scales}")
     what, _, remedy = problem.rpartition(": ")
     return Check(CheckName.DEBUG_SCREEN, "fail", what, remedy)
 
@@ -107,12 +109,8 @@ def _target_line(contents: ScreenContents, version: str | None) -> Check:
         return Check(row, "pass", f"{reading.target.id} at {xyz}")
     if reading.pitch is None:
         return Check(row, "skip", "the debug screen isn't read")
-    fix = SWITCH_ON if version is None or _has_switch(version) else "stand on solid ground, out of the water"
-    if reading.pitch >= LOOKING_DOWN_DEG:
+    is_switched = version is None or has_entries(version)
+    fix = switch_on(version) if is_switched else "stand on solid ground, out of the water"
+    if reading.pitch >= GROUND_PITCH_DEG:
         return Check(row, "fail", f"missing, with the ground in view ({reading.pitch:.0f} degrees down)", fix)
     return Check(row, "skip", "no block is looked at", "look down at the ground, and run this again")
-
-
-def _has_switch(version: str) -> bool:
-    """Whether the version shows the line only if that is switched on (FACTS: The F3 debug screen)."""
-    return tuple(int(part) for part in re.findall(r"\d+", version)) >= (1, 21, 9)

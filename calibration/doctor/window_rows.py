@@ -1,9 +1,11 @@
 """The window's checks: found, in front, its size, and how many pixels there are to a point of the desktop."""
 
-from calibration.doctor.check import Check, CheckName
+from calibration.doctor.check import Check, CheckName, check_from_message
 from calibration.doctor.snapshot import WindowSnapshot
 from mc_nested.live.devices import SWITCH_KEYS
+from mc_nested.live.model.versions import later_version_line
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.profile.window_title import version_in
 
 LEAST = (320, 240)
 """The smallest window that the game lays its screens out for (FACTS: The F3 debug screen)."""
@@ -18,11 +20,17 @@ _RATIO_TOLERANCE = 0.01
 def window_rows(snapshot: WindowSnapshot, profile: Profile | None) -> list[Check]:
     """The checks of an open window."""
     return [
-        Check(CheckName.WINDOW, "pass", repr(snapshot.window.title)),
+        window_row(snapshot.window.title),
         front_row(snapshot),
         scaling_row(snapshot),
         size_row(snapshot, profile),
     ]
+
+
+def window_row(title: str) -> Check:
+    """The window's title, and whether its version is known."""
+    line = later_version_line(version_in(title) or "")
+    return check_from_message(CheckName.WINDOW, "warn", line) if line else Check(CheckName.WINDOW, "pass", repr(title))
 
 
 def front_row(snapshot: WindowSnapshot) -> Check:
@@ -60,17 +68,17 @@ def scaling_row(snapshot: WindowSnapshot) -> Check:
 
 def size_row(snapshot: WindowSnapshot, profile: Profile | None) -> Check:
     """The window's size, and the GUI scale at which its text is seen."""
-    row, size, scale = CheckName.SIZE_AND_SCALE, f"{_size(snapshot.window.window)} pixels", snapshot.window.gui_scale
+    row, size, scales = CheckName.SIZE_AND_SCALE, f"{_size(snapshot.window.window)} pixels", snapshot.window.scales
     if any(seen < least for seen, least in zip(snapshot.window.window, LEAST, strict=True)):
         return Check(row, "fail", size, f"make the window larger than {_size(LEAST)}")
-    if scale is None:
+    if scales is None:
         return Check(row, "skip", f"{size}; no text of the game is seen")
-    wanted = profile.screen.gui_scale if profile else None
+    scale, wanted = scales.debug, profile.screen.debug_scale if profile else None
     if wanted is not None and wanted != scale:
         return Check(
             row,
             "fail",
-            f"{size}, GUI scale {scale}, and the profile's screen.gui_scale is {wanted}",
+            f"{size}, GUI scale {scales}, and the profile's screen.debug_scale is {wanted}",
             f"set Video Settings > GUI Scale to {wanted}, or take that line out of the profile",
         )
     columns = -(-snapshot.window.window[0] // scale)
@@ -78,11 +86,11 @@ def size_row(snapshot: WindowSnapshot, profile: Profile | None) -> Check:
         return Check(
             row,
             "warn",
-            f"{size}, GUI scale {scale}: only {columns} GUI pixels wide, so a long line about a block can cover the "
+            f"{size}, GUI scale {scales}: only {columns} GUI pixels wide, so a long line about a block can cover the "
             "Facing line",
             f"make the window at least {ROOMY * scale} pixels wide, or set a smaller GUI scale",
         )
-    return Check(row, "pass", f"{size}, GUI scale {scale}")
+    return Check(row, "pass", f"{size}, GUI scale {scales}")
 
 
 def _size(size: tuple[int, int]) -> str:

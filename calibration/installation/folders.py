@@ -14,6 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
+from mc_nested.live.model.versions import version_numbers
+
 Platform = Literal["linux", "macos", "windows"]
 
 OPTIONS = "options.txt"
@@ -188,11 +190,11 @@ def client_jars(system: System, version: str | None = None) -> list[Path]:
         for jar in _matches(root, _JARS[launcher.layout])
         if (found := _VERSIONED.fullmatch(jar.parent.name)) and (file := _stat(jar)) and file.st_size
     }
-    wanted = _numbers(version) if version else None
+    wanted = version_numbers(version) if version else None
 
     def distance(entry: tuple[Path, str]) -> tuple[int, tuple[int, ...], bool]:
         jar, named = entry
-        numbers = _numbers(named)
+        numbers = version_numbers(named)
         older_first = tuple(-number for number in numbers)
         is_changed = jar.parent.name != named
         if wanted is None or numbers < wanted:
@@ -245,12 +247,6 @@ def _json(file: Path) -> dict[str, Any]:
 
 def _text(value: object) -> str | None:
     return value if isinstance(value, str) and value else None
-
-
-def _numbers(version: str) -> tuple[int, int, int]:
-    """A version's numbers, which order versions: years (26.1) are newer than 1.21 (FACTS: Commands)."""
-    major, minor, patch = [*(int(part) for part in re.findall(r"\d+", version)[:3]), 0, 0, 0][:3]
-    return major, minor, patch
 
 
 def _stat(file: Path) -> os.stat_result | None:

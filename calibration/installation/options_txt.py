@@ -20,6 +20,9 @@ SAFE: Mapping[str, str] = {
     "forceUnicodeFont": "false",
     "reducedDebugInfo": "false",
     "toggleCrouch": "false",
+    "toggleAttack": "false",
+    "toggleUse": "false",
+    "saveChatDrafts": "false",
     "lang": "en_us",
 }
 """Safe values, whatever the window's size and the player's keys."""
@@ -31,12 +34,16 @@ ACTIONS: Mapping[str, str] = {
     "right": "right",
     "sneak": "sneak",
     "chat": "chat",
-    "debug": "debug.overlay",
+    "debug.overlay": "debug",
+    "debug.modifier": "debug",
 }
-"""Each key of the profile, and the game's name of its action; the hotbar's are ``hotbar.1`` to ``hotbar.9``."""
+"""Actions by the game's names, and the profile's name of the key; the hotbar's are ``hotbar.1`` to ``hotbar.9``."""
 
-MOUSE = {"attack": "left button", "use": "right button"}
-"""The actions of the mouse's buttons, by the game's names."""
+FIXED = {"attack": "left button", "use": "right button", "debug.copyLocation": "c"}
+"""Actions by the game's names, and the key or button for each, which profiles can't change."""
+
+NO_KEY = "key.keyboard.unknown"
+"""What an action without a key is bound to, from 1.13 on."""
 
 _MARKS = {
     "apostrophe": "'",
@@ -124,7 +131,7 @@ def key_name(value: str) -> str | None:
     name, _, modifier = value.partition(":")
     if modifier not in ("", "NONE"):
         return None
-    if name in ("key.keyboard.unknown", "0"):
+    if name in (NO_KEY, "0"):
         return ""
     if name.lstrip("-").isdecimal():
         return _NUMBERS.get(int(name))

@@ -31,7 +31,8 @@ def doctor(
     profile: ProfileOption = None,
     as_json: JsonOption = False,
     fix: Annotated[
-        bool, typer.Option("--fix", help="write safe values into options.txt, with a backup; the game must be closed")
+        bool,
+        typer.Option("--fix", help="mend options.txt and debug-profile.json, with backups; the game must be closed"),
     ] = False,
 ) -> None:
     """Look at this computer, the game's window and its options: each row with the one thing to do."""

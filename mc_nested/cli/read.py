@@ -7,6 +7,7 @@ import typer
 
 from mc_nested.cli.output import JsonOption, Output
 from mc_nested.errors import FontError, PictureError
+from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, switch_on
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.vision.font import load_font
@@ -57,4 +58,6 @@ def _line(found: dict[str, Any]) -> str:
     position = " ".join(f"{value:.3f}" for value in found["xyz"])
     target = found["target"]
     target_block = f"looks at {target['id']} {target['pos']}" if target else "looks at no block"
+    if target is None and found["pitch"] >= GROUND_PITCH_DEG:
+        target_block += f": if the ground is in view, that line is off: {switch_on(None)}"
     return f"{found['file']}: at {position}, yaw {found['yaw']}, pitch {found['pitch']}, {target_block}"

@@ -9,14 +9,16 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.design_files.layer_scenario import scenario_of_layer
 from mc_nested.design_files.litematic import is_litematic, read_litematic
 from mc_nested.design_files.mcedit import is_mcedit, read_mcedit
-from mc_nested.design_files.nbt import MOST_BYTES, Compound, read_nbt
+from mc_nested.design_files.nbt import MOST_BYTES, Compound, is_bedrock, root_of, unpacked
 from mc_nested.design_files.sponge import is_sponge, read_sponge
+from mc_nested.design_files.stated_size import check_stated_size
 from mc_nested.design_files.structure import is_structure, read_structure
 from mc_nested.design_files.volume import Volume
 from mc_nested.errors import ScenarioError
 
 SCHEMATICS = (".schem", ".schematic", ".litematic", ".nbt")
 PICTURE = ".png"
+BEDROCK = ".mcstructure"
 
 FORMATS: list[tuple[Callable[[Compound], bool], Callable[[Compound], Volume]]] = [
     (is_sponge, read_sponge),
@@ -43,7 +45,7 @@ class Loaded:
 
 def is_design_file(name_or_file: str | Path) -> bool:
     """Whether a name ends as a file of another program does; anything else is a shipped scenario or a TOML file."""
-    return Path(name_or_file).suffix.lower() in (*SCHEMATICS, PICTURE)
+    return Path(name_or_file).suffix.lower() in (*SCHEMATICS, PICTURE, BEDROCK)
 
 
 def load_any_scenario(
@@ -120,7 +122,13 @@ def read_volume(path: Path) -> Volume:
             from mc_nested.design_files.picture import read_picture
 
             return read_picture(data)
-        root = read_nbt(data)
+        if path.suffix.lower() == BEDROCK:
+            raise bedrock_error()
+        plain = unpacked(data)
+        if is_bedrock(plain):
+            raise bedrock_error()
+        check_stated_size(plain)
+        root = root_of(plain)
         for is_format, read in FORMATS:
             if is_format(root):
                 return read(root)
@@ -129,12 +137,21 @@ def read_volume(path: Path) -> Volume:
         raise ScenarioError(f"{path}: {error}") from error.__cause__
 
 
+def bedrock_error() -> ScenarioError:
+    """The error for a structure of the other edition."""
+    return ScenarioError(
+        "it is a structure of Minecraft Bedrock Edition: import it in the Amulet editor, and export it as Sponge .schem"
+    )
+
+
 def _bytes_of(path: Path) -> bytes:
     try:
         if not path.is_file():
             raise ScenarioError("there is no such file: check its name and folder")
         if path.stat().st_size > MOST_BYTES:
             raise ScenarioError(f"it is larger than {MOST_BYTES // 2**20} MB: save a smaller part of it")
-        return path.read_bytes()
+        if data := path.read_bytes():
+            return data
+        raise ScenarioError("it is empty: save, or download, it again")
     except OSError as error:
         raise ScenarioError(f"it can't be read, {error.strerror or error}: name another file") from error

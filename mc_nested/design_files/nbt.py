@@ -24,6 +24,9 @@ saves 48 x 48 x 48. All together they take at most some hundred megabytes."""
 GZIP, COMPOUND = b"\x1f\x8b", b"\x0a"
 """How a file begins: compressed, or as plain NBT."""
 
+BEDROCK_TAGS = ((3, b"format_version"), (9, b"structure_world_origin"))
+"""The types and names of two tags that each of Bedrock Edition's structures has."""
+
 Compound = dict[str, Any]
 """pynbt's tags by name. Read their values with ``value_of``: pynbt has no types."""
 
@@ -46,7 +49,12 @@ def read_nbt(data: bytes, most_reads: int = MOST_READS) -> Compound:
     At most MOST_BYTES are unpacked, and pynbt may read at most ``most_reads`` times. What lies nested too deeply
     is refused.
     """
-    stream = _BoundedStream(unpacked(data), most_reads)
+    return root_of(unpacked(data), most_reads)
+
+
+def root_of(plain: bytes, most_reads: int = MOST_READS) -> Compound:
+    """The root compound of unpacked NBT, with the same limits."""
+    stream = _BoundedStream(plain, most_reads)
     try:
         root: Compound = pynbt.NBTFile(stream)
     except RecursionError:
@@ -54,6 +62,13 @@ def read_nbt(data: bytes, most_reads: int = MOST_READS) -> Compound:
     except (struct.error, IndexError, OSError, ValueError) as error:
         raise ScenarioError("its NBT can't be read: it is damaged, or not of Minecraft Java Edition") from error
     return root
+
+
+def is_bedrock(plain: bytes) -> bool:
+    """Whether unpacked NBT is a structure of Bedrock Edition, whose numbers have their lowest byte first."""
+    return plain.startswith(COMPOUND) and any(
+        struct.pack("<BH", kind, len(name)) + name in plain for kind, name in BEDROCK_TAGS
+    )
 
 
 def unpacked(data: bytes) -> bytes:

@@ -83,11 +83,16 @@ def check_size(width: int, height: int, length: int) -> int:
         raise ScenarioError(f"its size is {width} x {height} x {length}: a design has at least one cell")
     cells = width * height * length
     if cells > MOST_CELLS:
-        raise ScenarioError(
-            f"its size is {width} x {height} x {length}, {cells:,} cells, and at most {MOST_CELLS:,} are read: save a "
-            "smaller part of it"
-        )
+        raise too_large_error(width, height, length)
     return cells
+
+
+def too_large_error(width: int, height: int, length: int) -> ScenarioError:
+    """The error for a volume of more cells than are read."""
+    return ScenarioError(
+        f"its size is {width} x {height} x {length}, {width * height * length:,} cells, and at most {MOST_CELLS:,} are "
+        "read: save a smaller part of it"
+    )
 
 
 def volume_of(numbers: NDArray[np.integer], names: Sequence[str], height: int, length: int, width: int) -> Volume:

@@ -48,6 +48,17 @@ def test_each_picture_is_a_line_that_says_where_the_player_is_and_what_is_looked
     ]
 
 
+def test_no_block_with_the_ground_in_view_is_told_to_be_an_entry_that_is_off(
+    tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    ground = picture(tmp_path / "a.png", F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, 65.0))
+    (line,) = printed(capsys, ground, "--font", font)
+    assert line.endswith(
+        "looks at no block: if the ground is in view, that line is off: from 1.21.9 on press F3+F6, and set "
+        "looking_at_block (from 26.1 on looking_at_block_state) to Always"
+    )
+
+
 def test_a_picture_that_can_not_be_read_is_a_line_with_the_reason(
     tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -1,5 +1,6 @@
 """Any scenario by its name or file: the content decides the format, a layer is chosen, mistakes are one line."""
 
+import gzip
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -36,6 +37,13 @@ def names_of(drawing: Drawing, name: str) -> list[str]:
     """What the reader of a file of that name calls the drawing's blocks."""
     others = {"c": "block number 300"} if name.startswith("mcedit") else {}
     return [{**NAMES, **others}[character] for character in cells(drawing)]
+
+
+BEDROCK = (
+    b"\x0a\0\0\x03\x0e\0format_version\x01\0\0\0\x09\x04\0size\x03\x03\0\0\0\x04\0\0\0\x04\0\0\0\x03\0\0\0"
+    b"\x09\x16\0structure_world_origin\x03\x03\0\0\0" + bytes(12) + b"\0"
+)
+"""A structure of Bedrock Edition without its blocks: each number's lowest byte first."""
 
 
 @pytest.mark.parametrize("name", WRITERS)
@@ -144,7 +152,12 @@ def test_layers_are_told_in_words(numbers: list[int], words: str) -> None:
         ("hut.schem", picture(HUT[0]), "it is no schematic, neither compressed with gzip nor plain NBT"),
         ("hut.png", sponge(HUT), "it is no PNG picture: save it as PNG"),
         ("hut.nbt", sponge(HUT)[:90], "it ends in the middle: copy, or download, it again"),
-        ("hut.schem", b"", "it is no schematic"),
+        ("hut.schem", b"", "it is empty: save, or download, it again"),
+        ("hut.png", b"", "it is empty"),
+        ("hut.mcstructure", BEDROCK, "it is a structure of Minecraft Bedrock Edition: import it in the Amulet editor"),
+        ("hut.nbt", BEDROCK, "it is a structure of Minecraft Bedrock Edition"),
+        ("hut.schem", gzip.compress(BEDROCK, mtime=0), "it is a structure of Minecraft Bedrock Edition"),
+        ("HUT.MCSTRUCTURE", b"whatever", "it is a structure of Minecraft Bedrock Edition"),
     ],
 )
 def test_a_file_that_can_not_be_used_is_one_line_that_names_it(name: str, data: bytes, says: str, write: Write) -> None:

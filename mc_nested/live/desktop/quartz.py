@@ -7,7 +7,7 @@ from typing import Any
 
 from mc_nested.errors import ClipboardError, DesktopError
 from mc_nested.live.desktop.clipboard import not_text_error
-from mc_nested.live.desktop.window import check_shown, closed_error, matching_title
+from mc_nested.live.desktop.window import TitledWindow, check_shown, closed_error, game_window
 from mc_nested.live.devices import DesktopArea
 
 if sys.platform == "darwin":
@@ -30,9 +30,12 @@ def open_window(title: str) -> Iterator["QuartzWindow"]:
     """
     _check_permissions()
     windows = [each for each in _shown_windows() if each.get(Quartz.kCGWindowName)]
-    titles = [str(each[Quartz.kCGWindowName]) for each in windows]
-    chosen = matching_title(title, titles)
-    window = QuartzWindow(int(windows[chosen][Quartz.kCGWindowNumber]), titles[chosen])
+    titled = [
+        TitledWindow(str(each[Quartz.kCGWindowName]), str(each.get(Quartz.kCGWindowOwnerName) or ""))
+        for each in windows
+    ]
+    chosen = game_window(title, titled)
+    window = QuartzWindow(int(windows[chosen][Quartz.kCGWindowNumber]), titled[chosen].title)
     window.client_area()
     yield window
 

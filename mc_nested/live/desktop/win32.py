@@ -5,13 +5,15 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from ctypes import wintypes
+from pathlib import PureWindowsPath
 
 from mc_nested.errors import ClipboardError
 from mc_nested.live.desktop.clipboard import not_text_error
 from mc_nested.live.desktop.window import (
+    TitledWindow,
     check_shown,
     closed_error,
-    matching_title,
+    game_window,
     minimised_error,
 )
 from mc_nested.live.devices import DesktopArea
@@ -30,6 +32,14 @@ _CLOAKED = 14
 _VIRTUAL_SCREEN = (76, 77, 78, 79)
 """SM_XVIRTUALSCREEN, SM_YVIRTUALSCREEN, SM_CXVIRTUALSCREEN and SM_CYVIRTUALSCREEN (winuser.h)."""
 
+_QUERY_LIMITED = 0x1000
+"""PROCESS_QUERY_LIMITED_INFORMATION (winnt.h): granted for other users' processes, too."""
+
+_LONGEST_NAME = 1024
+"""Characters of a class's name or a program's path that are looked at."""
+
+_kernel32 = ctypes.WinDLL("kernel32", use_last_error=True)
+_kernel32.OpenProcess.restype = wintypes.HANDLE
 _user32 = ctypes.WinDLL("user32", use_last_error=True)
 _user32.GetForegroundWindow.restype = wintypes.HWND
 _EnumWindowsCallback = ctypes.WINFUNCTYPE(wintypes.BOOL, wintypes.HWND, wintypes.LPARAM)
@@ -44,9 +54,10 @@ def open_window(title: str) -> Iterator["Win32Window"]:
     """
     # Fails harmlessly where the process has chosen its awareness already; pyautogui would choose a weaker one.
     _user32.SetProcessDpiAwarenessContext(ctypes.c_void_p(_PER_MONITOR_AWARE_V2))
-    windows = [(handle, _title_of(handle)) for handle in _shown_windows()]
-    windows = [(handle, name) for handle, name in windows if name]
-    window = Win32Window(*windows[matching_title(title, [name for _, name in windows])])
+    windows = [(handle, TitledWindow(_title_of(handle), _program_of(handle))) for handle in _shown_windows()]
+    windows = [(handle, described) for handle, described in windows if described.title]
+    handle, described = windows[game_window(title, [described for _, described in windows])]
+    window = Win32Window(handle, described.title)
     window.client_area()
     yield window
 
@@ -138,6 +149,27 @@ def _is_cloaked(handle: int) -> bool:
         wintypes.HWND(handle), _CLOAKED, ctypes.byref(cloaked), ctypes.sizeof(cloaked)
     )
     return cloaked.value != 0
+
+
+def _program_of(handle: int) -> str:
+    """The file name of the window's process and the window's class; what can't be asked is left out."""
+    name = ctypes.create_unicode_buffer(_LONGEST_NAME)
+    _user32.GetClassNameW(wintypes.HWND(handle), name, _LONGEST_NAME)
+    return f"{_process_of(handle)} {name.value}".strip()
+
+
+def _process_of(handle: int) -> str:
+    number = wintypes.DWORD(0)
+    _user32.GetWindowThreadProcessId(wintypes.HWND(handle), ctypes.byref(number))
+    process: int | None = _kernel32.OpenProcess(_QUERY_LIMITED, False, number)
+    if not process:
+        return ""
+    try:
+        path, length = ctypes.create_unicode_buffer(_LONGEST_NAME), wintypes.DWORD(_LONGEST_NAME)
+        known = _kernel32.QueryFullProcessImageNameW(wintypes.HANDLE(process), 0, path, ctypes.byref(length))
+        return PureWindowsPath(path.value).name if known else ""
+    finally:
+        _kernel32.CloseHandle(wintypes.HANDLE(process))
 
 
 def _title_of(handle: int) -> str:

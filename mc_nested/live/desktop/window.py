@@ -2,13 +2,26 @@
 
 import re
 from collections.abc import Sequence
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from mc_nested.errors import DesktopError, NoWindowError, SeveralWindowsError
 from mc_nested.live.devices import DesktopArea
+from mc_nested.live.profile.window_title import GAME_TITLE
 
 SHOWN_TITLES = 8
 """Titles that an error names at most: enough to find a misspelling, and still one line."""
+
+_OTHERS = re.compile(
+    r"firefox|mozilla|librewolf|waterfox|floorp|chrom|brave|msedge|microsoft.edge|vivaldi|safari|iexplore|epiphany"
+    r"|konqueror|falkon|browser|\bopera\b|launcher|multimc|modrinth|curseforge",
+    re.IGNORECASE,
+)
+"""Classes and processes of browsers and launchers, whose pages may have the game's title (FACTS: Input and windows)."""
+
+_LOADING = re.compile(r"Minecraft: \w+ Loading")
+"""The title of NeoForge's and Forge's first window, before the game's own (FACTS: Input and windows)."""
+
+_OWN_TITLE = "write a part of that into the profile, such as title = 'Lunar Client' under [window]"
 
 
 class GameWindow(Protocol):
@@ -23,23 +36,37 @@ class GameWindow(Protocol):
         """Whether a key pressed now would reach this window."""
 
 
-def matching_title(title: str, titles: Sequence[str]) -> int:
-    """The index of the one title in which the regular expression ``title`` is found.
+class TitledWindow(NamedTuple):
+    """A window of the desktop by its title; ``program`` is what its class or its process is called, if known."""
 
+    title: str
+    program: str = ""
+
+
+def game_window(title: str, windows: Sequence[TitledWindow]) -> int:
+    """The index of the one window in whose title the regular expression ``title`` is found.
+
+    A browser's and a launcher's windows are none of the game's, unless the title is one of the player's own choice.
     NoWindowError where there is none, SeveralWindowsError where there are several.
     """
-    found = [index for index, each in enumerate(titles) if re.search(title, each)]
+    found = [index for index, each in enumerate(windows) if re.search(title, each.title)]
+    if title == GAME_TITLE:
+        found = [index for index in found if not _OTHERS.search(windows[index].program)]
     if len(found) == 1:
         return found[0]
     if not found:
-        known = _listed([each for each in titles if each]) or "none"
+        known = _listed([_described(each) for each in windows if each.title]) or "none"
+        if any(_LOADING.match(each.title) for each in windows):
+            raise NoWindowError(
+                f"the game is still loading: wait for its title screen; windows on this desktop: {known}"
+            )
         raise NoWindowError(
-            f"no window's title matches {title!r}: start the game, or set window.title in the profile; "
+            f"no window's title matches {title!r}: start the game, or, where it has another title, {_OWN_TITLE}; "
             f"windows on this desktop: {known}"
         )
     raise SeveralWindowsError(
-        f"{len(found)} windows' titles match {title!r}: {_listed([titles[index] for index in found])}: "
-        "close all but the game's, or set window.title in the profile"
+        f"{len(found)} windows' titles match {title!r}: {_listed([repr(windows[index].title) for index in found])}: "
+        f"close all but the game's, or {_OWN_TITLE}"
     )
 
 
@@ -69,7 +96,12 @@ def closed_error(title: str) -> DesktopError:
     return DesktopError(f"the window {title!r} has closed: start the game again")
 
 
+def _described(window: TitledWindow) -> str:
+    is_passed_over = re.search(GAME_TITLE, window.title) and _OTHERS.search(window.program)
+    return repr(window.title) + (f" (of {window.program})" if is_passed_over else "")
+
+
 def _listed(titles: Sequence[str]) -> str:
     shown = sorted(set(titles))
     more = f" and {len(shown) - SHOWN_TITLES} more" if len(shown) > SHOWN_TITLES else ""
-    return ", ".join(repr(each) for each in shown[:SHOWN_TITLES]) + more
+    return ", ".join(shown[:SHOWN_TITLES]) + more

@@ -11,9 +11,10 @@ from Xlib.xobject.drawable import Window
 
 from mc_nested.errors import DesktopError, NoWindowError
 from mc_nested.live.desktop.window import (
+    TitledWindow,
     check_shown,
     closed_error,
-    matching_title,
+    game_window,
     minimised_error,
 )
 from mc_nested.live.desktop.x11_camera import WindowCamera
@@ -41,11 +42,11 @@ def open_window(title: str) -> Iterator["X11Window"]:
     try:
         windows = _titled_windows(display)
         try:
-            chosen = matching_title(title, [name for _, name in windows])
+            chosen = game_window(title, [described for _, described in windows])
         except NoWindowError as error:
             raise (no_x11_window_error(error) if is_xwayland(display) else error) from None
         kind = RootlessWindow if is_rootless(display) else X11Window
-        window = kind(display, *windows[chosen])
+        window = kind(display, windows[chosen][0], windows[chosen][1].title)
         window.client_area()
         yield window
     finally:
@@ -149,15 +150,15 @@ def _connect() -> Display:
         ) from error
 
 
-def _titled_windows(display: Display) -> list[tuple[Window, str]]:
+def _titled_windows(display: Display) -> list[tuple[Window, TitledWindow]]:
     root = display.screen().root
     managed = root.get_full_property(display.intern_atom("_NET_CLIENT_LIST"), X.AnyPropertyType)
     if managed is not None and len(managed.value):
         windows = [display.create_resource_object("window", each) for each in managed.value]
     else:
         windows = list(_shown_below(root))
-    titled = [(window, _title_if_open(display, window)) for window in windows]
-    return [(window, title) for window, title in titled if title]
+    titled = [(window, _described_if_open(display, window)) for window in windows]
+    return [(window, described) for window, described in titled if described.title]
 
 
 def _shown_below(window: Window) -> Iterator[Window]:
@@ -178,11 +179,11 @@ def _is_shown(window: Window) -> bool:
         return False
 
 
-def _title_if_open(display: Display, window: Window) -> str:
+def _described_if_open(display: Display, window: Window) -> TitledWindow:
     try:
-        return _title_of(display, window)
+        return TitledWindow(_title_of(display, window), " ".join(window.get_wm_class() or ()))
     except XError:  # closed since it was listed
-        return ""
+        return TitledWindow("")
 
 
 def _title_of(display: Display, window: Window) -> str:

@@ -6,6 +6,11 @@ and in a world its state, in the game's language (FACTS: Input and windows).
 
 import re
 
+from mc_nested.live.model.versions import is_minecrafts
+
+GAME_TITLE = r"^Minecraft(?: \w+)?\*? \d"
+"""A regular expression for the title of the game's window where no pack has replaced it."""
+
 _TITLE = re.compile(r"Minecraft(?: \w+)?\*? (?P<version>\d\S*)(?P<rest>.*)")
 _RELEASE = re.compile(r"(?P<release>\d+\.\d+(?:\.\d+)?)(?:-.+)?")
 _STATE = re.compile(r" - (?P<state>.+)")
@@ -25,10 +30,13 @@ _SHARED = "Multiplayer"
 
 
 def version_in(title: str) -> str | None:
-    """The release in the title of the game's window; None in a modpack's own title, and for a weekly snapshot."""
+    """The release in the title of the game's window; None in a modpack's own title, and for a weekly snapshot.
+
+    A number that is none of Minecraft's is a modpack's own.
+    """
     found = _TITLE.fullmatch(title)
     release = _RELEASE.fullmatch(found["version"]) if found else None
-    return release["release"] if release else None
+    return release["release"] if release and is_minecrafts(release["release"]) else None
 
 
 def state_in(title: str) -> str | None:

@@ -47,19 +47,21 @@ def paint(world: Frame, screen: F3Screen, font: Font) -> Frame:
     """
     frame: Frame = world.copy()
     height, width = world.shape[:2]
-    layers = F3Layers(Letters(font, screen.gui_scale), (width, height)).of(screen)
+    gui = (-(-width // screen.gui_scale), -(-height // screen.gui_scale))
+    layers = F3Layers(Letters(font, screen.gui_scale), gui).of(screen)
     draw_all(frame, layers, (0, 0, width, height))
     return frame
 
 
 class F3Layers:
-    """Debug screens as layers in a window of a size in pixels; a part that didn't change is the same layer again."""
+    """Debug screens as layers in a window of a size in GUI pixels; a part that didn't change is the same layer again.
 
-    def __init__(self, letters: Letters, size: tuple[int, int]) -> None:
-        self._letters = letters
-        # The last GUI pixel may be cut (FACTS: The F3 debug screen).
-        self._columns, rows = (-(-side // letters.scale) for side in size)
-        self._boxes = F3Boxes(letters, (self._columns, rows))
+    The last GUI pixel may be cut (FACTS: The F3 debug screen).
+    """
+
+    def __init__(self, letters: Letters, gui: tuple[int, int]) -> None:
+        self._letters, self._columns = letters, gui[0]
+        self._boxes = F3Boxes(letters, gui)
         self._part = lru_cache(_KEPT)(self._drawn_part)
 
     def of(self, screen: F3Screen) -> list[Layer]:

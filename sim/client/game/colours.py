@@ -4,6 +4,8 @@ Colour = tuple[int, int, int]
 
 WHITE: Colour = (255, 255, 255)
 GREY: Colour = (160, 160, 160)
+PLAIN: Colour = (224, 224, 224)
+DRAFT: Colour = (170, 170, 170)
 RED: Colour = (255, 85, 85)
 
 TEXT: Colour = (224, 224, 224)

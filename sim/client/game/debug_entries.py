@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, Literal, get_args
 
+from mc_nested.errors import UserError
 from sim.client.game.edition import Edition
 
 Status = Literal["alwaysOn", "inOverlay", "never"]
@@ -40,6 +41,8 @@ _PROFILES = {"default": GAME_DEFAULT, "performance": PERFORMANCE}
 
 _OLD_NAMES = {"looking_at_block": "looking_at_block_state", "looking_at_fluid": "looking_at_fluid_state"}
 """Ids to 1.21.11, and from 26.1 on: a file of an older game is upgraded when it is read."""
+
+_NAMING = frozenset({"looking_at_block", "looking_at_block_state"})
 
 _FIRST_IN_OVERLAY = 4650
 """The DataVersion from which on a file says ``inOverlay``, not ``inF3``."""
@@ -113,12 +116,27 @@ def parse_profile(text: str | None, edition: Edition) -> DebugEntries:
 
     As in the game, one that can't be read counts as the default, and ``custom`` replaces everything.
     """
-    if text is None:
+    try:
+        return GAME_DEFAULT if text is None else read_profile(text, edition)
+    except UserError:
         return GAME_DEFAULT
+
+
+def read_profile(text: str, edition: Edition) -> DebugEntries:
+    """The entries that a debug-profile.json stands for; UserError where the game can't read it, and replaces it."""
     try:
         return _parsed(json.loads(text), edition)
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
-        return GAME_DEFAULT
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        problem = str(error).split("\n")[0]
+        raise UserError(
+            f"no debug-profile.json of Minecraft {edition.version} ({type(error).__name__}: {problem}): the game would "
+            "replace it by its default entries"
+        ) from error
+
+
+def names_block(entries: DebugEntries, edition: Edition) -> bool:
+    """Whether the debug screen names the block looked at while it is on."""
+    return bool(_NAMING.intersection(shown_entries(entries, edition, has_f3=True)))
 
 
 def _has(edition: Edition, entry: str) -> bool:

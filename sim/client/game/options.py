@@ -10,6 +10,12 @@ from sim.client.game.edition import Edition
 LARGEST_SCALE = 100
 """No window is so large that a GUI scale above this fits."""
 
+SHOWN, COMMANDS, HIDDEN = range(3)
+"""What ``chat_visibility`` may be."""
+
+HALF = 128
+"""The alpha of a background that is half black, out of 255."""
+
 
 @dataclass(frozen=True)
 class GameOptions:
@@ -31,6 +37,22 @@ class GameOptions:
     toggle_crouch: bool = False
     toggle_attack: bool = False
     toggle_use: bool = False
+
+    @property
+    def toggled(self) -> frozenset[str]:
+        """The actions whose keys are pressed once to begin, and once more to end."""
+        actions = {"sneak": self.toggle_crouch, "attack": self.toggle_attack, "use": self.toggle_use}
+        return frozenset(action for action, is_toggled in actions.items() if is_toggled)
+
+    @property
+    def message_ground(self) -> int:
+        """The alpha, out of 255, of the black behind messages in full (FACTS: The chat's line)."""
+        return round(255 * self.text_background_opacity)
+
+    @property
+    def typed_ground(self) -> int:
+        """The same behind what is being typed."""
+        return HALF if self.background_for_chat_only else self.message_ground
 
 
 class _Line(NamedTuple):

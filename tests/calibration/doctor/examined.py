@@ -37,8 +37,25 @@ key_key.chat:key.keyboard.t
 key_key.attack:key.mouse.left
 key_key.use:key.mouse.right
 key_key.hotbar.1:key.keyboard.1
+toggleAttack:false
+toggleUse:false
+saveChatDrafts:false
+debugGuiScale:0
+chatVisibility:0
+textBackgroundOpacity:0.5
+backgroundForChatOnly:true
+key_key.friends:key.keyboard.unknown
+key_key.debug.overlay:key.keyboard.f3
+key_key.debug.modifier:key.keyboard.f3
+key_key.debug.copyLocation:key.keyboard.c
 """
-"""An options.txt with nothing to mend."""
+"""An options.txt of 26.3 with nothing to mend."""
+
+ENTRIES = (
+    '{"DataVersion":4671,"custom":{"minecraft:player_position":"alwaysOn","minecraft:looking_at_block":"alwaysOn",'
+    '"minecraft:looking_at_block_state":"alwaysOn"}}'
+)
+"""A debug-profile.json with nothing to mend, in any version that has one."""
 
 
 class Computer:
@@ -53,8 +70,10 @@ class Computer:
         self.system = System("linux", home, {})
         self.options = home / ".minecraft" / "options.txt"
         self.options.parent.mkdir()
+        self.entries = self.options.with_name("debug-profile.json")
         if options is not None:
             self.options.write_text(options, "utf-8")
+            self.entries.write_text(ENTRIES, "utf-8")
         self.font = home / "ascii.png"
         self.font.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
         self.profile = home / "mine.toml"

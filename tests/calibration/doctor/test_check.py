@@ -13,7 +13,7 @@ def test_an_error_is_what_is_wrong_and_what_to_do() -> None:
 
 
 def test_no_row_has_the_name_of_another() -> None:
-    assert len(CheckName.__members__) == len(set(CheckName)) == 23
+    assert len(CheckName.__members__) == len(set(CheckName)) == 31
 
 
 def test_a_name_is_shown_and_written_as_its_value() -> None:

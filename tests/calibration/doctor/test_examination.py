@@ -265,11 +265,11 @@ def test_a_profile_that_can_not_be_used_is_a_row_and_the_rest_is_checked_without
 
 
 def test_a_gui_scale_that_the_profile_says_otherwise_is_seen_all_the_same(computer: Computer) -> None:
-    computer.save(Profile(screen=ScreenTable(font=str(computer.font), gui_scale=1)))
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font), debug_scale=1)))
     row = rows(computer.examined(opened(client_in(as_it_was))))["size and GUI scale"]
     assert (row.status, row.detail) == (
         "fail",
-        "854 x 480 pixels, GUI scale 2, and the profile's screen.gui_scale is 1",
+        "854 x 480 pixels, GUI scale 2, and the profile's screen.debug_scale is 1",
     )
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from calibration.doctor.check import CheckName
-from calibration.doctor.options_rows import OPTION_CHECKS, gui_scale_row, keys_row, option_rows
+from calibration.doctor.options_rows import OPTION_CHECKS, debug_scale_row, gui_scale_row, keys_row, option_rows
 from calibration.installation.options_txt import parse_options
 from mc_nested.live.profile.tables import KeysTable
 from tests.calibration.doctor.examined import GOOD
@@ -48,15 +48,23 @@ def bound(change: tuple[str, str], keys: KeysTable) -> tuple[str, str]:
 @pytest.mark.parametrize(
     ("change", "keys", "status", "detail"),
     [
-        (("", ""), KeysTable(), "pass", "9 are as the profile has them"),
+        (("", ""), KeysTable(), "pass", "12 are as the profile has them"),
         (("board.t", "board.enter"), KeysTable(), "fail", "chat: enter for t"),
-        (("board.w", "board.z"), KeysTable(forward="z"), "pass", "9 are as the profile has them"),
+        (("board.w", "board.z"), KeysTable(forward="z"), "pass", "12 are as the profile has them"),
         # On an AZERTY keyboard the key at that place is printed z: nothing need be wrong.
         (("", ""), KeysTable(forward="z"), "warn", "forward: w for z"),
         (("mouse.right", "mouse.left"), KeysTable(), "fail", "use: left button for right button"),
         (("board.left.shift", "board.unknown"), KeysTable(), "fail", "sneak: no key for left.shift"),
         (("board.left.shift", "board.keypad.1"), KeysTable(), "fail", "sneak: another key for left.shift"),
         (("board.1", "board.2"), KeysTable(), "warn", "hotbar.1: 2 for 1"),
+        (("modifier:key.keyboard.f3", "modifier:key.keyboard.f4"), KeysTable(), "fail", "debug.modifier: f4 for f3"),
+        (("overlay:key.keyboard.f3", "overlay:key.keyboard.f4"), KeysTable(), "fail", "debug.overlay: f4 for f3"),
+        (
+            ("copyLocation:key.keyboard.c", "copyLocation:key.keyboard.v"),
+            KeysTable(),
+            "warn",
+            "debug.copyLocation: v for c",
+        ),
     ],
 )
 def test_keys_are_those_of_the_profile(change: tuple[str, str], keys: KeysTable, status: str, detail: str) -> None:
@@ -81,6 +89,9 @@ def test_every_option_has_its_row_whether_there_is_a_file_or_not() -> None:
         (CheckName.FORCE_UNICODE_FONT, "fail"),
         (CheckName.FULLSCREEN, "warn"),
         (CheckName.TOGGLE_CROUCH, "fail"),
+        (CheckName.TOGGLE_ATTACK, "fail"),
+        (CheckName.TOGGLE_USE, "fail"),
+        (CheckName.SAVE_CHAT_DRAFTS, "warn"),
     ],
 )
 def test_a_switch_that_should_be_off_says_why_and_how(name: CheckName, status: str) -> None:
@@ -99,3 +110,30 @@ def test_menus_are_known_in_english(value: str, status: str) -> None:
     text = GOOD.replace("lang:en_us", f"lang:{value}")
     rows = {row.name: row for row in option_rows(parse_options(text.encode(), Path("o")), KeysTable(), None)}
     assert rows[CheckName.LANGUAGE].status == status
+
+
+@pytest.mark.parametrize(
+    ("value", "gui", "window", "status", "detail"),
+    [
+        (None, "2", (854, 480), "skip", "the file doesn't say: this version may not have it"),
+        ("0", "0", (854, 480), "pass", "Auto, 1 in this window"),
+        ("0", "0", (1920, 1080), "pass", "Auto, 2 in this window"),
+        ("0", "1", (1920, 1080), "pass", "Auto, 1 in this window"),
+        ("0", "0", (640, 479), "pass", "Auto, 1 in this window"),
+        ("0", "3", (2560, 1440), "pass", "Auto, 3 in this window"),
+        ("-1", "2", (854, 480), "pass", "-1, as the GUI scale, 2 in this window"),
+        ("1", "4", (1920, 1080), "pass", "1, 1 in this window"),
+        ("7", "2", (1920, 1080), "pass", "7, 2 in this window"),
+        ("3", None, (1920, 1080), "pass", "3"),
+        ("0", "0", None, "pass", "Auto"),
+        ("-2", "2", None, "warn", "-2, which is no scale"),
+        ("half", "2", None, "warn", "half, which is no scale"),
+        ("", "2", None, "warn", ", which is no scale"),
+    ],
+)
+def test_any_scale_of_the_debug_screens_text_will_do(
+    value: str | None, gui: str | None, window: tuple[int, int] | None, status: str, detail: str
+) -> None:
+    row = debug_scale_row(value, gui, window)
+    assert (row.status, row.detail) == (status, detail)
+    assert bool(row.fix) == (status == "warn")

@@ -1,6 +1,8 @@
 """``--fix``: safe values, a backup that nothing overwrites, and never while the game may be open."""
 
+import json
 import sys
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -9,9 +11,9 @@ from calibration.doctor.examination import Examination
 from calibration.doctor.repair import repair
 from calibration.installation.processes import Process
 from mc_nested.errors import ProfileError
-from mc_nested.live.profile.tables import Profile, ScreenTable
+from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
-from tests.calibration.doctor.examined import GOOD, Computer, opened, statuses
+from tests.calibration.doctor.examined import GOOD, Computer, calibrated, opened, statuses
 from tests.calibration.doctor.test_examination import no_session, no_window, several
 
 BAD = (
@@ -38,7 +40,7 @@ def repaired_in(computer: Computer, found: Examination) -> tuple[bool, str]:
 
 
 def files_beside(computer: Computer) -> list[str]:
-    return sorted(file.name for file in computer.options.parent.iterdir())
+    return sorted(file.name for file in computer.options.parent.iterdir() if file != computer.entries)
 
 
 def test_safe_values_are_written_and_the_file_as_it_was_stays_beside_it(computer: Computer) -> None:
@@ -64,10 +66,87 @@ def test_the_options_of_1_12_are_repaired_in_their_own_form(computer: Computer) 
     assert computer.options.read_bytes() == expected.encode()
 
 
+def test_the_options_of_26_3_are_repaired_too_and_any_scale_of_the_debug_screen_stays(computer: Computer) -> None:
+    spoilt = (
+        GOOD.replace("toggleUse:false", "toggleUse:true")
+        .replace("toggleAttack:false", "toggleAttack:true")
+        .replace("saveChatDrafts:false", "saveChatDrafts:true")
+        .replace("chatVisibility:0", "chatVisibility:2")
+        .replace("Opacity:0.5", "Opacity:0.1")
+        .replace("ChatOnly:true", "ChatOnly:false")
+        .replace("friends:key.keyboard.unknown", "friends:key.keyboard.o")
+        .replace("debugGuiScale:0", "debugGuiScale:-1")
+    )
+    computer.options.write_text(spoilt, "utf-8")
+    assert repaired_in(computer, computer.examined(no_window))[0]
+    repaired = GOOD.replace("Opacity:0.5", "Opacity:0.1").replace("debugGuiScale:0", "debugGuiScale:-1")
+    assert computer.options.read_text("utf-8") == repaired
+
+
 def test_the_gui_scale_is_that_of_the_profile(computer: Computer) -> None:
-    computer.save(Profile(screen=ScreenTable(font=str(computer.font), gui_scale=3)))
+    calibrated = CalibratedTable(date="2026-11-21", gui_scale=3)
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font)), calibrated=calibrated))
     repaired_in(computer, computer.examined(no_window))
     assert "guiScale:3\n" in computer.options.read_text("utf-8")
+
+
+OF_26_3 = GOOD.replace("version:3465", "version:5023")
+"""An options.txt by which the installed version has entries of the debug screen."""
+
+
+def uncalibrated(computer: Computer, entries: str | None) -> Computer:
+    """The computer with 26.3 installed, never calibrated, with that debug-profile.json or none."""
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font))))
+    computer.options.write_text(OF_26_3, "utf-8")
+    computer.entries.unlink()
+    if entries is not None:
+        computer.entries.write_text(entries, "utf-8")
+    return computer
+
+
+def test_the_entries_that_are_needed_are_switched_on_where_there_was_no_file(computer: Computer) -> None:
+    found = uncalibrated(computer, None).examined(no_window)
+    assert statuses(found)["debug entries"] == "fail"
+    is_done, said = repaired_in(computer, found)
+    assert is_done
+    assert said == f"{computer.entries}: looking_at_block_state switched on; there was none"
+    written = json.loads(computer.entries.read_bytes())
+    assert (written["DataVersion"], len(written["custom"])) == (4671, 10)
+    assert computer.options.read_text("utf-8") == OF_26_3
+    assert statuses(computer.examined(no_window))["debug entries"] == "pass"
+    assert not repaired_in(computer, computer.examined(no_window))[0]
+
+
+@pytest.mark.parametrize(
+    "before", ['{"profile":"performance"}', "damaged", '{"DataVersion":5023,"custom":{"a:b":"never"}}']
+)
+def test_a_file_of_entries_is_replaced_and_kept_as_it_was(before: str, computer: Computer) -> None:
+    is_done, said = repaired_in(computer, uncalibrated(computer, before).examined(no_window))
+    assert is_done
+    kept = computer.entries.with_name("debug-profile.json.before-1")
+    assert said.endswith(f"switched on; as it was: {kept}")
+    assert kept.read_text("utf-8") == before
+    assert statuses(computer.examined(no_window))["debug entries"] == "pass"
+
+
+def test_the_data_version_is_that_of_the_installed_versions_jar(computer: Computer) -> None:
+    uncalibrated(computer, None)
+    computer.save(Profile(calibrated=calibrated().model_copy(update={"version": "26.3"})))
+    computer.options.write_text(OF_26_3.replace("version:5023\n", ""), "utf-8")
+    jar = computer.options.parent / "versions" / "26.3" / "26.3.jar"
+    jar.parent.mkdir(parents=True)
+    with zipfile.ZipFile(jar, "w") as file:
+        file.writestr("version.json", '{"id":"26.3","world_version":5023}')
+    assert repaired_in(computer, computer.examined(no_window))[0]
+    assert json.loads(computer.entries.read_bytes())["DataVersion"] == 5023
+
+
+def test_entries_that_the_game_has_written_meanwhile_are_left_alone(computer: Computer) -> None:
+    found = uncalibrated(computer, None).examined(no_window)
+    computer.entries.write_text("{}", "utf-8")
+    with pytest.raises(ProfileError, match="has changed meanwhile"):
+        repair(found, computer.said.append)
+    assert computer.entries.read_text("utf-8") == "{}"
 
 
 def test_no_backup_is_ever_overwritten(computer: Computer) -> None:

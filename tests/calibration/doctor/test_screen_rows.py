@@ -5,11 +5,13 @@ from pathlib import Path
 import pytest
 
 from calibration.doctor.check import Check, CheckName
-from calibration.doctor.screen_rows import SCREEN_CHECKS, SWITCH_ON, reduced_by_options, screen_rows
+from calibration.doctor.screen_rows import SCREEN_CHECKS, reduced_by_options, screen_rows
 from calibration.doctor.snapshot import ScreenContents, WindowSnapshot
 from calibration.installation.options_txt import parse_options
 from mc_nested.live.menus.screens import ScreenName
+from mc_nested.live.model.debug_entries import switch_on
 from mc_nested.live.model.reading import Reading, Target
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
 
 READ = Reading(xyz=(0.5, 64.0, 0.25), yaw=0.0, pitch=40.0, target=Target((0, 63, 1), "minecraft:stone"))
@@ -18,12 +20,14 @@ READ = Reading(xyz=(0.5, 64.0, 0.25), yaw=0.0, pitch=40.0, target=Target((0, 63,
 def snapshot(
     reading: Reading, screen: ScreenName = "world", line: str | None = "XYZ:", version: str = "1.20.1"
 ) -> WindowSnapshot:
-    contents = ScreenContents(screen, line, 2, reading)
-    return WindowSnapshot(Fingerprint(f"Minecraft {version}", (854, 480), 2), (854, 480), None, True, contents)
+    contents = ScreenContents(screen, line, Scales(2, 2), reading)
+    return WindowSnapshot(
+        Fingerprint(f"Minecraft {version}", (854, 480), Scales(2, 2)), (854, 480), None, True, contents
+    )
 
 
 def rows(of: WindowSnapshot) -> dict[str, tuple[str, str, str]]:
-    return {row.name.value: (row.status, row.detail, row.fix) for row in screen_rows(of)}
+    return {row.name.value: (row.status, row.detail, row.fix) for row in screen_rows(of, None)}
 
 
 def test_a_debug_screen_that_is_read_passes() -> None:
@@ -38,7 +42,7 @@ def test_a_debug_screen_that_is_read_passes() -> None:
 @pytest.mark.parametrize(("is_in_front", "reason"), [(True, "no font to read it with"), (False, "another window")])
 def test_what_can_not_be_checked_is_skipped(is_in_front: bool, reason: str) -> None:
     unseen = WindowSnapshot(Fingerprint("Minecraft", (854, 480), None), (854, 480), None, is_in_front, None)
-    checks = screen_rows(unseen)
+    checks = screen_rows(unseen, None)
     assert [check.name for check in checks] == list(SCREEN_CHECKS)
     assert all(check.status == "skip" and check.detail.startswith(reason) for check in checks)
 
@@ -75,11 +79,12 @@ def test_a_reduced_debug_screen_fails_with_its_remedy() -> None:
 @pytest.mark.parametrize(
     ("pitch", "version", "status", "fix"),
     [
-        (30.0, "1.21.9", "fail", SWITCH_ON),
-        (30.0, "26.1", "fail", SWITCH_ON),
+        (30.0, "1.21.9", "fail", "press F3+F6 in the game, and set looking_at_block to Always"),
+        (30.0, "1.21.11", "fail", "press F3+F6 in the game, and set looking_at_block to Always"),
+        (30.0, "26.1", "fail", "press F3+F6 in the game, and set looking_at_block_state to Always"),
         (30.0, "1.21.8", "fail", "stand on solid ground, out of the water"),
         (29.9, "1.21.9", "skip", "look down at the ground, and run this again"),
-        (30.0, "", "fail", SWITCH_ON),
+        (30.0, "", "fail", switch_on(None)),
         (None, "1.21.9", "skip", ""),
     ],
 )

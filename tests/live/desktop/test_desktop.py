@@ -14,6 +14,7 @@ import pytest
 
 from mc_nested.errors import DesktopError
 from mc_nested.live.desktop import open_desktop, session_kind
+from mc_nested.live.profile.window_title import GAME_TITLE
 from tests.live.desktop.probed import probed
 
 MINECRAFT = r"^Minecraft\*? \d"
@@ -117,4 +118,27 @@ if sys.platform.startswith("linux"):
                         assert found.title() == "Minecraft 1.20.1"
             finally:
                 busy.kill()
+        display.close()
+
+    @pytest.mark.window
+    def test_a_browsers_page_about_the_game_is_known_by_its_class(
+        x_screen: dict[str, str], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        from Xlib.display import Display
+
+        from mc_nested.live.desktop.x11 import open_window
+
+        monkeypatch.setenv("DISPLAY", x_screen["DISPLAY"])
+        display = Display(x_screen["DISPLAY"])
+        for title, names in (
+            ("Minecraft 1.20.1 - a page", ("Navigator", "firefox")),
+            ("Minecraft 26.3", ("Minecraft 26.3",) * 2),
+        ):
+            window = display.screen().root.create_window(10, 10, 300, 200, 0, display.screen().root_depth)
+            window.set_wm_name(title)
+            window.set_wm_class(*names)
+            window.map()
+        display.sync()
+        with open_window(GAME_TITLE) as found:
+            assert found.title() == "Minecraft 26.3"
         display.close()

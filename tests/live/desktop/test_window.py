@@ -1,34 +1,77 @@
 """Which window is the game's, and what its client area must be."""
 
+import re
+
 import pytest
 
 from mc_nested.errors import DesktopError, NoWindowError
-from mc_nested.live.desktop.window import check_shown, closed_error, is_within, matching_title
+from mc_nested.live.desktop.window import TitledWindow, check_shown, closed_error, game_window, is_within
 from mc_nested.live.devices import DesktopArea
+from mc_nested.live.profile.window_title import GAME_TITLE
 
-MINECRAFT = r"^Minecraft\*? \d"
+TAB = "Minecraft 1.20.1 release notes - Mozilla Firefox"
+
+
+def found(title: str, titles: list[str]) -> int:
+    return game_window(title, [TitledWindow(each) for each in titles])
 
 
 @pytest.mark.parametrize(
     "title", ["Minecraft 1.12.2", "Minecraft* 1.20.1 - Singleplayer", "Minecraft 26.1 - Multiplayer (LAN)"]
 )
 def test_the_game_is_found_among_other_windows_whatever_its_state(title: str) -> None:
-    assert matching_title(MINECRAFT, ["Minecraft Wiki - Firefox", title, "Minecraft Launcher"]) == 1
+    assert found(GAME_TITLE, ["Minecraft Wiki - Firefox", title, "Minecraft Launcher"]) == 1
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        *("Navigator firefox", "google-chrome Google-chrome", "firefox.exe MozillaWindowClass", "msedge.exe", "Safari"),
+        *("minecraft-launcher Minecraft Launcher", "prismlauncher org.prismlauncher.PrismLauncher", "opera Opera"),
+    ],
+)
+def test_a_browsers_or_a_launchers_window_is_not_the_games_whatever_its_title(program: str) -> None:
+    windows = [TitledWindow(TAB, program), TitledWindow("Minecraft 1.20.1", "Minecraft 1.20.1 Minecraft 1.20.1")]
+    assert game_window(GAME_TITLE, windows) == 1
+    with pytest.raises(NoWindowError, match=re.escape(f"{TAB!r} (of {program})")):
+        game_window(GAME_TITLE, windows[:1])
+
+
+@pytest.mark.parametrize(
+    "program", ["", "javaw.exe GLFW30", "java", "python3 Minecraft 1.20.1", "net-minecraft-Opera2"]
+)
+def test_a_window_of_any_other_program_may_be_the_games(program: str) -> None:
+    assert game_window(GAME_TITLE, [TitledWindow("Minecraft 1.20.1", program)]) == 0
+
+
+def test_a_title_of_the_players_own_choice_may_be_a_browsers() -> None:
+    assert game_window("Web Client", [TitledWindow("Prismarine Web Client", "chromium Chromium")]) == 0
+
+
+def test_a_game_with_another_title_is_not_guessed_but_told_how_to_name() -> None:
+    with pytest.raises(NoWindowError, match=r"title = 'Lunar Client' under \[window\].*'Lunar Client 1\.21\.4'"):
+        found(GAME_TITLE, ["Lunar Client 1.21.4", "Terminal"])
+    assert found("Lunar Client", ["Lunar Client 1.21.4", "Terminal"]) == 0
+
+
+def test_a_game_that_is_loading_is_waited_for() -> None:
+    with pytest.raises(NoWindowError, match="the game is still loading: wait"):
+        found(GAME_TITLE, ["Minecraft: NeoForge Loading..."])
 
 
 def test_a_missing_window_is_an_error_that_names_titles_that_exist() -> None:
     with pytest.raises(NoWindowError, match=r"start the game.*'Minecraft Launcher', 'Terminal'"):
-        matching_title(MINECRAFT, ["Terminal", "", "Minecraft Launcher"])
+        found(GAME_TITLE, ["Terminal", "", "Minecraft Launcher"])
 
 
 def test_an_error_names_no_more_titles_than_fit_into_a_line() -> None:
     with pytest.raises(DesktopError, match=r"'tab 07' and 22 more$"):
-        matching_title(MINECRAFT, [f"tab {number:02}" for number in range(30)])
+        found(GAME_TITLE, [f"tab {number:02}" for number in range(30)])
 
 
 def test_two_windows_of_the_title_are_an_error_that_names_both() -> None:
     with pytest.raises(DesktopError, match=r"2 windows.*'Minecraft 1\.20\.1', 'Minecraft 1\.21'") as raised:
-        matching_title(MINECRAFT, ["Minecraft 1.21", "Terminal", "Minecraft 1.20.1"])
+        found(GAME_TITLE, ["Minecraft 1.21", "Terminal", "Minecraft 1.20.1"])
     assert not isinstance(raised.value, NoWindowError)
 
 
@@ -44,13 +87,13 @@ def test_the_smallest_window_with_an_area_is_shown() -> None:
 
 def test_a_desktop_without_titles_names_none() -> None:
     with pytest.raises(NoWindowError, match=r"windows on this desktop: none$"):
-        matching_title(MINECRAFT, ["", ""])
+        found(GAME_TITLE, ["", ""])
 
 
 def test_eight_titles_are_all_named() -> None:
     titles = [f"tab {number}" for number in range(8)]
     with pytest.raises(NoWindowError, match=r"'tab 7'$"):
-        matching_title(MINECRAFT, titles)
+        found(GAME_TITLE, titles)
 
 
 def test_a_closed_window_is_named() -> None:

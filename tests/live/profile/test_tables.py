@@ -22,6 +22,7 @@ from mc_nested.live.profile.tables import BlocksTable, GameVersion, Profile, Wal
         ("window = 'Minecraft'", "window: must be a table: write [window] and its keys below"),
         ("[window]\ntitle = '('", "window.title: not a regular expression"),
         ("[game]\nversion = 'newest'", "game.version: String should match pattern"),
+        ("[game]\nversion = '1.22'", "game.version: Minecraft has no version '1.22': write what its title screen says"),
         ("[screen]\nfont = 'ascii.png'", "screen.font: 'ascii.png' depends on where you are: write the whole path"),
         ("[keys]\nforward = 'up arrow'", "keys.forward: no key is named 'up arrow': write what a US keyboard types"),
         ("[keys]\nback = 'w'", "keys: 'w' is given for forward and for back: each needs a key of its own"),

@@ -18,6 +18,8 @@ from mc_nested.live.profile.window_title import may_be_shared, state_in, version
         ("Minecraft 25w41a - Einzelspieler", None, "Einzelspieler"),
         ("Minecraft* 1.20.1 - 单人游戏", "1.20.1", "单人游戏"),
         ("Minecraft: All the Mods 9", None, None),
+        ("Minecraft 3.2 - Singleplayer", None, "Singleplayer"),
+        ("Minecraft 27.1", "27.1", None),
         ("Prismarine Web Client - Chromium", None, None),
     ],
 )
@@ -42,6 +44,7 @@ def test_a_title_of_ones_own_world_or_without_a_state_is_not_shared(title: str) 
         *("Minecraft 1.20.1 - Multiplayer (LAN)", "Minecraft 1.15.2 - Multiplayer (3rd-party)"),
         *("Minecraft 1.20.1 - Multijugador (LAN)", "Minecraft* 1.20.1 - マルチプレイ（LAN）", "Minecraft 25w41a - x"),  # noqa: RUF001 - as the game writes it
         *("My pack - Multiplayer (LAN)", "Minecraft 1.20.1 - Singleplayer (LAN)"),
+        *("Minecraft 26.3 - Multiplayer (3rd-party Server)", "Minecraft 26.4 - Multiplayer (Third-party Server)"),
     ],
 )
 def test_any_other_state_may_be_a_shared_world_in_every_language(title: str) -> None:

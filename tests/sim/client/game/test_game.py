@@ -5,6 +5,7 @@ from sim.client.game.debug_entries import GAME_DEFAULT, TUTORIAL, Status
 from sim.client.game.edition import Edition
 from sim.client.game.f3_text import both_columns
 from sim.client.game.game import VirtualGame
+from sim.client.game.options import GameOptions
 from sim.client.game.realm import Mode, Player, Realm, Stack
 from sim.client.game.screens import MenuState
 from sim.client.game.world import VirtualWorld
@@ -12,11 +13,17 @@ from sim.client.game.world import VirtualWorld
 FRONT = (0, 64, 1)
 
 
-def game(mode: Mode = "creative", z: float = 0.5, pitch: float = 65.0, version: str = "1.20.1") -> VirtualGame:
+def game(
+    mode: Mode = "creative",
+    z: float = 0.5,
+    pitch: float = 65.0,
+    version: str = "1.20.1",
+    options: GameOptions | None = None,
+) -> VirtualGame:
     """A player in the middle of the block at 0, 0, who looks south at the floor ahead, with two stones in hand."""
     player = Player((0.5, 64.0, z), 0.0, pitch, mode=mode)
     player.hotbar[0] = Stack("stone", 2)
-    return VirtualGame(Realm(Edition(version), VirtualWorld(64, "dirt"), player))
+    return VirtualGame(Realm(Edition(version), VirtualWorld(64, "dirt"), player), options=options)
 
 
 def ticks(played: VirtualGame, count: int) -> None:
@@ -72,6 +79,33 @@ def test_a_held_button_places_again_every_four_ticks() -> None:
         played.tick()
         counts.append(len(built(played)))
     assert counts == [1, 1, 1, 1, 2, 2, 2, 2, 2]
+
+
+def test_where_use_is_toggled_one_click_places_every_four_ticks_until_the_next() -> None:
+    played = game(pitch=49.0, options=GameOptions(toggle_use=True))
+    click(played)
+    counts = []
+    for _ in range(5):
+        played.tick()
+        counts.append(len(built(played)))
+    assert counts == [1, 1, 1, 1, 2]
+    click(played)
+    ticks(played, 20)
+    assert len(built(played)) == 2
+
+
+def test_a_held_left_button_breaks_a_block_every_five_ticks() -> None:
+    for options in (None, GameOptions(toggle_attack=True)):
+        played = game(pitch=90.0, options=options)
+        played.keys.press("left button")
+        if options:
+            played.keys.release("left button")
+        counts = []
+        for _ in range(7):
+            # The floor breaks below the player, who falls meanwhile: what is looked at goes down with them.
+            played.tick()
+            counts.append(len(built(played)))
+        assert counts == [1, 1, 1, 1, 1, 2, 2]
 
 
 @pytest.mark.parametrize(("z", "pitch", "count"), [(0.69, 70.0, 1), (0.71, 70.0, 0), (0.5, 80.0, 0)])

@@ -60,3 +60,15 @@ def test_an_option_that_the_version_lacks_is_refused(line: str, version: str) ->
 
 def test_each_option_has_a_field_of_its_own() -> None:
     assert sorted(line.field for line in LINES.values()) == sorted(GameOptions.__dataclass_fields__)
+
+
+def test_only_a_background_everywhere_changes_what_is_behind_the_typed_line() -> None:
+    seen = [
+        (options.message_ground, options.typed_ground)
+        for options in (
+            GameOptions(),
+            GameOptions(text_background_opacity=0.2),
+            GameOptions(text_background_opacity=0.2, background_for_chat_only=False),
+        )
+    ]
+    assert seen == [(128, 128), (51, 128), (51, 51)]

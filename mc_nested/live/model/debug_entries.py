@@ -1,0 +1,33 @@
+"""The entries of the debug screen, from 1.21.9 on, that are needed to play, and where they are switched on.
+
+Each is known by its id, which is also its name on the debug options screen (FACTS: debug-profile.json).
+"""
+
+from mc_nested.live.model.versions import version_numbers
+
+FIRST_WITH_ENTRIES = (1, 21, 9)
+"""The first version whose debug screen is made of entries; before it, all that is needed is always shown."""
+
+POSITION = "player_position"
+
+GROUND_PITCH_DEG = 30.0
+"""At this pitch or more the player looks at the ground, at most some 3 blocks away, and a block is looked at."""
+
+_TARGET, _TARGET_FROM_26_1 = "looking_at_block", "looking_at_block_state"
+
+
+def has_entries(version: str) -> bool:
+    """Whether the entries of this version's debug screen can be switched on and off."""
+    return version_numbers(version) >= FIRST_WITH_ENTRIES
+
+
+def target_entry(version: str) -> str:
+    """The id of the entry for the block that is looked at."""
+    return _TARGET if version_numbers(version) < (26, 1) else _TARGET_FROM_26_1
+
+
+def switch_on(version: str | None) -> str:
+    """How to switch that entry on in the game; None where the version isn't known."""
+    if version is None:
+        return f"from 1.21.9 on press F3+F6, and set {_TARGET} (from 26.1 on {_TARGET_FROM_26_1}) to Always"
+    return f"press F3+F6 in the game, and set {target_entry(version)} to Always"

@@ -1,0 +1,52 @@
+"""Minecraft's versions by their numbers: to 1.21.11, then by years, 26.1 and on (FACTS: Versions)."""
+
+import re
+
+NEWEST = (26, 4)
+"""The newest version whose screens and commands are known here."""
+
+_NUMBERS = re.compile(r"(\d+)\.(\d+)(?:\.(\d+))?")
+
+_FIRST_YEAR, _MOST_A_YEAR = 26, 9
+"""The first year that versions are named by, and how many of them one may have: it was never more than half of that."""
+
+_LAST_PATCHES = (1, 0, 5, 2, 7, 2, 4, 10, 9, 4, 2, 2, 2, 2, 4, 2, 5, 1, 2, 4, 6, 11)
+"""The last patch of 1.0, 1.1 and so on to 1.21."""
+
+
+def version_numbers(version: str) -> tuple[int, int, int]:
+    """Three numbers that order versions, as (1, 21, 0) of ``1.21`` and (26, 4, 0) of ``26.4-snapshot-1``.
+
+    Zeros where the text doesn't begin like a version.
+    """
+    found = _NUMBERS.match(version)
+    return (int(found[1]), int(found[2]), int(found[3] or 0)) if found else (0, 0, 0)
+
+
+def is_minecrafts(version: str) -> bool:
+    """Whether Minecraft has, or may come to have, a version of these numbers: no 1.22, no 25.1, no 26.0."""
+    first, second, patch = version_numbers(version)
+    if first == 1:
+        return second < len(_LAST_PATCHES) and patch <= _LAST_PATCHES[second]
+    return first >= _FIRST_YEAR and 1 <= second <= _MOST_A_YEAR
+
+
+def draws_text_over_menus(version: str) -> bool:
+    """Whether the debug screen lies over menus, chat and toasts (FACTS: The F3 debug screen)."""
+    return version_numbers(version) >= (1, 21, 9)
+
+
+def is_later_than_known(version: str) -> bool:
+    """Whether a version is newer than all that are known here."""
+    return version_numbers(version)[:2] > NEWEST
+
+
+def later_version_line(version: str) -> str | None:
+    """One line about a version that is later than all known ones: how it is played, what to look at; else None."""
+    if not is_later_than_known(version):
+        return None
+    newest = ".".join(map(str, NEWEST))
+    return (
+        f"Minecraft {version} is later than {newest}, the newest that is known here, and is played as that: look in "
+        "the calibration's report whether screen, menus and commands are as expected (mc-nested calibrate report)"
+    )
