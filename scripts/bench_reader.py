@@ -8,8 +8,8 @@ Frames come in pairs: the second shows the player a tick later before another wo
 second look, each read five times more. Times are medians of processor time at 1920 x 1080 on one core;
 ``workload_ms`` is a fixed piece of NumPy work, to compare machines. Where Tesseract is installed, it is given the XYZ
 line of some of these frames, cut out, black on white, enlarged and smoothed; it is right if the three numbers are. Its
-time is wall clock, process start included. Exit code 1 if a reading was wrong or more than 0.1 % were not read, 0.5 % if
-26.4's layout is among them.
+time is wall clock, process start included. Exit code 1 if a reading was wrong or more than 0.1 % were not read; 0.5 %
+if 26.4's layout is among them.
 """
 
 import argparse
