@@ -11,9 +11,11 @@ from typing import Any
 
 import numpy as np
 
+from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.vision.debug_screen import read_lines, read_position
+from mc_nested.live.vision.facts import VALUES
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
 from mc_nested.live.vision.layout import Overlay
@@ -31,11 +33,20 @@ _BESIDE = 3
 
 @dataclass(frozen=True)
 class LinePixels:
-    """One line's ink: a byte a column as in ``glyph_grid``; row and first column are dots from the window's corner."""
+    """One line's ink: a byte a column as in ``glyph_grid``; row and first column are dots from the window's corner.
+
+    ``values`` is the ink in the colours of values, as long, where the layout has any.
+    """
 
     row: int
     first: int
     columns: bytes
+    values: bytes = b""
+
+    @property
+    def inks(self) -> tuple[bytes, ...]:
+        """The ink of each kind that there is."""
+        return (self.columns, self.values) if self.values else (self.columns,)
 
 
 @dataclass(frozen=True)
@@ -51,7 +62,10 @@ class TextPixels:
             "scale": self.overlay.scale,
             "layout": self.overlay.layout.name,
             "colour": list(self.overlay.colour),
-            "lines": [[line.row, line.first, base64.b64encode(line.columns).decode("ascii")] for line in self.lines],
+            "lines": [
+                [line.row, line.first, *(base64.b64encode(ink).decode("ascii") for ink in line.inks)]
+                for line in self.lines
+            ],
         }
 
     @classmethod
@@ -59,7 +73,7 @@ class TextPixels:
         """The reverse; KeyError, TypeError or ValueError where it is something else."""
         red, green, blue = (int(each) for each in value["colour"])
         overlay = Overlay(int(value["scale"]), LAYOUTS[value["layout"]], (red, green, blue))
-        lines = [LinePixels(int(row), int(first), base64.b64decode(ink)) for row, first, ink in value["lines"]]
+        lines = [LinePixels(int(row), int(first), *map(base64.b64decode, inks)) for row, first, *inks in value["lines"]]
         return cls(overlay, tuple(lines))
 
 
@@ -73,8 +87,9 @@ def text_pixels_of(look: Look) -> TextPixels | None:
     pixels = []
     for (row, first), end in sorted({(line.row, line.start): line.end for line in lines.lines_read}.items()):
         if end >= first:
-            ink = ink_of(lines.dots.strip(row, first, end + 1), colour)
-            pixels.append(LinePixels(row + above, first, columns_of(ink)))
+            strip = lines.dots.strip(row, first, end + 1)
+            values = columns_of(ink_of(strip, *VALUES)) if lines.layout.has_facts else b""
+            pixels.append(LinePixels(row + above, first, columns_of(ink_of(strip, colour)), values))
     return TextPixels(lines.overlay, tuple(pixels))
 
 
@@ -82,15 +97,22 @@ def paint(canvas: Frame, pixels: TextPixels) -> None:
     """Draw the lines onto a picture of the whole window, (height, width, 3), each on its box, cut off at the edges."""
     scale, box = pixels.overlay.scale, pixels.overlay.layout.box
     for line in pixels.lines:
-        ink = np.unpackbits(np.frombuffer(line.columns, np.uint8)[np.newaxis], axis=0, bitorder="little").astype(bool)
+        ink = _dots(line.columns)
         before, behind = 1 + _BESIDE, box.behind + _BESIDE
         dots = np.full((GLYPH_ROWS, before + ink.shape[1] + behind, 3), OUTSIDE, np.uint8)
         dots[:, _BESIDE : dots.shape[1] - _BESIDE] = box.grey
-        dots[:, before : dots.shape[1] - behind][ink] = pixels.overlay.colour[::-1]
+        inside = dots[:, before : dots.shape[1] - behind]
+        inside[ink] = pixels.overlay.colour[::-1]
+        if line.values:
+            inside[_dots(line.values)] = VALUES[0][::-1]
         left = line.first - before
         shown = dots[:, max(0, -left) :].repeat(scale, 0).repeat(scale, 1)
         part = canvas[line.row * scale :, max(0, left) * scale :][: shown.shape[0], : shown.shape[1]]
         part[:] = shown[: part.shape[0], : part.shape[1]]
+
+
+def _dots(columns: bytes) -> Bools:
+    return np.unpackbits(np.frombuffer(columns, np.uint8)[np.newaxis], axis=0, bitorder="little").astype(bool)
 
 
 def reads_the_same(pixels: TextPixels, look: Look, answer: object, font: Font) -> bool:
@@ -113,4 +135,4 @@ def reads_the_same(pixels: TextPixels, look: Look, answer: object, font: Font) -
 
 
 def _moved(lines: Iterable[LinePixels], rows: int) -> Iterable[LinePixels]:
-    return (LinePixels(line.row + rows, line.first, line.columns) for line in lines)
+    return (LinePixels(line.row + rows, line.first, *line.inks) for line in lines)

@@ -10,7 +10,7 @@ from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.layout import Overlay
-from mc_nested.live.vision.overlay import POSITION, REDUCED, SCALES, TITLE, FoundScreen, find_debug_screen
+from mc_nested.live.vision.overlay import POSITION, REDUCED, SCALES, SECTIONS, FoundScreen, find_debug_screen
 from mc_nested.live.vision.screen_lines import CLEAR, WHOLE, DebugLines, ScreenLines, Unreadable, matched, only_line
 from mc_nested.live.vision.target_block import target_block
 from mc_nested.live.vision.target_box import target_in_box
@@ -26,8 +26,6 @@ _FACINGS = {
     "Facing: ": re.compile(rf"Facing: {_TOWARDS} \({_DEGREES} / {_DEGREES}\).*"),
     "Facing (minecraft): ": re.compile(rf"Facing \(minecraft\): {_TOWARDS} \({_DEGREES} {_DEGREES}\).*"),
 }
-_VERSION = re.compile(r"Minecraft (\d+)\.(\d+)")
-_FIRST_UNSUPPORTED = (26, 4)
 
 
 def read_debug_screen(frame: Frame, font: Font, overlay: Overlay | None = None) -> Reading:
@@ -48,7 +46,7 @@ def read_lines(lines: DebugLines, known_by: str = POSITION) -> Reading:
     """What the lines of a debug screen say, one of which begins with ``known_by``."""
     try:
         if known_by != POSITION:
-            raise Unreadable(_without_position(lines, known_by))
+            raise Unreadable(_without_position(known_by))
         position, facing = _position(lines), _facing(lines)
         target = target_in_box(lines, position) if lines.layout.has_facts else target_block(lines)
         return Reading(position, *facing, target)
@@ -80,24 +78,14 @@ def _facing(lines: DebugLines) -> tuple[float, float]:
     raise Unreadable(f"the debug screen shows no Facing line, or it is covered: {CLEAR}")
 
 
-def _without_position(lines: DebugLines, known_by: str) -> str:
-    if known_by == REDUCED:
+def _without_position(known_by: str) -> str:
+    if known_by == REDUCED or known_by in SECTIONS:
         return (
             "the debug screen is reduced and shows no XYZ: set Reduced Debug Info off in the game's options, "
             "and the gamerule reducedDebugInfo (from 1.21.11 on reduced_debug_info) to false"
+            + ("" if known_by == REDUCED else "; if both are, switch minecraft:player_position on (F3+F6)")
         )
-    if version := unsupported_version(lines):
-        return f"the debug screen of {version} has a layout that can't be read yet: use a version from 1.8 to 26.3"
     return f"no XYZ line is to be seen: press F3 if it is off (from 1.21.9 on, F3+F6 adds the line), else {CLEAR}"
-
-
-def unsupported_version(lines: DebugLines) -> str | None:
-    """The version that a debug screen's first line names, where its layout can't be read yet; else None."""
-    title = lines.starting(TITLE)
-    version = _VERSION.match(title[0].text) if title else None
-    if version is None or (int(version[1]), int(version[2])) < _FIRST_UNSUPPORTED:
-        return None
-    return version[0]
 
 
 def nothing_seen(overlay: Overlay | None) -> Reading:

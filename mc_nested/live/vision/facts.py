@@ -32,7 +32,8 @@ from mc_nested.live.vision.text_lines import (
     pixels_from,
 )
 
-_VALUES = (WHITE, GLUE, PURE_GREEN, PURE_RED)
+VALUES = (WHITE, GLUE, PURE_GREEN, PURE_RED)
+"""The colours of values, and of titles."""
 
 _GAP = 5
 """Columns from where the names end, before their colon, to where the values begin."""
@@ -71,7 +72,7 @@ def _fact_in(
     row, first = start
     read = None if end is None else end - first + 1
     picture = np.frombuffer(pixels, np.uint8).reshape(GLYPH_ROWS, -1, 3)
-    names, values = ink_of(picture, colour), ink_of(picture, *_VALUES)
+    names, values = ink_of(picture, colour), ink_of(picture, *VALUES)
     ink = names | values
     darkest = _DARKEST if values[:, :1].any() else DARKEST
     ground = np.asarray(cv2.inRange(picture, (darkest,) * 3, (BRIGHTEST,) * 3), np.uint8)

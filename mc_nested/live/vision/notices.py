@@ -7,6 +7,7 @@ beside something else; by clear rows above and below its letters; and none of th
 
 import numpy as np
 
+from mc_nested.arrays import Bools
 from mc_nested.live.vision.glyph_grid import GlyphGrid
 from mc_nested.live.vision.text_colours import INK_SPREAD, PLAIN
 
@@ -37,15 +38,17 @@ _FEW = 20
 def may_hide_lines(dots: GlyphGrid) -> bool:
     """Whether something like a notice is seen in the upper right of a whole window's dots."""
     step, middle = dots.scale, dots.scale // 2
-    picture = dots.frame[middle::step, middle::step][: MOST * HEIGHT].astype(np.int16)
+    if dots.columns <= _NEAREST:
+        return False
+    left_out = max(0, dots.columns - WIDTH - 2)
+    picture = dots.frame[middle::step, left_out * step + middle :: step][: MOST * HEIGHT].astype(np.int16)
     columns = picture.shape[1]
-    first = max(1, columns - WIDTH - 1)
     for top in range(0, picture.shape[0] - HEIGHT + 1, HEIGHT):
         rows = picture[top + _CORNER : top + HEIGHT - _CORNER]
         flat = (rows.max(0) - rows.min(0)).max(1) <= _FLAT
-        for left in range(first, columns - _NEAREST):
+        for left in _margins(flat)[: columns - _NEAREST].nonzero()[0].tolist():
             margin = slice(left + _BORDER, left + _MARGIN)
-            if not flat[margin].all() or np.ptp(rows[:, margin], axis=(0, 1)).max() > _FLAT:
+            if left == 0 or np.ptp(rows[:, margin], axis=(0, 1)).max() > _FLAT:
                 continue
             above = picture[top + _BORDER : top + _CLEAR, left + _BORDER : min(left + _LONG, columns - _BORDER)]
             below = picture[top + _BELOW[0] : top + _BELOW[1], left + _BORDER : min(left + _LONG, columns - _BORDER)]
@@ -59,3 +62,9 @@ def may_hide_lines(dots: GlyphGrid) -> bool:
             if np.count_nonzero(text) < _FEW:
                 return True
     return False
+
+
+def _margins(flat: Bools) -> Bools:
+    """For each column, whether a margin of flat columns begins behind a border there."""
+    found: Bools = np.all(np.lib.stride_tricks.sliding_window_view(flat[_BORDER:], _MARGIN - _BORDER), axis=1)
+    return found

@@ -24,13 +24,25 @@ SCALES = (8, 7, 6, 5, 4, 3, 2, 1)
 
 POSITION = "XYZ:"
 REDUCED = "Chunk-relative:"
+SECTIONS = ("Section-relative:", "Section-Relative:")
+"""The line that is left without a position from 1.21.9 on, and from 26.4 on."""
+
 TITLE = "Minecraft "
-OTHERS = ("Facing", "Chunk:", "Block:", TITLE, "Looking at", "Targeted ")
+HELP = "Debug charts:"
+"""A line that is there from 1.21.9 on whenever F3 is on."""
+
+OTHERS = ("Facing", "Chunk:", "Block:", TITLE, "Looking at", "Targeted ", HELP, "Mem:", "Java:")
 """How other lines begin: they show that there is a debug screen where its position line can't be seen."""
+
+_KNOWN = (*SECTIONS, *OTHERS, "fps T:", "Integrated server @", "Memory", "Looking At Block", "Type:")
+"""What stands on a debug screen with more than one line, two of them at least."""
 
 _VERSION = re.compile(r"Minecraft (\d+(?:\.\d+)+)")
 FIRST_WITH_BOXES = (26, 4)
 """The first version whose debug screen is made of boxes."""
+
+_MAY_BE_ALONE = (TITLE, "Targeted ", "Mem:", "Java:", *SECTIONS)
+"""What is an entry of its own, which can be on without F3: alone it is no debug screen."""
 
 _LEFT_COLUMN = 120
 """Columns in which a line of the left column begins: looking there first saves looking through the whole frame."""
@@ -59,15 +71,22 @@ def find_debug_screen(frame: Frame, font: Font, overlay: Overlay | None = None) 
     scales, least = ((overlay.scale,), _least(overlay)) if overlay else (SCALES, _LEAST)
     left = [GlyphGrid(frame[:, : _LEFT_COLUMN * scale], scale, least) for scale in scales]
     whole = [GlyphGrid(frame, scale, least) for scale in scales]
-    for labels in ((POSITION,), (REDUCED, *OTHERS)):
+    for labels in ((POSITION,), (REDUCED, *SECTIONS, *OTHERS)):
         for dots in (*left, *whole):
             for label in labels:
                 for position in positions_of(dots, font, label):
                     if label == TITLE and _is_of_a_menu(dots, font, position):
                         continue
+                    if label in _MAY_BE_ALONE and _is_alone(GlyphGrid(frame, dots.scale, least), font, label):
+                        continue
                     overlay = overlay or _measured(dots, font, label, position)
                     return FoundScreen(_line_dots(frame, overlay, position[0]), overlay, label)
     return None
+
+
+def _is_alone(dots: GlyphGrid, font: Font, label: str) -> bool:
+    """Whether no other line that is known stands on the screen."""
+    return not any(positions_of(dots, font, other) for other in _KNOWN if other != label)
 
 
 def _is_of_a_menu(dots: GlyphGrid, font: Font, position: GridPosition) -> bool:

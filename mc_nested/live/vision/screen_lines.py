@@ -6,6 +6,7 @@ from typing import Protocol
 
 from mc_nested.live.vision.facts import fact_from
 from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.full_columns import columns_are_full
 from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
 from mc_nested.live.vision.layout import Overlay, ScreenLayout
 from mc_nested.live.vision.notices import may_hide_lines
@@ -47,7 +48,7 @@ class DebugLines(Protocol):
         """The lines of the right column, the upper ones first; none where the layout doesn't say where it ends."""
 
     def may_be_covered(self) -> bool:
-        """Whether a notice may lie over the right column."""
+        """Whether lines of the block looked at may not be seen: under a notice, or for want of room."""
 
     def cut(self, line: Line, text: str) -> Line | None:
         """A line up to the end of ``text``, with which it begins; None where it can't be read so."""
@@ -115,6 +116,8 @@ class ScreenLines:
         return [line for row in rows if (line := self.ending(row, self._right_end))]
 
     def may_be_covered(self) -> bool:
+        if self.layout.has_facts:
+            return columns_are_full(self.dots, self._font, self.overlay)
         return may_hide_lines(self.dots)
 
     def cut(self, line: Line, text: str) -> Line | None:

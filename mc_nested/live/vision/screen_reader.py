@@ -1,8 +1,9 @@
 """Reads one window's debug screen repeatedly, and looks first where the lines of the last reading stood.
 
 Then only the rows of the window that hold these lines are captured, which is faster. If anything differs (a line moved,
-no block is looked at, something lies over the text), the whole window is captured and searched in the same call. So the
-reading is the same either way.
+no block is looked at, something lies over the text), the whole window is captured and searched in the same call. Where
+no block was looked at, the whole window is captured, and searched only if a block's lines may have come (no_block.py).
+So the reading is the same either way.
 """
 
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from mc_nested.live.vision.debug_screen import nothing_seen, read_lines, read_po
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid, GridPosition
 from mc_nested.live.vision.layout import Overlay
+from mc_nested.live.vision.no_block import shows_no_block, sign_of_no_block
 from mc_nested.live.vision.overlay import POSITION, find_debug_screen
 from mc_nested.live.vision.screen_lines import ScreenLines
 
@@ -21,13 +23,16 @@ from mc_nested.live.vision.screen_lines import ScreenLines
 class _Stood:
     """Where the lines of a reading stood: the part of the window, and each line's position in it by how it begins.
 
-    Lines can stand at each ``pitch``-th row of dots of that part.
+    Lines can stand at each ``pitch``-th row of dots of that part, from ``first`` on. ``sign`` shows that no block is
+    looked at, where none was; the part is the whole window then.
     """
 
     overlay: Overlay
     region: Region
     pitch: int
     positions: dict[str, list[GridPosition]]
+    sign: bytes | None = None
+    first: int = 0
 
 
 @dataclass(frozen=True)
@@ -58,7 +63,11 @@ class ScreenReader:
 
     def read(self) -> Reading:
         """Take a picture and read it: a Reading as ``read_debug_screen`` gives it."""
-        return (self._stood and self._read_again(self._stood)) or self._read_whole()
+        stood = self._stood
+        if stood is not None and stood.sign is not None:
+            frame = self._display.grab()
+            return self._read_none_again(frame, stood, stood.sign) or self._read_whole(frame)
+        return (stood and self._read_again(stood)) or self._read_whole(self._display.grab())
 
     def read_position(self) -> tuple[float, float, float] | None:
         """Where the player is, from a picture of that line alone; None where it isn't where it stood."""
@@ -87,8 +96,20 @@ class ScreenReader:
         # Only the whole screen can show that no block is looked at: its lines may have moved elsewhere.
         return reading if reading.target else None
 
-    def _read_whole(self) -> Reading:
-        frame = self._display.grab()
+    def _read_none_again(self, frame: Frame, stood: _Stood, sign: bytes) -> Reading | None:
+        """That still no block is looked at; None where that isn't sure."""
+        if reading := self._read_before(frame):
+            return reading
+        if frame.shape[:2] != (stood.region.height, stood.region.width) or not shows_no_block(
+            frame, stood.overlay, sign
+        ):
+            return None
+        dots = GlyphGrid(frame, stood.overlay.scale, min(stood.overlay.colour), stood.first, stood.pitch)
+        lines = ScreenLines(dots, self._font, stood.overlay, stood.positions)
+        reading = read_lines(lines)
+        return None if reading.problem or reading.target else self._note(Look(frame, None, lines), reading)
+
+    def _read_whole(self, frame: Frame) -> Reading:
         if reading := self._read_before(frame):
             return reading
         self._stood = None
@@ -99,6 +120,10 @@ class ScreenReader:
         reading = read_lines(lines, found.label)
         if reading.target:
             self._stood = _stood(lines)
+        elif reading.problem is None and (sign := sign_of_no_block(lines, self._font)) is not None:
+            whole = Region(0, 0, frame.shape[1], frame.shape[0])
+            dots, positions = lines.dots, dict(lines.positions_seen)
+            self._stood = _Stood(lines.overlay, whole, dots.pitch, positions, sign, dots.first)
         return self._note(Look(frame, None, lines), reading)
 
     def _read_before(self, frame: Frame) -> Reading | None:

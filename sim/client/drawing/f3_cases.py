@@ -48,7 +48,9 @@ _PROPERTIES = (("axis", "y"), ("snowy", "false"), ("waterlogged", "true"), ("fac
 _TAGS = ("minecraft:planks", "minecraft:mineable/axe", "c:villager_job_sites")
 
 
-def frames(font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS) -> Iterator[tuple[F3Screen, Frame]]:
+def frames(
+    font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS, layouts: tuple[Layout, ...] = LAYOUTS
+) -> Iterator[tuple[F3Screen, Frame]]:
     """Endless screens and their frames: each layout, GUI scale 1 to 8 and window in turn, over random kinds of worlds.
 
     As in the game, a GUI scale that doesn't fit the window becomes the largest that fits (FACTS: The F3 debug screen).
@@ -56,9 +58,9 @@ def frames(font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS
     rng = np.random.default_rng(seed)
     count = 0
     while True:
-        layout = LAYOUTS[count % len(LAYOUTS)]
-        width, height = windows[(count // len(LAYOUTS)) % len(windows)]
-        scale = min(1 + (count // (len(LAYOUTS) * len(windows))) % len(SCALES), width // 320, height // 240)
+        layout = layouts[count % len(layouts)]
+        width, height = windows[(count // len(layouts)) % len(windows)]
+        scale = min(1 + (count // (len(layouts) * len(windows))) % len(SCALES), width // 320, height // 240)
         if layout == "26.4":
             scale = min(scale, max(1, width // _WIDE))
         # Where the columns are near each other, the position and the block looked at share a row.

@@ -31,7 +31,13 @@ DRAWN = Overlay(2, VANILLA, (224, 224, 224))
 def screen(layout: Layout = "1.16-1.19.2", gui_scale: int = 2) -> F3Screen:
     name = "oak_planks" if layout == "standin" else "minecraft:oak_planks"
     target = Target((-9, 63, 12_345), name)
-    return F3Screen(layout, gui_scale, (-8.5, 64.0, 12_345.678), -179.96, 65.0, target, (("snowy", "true"),))
+    entries = NARROW if layout == "26.4" else None
+    xyz, states = (-8.5, 64.0, 12_345.678), (("snowy", "true"),)
+    return F3Screen(layout, gui_scale, xyz, -179.96, 65.0, target, states, entries=entries, has_f3=entries is None)
+
+
+NARROW = ("game_version", "looking_at_block_state", "looking_at_fluid_state", "player_position")
+"""Entries of 26.4 whose boxes have room beside each other in 430 GUI pixels."""
 
 
 def world(gui_scale: int, grey: int = 120) -> Frame:
@@ -64,7 +70,7 @@ def test_every_layout_is_read_at_every_gui_scale(layout: Layout, scale: int) -> 
 
 @pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout != "standin"])
 def test_the_block_of_a_mod_is_read_with_its_namespace(layout: Layout) -> None:
-    shown = dataclasses.replace(screen(layout), target=Target((1, 62, 3), "some-mod:machine/casing_2"))
+    shown = dataclasses.replace(screen(layout), target=Target((-9, 62, 12_340), "some-mod:machine/casing_2"))
     assert read_debug_screen(painted(shown), FONT) == expected(shown)
 
 
@@ -80,9 +86,11 @@ def test_a_fluid_is_not_taken_for_the_block(layout: Layout) -> None:
     assert read_debug_screen(painted(shown), FONT) == expected(shown)
 
 
-@pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout not in ("1.8-1.12", "standin")])
+@pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout not in ("1.8-1.12", "standin", "26.4")])
 def test_a_fluid_without_a_block_is_not_taken_for_no_block(layout: Layout) -> None:
     shown = dataclasses.replace(screen(layout), target=None, fluid=(1, 62, 3))
+    if layout == "1.21.9-26.3":
+        shown = dataclasses.replace(shown, entries=(*shown.shown, "looking_at_fluid_state"))
     assert "a fluid is looked at" in (read_debug_screen(painted(shown), FONT).problem or "")
 
 
@@ -130,7 +138,7 @@ def test_text_a_little_off_its_colour_is_read_with_the_overlay_known(grey: int) 
     assert read_debug_screen(frame, FONT, DRAWN) == expected(shown)
 
 
-@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout != "26.4"])
 def test_text_with_a_shadow_is_read(layout: Layout) -> None:
     shown = screen(layout)
     frame = painted(shown)
@@ -183,15 +191,43 @@ def test_reduced_debug_info_is_reported() -> None:
     assert "reducedDebugInfo" in (reading.problem or "")
 
 
-@pytest.mark.parametrize("scale", SCALES)
-def test_the_boxed_groups_of_26_4_are_named_as_not_supported(scale: int) -> None:
-    assert "26.4" in (read_debug_screen(painted(screen("26.4", scale)), FONT).problem or "")
+def test_a_fluids_box_alone_is_no_block() -> None:
+    shown = dataclasses.replace(screen("26.4"), target=None, fluid=(1, 62, 3))
+    assert read_debug_screen(painted(shown), FONT) == expected(shown)
 
 
-def test_a_layout_that_is_not_supported_is_reported() -> None:
-    frame = world(2)
-    write(frame, 2, "Minecraft 26.4-snapshot-2 (vanilla)", (2, 2), 224)
-    assert "26.4" in (read_debug_screen(frame, FONT).problem or "")
+def test_a_line_alone_is_no_debug_screen() -> None:
+    for like, entry in (
+        (screen("1.21.9-26.3"), "game_version"),
+        (screen("1.21.9-26.3"), "memory"),
+        (screen("26.4"), "game_version"),
+    ):
+        shown = dataclasses.replace(like, entries=(entry,), has_f3=False)
+        assert (read_debug_screen(painted(shown), FONT).problem or "").startswith("no debug screen is to be seen")
+
+
+@pytest.mark.parametrize("layout", ["1.21.9-26.3", "26.4"])
+def test_f3_without_a_position_is_told_to_switch_it_on(layout: Layout) -> None:
+    entries = ("fps", "memory", "simple_performance_impactors", "tps")
+    shown = dataclasses.replace(screen(layout), entries=entries, has_f3=True)
+    assert "F3+F6 adds the line" in (read_debug_screen(painted(shown), FONT).problem or "")
+
+
+@pytest.mark.parametrize("layout", ["1.21.9-26.3", "26.4"])
+def test_a_section_without_a_position_is_a_reduced_screen(layout: Layout) -> None:
+    shown = dataclasses.replace(screen(layout), entries=None, has_f3=True, reduced=True)
+    problem = read_debug_screen(painted(shown), FONT).problem or ""
+    assert problem.startswith("the debug screen is reduced")
+    assert "minecraft:player_position" in problem
+
+
+def test_columns_that_are_full_leave_open_whether_a_block_is_looked_at() -> None:
+    entries = ("player_position", "system_specs", "entity_spawn_counts", "heightmap", "tps")
+    shown = dataclasses.replace(screen("26.4"), target=None, entries=entries, has_f3=False)
+    for rows, is_full in ((240, False), (110, True)):
+        frame = paint(np.full((rows * 2, 1400, 3), 120, np.uint8), shown, FONT)
+        problem = read_debug_screen(frame, FONT).problem or ""
+        assert problem.startswith("both columns of the debug screen are full") is is_full
 
 
 def test_glyphs_of_another_font_are_a_problem() -> None:
@@ -218,7 +254,7 @@ def test_something_over_part_of_a_line_is_a_problem(prefix: str, grey: int) -> N
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_a_covered_last_digit_of_the_position_is_a_problem(layout: Layout) -> None:
     frame = painted(screen(layout), grey=200)
-    text = "-9, 63, 1234" if layout in ("1.16-1.19.2", "1.19.3-1.21.8", "1.21.9-26.3") else "-9 63 1234"
+    text = "-9, 63, 1234" if layout in ("1.16-1.19.2", "1.19.3-1.21.8", "1.21.9-26.3", "26.4") else "-9 63 1234"
     row, column = start_of(frame, 2, text)
     hidden = column + len(FONT.columns(text))
     frame[2 * row - 2 : 2 * row + 18, 2 * hidden : 2 * hidden + 40] = 100

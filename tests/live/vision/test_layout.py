@@ -7,7 +7,7 @@ from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
-from mc_nested.live.vision.layout import LINE_PITCH, VANILLA, Overlay, ScreenLayout
+from mc_nested.live.vision.layout import BOXES, LINE_PITCH, VANILLA, Overlay, ScreenLayout
 from mc_nested.live.vision.layouts import LAYOUTS
 from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.text_lines import positions_of
@@ -49,7 +49,7 @@ def test_lines_of_the_chat_and_of_vanilla_are_as_high() -> None:
 
 
 def test_a_profile_names_a_layout_by_its_own_name() -> None:
-    assert LAYOUTS == {"vanilla": VANILLA, "stand-in": STANDIN}
+    assert LAYOUTS == {"vanilla": VANILLA, "boxes": BOXES, "stand-in": STANDIN}
 
 
 def test_an_overlays_lines_are_as_high_as_its_layouts() -> None:

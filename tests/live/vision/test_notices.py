@@ -16,7 +16,6 @@ from sim.client.drawing.f3_cases import frames
 from sim.client.drawing.font import drawn_atlas
 from sim.client.drawing.painter import Painter
 from sim.client.drawing.scenery import WORLDS
-from sim.client.game.edition import Edition
 from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
 from sim.client.game.screens import MenuState
 from sim.client.game.view import View
@@ -27,8 +26,9 @@ TARGET = Target((-9, 63, 12), "minecraft:stone")
 
 
 def painted(layout: Layout, notices: tuple[str, ...], target: Target | None = TARGET, world: str = "noise") -> Frame:
-    shown = F3Screen(layout, 2, (-8.5, 64.0, 12.25), 90.0, 65.0, target)
-    painter = Painter((854, 480), Scales(2, 2), FONT, Edition("1.20.1"), world, 3)
+    entries = ("looking_at_block_state", "player_position") if layout == "26.4" else None
+    shown = F3Screen(layout, 2, (-8.5, 64.0, 12.25), 90.0, 65.0, target, entries=entries, has_f3=not entries)
+    painter = Painter((854, 480), Scales(2, 2), FONT, shown.edition, world, 3)
     return painter.grab(View(MenuState("world"), (0, 0, 0), shown, notices=notices))
 
 

@@ -10,7 +10,7 @@ from mc_nested.live.model.reading import Target
 from mc_nested.live.model.scales import Scales
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
-from mc_nested.live.vision.layout import VANILLA, Overlay
+from mc_nested.live.vision.layout import BOXES, VANILLA, Overlay
 from mc_nested.live.vision.overlay import find_debug_screen, find_overlay
 from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.text_lines import positions_of
@@ -51,8 +51,11 @@ def cover_line(frame: Frame, scale: int, text: str) -> None:
 def test_every_layout_is_found_at_every_scale_by_its_position_line(layout: Layout, scale: int) -> None:
     found = find_debug_screen(painted(screen(layout, scale)), FONT)
     assert found is not None
-    is_standin = layout == "standin"
-    drawn = Overlay(scale, STANDIN if is_standin else VANILLA, STANDIN_INK if is_standin else VANILLA_INK)
+    drawn = Overlay(
+        scale,
+        {"standin": STANDIN, "26.4": BOXES}.get(layout, VANILLA),
+        STANDIN_INK if layout == "standin" else VANILLA_INK,
+    )
     assert (found.overlay, found.label) == (drawn, "XYZ:")
 
 

@@ -156,12 +156,11 @@ def test_everything_is_read_while_the_world_that_is_seen_is_behind_it() -> None:
             assert found.target.id == f"minecraft:{client.realm.world.block_at(found.target.pos)}"
 
 
-def test_26_4_is_recognised_and_named_as_unsupported() -> None:
-    client = VirtualClient(version="26.4")
+def test_the_boxes_of_26_4_say_where_the_player_is_and_what_is_looked_at() -> None:
+    client = VirtualClient(version="26.4", scale=1, pitch=65.0)
     client.clock.sleep(0.2)
-    problem = read_debug_screen(client.display.grab(), FONT).problem
-    assert problem is not None
-    assert "26.4 has a layout that can't be read yet" in problem
+    reading = read_debug_screen(client.display.grab(), FONT)
+    assert (reading.xyz, reading.target) == ((0.5, 64.0, 0.5), Target((0, 63, 1), "minecraft:bedrock"))
 
 
 @pytest.mark.slow
