@@ -47,7 +47,7 @@ def run_acceptance_test(context: CalibrationContext, profile: Profile) -> StepRe
             )
         cell = outcome.cell
         placed |= {expected_block} if expected_block else set()
-    picture = without_chat(connection.devices.display.grab(), connection.screen.scale())
+    picture = without_chat(connection.devices.display.grab(), connection.screen.gui_scale())
     game.reset(0)
     effort, seconds = game.log.effort, median(game.log.seconds)
     repeats = effort.corrections + effort.second_clicks

@@ -115,10 +115,12 @@ def _recover(context: CalibrationContext, profile: Profile) -> None:
 def _fingerprint(run: RunResult, devices: Devices, day: str) -> CalibratedTable:
     """The game's state that the profile was calibrated for, as it is seen now."""
     profile = run.profile
+    scales = screen_for(profile, devices).seen_scales()
     return CalibratedTable(
         date=day,
         version=version_in(devices.display.title()),
         window=devices.display.size(),
-        gui_scale=screen_for(profile, devices).scale(),
+        gui_scale=scales and scales.gui,
+        debug_scale=scales and scales.debug,
         samples={result.step: result.samples for result in run.results},
     )

@@ -74,10 +74,10 @@ class CommandConsole:
         """Clear the chat."""
         self._check_in_world()
         now = self._clock.now()
-        self._controller.press(now + 4 * TICK_S, self._profile.keys.debug)
-        self._controller.wait_until(now + TICK_S)
-        self._controller.press(now + 2 * TICK_S, CLEAR)
-        self._controller.wait_until(now + 4 * TICK_S)
+        released_at = self._controller.press(now + 4 * TICK_S, self._profile.keys.debug)
+        self._controller.wait_until(released_at - 3 * TICK_S)
+        self._controller.press(released_at - 2 * TICK_S, CLEAR)
+        self._controller.wait_until(released_at)
         self._check_in_world()
 
     def _leave_chat(self) -> None:

@@ -101,9 +101,7 @@ def _copied(connection: GameConnection, profile: Profile) -> tuple[float, ...]:
     for _ in range(TRIES):
         recovery.recover()  # if the letter was lost, F3 alone has switched the debug screen off
         controller.confirm_screen("world")
-        release = Deadline(clock, TAP_S)
-        controller.press(release.at, debug, COPY)
-        controller.wait_until(release.at)
+        controller.wait_until(controller.press(clock.now() + TAP_S, debug, COPY))
         # The release may have been lost: if these two keys stay down, the game crashes.
         controller.release_again()
         deadline = Deadline(clock, PATIENCE_S)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 
 from calibration.context import CalibrationContext
-from mc_nested.live.connection import GameConnection
+from mc_nested.live.connection import GameConnection, prepare_keyboard
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
@@ -44,6 +44,7 @@ def context_opener(
             # Imported here, since it needs the display that is open only now.
             from mc_nested.live.desktop.panic import open_panic_switch
 
+            prepare_keyboard(profile, window)
             devices = recording.devices(window)
             controller = InputController(devices, profile.input)
             connection = GameConnection(

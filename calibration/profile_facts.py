@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mc_nested.errors import ProfileError
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.fingerprint import Fingerprint, mismatch
 from mc_nested.live.profile.store import load_profile
@@ -28,7 +29,7 @@ class ProfileFacts:
     why: str = ""
     version: str | None = None
     window: tuple[int, int] | None = None
-    gui_scale: int | None = None
+    scales: Scales | None = None
     arena: Arena | None = None
     date: str | None = None
 
@@ -48,7 +49,7 @@ def facts_of(file: Path, look: Look) -> ProfileFacts:
         why=why,
         version=(calibrated.version if calibrated else None) or profile.game.version,
         window=calibrated.window if calibrated else None,
-        gui_scale=(calibrated.gui_scale if calibrated else None) or profile.screen.gui_scale,
+        scales=calibrated.scales if calibrated else None,
         arena=profile.arena,
         date=calibrated.date if calibrated else None,
     )

@@ -220,7 +220,9 @@ def live_game(client: VirtualClient, scenario: Scenario, arena: Arena, walk_tabl
 def connection_to(client: VirtualClient) -> GameConnection:
     """A connection to a virtual client, read with its own font."""
     controller = InputController(client.devices, InputTable())
-    return GameConnection(client.devices, controller, WindowScreen(client.display, _font()))
+    return GameConnection(
+        client.devices, controller, WindowScreen(client.display, _font(), version=client.settings.version)
+    )
 
 
 def _reset(

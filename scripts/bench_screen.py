@@ -30,6 +30,7 @@ from mc_nested.arena import rules
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.cli.virtual_games import GUI_SCALE, PITCH, built_arena
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.screen_arenas import FRAMES
 from mc_nested.live.vision.world_greys import world_greys
 from sim.client.client import VirtualClient
@@ -62,7 +63,7 @@ class Pictured:
         client.realm.player.go_to(arena.centre_of(cell))
         client.realm.player.look(arena.yaw, self._pitch)
         client.clock.sleep(0.15)
-        return world_greys(client.display.grab(), GUI_SCALE).tobytes()
+        return world_greys(client.display.grab(), Scales(GUI_SCALE, GUI_SCALE)).tobytes()
 
 
 def square_of(size: int) -> Scenario:

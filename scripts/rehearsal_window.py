@@ -86,13 +86,14 @@ class RehearsalWindow:
 def open_rehearsal(env: dict[str, str], folder: Path, *options: str) -> Iterator[RehearsalWindow]:
     """A rehearsal on the display of ``env``, in front, with ``mc-nested rehearse``'s options and seed 0.
 
-    What it writes is in ``folder``. RuntimeError with what it said if it doesn't open.
+    Its debug screen shows what the tutorial asks for. What it writes is in ``folder``. RuntimeError with what it said
+    if it doesn't open.
     """
     truth, log, font = (folder / name for name in ("truth.json", "rehearsal.log", "font.png"))
     truth.unlink(missing_ok=True)
     write_font(font)
     command = [sys.executable, "-m", "mc_nested.cli", "rehearse", "--seed", "0"]
-    command += ["--truth", str(truth), "--font", str(font), *options]
+    command += ["--truth", str(truth), "--font", str(font), *_with_target(folder, options)]
     with running(command, env={**env, "PYTHONPATH": str(ROOT)}, log=log) as process:
         end = time.monotonic() + START_S
         while not truth.exists():
@@ -100,6 +101,23 @@ def open_rehearsal(env: dict[str, str], folder: Path, *options: str) -> Iterator
                 raise RuntimeError(f"the rehearsal window didn't open: {log.read_text(encoding='utf-8')}")
             time.sleep(0.05)
         yield RehearsalWindow(env, process, font, truth, log)
+
+
+def _with_target(folder: Path, options: tuple[str, ...]) -> tuple[str, ...]:
+    """These options, and from 1.21.9 on a debug-profile.json that shows the block looked at, too."""
+    if "--version" not in options or "--debug-profile" in options:
+        return options
+    from sim.client.game.debug_entries import TUTORIAL
+    from sim.client.game.edition import Edition
+
+    edition = Edition(options[options.index("--version") + 1])
+    if not edition.since(1, 21, 9):
+        return options
+    status, written = ("inOverlay", 4671) if edition.since(1, 21, 11) else ("inF3", 4649)
+    profile = folder / "debug-profile.json"
+    custom = {f"minecraft:{entry}": status for entry in TUTORIAL}
+    profile.write_text(json.dumps({"DataVersion": written, "custom": custom}), encoding="utf-8")
+    return (*options, "--debug-profile", str(profile))
 
 
 def write_font(path: Path) -> None:

@@ -115,7 +115,7 @@ def build_arena(
     queries = BlockQueries(console, profile, screen, arena.yaw)
     ground = survey_ground(console, queries, profile, arena, standing)
     arena = arena.model_copy(update={"floor": ground.floor if ground.keeps_floor else FLOOR})
-    before = ReportPicture("The ground of the arena, before", without_chat(display.grab(), screen.scale()))
+    before = ReportPicture("The ground of the arena, before", without_chat(display.grab(), screen.gui_scale()))
     noted = read_copy_note(path) if path else None
     old = noted.arena if noted else profile.arena
     first = _first_copy(queries, arena, [each.arena for each in (noted, profile) if each and each.arena])
@@ -145,7 +145,7 @@ def build_arena(
     looks = _check_built(console, profile, arena, materials, floor=ground.floor if ground.keeps_floor else FLOOR)
     console.send(teleport_command(arena, standing, profile.body.pitch))
     console.watch(lambda seen: seen.pitch is not None and abs(seen.pitch - profile.body.pitch) < 1, 1.0)
-    after = ReportPicture("The arena", without_chat(display.grab(), screen.scale()))
+    after = ReportPicture("The arena", without_chat(display.grab(), screen.gui_scale()))
     with_arena = profile.model_copy(update={"arena": arena})
     undo = undo_command(path) if path else "mc-nested calibrate arena --undo"
     return StepResult("arena", with_arena, tuple(build_summary(arena, ground, undo)), looks, (before, after))

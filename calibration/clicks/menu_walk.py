@@ -19,7 +19,7 @@ from mc_nested.live.menus.wait_for_player import wait_for_front, wait_until_stan
 from mc_nested.live.model.timing import MENU_LOOK_S
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.profile.window_title import may_be_shared
+from mc_nested.live.profile.window_title import may_be_shared, state_in
 from mc_nested.live.vision.chat_region import without_chat
 from mc_nested.live.vision.game_screen import WORLDS_TITLE
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS
@@ -35,8 +35,9 @@ SAVING_S = 60.0
 HOVER_S = 0.2
 """From moving the mouse until the picture shows the button highlighted."""
 
-LAN = "Open to LAN"
-"""The Game Menu has this button only in a world that nobody else can be in (FACTS: Screens and their buttons)."""
+OWN = ("Open to LAN", "World Options...")
+"""To 26.2 the Game Menu has the first button, and only in a world that nobody else can be in; from 26.3 on it has the
+second one in its place, in any world, and the window's title says whose it is (FACTS: Screens and their buttons)."""
 
 _BUTTON = (100, 10)
 """GUI pixels from the middle of the largest button to its sides: a button is opaque."""
@@ -66,7 +67,7 @@ class MenuWalk:
         self._recovery.recover()
         self._before = wait_until_standing_still(connection)
         self._size = self._display.size()
-        self.scale = self._screen.scale()
+        self.scale = self._screen.gui_scale()
 
     def note(self, text: str) -> None:
         """Record a line for the person."""
@@ -78,8 +79,11 @@ class MenuWalk:
             self._find(BACK, LABELS["pause"], is_over_world=True)
             self._find(LEAVE, (QUIT,), is_over_world=True)
             menu, title = self._screen.menu(), self._display.title()
-            self.is_single_player = not may_be_shared(title) and all(
-                menu.button(each).is_enabled for each in (QUIT, LAN)
+            buttons = OWN if state_in(title) else OWN[:1]
+            self.is_single_player = (
+                not may_be_shared(title)
+                and menu.button(QUIT).is_enabled
+                and any(menu.button(each).is_enabled for each in buttons)
             )
         else:
             self.note("the Game Menu: no English label is seen after Esc, so nothing of it was recorded")

@@ -20,6 +20,7 @@ from calibration.installation.folders import GameFolder, System, client_jars, ga
 from calibration.installation.options_txt import OptionsTxt
 from calibration.installation.processes import Process, folders_played, is_same_folder, running_processes
 from mc_nested.errors import DesktopError, NoWindowError
+from mc_nested.live.connection import prepare_keyboard
 from mc_nested.live.desktop import open_desktop, session_kind
 from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.input.input_controller import InputController
@@ -127,6 +128,11 @@ def _examine_window(
     findings.add(
         *window_rows(snapshot, profile), *screen_rows(snapshot, font), fit_row(profile_name, profile, snapshot.window)
     )
+    try:
+        prepare_keyboard(settings, devices)
+    except DesktopError as error:
+        findings.add(check_from_message(CheckName.INPUT, "fail", str(error)))
+        return
     with InputController(devices, settings.input) as controller:
         findings.add(input_row(devices, controller, lambda: take_snapshot(devices, font, overlay), settings.keys))
 

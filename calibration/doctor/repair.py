@@ -89,7 +89,7 @@ def _gui_scale(examination: Examination) -> dict[str, str]:
     if gui_scale_row(value, None).status not in ("warn", "fail"):
         return {}
     calibrated = examination.profile.calibrated
-    scale = examination.profile.screen.gui_scale or (calibrated and calibrated.gui_scale) or GUI_SCALE
+    scale = (calibrated and calibrated.gui_scale) or GUI_SCALE
     return {"guiScale": str(scale)}
 
 

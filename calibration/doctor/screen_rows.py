@@ -75,7 +75,7 @@ def _debug_screen(contents: ScreenContents) -> Check:
         return Check(CheckName.DEBUG_SCREEN, "fail", *OTHER_SCREENS["chat"])
     problem = contents.reading.problem
     if problem is None or contents.line != POSITION:
-        return Check(CheckName.DEBUG_SCREEN, "pass", f"on, at GUI scale {contents.scale}")
+        return Check(CheckName.DEBUG_SCREEN, "pass", f"on, at GUI scale {contents.scales}")
     what, _, remedy = problem.rpartition(": ")
     return Check(CheckName.DEBUG_SCREEN, "fail", what, remedy)
 

@@ -7,11 +7,13 @@ from mc_nested.live.deadline import Deadline
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Frame
 from mc_nested.live.menus.screens import ScreenName, menu_name
 from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.model.timing import PERSON_LOOK_S
 from mc_nested.live.profile.fingerprint import Fingerprint
+from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.debug_screen import nothing_seen, read_found
 from mc_nested.live.vision.font import Font
-from mc_nested.live.vision.game_screen import WindowScreen
+from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
 from mc_nested.live.vision.layout import Overlay
 from mc_nested.live.vision.menu_labels import MenuLabels
 from mc_nested.live.vision.overlay import SCALES, find_debug_screen
@@ -27,12 +29,12 @@ READABLE_S = 5.0
 class ScreenContents:
     """What a frame shows: the screen; the beginning of the line that the debug screen was recognized by, if it is on.
 
-    ``scale`` is the GUI scale of any text of the game's that was found.
+    ``scales`` are those of any text of the game's that was found.
     """
 
     screen: ScreenName
     line: str | None
-    scale: int | None
+    scales: Scales | None
     reading: Reading
 
 
@@ -63,25 +65,33 @@ def take_snapshot(devices: Devices, font: Font | None, overlay: Overlay | None =
     is_in_front, frame = display.is_in_front(), display.grab()
     contents = None
     if is_in_front and font is not None:
-        contents = contents_of(frame, font, overlay, WindowScreen(display, font, overlay).is_chat_open)
-    window = Fingerprint(display.title(), display.size(), contents.scale if contents else None)
+        screen = WindowScreen(display, font, version=version_in(display.title()) or "")
+        contents = contents_of(frame, font, overlay, screen)
+    window = Fingerprint(display.title(), display.size(), contents.scales if contents else None)
     area = devices.area() if devices.area else None
     points = (area.width, area.height) if area else None
     return WindowSnapshot(window, (frame.shape[1], frame.shape[0]), points, is_in_front, contents, frame)
 
 
-def contents_of(frame: Frame, font: Font, overlay: Overlay | None, is_chat_open: Callable[[], bool]) -> ScreenContents:
+def contents_of(frame: Frame, font: Font, overlay: Overlay | None, screen: GameScreen) -> ScreenContents:
     """What a frame of the game shows. A debug screen whose layout differs from the profile's is found, too."""
     found = find_debug_screen(frame, font, overlay) or (find_debug_screen(frame, font) if overlay else None)
     reading = read_found(found, font) if found else nothing_seen(overlay)
+    scales = screen.seen_scales()
     line, scale = (found.label, found.overlay.scale) if found else (None, None)
-    if reading.problem is None:
-        return ScreenContents("chat" if is_chat_open() else "world", line, scale, reading)
+    if scales is None and scale is not None:
+        scales = Scales(scale, scale)
+    if reading.problem is None and screen.shows_world():
+        return ScreenContents("world", line, scales, reading)
+    if reading.problem is None and screen.is_chat_open():
+        return ScreenContents("chat", line, scales, reading)
     name, menu_scale = _menu_in(frame, font)
-    if name != "unknown":
+    if menu_scale is not None:
         # The version in the title screen's corner begins like a line of the debug screen.
-        return ScreenContents(name, None, menu_scale, reading)
-    return ScreenContents("chat" if is_chat_open() else "unknown", line, scale, reading)
+        return ScreenContents(name, None, Scales(menu_scale, menu_scale), reading)
+    if screen.is_chat_open():
+        return ScreenContents("chat", line, scales, reading)
+    return ScreenContents("menu" if reading.problem is None else "unknown", line, scales, reading)
 
 
 def wait_until_readable(

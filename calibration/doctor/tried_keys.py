@@ -113,17 +113,17 @@ def is_slot_seen_to_change(window: TriedWindow, keys: KeysTable, shown_s: float 
     ``shown_s`` is how long a press may take to be seen, in seconds.
     """
     contents = window.world().contents
-    scale = (contents.scale if contents else None) or 1
+    scale = contents.scales.gui if contents and contents.scales else 1
     before = _bar(window.devices, scale)
-    window.controller.tap(keys.hotbar[0])
+    window.controller.tap_alone(keys.hotbar[0])
     window.controller.wait(shown_s)
     first = _bar(window.devices, scale)
     window.world()
-    window.controller.tap(keys.hotbar[1])
+    window.controller.tap_alone(keys.hotbar[1])
     window.controller.wait(shown_s)
     second = _bar(window.devices, scale)
     window.world()
-    window.controller.tap(keys.hotbar[_slot_before(_changed_dots(before, first, scale))])
+    window.controller.tap_alone(keys.hotbar[_slot_before(_changed_dots(before, first, scale))])
     changed = [dots >= LEAST_DOTS for dots in _changed_dots(first, second, scale)]
     return changed == [True, True, *[False] * 7]
 

@@ -68,17 +68,17 @@ def scaling_row(snapshot: WindowSnapshot) -> Check:
 
 def size_row(snapshot: WindowSnapshot, profile: Profile | None) -> Check:
     """The window's size, and the GUI scale at which its text is seen."""
-    row, size, scale = CheckName.SIZE_AND_SCALE, f"{_size(snapshot.window.window)} pixels", snapshot.window.gui_scale
+    row, size, scales = CheckName.SIZE_AND_SCALE, f"{_size(snapshot.window.window)} pixels", snapshot.window.scales
     if any(seen < least for seen, least in zip(snapshot.window.window, LEAST, strict=True)):
         return Check(row, "fail", size, f"make the window larger than {_size(LEAST)}")
-    if scale is None:
+    if scales is None:
         return Check(row, "skip", f"{size}; no text of the game is seen")
-    wanted = profile.screen.gui_scale if profile else None
+    scale, wanted = scales.debug, profile.screen.debug_scale if profile else None
     if wanted is not None and wanted != scale:
         return Check(
             row,
             "fail",
-            f"{size}, GUI scale {scale}, and the profile's screen.gui_scale is {wanted}",
+            f"{size}, GUI scale {scales}, and the profile's screen.debug_scale is {wanted}",
             f"set Video Settings > GUI Scale to {wanted}, or take that line out of the profile",
         )
     columns = -(-snapshot.window.window[0] // scale)
@@ -86,11 +86,11 @@ def size_row(snapshot: WindowSnapshot, profile: Profile | None) -> Check:
         return Check(
             row,
             "warn",
-            f"{size}, GUI scale {scale}: only {columns} GUI pixels wide, so a long line about a block can cover the "
+            f"{size}, GUI scale {scales}: only {columns} GUI pixels wide, so a long line about a block can cover the "
             "Facing line",
             f"make the window at least {ROOMY * scale} pixels wide, or set a smaller GUI scale",
         )
-    return Check(row, "pass", f"{size}, GUI scale {scale}")
+    return Check(row, "pass", f"{size}, GUI scale {scales}")
 
 
 def _size(size: tuple[int, int]) -> str:

@@ -21,6 +21,7 @@ from mc_nested.live.devices import SWITCH_KEYS, Frame
 from mc_nested.live.menus.recovery import UNKNOWN_S, Recovery
 from mc_nested.live.menus.wait_for_player import wait_for_front
 from mc_nested.live.model.timing import PERSON_LOOK_S
+from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.debug_screen import read_debug_screen
@@ -157,7 +158,9 @@ def _way_from_menu(context: CalibrationContext, profile: Profile, candidates: Se
     """The way out of the menu that one of the fonts reads; None where none does."""
     connection = context.connection
     for each in candidates:
-        way = Recovery(profile, connection.with_screen(WindowScreen(connection.devices.display, each.font)))
+        display = connection.devices.display
+        screen = WindowScreen(display, each.font, version=game_in(display.title(), profile.game).version)
+        way = Recovery(profile, connection.with_screen(screen))
         if way.screen_name() not in ("unknown", "world"):
             return way
     return None

@@ -119,7 +119,7 @@ def _tiles(report: CalibrationReport) -> list[tuple[str, str]]:
     return [
         ("Minecraft", calibrated.version or version),
         ("Window", window),
-        ("GUI scale", str(calibrated.gui_scale or "unknown")),
+        ("GUI scale", str(calibrated.scales or "unknown")),
         ("Calibrated", calibrated.date),
         ("Measurements", str(sum(calibrated.samples.values()))),
     ]

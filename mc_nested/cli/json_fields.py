@@ -30,7 +30,8 @@ _PROFILE = {
     "why": "what doesn't fit, or is damaged or unknown",
     "version": "of Minecraft",
     "window": "width and height in pixels",
-    "gui_scale": "screen pixels to a dot of the font",
+    "gui_scale": "screen pixels to a dot of the menus' and the chat's font",
+    "debug_scale": "screen pixels to a dot of the debug screen's font",
     "arena_size": "cells along each side",
     "date": "day of the calibration",
 }

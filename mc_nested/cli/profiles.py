@@ -110,7 +110,7 @@ def _facts(facts: ProfileFacts) -> list[tuple[str, str]]:
         ("profile", facts.name),
         ("version", facts.version or ""),
         ("window", f"{facts.window[0]} x {facts.window[1]}" if facts.window else ""),
-        ("GUI scale", f"{facts.gui_scale}" if facts.gui_scale else ""),
+        ("GUI scale", str(facts.scales or "")),
         ("arena", f"{arena.size} x {arena.size}" if arena else ""),
         ("calibrated", facts.date or ""),
         ("fits", fits),
@@ -127,7 +127,8 @@ def _fields(facts: ProfileFacts) -> dict[str, Any]:
         "why": facts.why or None,
         "version": facts.version,
         "window": facts.window,
-        "gui_scale": facts.gui_scale,
+        "gui_scale": facts.scales and facts.scales.gui,
+        "debug_scale": facts.scales and facts.scales.debug,
         "arena_size": facts.arena.size if facts.arena else None,
         "date": facts.date,
     }

@@ -5,7 +5,7 @@ import re
 import secrets
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
@@ -21,7 +21,9 @@ from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.profile.tables import WindowTable
 from mc_nested.live.vision.font import font_of, load_font
 from sim.client.drawing.font import drawn_atlas
+from sim.client.game.debug_entries import GAME_DEFAULT, DebugEntries, names_block, read_profile
 from sim.client.game.edition import Edition
+from sim.client.game.options import LARGEST_SCALE, parse_options
 from sim.client.settings import ClientSettings, Size
 
 SMALLEST: Size = (320, 240)
@@ -30,19 +32,34 @@ SMALLEST: Size = (320, 240)
 LARGEST: Size = (7680, 4320)
 
 INSTALL = "pip install -c constraints.txt -e '.[rehearse]'"
-LARGEST_SCALE = 8
+PROFILE = "debug-profile.json"
 LOWEST_FPS, HIGHEST_FPS = 5.0, 300.0
 LONGEST_LAG_MS = 500.0
 SEEDS = 1_000_000
 """One of so many is drawn: six digits are soon typed."""
 
-_VERSION = re.compile(r"1\.(1[2-9]|2[01])(\.[0-9]{1,2})?|26\.[1-3](\.[0-9]{1,2})?")
+_VERSION = re.compile(r"1\.(1[2-9]|2[01])(\.[0-9]{1,2})?|26\.[1-4](\.[0-9]{1,2})?")
 
 
 def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
-    version: Annotated[str, typer.Option(help="the Minecraft version to be like, 1.12 to 26.3")] = "1.20.1",
+    version: Annotated[str, typer.Option(help="the Minecraft version to be like, 1.12 to 26.4")] = "1.20.1",
     size: Annotated[str, typer.Option(metavar="WxH", help="width and height in pixels")] = "854x480",
-    gui_scale: Annotated[int, typer.Option(min=0, max=LARGEST_SCALE, help="the GUI scale, if it fits; 0 is auto")] = 2,
+    gui_scale: Annotated[
+        int | None,
+        typer.Option(
+            min=0, max=LARGEST_SCALE, help="the GUI scale, if it fits; 0 is auto (default: what guiScale says)"
+        ),
+    ] = None,
+    option: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=VALUE", help="a line of the game's options.txt, such as toggleUse=true; more than once"
+        ),
+    ] = None,
+    debug_profile: Annotated[
+        Path | None,
+        typer.Option(help="a debug-profile.json: what the debug screen shows from 1.21.9 on (default: the game's own)"),
+    ] = None,
     fps: Annotated[
         float | None, typer.Option(min=LOWEST_FPS, max=HIGHEST_FPS, help="frames a second (default: the monitor's)")
     ] = None,
@@ -63,13 +80,18 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     ] = None,
 ) -> None:
     """Open a window that looks and acts like the game, to calibrate and train in without Minecraft; close it to end."""
+    edition = Edition(_version(version))
+    options = parse_options(_lines(option or ()), edition)
     settings = ClientSettings(
         seed=secrets.randbelow(SEEDS) if seed is None else seed,
-        version=_version(version),
+        version=version,
         size=_size(size),
-        scale=gui_scale,
+        scale=options.gui_scale if gui_scale is None else gui_scale,
         font=load_font(font) if font else font_of(drawn_atlas()),
-        floor_block="grass_block" if Edition(version).since(1, 13) else "stone",
+        floor_block="grass_block" if edition.since(1, 13) else "stone",
+        pauses_unfocused=options.pause_on_lost_focus,
+        options=options,
+        debug_entries=_entries(debug_profile, edition),
     )
     if truth is not None and not truth.parent.is_dir():
         raise UserError(f"{truth.parent} is no folder: name a file in a folder that exists")
@@ -79,7 +101,15 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         raise DesktopError(f"the rehearsal window needs more ({error}): {INSTALL}") from error
 
     def explain() -> None:
-        typer.echo(f"Rehearsing Minecraft {version}. Press F3+P in the window, or it pauses while another is in front.")
+        pauses = (
+            " Press F3+P in the window, or it pauses while another is in front." if settings.pauses_unfocused else ""
+        )
+        typer.echo(f"Rehearsing Minecraft {version}.{pauses}")
+        if edition.since(1, 21, 9) and not names_block(settings.debug_entries, edition):
+            typer.echo(
+                "Its debug screen names no block yet, as in the game: press F3+F6 there, type looking_at_block, and"
+            )
+            typer.echo("set the first one to In Overlay (In F3 to 1.21.10).")
         typer.echo("To learn calibration, run this in another terminal, and switch to the window:")
         typer.echo(f"  mc-nested calibrate all --profile rehearsal --font {font or _font_picture()}")
         if mishaps:
@@ -92,8 +122,33 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 
 def _version(name: str) -> str:
     if not _VERSION.fullmatch(name):
-        raise UserError(f"no version {name!r} can be rehearsed: name one from 1.12 to 26.3, such as 1.20.1")
+        raise UserError(f"no version {name!r} can be rehearsed: name one from 1.12 to 26.4, such as 1.20.1")
     return name
+
+
+def _lines(options: Iterable[str]) -> Iterator[str]:
+    """The lines of options.txt that these stand for."""
+    for option in options:
+        name, equals, value = option.partition("=")
+        if not equals:
+            raise UserError(f"{option!r} is no option: write NAME=VALUE, such as toggleUse=true")
+        yield f"{name}:{value}"
+
+
+def _entries(path: Path | None, edition: Edition) -> DebugEntries:
+    """The entries that a debug-profile.json stands for; the game's own without one."""
+    if path is None:
+        return GAME_DEFAULT
+    if not edition.since(1, 21, 9):
+        raise UserError(f"Minecraft {edition.version} has no {PROFILE}: it came with 1.21.9")
+    try:
+        text = path.read_text("utf-8")
+    except (OSError, UnicodeError) as error:
+        raise UserError(f"{path} can't be read ({error}): name a {PROFILE}") from error
+    try:
+        return read_profile(text, edition)
+    except UserError as error:
+        raise UserError(f"{path}: {error}") from error
 
 
 def _size(text: str) -> Size:

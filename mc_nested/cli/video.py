@@ -51,7 +51,11 @@ def filmed(game: Game, display: Display | None, scenario: Scenario, video: Path 
 
 def _window_of(game: Game, display: Display) -> Window:
     """The window's pictures, the chat blanked: a film is there to be shown to others."""
-    seen_scale = game.connection.screen.seen_scale if isinstance(game, LiveGame) else lambda: None
+
+    def seen_scale() -> int | None:
+        scales = game.connection.screen.seen_scales() if isinstance(game, LiveGame) else None
+        return scales.gui if scales else None
+
     share = blanked_share(display.size(), seen_scale())
     if share > HALF:
         typer.echo(

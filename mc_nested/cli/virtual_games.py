@@ -79,7 +79,7 @@ def _game(scenario: Scenario, seed: int, journal: Journal | None) -> LiveGame:
     arena = built_arena(client.realm.world, scenario)
     profile = Profile(game=GameVersion(version=client.settings.version), arena=arena, body=BodyTable(pitch=PITCH))
     controller = InputController(client.devices, profile.input)
-    screen = WindowScreen(client.display, _font())
+    screen = WindowScreen(client.display, _font(), version=client.settings.version)
     return LiveGame(scenario, profile, GameConnection(client.devices, controller, screen, journal=journal))
 
 

@@ -7,7 +7,7 @@ from mc_nested.errors import ProfileError
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.journal import Journal, NoJournal
-from mc_nested.live.profile.fingerprint import check_single_player
+from mc_nested.live.profile.fingerprint import check_single_player, game_in
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import load_font
@@ -41,6 +41,8 @@ class GameConnection:
         self.is_server_allowed = is_server_allowed
         self.journal = journal or NoJournal()
         self._screen = on_screen(screen) if screen else None
+        if self._screen is not None:
+            controller.guard_world(self._screen.shows_world)
         self._on_screen = on_screen
 
     def __enter__(self) -> "GameConnection":
@@ -82,6 +84,15 @@ class GameConnection:
         check_single_player(self.devices.display.title(), is_server_allowed=self.is_server_allowed)
 
 
+def prepare_keyboard(profile: Profile, devices: Devices) -> None:
+    """Press keys as the game in that window takes them; DesktopError where this keyboard lacks one of the profile's.
+
+    Nothing is pressed. The version is the one in the window's title, or else the profile's.
+    """
+    if game_in(devices.display.title(), profile.game).takes_symbols:
+        devices.keyboard.go_by_symbols(profile.keys.pressed())
+
+
 def connect(
     profile: Profile,
     devices: Devices,
@@ -107,4 +118,6 @@ def connect(
 
 def screen_for(profile: Profile, devices: Devices) -> WindowScreen:
     """What reads the window with the profile's font and layout; ProfileError or FontError without a usable font."""
-    return WindowScreen(devices.display, load_font(profile.screen.font_path()), overlay_of(profile))
+    font, overlay, display = load_font(profile.screen.font_path()), overlay_of(profile), devices.display
+    version = game_in(display.title(), profile.game).version
+    return WindowScreen(display, font, overlay, version)

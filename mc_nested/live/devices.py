@@ -3,7 +3,7 @@
 ``live`` and ``calibration`` use these alone; ``desktop/`` has the real ones.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -74,6 +74,12 @@ class Keyboard(Protocol):
     A key is named by what a US keyboard has at its place: one character ("w", "/") or a word ("enter", "esc", "f3",
     "left.shift", "space"). Whatever the layout, the game takes it as that key (FACTS: Input and windows).
     """
+
+    def go_by_symbols(self, keys: Collection[str]) -> None:
+        """From now on press what the game takes as a key to 1.12, where it goes by symbols, and not by places.
+
+        DesktopError, before anything is pressed, where this keyboard's layout lacks one of ``keys``.
+        """
 
     def press(self, key: str) -> None: ...
 

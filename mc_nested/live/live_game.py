@@ -88,7 +88,7 @@ class LiveGame:
         self._body = Body(profile, connection)
         self._chat = Chat(profile, connection)
         self._recovery = Recovery(profile, connection, points)
-        self._last_frames = LastFrames(connection.devices.display, evidence, connection.screen.seen_scale)
+        self._last_frames = LastFrames(connection.devices.display, evidence, self._gui_scale)
         self.log = ActionLog(self._body.effort)
         self._commands = reset_commands(profile, scenario.start, [material.block for material in scenario.materials])
         self._cell: Cell | None = None
@@ -187,6 +187,10 @@ class LiveGame:
             self._placed[outcome.placed] = self._shown_id
         return outcome
 
+    def _gui_scale(self) -> int | None:
+        scales = self.connection.screen.seen_scales()
+        return scales.gui if scales else None
+
     def _with_evidence(self, error: LiveError) -> LiveError:
         """The same error, which also says where the last frames were saved, if there are any."""
         files = self._last_frames.save()
@@ -212,7 +216,7 @@ class LiveGame:
     def _take_in_hand(self, material: int) -> None:
         if material != self._material:
             self._body.check_screen()
-            self._controller.tap(self._profile.keys.hotbar[material])
+            self._controller.tap_alone(self._profile.keys.hotbar[material])
             self._material = material
 
     def _prepare(self, material: int) -> None:
@@ -221,7 +225,7 @@ class LiveGame:
         else:
             self._send_reset_commands()
         self._body.check_screen()
-        self._controller.tap(self._profile.keys.hotbar[material])
+        self._controller.tap_alone(self._profile.keys.hotbar[material])
         self._body.arrive(self._scenario.start)
 
     def _restore_world(self, world: WorldTable) -> None:

@@ -96,10 +96,10 @@ def windows_of(arenas: ArenaVectorEnv) -> Sequence[GameConnection]:
 
 def seen_in(window: GameConnection) -> Pictures:
     """The world in a game's window now, (84, 84); LiveError if its GUI scale can't be seen."""
-    scale = window.screen.seen_scale()
-    if scale is None:
+    scales = window.screen.seen_scales()
+    if scales is None:
         raise LiveError("the debug screen isn't seen, and with it the GUI scale: press F3 in the game")
-    return world_greys(window.devices.display.grab(), scale)
+    return world_greys(window.devices.display.grab(), scales)
 
 
 def _has_no_window() -> NoReturn:

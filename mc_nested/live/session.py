@@ -5,7 +5,7 @@ from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.live.connection import connect
+from mc_nested.live.connection import connect, prepare_keyboard
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
 from mc_nested.live.input.panic import Stop
@@ -14,6 +14,7 @@ from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.live_game import LiveGame, check_fits
 from mc_nested.live.menus.point_pictures import load_click_points
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.model.versions import later_version_line
 from mc_nested.live.profile.fingerprint import Fingerprint, check_fit, game_in
 from mc_nested.live.profile.store import load_profile, profile_path
@@ -58,6 +59,7 @@ def open_live_game(  # noqa: PLR0913 - each of a session's parts can be another,
     check_fits(scenario, profile, profile_name)
     load_font(profile.screen.font_path())
     with open_devices(profile.window.title) as window, open_recorder(profile, window) as recording:
+        prepare_keyboard(profile, window)
         devices = recording.devices(window)
         if line := later_version_line(game_in(devices.display.title(), profile.game).version):
             say(line)
@@ -73,7 +75,7 @@ def open_live_game(  # noqa: PLR0913 - each of a session's parts can be another,
                 "Switching away again stops the agent."
             )
         wait_until_standing_still(connection)
-        check_fit(profile.calibrated, fingerprint_of(devices.display, connection.screen.scale()), profile_name)
+        check_fit(profile.calibrated, fingerprint_of(devices.display, connection.screen.seen_scales()), profile_name)
         points = load_click_points(profile, profile_path(profile_name))
         game = LiveGame(scenario, profile, connection, points=points, evidence=evidence)
         controller = connection.controller
@@ -89,6 +91,6 @@ def _panic_switch_of_the_desktop(key: str, stop: Stop) -> AbstractContextManager
     return open_panic_switch(key, stop)
 
 
-def fingerprint_of(display: Display, gui_scale: int | None = None) -> Fingerprint:
+def fingerprint_of(display: Display, scales: Scales | None = None) -> Fingerprint:
     """The window as it is now, to compare with the one that a profile was calibrated on."""
-    return Fingerprint(display.title(), display.size(), gui_scale)
+    return Fingerprint(display.title(), display.size(), scales)

@@ -8,11 +8,14 @@ game/        the game, a tick at a time; it knows no pixels
     physics.py  gaits.py  ray.py                    walking, falling, bumping; sprinting; what is looked at
     controls.py  keys.py                            what keys, buttons and the mouse do on each screen
     chat.py  commands/                              messages, and chat commands of each version (edition.py)
-    screens.py  f3_text.py  colours.py              menus and the debug screen: their texts and buttons
+    screens.py  colours.py                          menus: their texts and buttons
+    f3_screen.py  f3_text.py  places.py             what the debug screen is about, and its lines to 1.21.8
+    debug_entries.py  entry_lines.py                which entries are on, from 1.21.9 on; their lines to 26.3
+    entry_boxes.py  box_columns.py                  their boxes from 26.4 on, and where each of them stands
     view.py                                         what is seen at one moment, before it is drawn
 drawing/     from a view to pixels: only what changed, only what is grabbed
     painter.py  picture.py  layers.py               a view as layers, and layers as a picture
-    f3_layers.py  f3_groups.py  hud_layers.py  menu_layers.py  scenery.py
+    f3_layers.py  f3_boxes.py  hud_layers.py  menu_layers.py  scenery.py
     letters.py  font.py                             texts in any font, and a font drawn for this project
     f3_cases.py                                     random debug screens, to test a reader on
 desktop/     clock.py  frames.py  window.py (focus, latency)  display.py  keyboard.py  pointer.py  clipboard.py

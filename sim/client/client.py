@@ -12,16 +12,18 @@ from typing import Any
 import numpy as np
 
 from mc_nested.arena.action import Cell
+from mc_nested.live.desktop.keyboard import DesktopKeyboard
 from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.reading import Block
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.vision.font import Font, font_of
 from sim.client.desktop.clipboard import VirtualClipboard
 from sim.client.desktop.clock import VirtualClock
 from sim.client.desktop.display import VirtualDisplay
 from sim.client.desktop.frames import Frames
-from sim.client.desktop.keyboard import VirtualKeyboard
+from sim.client.desktop.keyboard import VirtualKeySender
 from sim.client.desktop.pointer import VirtualPointer
 from sim.client.desktop.window import VirtualWindow
 from sim.client.drawing.font import drawn_atlas
@@ -38,7 +40,7 @@ from sim.client.game.view import View
 from sim.client.game.world import AIR, VirtualWorld
 from sim.client.game.world_folder import read_world, write_world
 from sim.client.mishaps import Mishaps
-from sim.client.settings import ClientSettings, Size, gui_scale
+from sim.client.settings import ClientSettings, Size, scales
 
 TICK_S = 0.05
 
@@ -78,7 +80,8 @@ class VirtualClient:
             self._new_realm(joins.realm if joins else None),
             keys=GameKeys(SIDES_SWAPPED if settings.swaps_sides else BINDINGS),
             ground=Ground(settings.slipperiness, settings.speed),
-            shows_target=settings.shows_target,
+            debug_entries=settings.debug_entries,
+            options=settings.options,
             on_leave=self._save,
             on_enter=self._load,
         )
@@ -98,7 +101,9 @@ class VirtualClient:
             self._title,
             self._view(),
         )
-        self.keyboard = VirtualKeyboard(self.window, self.controls)
+        self.keyboard = DesktopKeyboard(
+            VirtualKeySender(self.window, self.controls, settings.layout, is_lwjgl_2=not self.edition.since(1, 13))
+        )
         self.pointer = VirtualPointer(self.clock, self.window, self.game, self.controls, lambda: self.scale)
         self.devices = Devices(
             self.display,
@@ -137,9 +142,16 @@ class VirtualClient:
         return {cell_at(arena.position_of((x + 0.5, float(y), z + 0.5))) for x, y, z in standing}
 
     @property
+    def scales(self) -> Scales:
+        """The scales that the window gets."""
+        settings, options = self.settings, self.settings.options
+        wanted = options.gui_scale if settings.scale is None else settings.scale
+        return scales(self.window.size, wanted, options.debug_gui_scale, self.edition)
+
+    @property
     def scale(self) -> int:
         """The GUI scale that the window gets."""
-        return gui_scale(self.window.size, self.settings.scale)
+        return self.scales.gui
 
     @property
     def holds_pointer(self) -> bool:
@@ -149,7 +161,7 @@ class VirtualClient:
     def new_layers(self) -> ViewLayers:
         """What a view's GUI is made of, in the window's present size."""
         settings = self.settings
-        return ViewLayers(self.window.size, self.scale, self._font, self.edition, settings.words)
+        return ViewLayers(self.window.size, self.scales, self._font, self.edition, settings.words)
 
     # What can happen to it.
 
@@ -221,13 +233,13 @@ class VirtualClient:
 
     def _new_painter(self) -> Painter:
         settings, size = self.settings, self.window.size
-        return Painter(size, self.scale, self._font, self.edition, settings.world, settings.seed, settings.words)
+        return Painter(size, self.scales, self._font, self.edition, settings.world, settings.seed, settings.words)
 
     def _view(self) -> View:
         """What the game shows, in this window."""
         settings = self.settings
         fps = round(settings.fps if settings.shown_fps is None else settings.shown_fps)
-        return self.game.view(fps, self.window.size, is_drawn=settings.world == SEEN)
+        return self.game.view(fps, self.window.size, self.scale, is_drawn=settings.world == SEEN)
 
     def _title(self) -> str:
         is_shared = len(self.realm.players) > 1

@@ -17,6 +17,7 @@ from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import BlocksTable, GameVersion, KeysTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
 from sim.client.drawing.font import drawn_atlas
+from sim.client.game.options import GameOptions
 from tests.calibration.contexts import context_over
 from tests.sim.client.playing import arena_of
 
@@ -48,6 +49,14 @@ def test_its_actions_are_the_eight_and_fill_the_design_by_the_rules() -> None:
         placed |= {landing} if landing else set()
         cell = target
     assert (cell, frozenset(placed)) == (SCENARIO.start, SCENARIO.design)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_where_one_click_goes_on_placing_the_option_to_switch_off_is_named(seed: int, font: Path) -> None:
+    client = VirtualClient(version="26.1", seed=seed, options=GameOptions(toggle_use=True))
+    with pytest.raises(LiveError, match=r"Options > Controls > Use Item/Place Block"):
+        run_acceptance_test(context_of(client), profile_of(client, font))
+    assert not client.window.down
 
 
 @pytest.mark.parametrize("version", ["1.12.2", "1.20.1"])

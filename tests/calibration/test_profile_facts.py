@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from calibration.profile_facts import ProfileFacts, facts_of
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.store import save_profile
@@ -27,7 +28,7 @@ def test_it_says_what_it_was_calibrated_on_and_that_it_fits_that(tmp_path: Path)
         fits=True,
         version="1.20.1",
         window=(854, 480),
-        gui_scale=2,
+        scales=Scales(2, 2),
         arena=ARENA,
         date="2026-11-21",
     )

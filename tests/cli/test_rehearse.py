@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from sim.client.game.debug_entries import GAME_DEFAULT
+from sim.client.game.options import GameOptions
 from tests.cli.running import run
 
 if TYPE_CHECKING:
@@ -35,12 +37,18 @@ def refused(capsys: pytest.CaptureFixture[str], *words: str | Path) -> str:
     [
         (["--size", "200x100"], "200x100 has no room for the game: at least 320x240"),
         (["--size", "wide"], "no window has the size 'wide': write width x height in pixels, such as 854x480"),
-        (["--version", "1.7.10"], "no version '1.7.10' can be rehearsed: name one from 1.12 to 26.3"),
+        (["--version", "1.7.10"], "no version '1.7.10' can be rehearsed: name one from 1.12 to 26.4"),
         (["--size", "99999x99999"], "no screen is as large as 99999x99999: at most 7680x4320"),
         (["--version", "29.9"], "no version '29.9' can be rehearsed"),
         (["--truth", "missing/truth.json"], "missing is no folder: name a file in a folder that exists"),
         (["--version", "newest"], "no version 'newest' can be rehearsed"),
-        (["--gui-scale", "9"], "--gui-scale"),
+        (["--gui-scale", "-1"], "--gui-scale"),
+        (["--option", "toggleUse"], "'toggleUse' is no option: write NAME=VALUE"),
+        (["--version", "26.1", "--option", "toggleUse=on"], "toggleUse can't be 'on': give true or false"),
+        (["--option", "toggleUse=true"], "Minecraft 1.20.1 has no option toggleUse: it came with 1.21.9"),
+        (["--debug-profile", "missing.json"], "Minecraft 1.20.1 has no debug-profile.json: it came with 1.21.9"),
+        (["--version", "26.1", "--debug-profile", "missing.json"], "missing.json can't be read"),
+        (["--option", "fov=70"], "no option 'fov' is known: name one of guiScale, "),
         (["--fps", "1"], "--fps"),
         (["--lag", "-1"], "--lag"),
         (["--seed", "-1"], "--seed"),
@@ -101,6 +109,49 @@ if sys.platform.startswith("linux"):
         assert [str(each.settings.seed) for each in opened] == said
         assert said[0] == "7"
         assert len(set(said)) == 3
+
+    @pytest.mark.parametrize(
+        ("words", "scale"),
+        [
+            ([], 0),
+            (["--gui-scale", "3"], 3),
+            (["--option", "guiScale=1"], 1),
+            (["--option", "guiScale=1", "--gui-scale", "0"], 0),
+            (["--gui-scale", "99"], 99),
+        ],
+    )
+    def test_the_gui_scale_is_the_games_own_unless_an_option_says_otherwise(
+        words: list[str], scale: int, opened: list["Rehearsal"]
+    ) -> None:
+        assert run("rehearse", *words) == 0
+        assert opened[0].settings.scale == scale
+
+    def test_the_debug_screen_shows_the_games_own_entries_or_those_of_the_profile(
+        opened: list["Rehearsal"], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        profile = tmp_path / "debug-profile.json"
+        profile.write_text('{"DataVersion":4671,"custom":{"minecraft:looking_at_block":"inOverlay"}}', "utf-8")
+        assert run("rehearse", "--version", "1.21.11") == 0
+        assert opened[0].settings.debug_entries == GAME_DEFAULT
+        assert "press F3+F6 there" in capsys.readouterr().out
+        assert run("rehearse", "--version", "1.21.11", "--debug-profile", profile) == 0
+        assert opened[1].settings.debug_entries == {"looking_at_block": "inOverlay"}
+        assert "F3+F6" not in capsys.readouterr().out
+
+    @pytest.mark.parametrize("text", ["", "{", "[]", '{"custom":{"minecraft:fps":"sometimes"}}', '{"profile":"mine"}'])
+    def test_a_damaged_debug_profile_is_one_line(text: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        profile = tmp_path / "debug-profile.json"
+        profile.write_text(text, "utf-8")
+        said = refused(capsys, "--version", "26.1", "--debug-profile", profile)
+        assert f"{profile}: no debug-profile.json of Minecraft 26.1" in said
+
+    def test_options_are_lines_of_options_txt(opened: list["Rehearsal"], capsys: pytest.CaptureFixture[str]) -> None:
+        words = ["--option", "toggleUse=true", "--option", "pauseOnLostFocus=false"]
+        assert run("rehearse", "--version", "26.3", *words) == 0
+        settings = opened[0].settings
+        assert settings.options == GameOptions(toggle_use=True, pause_on_lost_focus=False)
+        assert not settings.pauses_unfocused
+        assert capsys.readouterr().out.startswith("Rehearsing Minecraft 26.3.\n")
 
     def test_without_mishaps_no_seed_is_said(opened: list["Rehearsal"], capsys: pytest.CaptureFixture[str]) -> None:
         assert run("rehearse") == 0

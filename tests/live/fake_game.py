@@ -7,13 +7,14 @@ import heapq
 import itertools
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field
 
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Button, Devices, Frame, Keyboard, Pointer, Region
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.reading import Block, Reading, Target
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.game_screen import GameScreen
 from mc_nested.live.vision.menu_labels import MenuButton
@@ -74,6 +75,7 @@ class FakeGame:
         self._game_keys: set[str] = set()
         self._clicks = 0
         self._chat: str | None = None
+        self.draft = ""
         self._events: list[tuple[float, int, Callable[[], None]]] = []
         self._count = itertools.count()
         self._next_tick = self.clock.now() + self.phase
@@ -144,8 +146,10 @@ class FakeGame:
             if name == "enter":
                 self._run(self._chat)
                 self._chat = None
+            elif name == "backspace":
+                self._chat = ""
         elif name == keys.chat:
-            self._chat = ""
+            self._chat = self.draft
         elif name in keys.hotbar:
             self.slot = keys.hotbar.index(name)
         elif name == "right button":
@@ -249,6 +253,12 @@ class FakeScreen:
     def read_position(self) -> tuple[float, float, float] | None:
         return self.read().xyz
 
+    def shows_world(self) -> bool:
+        return not self.is_chat_open()
+
+    def shows_death(self) -> bool:
+        return False
+
     def is_chat_open(self) -> bool:
         return self._game.typed() is not None
 
@@ -261,11 +271,11 @@ class FakeScreen:
     def position_of(self, text: str) -> tuple[int, int] | None:
         raise NotImplementedError(f"the fake game has no menu, nor {text!r} on it")
 
-    def scale(self) -> int:
+    def gui_scale(self) -> int:
         return 2
 
-    def seen_scale(self) -> int | None:
-        return 2
+    def seen_scales(self) -> Scales | None:
+        return Scales(2, 2)
 
 
 class FakeDisplay:
@@ -293,6 +303,9 @@ class FakeKeyboard:
     def __init__(self, game: FakeGame, fail_after: int = -1) -> None:
         self._game = game
         self._calls_left = fail_after
+
+    def go_by_symbols(self, keys: Collection[str]) -> None:
+        raise NotImplementedError(f"the fake game goes by places, for {keys}, too")
 
     def press(self, key: str) -> None:
         self._game.send(key, is_down=True)

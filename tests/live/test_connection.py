@@ -78,7 +78,7 @@ def test_a_game_is_read_with_the_profiles_font(font: ScreenTable) -> None:
     connection = connect(Profile(screen=font), client.devices)
     assert connection.devices is client.devices
     assert connection.screen.read().xyz == client.realm.player.feet
-    assert connection.screen.scale() == client.scale
+    assert connection.screen.gui_scale() == client.scale
 
 
 def test_the_controller_has_the_profiles_times(font: ScreenTable) -> None:

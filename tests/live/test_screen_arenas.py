@@ -104,6 +104,6 @@ def test_without_the_debug_screen_the_scale_isnt_known() -> None:
         arenas = ScreenArenas(ArenaVectorEnv([ArenaEnv(games[0], SMALL)]))
         arenas.reset()
         screen = games[0].connection.screen
-        screen.seen_scale = lambda: None  # type: ignore[method-assign]  # as in a window of another size, F3 off
+        screen.seen_scales = lambda: None  # type: ignore[method-assign]  # as in a window of another size, F3 off
         with pytest.raises(LiveError, match="press F3 in the game"):
             arenas.reset()

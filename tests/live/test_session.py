@@ -10,6 +10,7 @@ import pytest
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, FontError, LiveError, NotInFrontError, ProfileError, StoppedError
 from mc_nested.live.input.panic import Stop
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable, WindowTable
 from mc_nested.live.session import fingerprint_of, open_live_game
@@ -102,9 +103,9 @@ def test_the_player_is_asked_to_switch_only_where_another_window_is_in_front(is_
 
 def test_a_fingerprint_is_the_window_as_it_is_now() -> None:
     client = VirtualClient()
-    known = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), 2)
-    assert fingerprint_of(client.display, 2) == known
-    assert fingerprint_of(client.display).gui_scale is None
+    known = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), Scales(2, 2))
+    assert fingerprint_of(client.display, Scales(2, 2)) == known
+    assert fingerprint_of(client.display).scales is None
 
 
 def test_a_game_that_fits_is_opened_and_no_key_is_down_once_it_is_left(tmp_path: Path) -> None:

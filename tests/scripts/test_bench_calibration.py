@@ -34,14 +34,14 @@ def test_they_differ_in_all_that_a_calibration_measures() -> None:
     fifty = list(clients(50, 0))
     for what in ("size", "fps", "input_latency_s", "capture_latency_s", "feet", "yaw"):
         assert len({getattr(client, what) for client in fifty}) == 50
-    assert {gui_scale(client.size, client.scale) for client in fifty} == {1, 2, 3, 4}
+    assert {gui_scale(client.size, client.scale or 0) for client in fifty} == {1, 2, 3, 4}
     assert {client.swaps_sides for client in fifty} == {True, False}
     assert len({client.slipperiness for client in fifty}) > 2
     assert len({client.speed for client in fifty}) > 2
 
 
 def test_their_windows_are_wide_enough_for_the_debug_screens_two_columns() -> None:
-    assert all(client.size[0] >= NARROWEST * gui_scale(client.size, client.scale) for client in clients(200, 1))
+    assert all(client.size[0] >= NARROWEST * gui_scale(client.size, client.scale or 0) for client in clients(200, 1))
 
 
 def test_a_profile_of_the_games_own_walk_is_not_off_it_and_another_one_is() -> None:

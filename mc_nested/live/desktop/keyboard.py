@@ -1,13 +1,18 @@
-"""The real keyboard: keys by their places, text by its characters. How both are sent is each system's own."""
+"""The real keyboard: keys by their places, text by its characters. How both are sent is each system's own.
+
+A game to 1.12 takes a key by the symbol that it makes: then it is pressed where the layout has that symbol.
+"""
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import AbstractContextManager, contextmanager, suppress
 from typing import Protocol
 
+from mc_nested.errors import DesktopError
 from mc_nested.live.desktop.lost_display import LOST, raise_when_display_lost
 from mc_nested.live.model.key_names import place_of
-from mc_nested.live.model.key_places import KeyPlace
+from mc_nested.live.model.key_places import PLACES, KeyPlace
+from mc_nested.live.model.key_symbols import SHIFT, Layout, missing_keys, stroke_for
 
 
 class KeySender(Protocol):
@@ -19,6 +24,9 @@ class KeySender(Protocol):
     def type(self, character: str) -> None:
         """Write a character, and hold nothing afterwards. DesktopError where this desktop has no way to."""
 
+    def layout(self) -> Layout | None:
+        """What LWJGL 2 takes each key for, as the keyboard's layout is now; None where it goes by places, too."""
+
 
 class DesktopKeyboard:
     """Presses keys into whatever window is in front; the caller checks which window that is.
@@ -29,21 +37,46 @@ class DesktopKeyboard:
 
     def __init__(self, sender: KeySender) -> None:
         self._sender = sender
+        self._goes_by_symbols = False
+        self._down: dict[str, list[KeyPlace]] = {}
+
+    def go_by_symbols(self, keys: Collection[str]) -> None:
+        self._goes_by_symbols = True
+        with raise_when_display_lost():
+            layout = self._sender.layout()
+        if layout is not None and (missing := missing_keys(keys, layout)):
+            raise _lacking(missing)
 
     def press(self, key: str) -> None:
-        place = place_of(key)
         with raise_when_display_lost():
-            self._sender.send(place, is_down=True)
+            places = self._places(key)
+            if not places:
+                raise _lacking([key])
+            self._down[key] = places
+            for place in places:
+                self._sender.send(place, is_down=True)
 
     def release(self, key: str) -> None:
-        place = place_of(key)
         with suppress(*LOST):
-            self._sender.send(place, is_down=False)
+            # As it was pressed. Shift last: a key that goes up without it is another one, and the first stays down.
+            for place in reversed(self._down.pop(key, []) or self._places(key)):
+                self._sender.send(place, is_down=False)
 
     def type(self, text: str) -> None:
         with raise_when_display_lost():
             for character in text:
                 self._sender.type(character)
+
+    def _places(self, key: str) -> list[KeyPlace]:
+        """What is pressed for a key, in order, as the keyboard's layout is now; none where it lacks the symbol."""
+        place = place_of(key)
+        layout = self._sender.layout() if self._goes_by_symbols else None
+        if layout is None:
+            return [place]
+        stroke = stroke_for(key, layout)
+        if stroke is None:
+            return []
+        return [*([PLACES[SHIFT]] if stroke.takes_shift else []), PLACES[stroke.place]]
 
 
 @contextmanager
@@ -61,3 +94,10 @@ def _open_sender() -> AbstractContextManager[KeySender]:
     else:
         from mc_nested.live.desktop.x11_keyboard import open_sender
     return open_sender()
+
+
+def _lacking(keys: list[str]) -> DesktopError:
+    return DesktopError(
+        f"Minecraft to 1.12 goes by what a key types, and this keyboard layout types no {', '.join(keys)}: make "
+        "English (US) your first keyboard layout, and start again"
+    )

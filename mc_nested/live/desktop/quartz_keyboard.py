@@ -32,6 +32,9 @@ class QuartzKeySender:
         key = _MODIFIERS.get(place.mac) or KeyCode.from_vk(place.mac)
         (self._controller.press if is_down else self._controller.release)(key)
 
+    def layout(self) -> None:
+        """LWJGL 2 takes keycodes, which are places, on macOS."""
+
     def type(self, character: str) -> None:
         try:
             try:

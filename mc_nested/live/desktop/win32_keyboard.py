@@ -13,7 +13,8 @@ from contextlib import contextmanager
 from ctypes import wintypes
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.model.key_places import EXTENDED, KeyPlace
+from mc_nested.live.model.key_places import EXTENDED, PLACES, KeyPlace
+from mc_nested.live.model.key_symbols import CHARACTERS, Layout
 
 assert sys.platform == "win32"  # noqa: S101  mypy learns from it that the rest is for Windows alone
 
@@ -88,6 +89,13 @@ _LEAVES_MESSAGES = 0
 _CHANGES_NOTHING = 4
 """ToUnicodeEx's flag that leaves dead keys as they are."""
 
+_LWJGL_2 = {
+    **{ord(name.upper()): name for name in CHARACTERS if name.isalnum()},
+    **dict(zip(range(0xBA, 0xC1), ";=,-./`", strict=True)),  # VK_OEM_1 to VK_OEM_3
+    **dict(zip(range(0xDB, 0xE0), "[\\]'`", strict=True)),  # VK_OEM_4 to VK_OEM_8
+}
+"""The keys that LWJGL 2 takes virtual keys for, with Shift or without (its WindowsKeycodes)."""
+
 _Event = tuple[int, int, int]
 """A virtual key, or 0; a scancode or a UTF-16 unit; and flags. Only keys named both ways make characters."""
 
@@ -102,6 +110,12 @@ class Win32KeySender:
         key = _user32.MapVirtualKeyExW(place.scan, _TO_VIRTUAL_KEY, _layout_in_front())
         flags = extended | (0 if is_down else _KEY_UP)
         _send((key, place.scan & 0xFF, flags if key else flags | _SCANCODE))
+
+    def layout(self) -> Layout:
+        """By the virtual keys of the layout in front."""
+        layout = _layout_in_front()
+        keys = {name: _user32.MapVirtualKeyExW(PLACES[name].scan, _TO_VIRTUAL_KEY, layout) for name in CHARACTERS}
+        return {name: (_LWJGL_2.get(key, ""),) * 2 for name, key in keys.items()}
 
     def type(self, character: str) -> None:
         # All in one call, between whose events no other program's can come.

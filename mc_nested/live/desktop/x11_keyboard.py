@@ -14,10 +14,22 @@ from Xlib.protocol import event
 
 from mc_nested.errors import DesktopError
 from mc_nested.live.desktop.x11_spare_keys import SpareKeys
-from mc_nested.live.model.key_places import KeyPlace
+from mc_nested.live.model.key_places import PLACES, KeyPlace
+from mc_nested.live.model.key_symbols import CHARACTERS, Layout
 
 EVDEV_TO_KEYCODE = 8
 """What an X server's keycode is more than evdev's code, as GLFW and every layout file for evdev take it."""
+
+_LWJGL_2 = {
+    **{ord(character): character for character in (*CHARACTERS, *"@:^_")},
+    **{ord(letter.upper()): letter for letter in CHARACTERS if letter.isalpha()},
+    0xFE50: "`",
+    0xFE52: "^",  # the dead grave and circumflex
+}
+"""The keys that LWJGL 2 takes keysyms for, as far as keys of characters have them (its LinuxKeycodes)."""
+
+_CHARACTER_KEYCODES = {name: PLACES[name].evdev + EVDEV_TO_KEYCODE for name in CHARACTERS}
+_FIRST, _LAST = min(_CHARACTER_KEYCODES.values()), max(_CHARACTER_KEYCODES.values())
 
 _Kind = type[event.KeyPress] | type[event.KeyRelease]
 
@@ -41,10 +53,24 @@ class X11KeySender:
         self._spare = spare
         self._spare_keys: Mapping[int, tuple[int, int]] | None = None
         self._typist = typist
+        self._layout: Layout | None = None
 
     def send(self, place: KeyPlace, *, is_down: bool) -> None:
         xtest.fake_input(self._display, X.KeyPress if is_down else X.KeyRelease, place.evdev + EVDEV_TO_KEYCODE)
         self._display.sync()
+
+    def layout(self) -> Layout:
+        """By the layout's first group, whichever group is in use: so LWJGL 2 asks for a keysym."""
+        while self._display.pending_events():
+            if self._display.next_event().type == X.MappingNotify:
+                self._layout = None
+        if self._layout is None:
+            rows = self._display.get_keyboard_mapping(_FIRST, _LAST - _FIRST + 1)
+            self._layout = {
+                name: (_LWJGL_2.get(rows[code - _FIRST][0], ""), _LWJGL_2.get(rows[code - _FIRST][1], ""))
+                for name, code in _CHARACTER_KEYCODES.items()
+            }
+        return self._layout
 
     def type(self, character: str) -> None:
         # pynput has spare keys of its own, but takes one for several characters: the window then writes another one.

@@ -30,6 +30,9 @@ FRESH_S = 0.25
 LONGEST_S = 3.0
 """The longest that anything is ever held, in seconds."""
 
+PATIENCE_S = 0.6
+"""How long the world may not be seen before a press is refused."""
+
 OVERDUE_S = 0.25
 """Seconds past its release time after which the watchdog releases a key."""
 
@@ -66,6 +69,7 @@ class InputController:
         self._lock = threading.RLock()
         self._confirmed: tuple[PressTarget, float] | None = None
         self._look_again: Callable[[], None] | None = None
+        self._sees_world: Callable[[], bool] = lambda: True
         self._stop_reason: str | None = None
         self._exits = ExitStack()
 
@@ -91,16 +95,25 @@ class InputController:
         """
         self._confirmed, self._look_again = (screen, self._clock.now()), look_again
 
+    def guard_world(self, sees_world: Callable[[], bool]) -> None:
+        """Ask ``sees_world`` at each press that is meant for the world, just before it: only then is it sent."""
+        self._sees_world = sees_world
+
     def hold(self, key: str, ticks: int, *others: str) -> None:
         """Hold one or more keys for a number of ticks (FACTS: Walking; 100, 150 and 200 ms gave 2, 3 and 4)."""
-        until = self._clock.now() + ticks * TICK_S
-        self.press(until, *others, key)
-        self.wait_until(until)
+        self.wait_until(self.press(self._clock.now() + ticks * TICK_S, *others, key))
 
-    def press(self, until: float, *keys: str) -> None:
-        """Press keys in the world and return; they are released at ``until``, during a later wait."""
+    def press(self, until: float, *keys: str) -> float:
+        """Press keys in the world and return when they are released, during a later wait.
+
+        That is ``until``, and as much later as the look at the screen took that comes before.
+        """
+        asked_at = self._clock.now()
+        self._permit("world")
+        until += self._clock.now() - asked_at
         for key in keys:
             self._press_key(key, until, "world")
+        return until
 
     def keep_until(self, until: float, *keys: str) -> None:
         """Change the release time of keys that are down."""
@@ -110,12 +123,20 @@ class InputController:
 
     def tap(self, key: str, on: PressTarget = "world") -> None:
         """Press and release a key that acts once per press, however long it is held."""
+        self._permit(on)
         until = self._clock.now() + TICK_S
         self._press_key(key, until, on)
         self.wait_until(until)
 
+    def tap_alone(self, key: str) -> None:
+        """Tap a key in the world once nothing else is down: to 1.12 Shift makes another key of it (FACTS: Keys)."""
+        while self._held:
+            self.wait_until(max(held.due for held in list(self._held.values())))
+        self.tap(key)
+
     def click(self, button: Button) -> None:
         """Press a button in the world. It is released after the profile's ``click_s``, during a later wait."""
+        self._permit("world")
         self._press_button(button, "world")
 
     def hover(self, x: int, y: int) -> None:
@@ -210,9 +231,34 @@ class InputController:
         self.check_stopped()
         self.check_front()
 
+    def _permit(self, screen: PressTarget) -> None:
+        """Look at the screen just before a press; again at all of it if it was confirmed too long ago.
+
+        The caller holds no lock: a look may take long, and meanwhile others must be able to release everything.
+        """
+        try:
+            self._refresh(screen)
+            if screen == "world" and not self._sees_world():
+                self._wait_for_world()
+        except BaseException:
+            self.release_all()
+            raise
+
     def _refresh(self, screen: PressTarget) -> None:
-        """Look again if the screen was confirmed too long ago."""
         if self._confirmed and self._confirmed[0] == screen and not self._is_fresh(screen) and self._look_again:
+            self._look_again()
+
+    def _wait_for_world(self) -> None:
+        """Wait until the world is seen with nothing over it: a picture may be black; then look at all of it again."""
+        until = self._clock.now() + PATIENCE_S
+        while not self._sees_world():
+            if self._clock.now() >= until:
+                raise WrongScreenError(
+                    "the world is not seen with nothing over it, so nothing is pressed: close the chat or the menu, "
+                    "show the hotbar (F1), and take off a resource pack that draws it otherwise"
+                )
+            self.wait(TICK_S / 2)
+        if self._look_again:
             self._look_again()
 
     def _is_fresh(self, screen: PressTarget) -> bool:
@@ -241,8 +287,6 @@ class InputController:
         self, name: str, press: Callable[[], None], release: Callable[[], None], until: float, on: PressTarget
     ) -> None:
         try:
-            # Before the lock: a look may take long, and meanwhile others must be able to release everything.
-            self._refresh(on)
             with self._lock:
                 self._check_press(on)
                 # Noted before it is pressed: an interrupt between the two would leave it down otherwise.

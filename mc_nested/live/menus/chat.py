@@ -1,6 +1,6 @@
 """Typing commands into the chat; each line is read back before it is sent.
 
-chat key -> the line is seen, empty -> letters -> the line is seen to hold all of them -> Enter -> the line is gone
+chat key -> the line is seen, emptied -> letters -> the line is seen to hold all of them -> Enter -> the line is gone
 """
 
 from collections.abc import Callable
@@ -72,11 +72,20 @@ class Chat:
     def _open(self) -> None:
         self._controller.tap(self._key)
         if self._timing.reads_chat:
-            self._wait_until(
-                lambda: self._screen.is_typed("") and self._screen.is_chat_open(), "the chat did not open, empty"
-            )
+            self._wait_until(self._is_empty, "the chat did not open, empty")
         else:
             self._controller.wait(self._timing.chat_open_s)
+
+    def _is_empty(self) -> bool:
+        """Whether the line is seen open and empty. Where it holds something, a Backspace is pressed.
+
+        A draft, which the game itself brings back, is gone with the first one (FACTS: The chat's line).
+        """
+        is_typed, is_open = not self._screen.is_typed(""), self._screen.is_chat_open()
+        if is_typed and is_open:
+            self._controller.confirm_screen("chat")
+            self._controller.tap("backspace", on="chat")
+        return is_open and not is_typed
 
     def _type(self, line: str) -> None:
         # A chat that can't be read gets single letters: one that comes late must not end the line.
@@ -95,7 +104,8 @@ class Chat:
         while not is_so():
             if deadline.has_passed:
                 raise NotConfirmedError(
-                    f"{problem}: leave mouse and keys alone, and look whether the game allows chat; if it draws its "
-                    "chat elsewhere, set reads_chat = false under [input] in the profile"
+                    f"{problem}: leave mouse and keys alone, and look whether the game allows chat, and whether "
+                    "Options > Accessibility > Text Background is Chat; if it draws its chat elsewhere, set "
+                    "reads_chat = false under [input] in the profile"
                 )
             self._controller.wait(TYPING_LOOK_S)

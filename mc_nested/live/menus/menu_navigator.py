@@ -33,7 +33,7 @@ class MenuNavigator:
 
     def leave(self, name: ScreenName) -> None:
         """Take one step from that screen, a known one outside the world, toward the world."""
-        if name in ("chat", "servers"):
+        if name in ("chat", "servers", "menu"):
             self.press("esc")
         elif name == "worlds":
             self._enter_world()
@@ -83,7 +83,7 @@ class MenuNavigator:
 
     def _first_row(self) -> tuple[int, int]:
         """The first world's row in the list, a little right of its icon, in framebuffer pixels."""
-        scale, (width, _) = self._screen.scale(), self._display.size()
+        scale, (width, _) = self._screen.gui_scale(), self._display.size()
         top = 32 if self._profile.game.dialect == "1.12" else 48
         middle = -(-width // scale) // 2
         return round((middle - _ROW_LEFT + 60) * scale), round((top + _ROW_MIDDLE) * scale)

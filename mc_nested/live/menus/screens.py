@@ -10,7 +10,8 @@ from mc_nested.live.devices import Display
 from mc_nested.live.menus.click_points import ClickPoints, looks_the_same
 from mc_nested.live.vision.game_screen import WORLDS_TITLE, GameScreen, Labels
 
-ScreenName = Literal["world", "chat", "pause", "death", "disconnected", "title", "worlds", "servers", "unknown"]
+ScreenName = Literal["world", "chat", "pause", "death", "menu", "disconnected", "title", "worlds", "servers", "unknown"]
+"""A ``menu`` lies over the world and has no other name here, such as the inventory, or a pause without a menu."""
 
 LABELS: dict[ScreenName, tuple[str, ...]] = {
     "pause": ("Back to Game",),
@@ -41,14 +42,24 @@ POINTS: dict[ScreenName, str] = {"pause": BACK, "death": RESPAWN, "title": ENTER
 def identify_screen(screen: GameScreen, display: Display, points: ClickPoints) -> tuple[ScreenName, str]:
     """Which screen is shown, and why the debug screen can't be read there; "" where it can."""
     reading = screen.read()
-    if reading.problem is None:
-        return ("chat" if screen.is_chat_open() else "world"), ""
-    menu = screen.menu()
-    if (name := menu_name(menu)) is not None:
-        return name, reading.problem
+    if reading.problem is None and screen.shows_world():
+        return "world", ""
+    if reading.problem is None and screen.is_chat_open():
+        return "chat", ""
+    # From 1.21.9 on the debug screen can be read over a menu, too.
+    name = _menu_shown(screen, display, points, otherwise="unknown" if reading.problem else "menu")
+    return name, reading.problem or "a menu lies over the world"
+
+
+def _menu_shown(screen: GameScreen, display: Display, points: ClickPoints, otherwise: ScreenName) -> ScreenName:
+    """The menu or the chat that is shown, by its marks from the surest on."""
+    if (name := menu_name(screen.menu())) is not None:
+        return name
     if screen.is_chat_open():
-        return "chat", reading.problem
-    return _identify_by_points(display, points), reading.problem
+        return "chat"
+    if (name := _identify_by_points(display, points)) != "unknown":
+        return name
+    return "death" if screen.shows_death() else otherwise
 
 
 def menu_name(menu: Labels) -> ScreenName | None:

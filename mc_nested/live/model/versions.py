@@ -31,6 +31,11 @@ def is_minecrafts(version: str) -> bool:
     return first >= _FIRST_YEAR and 1 <= second <= _MOST_A_YEAR
 
 
+def draws_text_over_menus(version: str) -> bool:
+    """Whether the debug screen lies over menus, chat and toasts (FACTS: The F3 debug screen)."""
+    return version_numbers(version) >= (1, 21, 9)
+
+
 def is_later_than_known(version: str) -> bool:
     """Whether a version is newer than all that are known here."""
     return version_numbers(version)[:2] > NEWEST

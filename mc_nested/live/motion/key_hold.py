@@ -64,7 +64,7 @@ class KeyHold:
         """Hold keys of the world until a time; returns the time that was last planned for the release.
 
         Args:
-            release_at: when they go up, in seconds of the clock.
+            release_at: when they go up, in seconds of the clock; as much later as the look takes before they go down.
             keys: which, together.
             sneak: the sneak key, which is down already; it goes up with them.
             look_times: when to look meanwhile. The first one that could make the release late ends the looks.
@@ -72,10 +72,10 @@ class KeyHold:
         """
         try:
             together = (*keys, sneak) if sneak else keys
+            release_at = self._controller.press(release_at, *keys)
+            self.pressed_at = self._clock.now()
             if sneak:
                 self._controller.keep_until(release_at, sneak)
-            self._controller.press(release_at, *keys)
-            self.pressed_at = self._clock.now()
             for at in look_times:
                 # A look takes a while: the last one must not make the release late.
                 if at + HALF_FRAME_S >= release_at:

@@ -155,9 +155,11 @@ class Body:
         if not is_right(pose):
             seen = self._observer.watch(is_right, self._limits.confirm_s)
             if not is_right(seen):
+                # Where one click goes on placing, the agent itself builds on as it walks (FACTS: Keys).
+                also = ", or is Options > Controls > Use Item/Place Block not set to Hold" if own is None else ""
                 raise NotConfirmedError(
                     f"{own or 'only the floor'} should be at {block}, the screen says "
-                    f"{_words(seen.target)}: did somebody else build there?"
+                    f"{_words(seen.target)}: did somebody else build there{also}?"
                 )
 
     def check_floor_ahead(self) -> None:

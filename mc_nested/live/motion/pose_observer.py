@@ -123,12 +123,10 @@ class PoseObserver:
         return self._frame.position_of(xyz) if xyz else None
 
     def permit_press(self, is_right: Callable[[PoseEstimate], bool] = lambda _: True) -> None:
-        """Check that the next press goes into the world, and permit it; the debug screen must just have been read.
+        """Permit the next press into the world, if that is seen then; the debug screen must just have been read.
 
         If the look is too old when the press comes, another one is taken: it must be as good, and ``is_right``.
         """
-        if self._screen.is_chat_open():
-            raise NotConfirmedError("the chat is open: leave mouse and keys alone")
         self._controller.confirm_screen("world", lambda: self._look_again(is_right))
 
     def _look_again(self, is_right: Callable[[PoseEstimate], bool]) -> None:

@@ -3,17 +3,18 @@
 from dataclasses import dataclass
 
 from mc_nested.errors import DesktopError, ProfileError
+from mc_nested.live.model.scales import Scales, largest_gui_scale
 from mc_nested.live.profile.tables import CalibratedTable, GameVersion
 from mc_nested.live.profile.window_title import may_be_shared, state_in, version_in
 
 
 @dataclass(frozen=True)
 class Fingerprint:
-    """The game's window: its title, its width and height in framebuffer pixels, and the GUI scale if it is known."""
+    """The game's window: its title, its width and height in framebuffer pixels, and its scales if they are known."""
 
     title: str
     window: tuple[int, int]
-    gui_scale: int | None = None
+    scales: Scales | None = None
 
 
 def game_in(title: str, otherwise: GameVersion) -> GameVersion:
@@ -39,12 +40,26 @@ def mismatch(calibrated: CalibratedTable, current: Fingerprint, profile: str) ->
             f"profile {profile} was calibrated in a window of {_size(calibrated.window)} pixels, and this one has "
             f"{_size(current.window)}: make it that size again, or run {again}"
         )
-    if calibrated.gui_scale and current.gui_scale and calibrated.gui_scale != current.gui_scale:
+    scales = calibrated.scales
+    if scales is None:
+        return None
+    largest = largest_gui_scale(current.window) + 1  # one more with Unicode letters
+    if scales.gui > largest or scales.debug > scales.gui:
         return (
-            f"profile {profile} was calibrated at GUI scale {calibrated.gui_scale}, and this is {current.gui_scale}: "
-            f"set Video Settings > GUI Scale to {calibrated.gui_scale}, or run {again}"
+            f"profile {profile} names GUI scale {scales}, which no window of {_size(current.window)} pixels can have: "
+            f"run {again}"
+        )
+    if current.scales and scales != current.scales:
+        return (
+            f"profile {profile} was calibrated at GUI scale {scales}, and this is {current.scales}: "
+            f"set Video Settings > GUI Scale to {_as_set(scales)}, or run {again}"
         )
     return None
+
+
+def _as_set(scales: Scales) -> str:
+    own = "" if scales.gui == scales.debug else f", and the one on the F3+F6 screen to {scales.debug}"
+    return f"{scales.gui}{own}"
 
 
 def check_fit(calibrated: CalibratedTable | None, current: Fingerprint, profile: str) -> None:

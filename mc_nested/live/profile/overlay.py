@@ -9,16 +9,16 @@ from mc_nested.live.vision.standin import STANDIN
 
 
 def overlay_of(profile: Profile) -> Overlay | None:
-    """The overlay of a profile that names its GUI scale: what else it leaves out is its layout's.
+    """The overlay of a profile that names its scale: what else it leaves out is its layout's.
 
-    None where the GUI scale, and with it all the rest, is found on the screen.
+    None where the scale, and with it all the rest, is found on the screen.
     """
     screen = profile.screen
-    if screen.gui_scale is None:
+    if screen.debug_scale is None:
         return None
     # Before layouts had names, lines 10 dots apart meant the stand-in's, and only its profiles had them.
     unnamed = STANDIN if screen.line_pitch == STANDIN.pitch else VANILLA
     layout = LAYOUTS[screen.layout] if screen.layout else unnamed
     if screen.line_pitch is not None:
         layout = dataclasses.replace(layout, pitch=screen.line_pitch)
-    return Overlay(screen.gui_scale, layout, screen.text_colour or layout.text_colour)
+    return Overlay(screen.debug_scale, layout, screen.text_colour or layout.text_colour)

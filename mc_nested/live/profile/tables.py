@@ -12,6 +12,7 @@ from pydantic import AliasChoices, Field, field_validator, model_validator
 from mc_nested.errors import ProfileError
 from mc_nested.live.model.key_names import canonical, check_key
 from mc_nested.live.model.kinematics import INERTIA, SNEAKING, walk_response
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.model.timing import CAPTURE_LATENCY_S, INPUT_LATENCY_S
 from mc_nested.live.model.versions import is_minecrafts, version_numbers
 from mc_nested.live.profile.arena import Arena, ProfileTable
@@ -28,6 +29,7 @@ Seconds = Annotated[float, Field(gt=0, le=60)]
 Latency = Annotated[float, Field(ge=0, le=0.5)]
 Fraction = Annotated[float, Field(ge=0, le=1)]
 Shade = Annotated[int, Field(ge=0, le=255)]
+Scale = Annotated[int, Field(ge=1, le=16)]
 Key = Annotated[str, Field(min_length=1)]
 
 
@@ -85,6 +87,11 @@ class GameVersion(ProfileTable):
             return "1.12"
         return "1.13" if numbers < (1, 17) else "1.17"
 
+    @property
+    def takes_symbols(self) -> bool:
+        """Whether it takes a key by what it makes, and not by its place (FACTS: Input and windows)."""
+        return self.dialect == "1.12"
+
 
 class KeysTable(ProfileTable):
     """Which key does what in this game, named by what a US keyboard has at its place: w, /, f3, left.shift."""
@@ -102,6 +109,11 @@ class KeysTable(ProfileTable):
     hotbar: Annotated[tuple[Key, ...], Field(min_length=9, max_length=9)] = Field(
         default=tuple("123456789"), description="the keys of the nine hotbar slots, from the left"
     )
+
+    def pressed(self) -> list[str]:
+        """The keys that are pressed into the game; the panic key is the player's."""
+        uses = (self.forward, self.back, self.left, self.right, self.sneak, self.chat, self.debug)
+        return [*uses, *self.hotbar]
 
     @field_validator("*")
     @classmethod
@@ -126,28 +138,35 @@ class KeysTable(ProfileTable):
 
 
 class ScreenTable(ProfileTable):
-    """How the debug screen is drawn. Without a GUI scale, all of it is found on the screen, for scales 1 to 8."""
+    """How the debug screen is drawn. Without a scale, all of it is found on the screen, for scales 1 to 8."""
 
     font: str | None = Field(
         default=None,
         description="the game's own client jar, a resource pack or an ascii.png: a whole path, or one from ~",
     )
-    gui_scale: Annotated[int, Field(ge=1, le=16)] | None = Field(
+    debug_scale: Scale | None = Field(
         default=None, description="screen pixels to a dot of the font; left out, it is found on the screen"
     )
     layout: LayoutName | None = Field(
         default=None,
-        description='which client draws the debug screen, "vanilla" or "stand-in"; counts beside gui_scale only, '
+        description='which client draws the debug screen, "vanilla" or "stand-in"; counts beside debug_scale only, '
         "vanilla if left out",
     )
     line_pitch: Annotated[int, Field(ge=8, le=20)] | None = Field(
         default=None,
-        description="dots from one line to the next; counts beside gui_scale only, the layout's if left out",
+        description="dots from one line to the next; counts beside debug_scale only, the layout's if left out",
     )
     text_colour: tuple[Shade, Shade, Shade] | None = Field(
         default=None,
-        description="red, green, blue of the text; counts beside gui_scale only, the layout's if left out",
+        description="red, green, blue of the text; counts beside debug_scale only, the layout's if left out",
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _has_two_scales(cls, table: object) -> object:
+        if isinstance(table, dict) and "gui_scale" in table:
+            raise ValueError("the debug screen has a scale of its own now: write debug_scale in the place of gui_scale")
+        return table
 
     @field_validator("font")
     @classmethod
@@ -282,12 +301,20 @@ class CalibratedTable(ProfileTable):
     date: str = Field(description="the day, as year-month-day")
     version: str | None = Field(default=None, description="the version that the game's window said")
     window: tuple[int, int] | None = Field(default=None, description="the window's width and height in pixels")
-    gui_scale: Annotated[int, Field(ge=1, le=16)] | None = Field(
-        default=None, description="screen pixels to a dot of the font, as seen"
+    gui_scale: Scale | None = Field(
+        default=None, description="screen pixels to a dot of the menus' and the chat's font, as seen"
+    )
+    debug_scale: Scale | None = Field(
+        default=None, description="the same of the debug screen's font, as seen; left out, it is gui_scale"
     )
     samples: dict[str, int] = Field(
         default_factory=dict, description="how many measurements each step rests on, by its name"
     )
+
+    @property
+    def scales(self) -> Scales | None:
+        """Both scales; None where they are not known."""
+        return Scales(self.gui_scale, self.debug_scale or self.gui_scale) if self.gui_scale else None
 
 
 class Profile(ProfileTable):

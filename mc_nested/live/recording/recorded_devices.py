@@ -1,6 +1,6 @@
 """The devices of a window, each call of which is set down on a tape. What a clipboard holds is not."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 
 from mc_nested.errors import McNestedError
@@ -93,6 +93,9 @@ class RecordedKeyboard:
 
     def __init__(self, keyboard: Keyboard, tape: Tape) -> None:
         self._keyboard, self._tape = keyboard, tape
+
+    def go_by_symbols(self, keys: Collection[str]) -> None:
+        self._keyboard.go_by_symbols(keys)
 
     def press(self, key: str) -> None:
         self._tape.add("key", "press", key)

@@ -6,6 +6,7 @@ from typing import TypeVar
 
 from mc_nested.errors import McNestedError
 from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.recording.tape import Tape
 from mc_nested.live.vision.game_screen import Labels, WindowScreen
 from mc_nested.live.vision.menu_labels import MenuButton
@@ -34,6 +35,16 @@ class RecordedScreen:
         self._tape.add("screen", "read_position", [], position, self._screen.last_look)
         return position
 
+    def shows_world(self) -> bool:
+        with self._asked("shows_world"):
+            is_shown = self._screen.shows_world()
+        return self._answered(is_shown, "shows_world")
+
+    def shows_death(self) -> bool:
+        with self._asked("shows_death"):
+            is_shown = self._screen.shows_death()
+        return self._answered(is_shown, "shows_death")
+
     def is_chat_open(self) -> bool:
         with self._asked("is_chat_open"):
             is_open = self._screen.is_chat_open()
@@ -55,15 +66,15 @@ class RecordedScreen:
             position = self._screen.position_of(text)
         return self._answered(position, "position_of", text)
 
-    def scale(self) -> int:
-        with self._asked("scale"):
-            scale = self._screen.scale()
-        return self._answered(scale, "scale")
+    def gui_scale(self) -> int:
+        with self._asked("gui_scale"):
+            scale = self._screen.gui_scale()
+        return self._answered(scale, "gui_scale")
 
-    def seen_scale(self) -> int | None:
-        with self._asked("seen_scale"):
-            scale = self._screen.seen_scale()
-        return self._answered(scale, "seen_scale")
+    def seen_scales(self) -> Scales | None:
+        with self._asked("seen_scales"):
+            scales = self._screen.seen_scales()
+        return self._answered(scales, "seen_scales")
 
     def _answered(self, answer: T, name: str, *asked: str) -> T:
         self._tape.add("screen", name, list(asked), answer, None)

@@ -1,5 +1,7 @@
 """Devices that answer as they did when a tape was recorded, and press nothing."""
 
+from collections.abc import Collection
+
 import numpy as np
 
 from mc_nested.live.devices import Button, Devices, Frame, Region
@@ -47,6 +49,9 @@ class _Display:
 class _Keyboard:
     def __init__(self, tape: ReplayedTape) -> None:
         self._tape = tape
+
+    def go_by_symbols(self, keys: Collection[str]) -> None:
+        """What is pressed is the desktop's own; a tape has the keys that were meant."""
 
     def press(self, key: str) -> None:
         self._tape.same("key", "press", key)

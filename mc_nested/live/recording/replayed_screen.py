@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Any
 
 from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.recording.pixel_reader import PixelReader
 from mc_nested.live.recording.plain_values import button_of, plain, position_of, reading_of
 from mc_nested.live.recording.replayed_tape import ReplayedTape
@@ -46,6 +47,12 @@ class ReplayedScreen:
             position = screen.read_position()
             self._on_reading([then], None if position is None else [plain(position)])
 
+    def shows_world(self) -> bool:
+        return bool(self._answer("shows_world"))
+
+    def shows_death(self) -> bool:
+        return bool(self._answer("shows_death"))
+
     def is_chat_open(self) -> bool:
         return bool(self._answer("is_chat_open"))
 
@@ -60,14 +67,14 @@ class ReplayedScreen:
         position = self._answer("position_of", text)
         return None if position is None else (int(position[0]), int(position[1]))
 
-    def scale(self) -> int:
-        return int(self._answer("scale"))
+    def gui_scale(self) -> int:
+        return int(self._answer("gui_scale"))
 
-    def seen_scale(self) -> int | None:
+    def seen_scales(self) -> Scales | None:
         if not self._tape.is_followed:
             return None
-        scale = self._answer("seen_scale")
-        return None if scale is None else int(scale)
+        scales = self._answer("seen_scales")
+        return None if scales is None else Scales(*map(int, scales))
 
     def _answer(self, name: str, *asked: str) -> Any:
         return self._tape.same("screen", name, list(asked))[0]

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mc_nested.live.devices import Frame, Region
+from mc_nested.live.model.scales import largest_gui_scale
 from mc_nested.live.vision.layout import LINE_PITCH
 
 BLANK = (96, 96, 96)
@@ -80,7 +81,7 @@ def blanked_share(size: tuple[int, int], scale: int | None) -> float:
 
 def _largest(size: tuple[int, int]) -> int:
     """The largest GUI scale of a window; an odd one is one more with a Unicode font (FACTS: The F3 debug screen)."""
-    largest = max(1, min(size[0] // 320, size[1] // 240))
+    largest = largest_gui_scale(size)
     return largest + largest % 2
 
 

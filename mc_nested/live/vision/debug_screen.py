@@ -13,6 +13,7 @@ from mc_nested.live.vision.layout import Overlay
 from mc_nested.live.vision.overlay import POSITION, REDUCED, SCALES, TITLE, FoundScreen, find_debug_screen
 from mc_nested.live.vision.screen_lines import CLEAR, WHOLE, DebugLines, ScreenLines, Unreadable, matched, only_line
 from mc_nested.live.vision.target_block import target_block
+from mc_nested.live.vision.target_box import target_in_box
 from mc_nested.live.vision.text_lines import UNKNOWN
 
 # What follows the third decimal or the last bracket is the world beside the box: the forms are complete without it.
@@ -48,7 +49,9 @@ def read_lines(lines: DebugLines, known_by: str = POSITION) -> Reading:
     try:
         if known_by != POSITION:
             raise Unreadable(_without_position(lines, known_by))
-        return Reading(_position(lines), *_facing(lines), target_block(lines))
+        position, facing = _position(lines), _facing(lines)
+        target = target_in_box(lines, position) if lines.layout.has_facts else target_block(lines)
+        return Reading(position, *facing, target)
     except Unreadable as reason:
         return Reading(problem=str(reason))
 

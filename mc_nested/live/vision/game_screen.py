@@ -2,14 +2,19 @@
 
 from typing import Protocol
 
-from mc_nested.live.devices import Display, Frame
+from mc_nested.live.devices import Display, Frame, Region
 from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.scales import Scales, largest_gui_scale
+from mc_nested.live.model.versions import draws_text_over_menus
 from mc_nested.live.vision.font import SPACE, Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
+from mc_nested.live.vision.hotbar import HotbarLook, bottom_dots, bottom_region, hotbar_look, typed_dots
 from mc_nested.live.vision.layout import Overlay
 from mc_nested.live.vision.menu_labels import MenuButton, MenuLabels
 from mc_nested.live.vision.overlay import SCALES, find_overlay
+from mc_nested.live.vision.pause_words import pause_region, shows_pause
 from mc_nested.live.vision.screen_reader import Look, ScreenReader
+from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.text_colours import INK_SPREAD, WHITE
 from mc_nested.live.vision.typed_line import FIRST_COLUMNS, begins_a_line, reads_as, typed_line_dots, typed_line_region
 
@@ -34,6 +39,15 @@ class GameScreen(Protocol):
     def read_position(self) -> tuple[float, float, float] | None:
         """Where the player is, and nothing else: faster than ``read``; None where the whole screen has to be read."""
 
+    def shows_world(self) -> bool:
+        """Whether nothing lies over the world: no menu, chat, pause or death. To 1.21.8, while the debug screen reads.
+
+        Only then a key or a click goes into the world.
+        """
+
+    def shows_death(self) -> bool:
+        """Whether the hotbar is seen red, as behind the death screen: also where text lies over its buttons."""
+
     def is_chat_open(self) -> bool:
         """Whether the chat's input line is seen."""
 
@@ -46,11 +60,11 @@ class GameScreen(Protocol):
     def position_of(self, text: str) -> tuple[int, int] | None:
         """The middle of the uppermost white text that reads so, in framebuffer pixels; None where there is none."""
 
-    def scale(self) -> int:
-        """Framebuffer pixels to a GUI pixel, as last seen."""
+    def gui_scale(self) -> int:
+        """Framebuffer pixels to a GUI pixel of menus, chat and hotbar, as last seen."""
 
-    def seen_scale(self) -> int | None:
-        """The same, only if it was seen in a window of the present size; None if not."""
+    def seen_scales(self) -> Scales | None:
+        """Both scales, only if they were seen in a window of the present size; None if not."""
 
 
 class WindowScreen:
@@ -60,13 +74,18 @@ class WindowScreen:
         display: the game's window.
         font: the font that reads it.
         overlay: how the debug screen is drawn; without it that is found.
+        version: the game's. From 1.21.9 on the debug screen lies over menus, so that reading it doesn't show that none
+            is open.
     """
 
-    def __init__(self, display: Display, font: Font, overlay: Overlay | None = None) -> None:
+    def __init__(self, display: Display, font: Font, overlay: Overlay | None = None, version: str = "") -> None:
         self.font = font
         self._display, self._font, self._overlay = display, font, overlay
         self._reader = ScreenReader(display, font, overlay)
-        self._measured: tuple[tuple[int, int], int] | None = None
+        is_standin = overlay is not None and overlay.layout.name == STANDIN.name
+        self._text_over_menus = not is_standin and draws_text_over_menus(version)
+        self._gui: tuple[tuple[int, int], int] | None = None
+        self._debug: tuple[tuple[int, int], int] | None = None
 
     @property
     def last_look(self) -> Look | None:
@@ -78,6 +97,15 @@ class WindowScreen:
 
     def read_position(self) -> tuple[float, float, float] | None:
         return self._reader.read_position()
+
+    def shows_world(self) -> bool:
+        if not self._text_over_menus:
+            return not self.is_chat_open() and not self._is_paused()
+        look, dots = self._look_at_hotbar()
+        return look == "clear" and not begins_a_line(typed_dots(dots), self._font) and not self._is_paused()
+
+    def shows_death(self) -> bool:
+        return self._look_at_hotbar()[0] == "death"
 
     def is_chat_open(self) -> bool:
         return begins_a_line(self._typed_line(FIRST_COLUMNS), self._font)
@@ -96,22 +124,69 @@ class WindowScreen:
                 return int((column + len(columns) / 2) * scale), (row + GLYPH_ROWS // 2) * scale
         return None
 
-    def scale(self) -> int:
-        return self.seen_scale() or (self._measured[1] if self._measured else self._scale_of_menu())
+    def gui_scale(self) -> int:
+        seen = self._seen_gui_scale()
+        if seen is None and self._gui is None:
+            return self._scale_of_menu() or self._seen_debug_scale() or 1
+        return seen or (self._gui[1] if self._gui else 1)
 
-    def seen_scale(self) -> int | None:
+    def seen_scales(self) -> Scales | None:
+        gui, debug = self._seen_gui_scale(), self._seen_debug_scale()
+        return Scales(gui, debug) if gui and debug else None
+
+    def _seen_gui_scale(self) -> int | None:
+        """The GUI scale: to 1.21.8 that of the debug screen, later the hotbar's."""
         size = self._display.size()
-        if self._measured is None or self._measured[0] != size:
+        if self._gui is None or self._gui[0] != size:
+            if not self._text_over_menus:
+                debug = self._seen_debug_scale()
+                self._gui = (size, debug) if debug else self._gui
+            else:
+                self._look_at_hotbar()
+        return self._gui[1] if self._gui and self._gui[0] == size else None
+
+    def _seen_debug_scale(self) -> int | None:
+        size = self._display.size()
+        if self._debug is None or self._debug[0] != size:
             overlay = self._overlay or find_overlay(self._display.grab(), self._font)
             if overlay is None:
                 return None
-            self._measured = size, overlay.scale
-        return self._measured[1]
+            self._debug = size, overlay.scale
+        return self._debug[1]
 
-    def _scale_of_menu(self) -> int:
+    def _look_at_hotbar(self) -> tuple[HotbarLook | None, Frame]:
+        """How the hotbar looks, and the dots of the picture that shows it; the scale is kept."""
+        size = self._display.size()
+        if self._gui is not None and self._gui[0] == size:
+            scale = self._gui[1]
+            dots = bottom_dots(self._display.grab(bottom_region(size, scale)), scale)
+            if look := hotbar_look(dots, -(-size[1] // scale)):
+                return look, dots
         frame = self._display.grab()
-        return next((scale for scale in SCALES if MenuLabels(frame, self._font, scale).shows(WORLDS_TITLE)), 1)
+        for scale in range(largest_gui_scale(size) + 1, 0, -1):
+            region = bottom_region(size, scale)
+            dots = bottom_dots(_part(frame, region), scale)
+            if look := hotbar_look(dots, -(-size[1] // scale)):
+                self._gui = size, scale
+                return look, dots
+        return None, frame
+
+    def _is_paused(self) -> bool:
+        """Whether the game is paused without a menu (FACTS: Screens and their buttons)."""
+        scale = self._seen_gui_scale()
+        if scale is None:
+            return False
+        region = pause_region(self._display.size(), scale)
+        return shows_pause(self._display.grab(region), scale, self._font)
+
+    def _scale_of_menu(self) -> int | None:
+        frame = self._display.grab()
+        return next((scale for scale in SCALES if MenuLabels(frame, self._font, scale).shows(WORLDS_TITLE)), None)
 
     def _typed_line(self, columns: int | None = None) -> Frame:
-        scale = self.scale()
+        scale = self.gui_scale()
         return typed_line_dots(self._display.grab(typed_line_region(self._display.size(), scale, columns)), scale)
+
+
+def _part(frame: Frame, region: Region) -> Frame:
+    return frame[max(0, region.top) : region.top + region.height, region.left : region.left + max(0, region.width)]

@@ -18,17 +18,17 @@ class LastFrames:
     Args:
         display: the game's window.
         folder: where they are written; without one, nothing is kept.
-        scale: gives the framebuffer pixels to a GUI pixel, None where they aren't known.
+        gui_scale: gives the chat's scale, framebuffer pixels to a GUI pixel, None where it isn't known.
     """
 
-    def __init__(self, display: Display, folder: Path | None, scale: Callable[[], int | None]) -> None:
-        self._display, self._folder, self._scale = display, folder, scale
+    def __init__(self, display: Display, folder: Path | None, gui_scale: Callable[[], int | None]) -> None:
+        self._display, self._folder, self._gui_scale = display, folder, gui_scale
         self._frames: deque[Frame] = deque(maxlen=KEPT)
 
     def take(self) -> None:
         """Keep what the window shows now, if it is in front."""
         if self._folder is not None and self._display.is_in_front():
-            self._frames.append(without_chat(self._display.grab(), self._scale()))
+            self._frames.append(without_chat(self._display.grab(), self._gui_scale()))
 
     def save(self) -> list[Path]:
         """Write the kept frames, the oldest first; returns the files that could be written."""

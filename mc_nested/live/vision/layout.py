@@ -5,7 +5,7 @@ from typing import Literal, NamedTuple
 
 from mc_nested.live.vision.text_colours import PLAIN, Colour
 
-LayoutName = Literal["vanilla", "stand-in"]
+LayoutName = Literal["vanilla", "boxes", "stand-in"]
 
 LINE_PITCH = 9
 """Dots from one line of the game's text to the next, in the debug screen and in the chat."""
@@ -31,6 +31,7 @@ class ScreenLayout:
         right_edge: columns from the last ink of the right column to the window's side; None where it is found
             from the first line of that column.
         has_target_column: the right column holds nothing but its first line and the block looked at.
+        has_facts: lines are names with values in colours of their own, in boxes with titles.
     """
 
     name: LayoutName
@@ -40,6 +41,7 @@ class ScreenLayout:
     has_one_grid: bool
     right_edge: int | None
     has_target_column: bool
+    has_facts: bool = False
 
 
 VANILLA = ScreenLayout(
@@ -51,7 +53,19 @@ VANILLA = ScreenLayout(
     right_edge=4,
     has_target_column=False,
 )
-"""The game's own, in every version (FACTS: The F3 debug screen)."""
+"""The game's own, to 26.3 (FACTS: The F3 debug screen)."""
+
+BOXES = ScreenLayout(
+    name="boxes",
+    pitch=LINE_PITCH,
+    text_colour=PLAIN,
+    box=Box(grey=80, behind=2),
+    has_one_grid=True,
+    right_edge=5,
+    has_target_column=False,
+    has_facts=True,
+)
+"""The game's own from 26.4 on."""
 
 
 @dataclass(frozen=True)

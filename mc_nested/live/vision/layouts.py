@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from mc_nested.live.vision.layout import VANILLA, LayoutName, ScreenLayout
+from mc_nested.live.vision.layout import BOXES, VANILLA, LayoutName, ScreenLayout
 from mc_nested.live.vision.standin import STANDIN
 
-LAYOUTS: Mapping[LayoutName, ScreenLayout] = {layout.name: layout for layout in (VANILLA, STANDIN)}
+LAYOUTS: Mapping[LayoutName, ScreenLayout] = {layout.name: layout for layout in (VANILLA, BOXES, STANDIN)}

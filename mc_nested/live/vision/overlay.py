@@ -4,18 +4,20 @@ A line is found by how it begins, its label, never by its row (FACTS: The F3 deb
 column.
 """
 
+import re
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.live.devices import Frame
+from mc_nested.live.vision.facts import fact_from
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
-from mc_nested.live.vision.layout import Overlay
-from mc_nested.live.vision.layouts import LAYOUTS
+from mc_nested.live.vision.layout import BOXES, VANILLA, Overlay
+from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.text_colours import INK_SPREAD, WHITE, Colour
-from mc_nested.live.vision.text_lines import is_text, positions_of
+from mc_nested.live.vision.text_lines import UNKNOWN, Line, is_text, positions_of
 
 SCALES = (8, 7, 6, 5, 4, 3, 2, 1)
 """The GUI scales that are looked for: the larger, the fewer dots there are to look through."""
@@ -25,6 +27,10 @@ REDUCED = "Chunk-relative:"
 TITLE = "Minecraft "
 OTHERS = ("Facing", "Chunk:", "Block:", TITLE, "Looking at", "Targeted ")
 """How other lines begin: they show that there is a debug screen where its position line can't be seen."""
+
+_VERSION = re.compile(r"Minecraft (\d+(?:\.\d+)+)")
+FIRST_WITH_BOXES = (26, 4)
+"""The first version whose debug screen is made of boxes."""
 
 _LEFT_COLUMN = 120
 """Columns in which a line of the left column begins: looking there first saves looking through the whole frame."""
@@ -94,8 +100,25 @@ def _least(overlay: Overlay) -> int:
 def _measured(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -> Overlay:
     """The overlay's colour from the ink of a known line, its layout from where the lines beside it stand."""
     colour, _ = _ink_of(dots, font, label, position)
-    overlays = [Overlay(dots.scale, layout, colour) for layout in LAYOUTS.values()]
+    boxes = Overlay(dots.scale, BOXES, colour)
+    if _is_of_boxes(fact_from(dots, font, boxes, position), label):
+        return boxes
+    overlays = [Overlay(dots.scale, layout, colour) for layout in (VANILLA, STANDIN)]
     return max(overlays, key=lambda overlay: _known_beside(dots, font, overlay, position))
+
+
+def _is_of_boxes(line: Line, label: str) -> bool:
+    """Whether a line that begins with ``label`` is one of 26.4 on, read as such."""
+    version = version_in(line.text)
+    if version is not None:
+        return version >= FIRST_WITH_BOXES
+    return line.has_value and line.text.startswith(label) and UNKNOWN not in line.text[: len(label) + 2]
+
+
+def version_in(text: str) -> tuple[int, ...] | None:
+    """The version that the debug screen's line about it names."""
+    version = _VERSION.match(text)
+    return tuple(int(part) for part in version[1].split(".")) if version else None
 
 
 def _ink_of(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -> tuple[Colour, NDArray[np.bool_]]:

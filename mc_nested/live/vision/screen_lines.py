@@ -4,11 +4,12 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
+from mc_nested.live.vision.facts import fact_from
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
 from mc_nested.live.vision.layout import Overlay, ScreenLayout
 from mc_nested.live.vision.notices import may_hide_lines
-from mc_nested.live.vision.text_lines import UNKNOWN, Line, line_from, line_up_to, positions_of
+from mc_nested.live.vision.text_lines import UNKNOWN, Line, is_text, line_from, line_up_to, positions_of
 
 WHOLE = r"(-?(?:0|[1-9]\d{0,7}))"
 """A whole number as the game prints it: no zeros before it, and no coordinate has more than eight digits."""
@@ -38,6 +39,9 @@ class DebugLines(Protocol):
 
     def ending(self, row: int, end: int) -> Line | None:
         """The line whose last ink is in column ``end``, read to the left; None where no ink is there."""
+
+    def begins(self, row: int, start: int) -> bool:
+        """Whether a line begins there, as far as its first letters say."""
 
     def right_column(self) -> Sequence[Line]:
         """The lines of the right column, the upper ones first; none where the layout doesn't say where it ends."""
@@ -90,7 +94,7 @@ class ScreenLines:
 
     def at(self, row: int, start: int) -> Line:
         if (row, start) not in self._lines:
-            self._lines[row, start] = line_from(self.dots, self._font, self.overlay, (row, start), self._right_end)
+            self._lines[row, start] = self._read(row, start, self._right_end)
             self.rows_read.add(row)
         return self._lines[row, start]
 
@@ -100,6 +104,9 @@ class ScreenLines:
         if line is not None:
             self._ended.append(line)
         return line
+
+    def begins(self, row: int, start: int) -> bool:
+        return is_text(self.dots, self._font, self.overlay, (row, start))
 
     def right_column(self) -> Sequence[Line]:
         if self._right_end is None:
@@ -114,11 +121,15 @@ class ScreenLines:
         if text == line.text:
             return line
         # What follows is the world beside the line's box. In the right column a line ends where the column does.
-        if not line.is_left or UNKNOWN in text:
+        if UNKNOWN in text or not (line.is_left or self.layout.has_facts):
             return None
         end = line.start + len(self._font.columns(text)) - 2
-        shorter = line_from(self.dots, self._font, self.overlay, (line.row, line.start), end)
+        shorter = self._read(line.row, line.start, end)
         return shorter if shorter.text == text else None
+
+    def _read(self, row: int, start: int, end: int | None) -> Line:
+        read = fact_from if self.layout.has_facts else line_from
+        return read(self.dots, self._font, self.overlay, (row, start), end)
 
     def _positions(self, label: str) -> list[GridPosition]:
         if label not in self.positions_seen:
@@ -167,6 +178,15 @@ def cut_to(lines: DebugLines, line: Line, text: str) -> Line:
 def not_a_form(line: Line | None) -> Unreadable:
     """What to raise where a line has another form than it should."""
     return Unreadable(f"a line reads {shown(line.text if line else '')}: {CLEAR}")
+
+
+def check_nothing_over(lines: DebugLines, line: Line) -> None:
+    """A line on which one of the right column may lie is unreadable: that one is drawn later.
+
+    Where its box covers the next letter, its own first letter stands just behind the end of this line's box.
+    """
+    if line.is_left and lines.begins(line.row, line.end + lines.layout.box.behind + 1):
+        raise Unreadable(f"a line of the right column lies over {shown(line.text)}: {CLEAR}")
 
 
 def check_whole(line: Line) -> None:

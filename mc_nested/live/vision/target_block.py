@@ -20,6 +20,7 @@ from mc_nested.live.vision.screen_lines import (
     WHOLE,
     DebugLines,
     Unreadable,
+    check_nothing_over,
     check_whole,
     cut_to,
     matched,
@@ -78,7 +79,9 @@ def _targeted(lines: DebugLines, targeted: Line) -> Target:
 
 def _position(lines: DebugLines, form: re.Pattern[str], line: Line) -> Block:
     text, x, y, z = matched(form, line)
-    check_whole(cut_to(lines, line, text))
+    whole = cut_to(lines, line, text)
+    check_whole(whole)
+    check_nothing_over(lines, whole)
     return int(x), int(y), int(z)
 
 
@@ -111,7 +114,9 @@ def _id_of(lines: DebugLines, line: Line) -> str:
     form = _ID.fullmatch(line.text, before)
     if form is None or (form[2] != "minecraft" and "minecraft".endswith(form[2])):
         raise Unreadable(f"the id of the block looked at reads {shown(line.text)}: {CLEAR}")
-    check_whole(cut_to(lines, line, line.text[:before] + form[1]))
+    whole = cut_to(lines, line, line.text[:before] + form[1])
+    check_whole(whole)
+    check_nothing_over(lines, whole)
     return form[1]
 
 

@@ -10,6 +10,11 @@ PLAIN: Colour = (224, 224, 224)
 """The debug screen's text, what is typed into the chat, and the buttons' labels before 1.16."""
 
 WHITE: Colour = (255, 255, 255)
+GLUE: Colour = (208, 208, 208)
+"""What stands between the values, which are white, of the debug screen from 26.4 on."""
+
+PURE_GREEN: Colour = (0, 255, 0)
+PURE_RED: Colour = (255, 0, 0)
 GREY: Colour = (170, 170, 170)
 AQUA: Colour = (85, 255, 255)
 YELLOW: Colour = (255, 255, 85)

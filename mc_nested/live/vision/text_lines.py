@@ -24,25 +24,25 @@ UNKNOWN = "\N{REPLACEMENT CHARACTER}"
 _VALUE_COLOURS = (GREEN, RED)
 """``true`` and ``false`` (FACTS: The F3 debug screen)."""
 
-_DARKEST, _BRIGHTEST = 40, 190
+DARKEST, BRIGHTEST = 40, 190
 """Darkest and brightest ground under any box: 45 to 157 in vanilla, 55 to 183 in the stand-in; the rest is slack for
 screens that change colours."""
 
 _WIDEST_BLANK = 13
 """Blank columns after which a line has ended: three spaces and the gap of one. A hidden digit is 6 columns wide."""
 
-_LONGEST = 480
+LONGEST = 480
 """Columns that a line can have: the narrowest screen has 320 (FACTS: The F3 debug screen), and no known line uses many
 more."""
 
-_LEFT_PART = 4
+LEFT_PART = 4
 """A line that begins in the first part of so many of a screen's width stands in the left column."""
 
 _BITS = (1 << np.arange(8, dtype=np.uint8))[:, np.newaxis]
 _THREE_LETTERS = 24
 """Columns that hold three letters or more in any font."""
 
-_MOSTLY = 288
+MOSTLY = 288
 """Columns within which most lines end: reading only these is faster."""
 
 _FLAT = 2
@@ -91,10 +91,10 @@ def line_from(dots: GlyphGrid, font: Font, overlay: Overlay, start: GridPosition
 
     Where text is aligned at a last column ``edge``, and the line is seen to end there, what lies behind is not read.
     """
-    left, colour, box = dots.columns // _LEFT_PART, overlay.colour, overlay.layout.box
-    line, is_bounded = _line_in(_pixels(dots, start, _MOSTLY), font, colour, box, start, left, edge)
+    left, colour, box = dots.columns // LEFT_PART, overlay.colour, overlay.layout.box
+    line, is_bounded = _line_in(pixels_from(dots, start, MOSTLY), font, colour, box, start, left, edge)
     if not is_bounded:
-        line, _ = _line_in(_pixels(dots, start, _LONGEST), font, colour, box, start, left, edge)
+        line, _ = _line_in(pixels_from(dots, start, LONGEST), font, colour, box, start, left, edge)
     return line
 
 
@@ -120,7 +120,7 @@ def _line_in(
 def is_text(dots: GlyphGrid, font: Font, overlay: Overlay, start: GridPosition) -> bool:
     """Whether a line begins at this row and column, as far as its first three characters say."""
     row, first = start
-    if not 0 <= row < dots.rows:
+    if not (0 <= row < dots.rows and 0 <= first < dots.columns):
         return False
     text, _ = decode(_in_the_box(_strip_of(dots.strip(row, first, first + _THREE_LETTERS), overlay.colour)), font)
     return len(text) > 2 and UNKNOWN not in text[:3]
@@ -131,9 +131,9 @@ def line_up_to(dots: GlyphGrid, font: Font, overlay: Overlay, end: GridPosition)
     row, last = end
     if not 0 <= row < dots.rows:
         return None
-    first = max(0, last + 1 - _LONGEST)
-    pixels = _pixels(dots, (row, first), last + 4 - first)
-    left = dots.columns // _LEFT_PART
+    first = max(0, last + 1 - LONGEST)
+    pixels = pixels_from(dots, (row, first), last + 4 - first)
+    left = dots.columns // LEFT_PART
     return _line_ending_in(pixels, font, overlay.colour, overlay.layout.box, (row, first), left, last)
 
 
@@ -194,7 +194,8 @@ def _gapped(columns: bytes, at: int, font: Font) -> Glyph | None:
     return None
 
 
-def _pixels(dots: GlyphGrid, begin: GridPosition, columns: int) -> bytes:
+def pixels_from(dots: GlyphGrid, begin: GridPosition, columns: int) -> bytes:
+    """The eight rows of dots from ``begin`` on, so many columns of them."""
     row, first = begin
     return dots.strip(row, first, first + columns).tobytes()
 
@@ -206,7 +207,7 @@ def _picture(pixels: bytes) -> Frame:
 def _strip_of(picture: Frame, *colours: Colour) -> _Strip:
     """A picture (8, columns, 3) with these colours as ink."""
     ink = ink_of(picture, *colours)
-    ground = np.asarray(cv2.inRange(picture, (_DARKEST,) * 3, (_BRIGHTEST,) * 3), np.uint8)
+    ground = np.asarray(cv2.inRange(picture, (DARKEST,) * 3, (BRIGHTEST,) * 3), np.uint8)
     return _Strip(picture, columns_of(ink), np.bitwise_and.reduce(ink | ground, axis=0).tobytes())
 
 

@@ -1,6 +1,7 @@
 """The line that is being typed into the chat: whether it is there, and whether it holds a certain text."""
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 import cv2
 import numpy as np
@@ -32,6 +33,9 @@ _COLOURS = (PLAIN, GREY, AQUA, YELLOW, GREEN, LIGHT_PURPLE, GOLD, RED)
 """What is typed is plain, and from 1.13 on the parts of a command are coloured. As many as a byte has bits."""
 
 
+_GREY_BIT = 1 << _COLOURS.index(GREY)
+
+
 def _near(colours: Sequence[Colour]) -> NDArray[np.uint8]:
     """For a pixel's blue, green and red, by their values (3, 256): bit n where it is near that of colour n."""
     values = np.arange(256)[:, np.newaxis, np.newaxis]
@@ -44,6 +48,10 @@ _SHADOW = _near([(red >> 2, green >> 2, blue >> 2) for red, green, blue in _COLO
 
 _GROUND = 150
 """Brighter than anything behind the line, which is half black; some channel of any text is brighter still."""
+
+_SLANTS = ((1, 1, 0, 0, 0, 0, -1, -1), (1, 0, 0, 0, 0, -1, -1, -1))
+"""How many dots to the right each row of a slanted letter stands, from the top: in the middles of dots of odd sizes and
+of six or eight pixels, and just beyond them in dots of two or four (FACTS: The chat's line)."""
 
 _LEAST_INK = 3
 
@@ -68,7 +76,10 @@ def typed_line_dots(frame: Frame, scale: int) -> Frame:
 
 
 def begins_a_line(dots: Frame, font: Font) -> bool:
-    """Whether these dots, ``FIRST_COLUMNS`` of them in a row, show a shadowed letter of what is typed."""
+    """Whether these dots, ``FIRST_COLUMNS`` of them in a row, show a shadowed letter of what is typed, or of a draft.
+
+    A draft is what was typed before and not sent, grey and slanted: the letter beside may lean into the gap.
+    """
     near = _colours_near(dots, _LETTER)
     ink, below = near[:-1, :-1], near[1:, 1:]
     lit = ink > 0
@@ -77,8 +88,25 @@ def begins_a_line(dots: Frame, font: Font) -> bool:
     casts = ink & _colours_near(dots[1:, 1:], _SHADOW)
     if not (casts | below)[lit].all():
         return False
-    columns = np.packbits(lit[:GLYPH_ROWS], axis=0, bitorder="little").tobytes()
-    return any(columns.startswith(glyph + b"\0") for glyph in font.glyphs.values())
+    columns, grey = (
+        np.packbits(dots[:GLYPH_ROWS], axis=0, bitorder="little").tobytes() for dots in (lit, ink & _GREY_BIT > 0)
+    )
+    if any(columns.startswith(glyph + b"\0") for glyph in font.glyphs.values()):
+        return True
+    return any(grey) and any(grey.startswith(letter) for letter in _slanted(font))
+
+
+@lru_cache(2)
+def _slanted(font: Font) -> frozenset[bytes]:
+    """The font's letters slanted, without what leans out of their own columns."""
+    letters = set()
+    for glyph in font.glyphs.values():
+        dots = np.unpackbits(np.frombuffer(glyph, np.uint8)[np.newaxis], axis=0, bitorder="little")
+        for slant in _SLANTS:
+            room = np.pad(dots, ((0, 0), (1, 1)))
+            leant = np.stack([np.roll(row, right) for row, right in zip(room, slant, strict=True)])[:, 1:-1]
+            letters.add(np.packbits(leant, axis=0, bitorder="little").tobytes())
+    return frozenset(letters)
 
 
 def _colours_near(dots: Frame, near: NDArray[np.uint8]) -> NDArray[np.uint8]:

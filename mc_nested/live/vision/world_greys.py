@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.live.devices import Frame, Region
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.vision.chat_region import messages_region
 from mc_nested.live.vision.debug_boxes import ALPHA, BRIGHTEST, GREY, ink_of, line_boxes
 
@@ -32,13 +33,13 @@ _OFF_HAND = 29
 Floats = NDArray[np.float32]
 
 
-def world_greys(frame: Frame, scale: int) -> NDArray[np.uint8]:
-    """The world on a picture of the whole window (height, width, 3) at a GUI scale, as greys (84, 84)."""
+def world_greys(frame: Frame, scales: Scales) -> NDArray[np.uint8]:
+    """The world on a picture of the whole window (height, width, 3) at these scales, as greys (84, 84)."""
     greys = cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY).astype(np.float32)
     seen = np.ones_like(greys)
-    for box in line_boxes(frame, scale):
-        _look_through(frame, greys, seen, box, scale)
-    for region in hidden_regions((frame.shape[1], frame.shape[0]), scale):
+    for box in line_boxes(frame, scales.debug):
+        _look_through(frame, greys, seen, box, scales.debug)
+    for region in hidden_regions((frame.shape[1], frame.shape[0]), scales.gui):
         seen[_part(region)] = 0
     share = _smaller(seen)
     means = _smaller(greys * seen) / np.maximum(share, _LEAST_SEEN)

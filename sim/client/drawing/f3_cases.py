@@ -1,6 +1,7 @@
 """Random debug screens and worlds behind them, to test a reader on. The same seed gives the same frames."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -10,7 +11,10 @@ from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.overlay import SCALES
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.scenery import WORLDS, random_world
-from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+from sim.client.game.debug_entries import TUTORIAL, known_entries, shown_entries
+from sim.client.game.edition import Edition, Layout
+from sim.client.game.f3_screen import BY_ENTRIES, F3Screen
+from sim.client.game.f3_text import LAYOUTS
 
 __all__ = ["WINDOWS", "WORLDS", "expected", "frames", "random_screen", "random_world"]
 
@@ -23,10 +27,23 @@ REACHES = (16, 1_000, 100_000, 29_999_000)
 ROOMY = 480
 """GUI pixels of width from which on two columns have room for any coordinates."""
 
+_WIDE = 620
+"""GUI pixels from which on any two columns, and the boxes of 26.4 in any, lie beside each other.
+
+All windows are as wide for 26.4 at its default scale.
+"""
+
 _IDS = ("stone", "oak_planks", "oak_log", "grass_block", "dirt", "polished_blackstone_brick_wall", "tnt", "white_wool")
+_LONG = 16
+"""Letters of an id that has no room beside the other column in a narrow window."""
+
 _OLD_IDS = ("stone", "planks", "log", "grass", "stone_brick_stairs", "tnt", "wool")
 """Of 1.12, whose row of the id is that of the Facing line."""
 
+_BY_ENTRIES: dict[Layout, tuple[str, ...]] = {
+    "1.21.9-26.3": ("1.21.9", "1.21.11", "26.1", "26.2", "26.3"),
+    "26.4": ("26.4-snapshot-2", "26.4", "27.1"),
+}
 _PROPERTIES = (("axis", "y"), ("snowy", "false"), ("waterlogged", "true"), ("facing", "north"))
 _TAGS = ("minecraft:planks", "minecraft:mineable/axe", "c:villager_job_sites")
 
@@ -42,29 +59,42 @@ def frames(font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS
         layout = LAYOUTS[count % len(LAYOUTS)]
         width, height = windows[(count // len(LAYOUTS)) % len(windows)]
         scale = min(1 + (count // (len(LAYOUTS) * len(windows))) % len(SCALES), width // 320, height // 240)
+        if layout == "26.4":
+            scale = min(scale, max(1, width // _WIDE))
         # Where the columns are near each other, the position and the block looked at share a row.
         reaches = REACHES if -(-width // scale) >= ROOMY else REACHES[:-1]
-        screen = random_screen(rng, layout, scale, reaches)
+        screen = random_screen(rng, layout, scale, reaches, has_more=width >= _WIDE * scale)
         yield screen, paint(random_world(rng, WORLDS[int(rng.integers(len(WORLDS)))], width, height), screen, font)
         count += 1
 
 
 def random_screen(
-    rng: np.random.Generator, layout: Layout, gui_scale: int, reaches: tuple[int, ...] = REACHES
+    rng: np.random.Generator,
+    layout: Layout,
+    gui_scale: int,
+    reaches: tuple[int, ...] = REACHES,
+    *,
+    has_more: bool = True,
 ) -> F3Screen:
-    """A screen with coordinates of one of these reaches, any view, and mostly a target block."""
+    """A screen with coordinates of one of these reaches, any view, and mostly a target block.
+
+    From 1.21.9 on it may have other entries than the tutorial asks for, unless ``has_more`` is false.
+    """
     reach = float(rng.choice(reaches))
     x, z = (float(value) for value in rng.uniform(-reach, reach, 2))
-    near = tuple(int(value) for value in np.floor((x, rng.uniform(-64, 319), z)) + rng.integers(-4, 5, 3))
+    y = float(rng.uniform(-64, 319))
+    near = tuple(int(value) for value in np.floor((x, y, z)) + rng.integers(-4, 5, 3))
     block: Block = (near[0], near[1], near[2])
     target = rng.random() < 0.8
     is_standin, is_old = layout == "standin", layout == "1.8-1.12"
-    ids = _OLD_IDS if is_old else _IDS
+    ids: tuple[str, ...] = _OLD_IDS if is_old else _IDS
+    if layout in BY_ENTRIES and not has_more:  # the id and the chunk stand beside each other
+        ids = tuple(each for each in ids if len(each) < _LONG)
     name = ids[int(rng.integers(len(ids)))]
     return F3Screen(
         layout,
         gui_scale,
-        (x, float(rng.uniform(-64, 319)), z),
+        (x, y, z),
         float(rng.uniform(-180, 180)),
         float(rng.uniform(-90, 90)),
         target=Target(block, name if is_standin else f"minecraft:{name}") if target else None,
@@ -72,8 +102,26 @@ def random_screen(
         tags=() if is_standin or is_old else _TAGS[: int(rng.integers(len(_TAGS) + 1))],
         # A fluid without a block behind it is not read for sure: that block may be covered.
         fluid=block if target and rng.random() < 0.2 else None,
-        swapped=layout == "1.21.9-26.3" and bool(rng.random() < 0.5),
+        **(_chosen(rng, layout, block) if has_more else {}),
     )
+
+
+def _chosen(rng: np.random.Generator, layout: Layout, block: Block) -> dict[str, Any]:
+    """From 1.21.9 on, a version, and entries that are on with the tutorial's or in their place."""
+    if layout not in BY_ENTRIES:
+        return {}
+    version = str(rng.choice(_BY_ENTRIES[layout]))
+    known = known_entries(Edition(version))
+    asked = shown_entries(TUTORIAL, Edition(version), has_f3=True)
+    needed = {"player_position", *(entry for entry in asked if entry.startswith("looking_at_block"))}
+    kept = needed if rng.random() < 0.3 else {*needed, *asked}
+    more = {entry for entry in known if rng.random() < 0.1}
+    return {
+        "version": version,
+        "entries": tuple(sorted(kept | more)),
+        "has_f3": bool(rng.random() < 0.7),
+        "entity": (block[0] + 0.5, float(block[1]), block[2] + 0.5) if rng.random() < 0.2 else None,
+    }
 
 
 def expected(screen: F3Screen) -> Reading:

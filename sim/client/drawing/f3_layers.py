@@ -8,11 +8,12 @@ from typing import NamedTuple
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import Font
-from sim.client.drawing.f3_groups import group_layers
+from sim.client.drawing.f3_boxes import F3Boxes
 from sim.client.drawing.layers import Blend, Group, Layer, draw_all
 from sim.client.drawing.letters import Letters
-from sim.client.game.colours import Colour
-from sim.client.game.f3_text import F3Screen, Part, TextLine, left_parts, right_parts
+from sim.client.game.colours import TEXT, WHITE, Colour
+from sim.client.game.f3_screen import F3Screen, Part, TextLine
+from sim.client.game.f3_text import both_columns
 
 
 class _Style(NamedTuple):
@@ -30,8 +31,8 @@ class _Style(NamedTuple):
     text: Colour
 
 
-_VANILLA = _Style(pitch=9, empty=9, edge=2, box=(80, 80, 80), alpha=144, margin=1, text=(224, 224, 224))
-_STANDIN = _Style(pitch=10, empty=9, edge=1, box=(110, 110, 110), alpha=128, margin=0, text=(255, 255, 255))
+_VANILLA = _Style(pitch=9, empty=9, edge=2, box=(80, 80, 80), alpha=144, margin=1, text=TEXT)
+_STANDIN = _Style(pitch=10, empty=9, edge=1, box=(110, 110, 110), alpha=128, margin=0, text=WHITE)
 
 _VALUES: dict[str, Colour] = {"true": (85, 255, 85), "false": (255, 85, 85)}
 
@@ -46,27 +47,30 @@ def paint(world: Frame, screen: F3Screen, font: Font) -> Frame:
     """
     frame: Frame = world.copy()
     height, width = world.shape[:2]
-    layers = F3Layers(Letters(font, screen.gui_scale), width).of(screen)
+    gui = (-(-width // screen.gui_scale), -(-height // screen.gui_scale))
+    layers = F3Layers(Letters(font, screen.gui_scale), gui).of(screen)
     draw_all(frame, layers, (0, 0, width, height))
     return frame
 
 
 class F3Layers:
-    """Debug screens as layers in a window ``width`` pixels wide; a part that didn't change is the same layer again."""
+    """Debug screens as layers in a window of a size in GUI pixels; a part that didn't change is the same layer again.
 
-    def __init__(self, letters: Letters, width: int) -> None:
-        self._letters = letters
-        # The last GUI pixel may be cut (FACTS: The F3 debug screen).
-        self._columns = -(-width // letters.scale)
+    The last GUI pixel may be cut (FACTS: The F3 debug screen).
+    """
+
+    def __init__(self, letters: Letters, gui: tuple[int, int]) -> None:
+        self._letters, self._columns = letters, gui[0]
+        self._boxes = F3Boxes(letters, gui)
         self._part = lru_cache(_KEPT)(self._drawn_part)
 
     def of(self, screen: F3Screen) -> list[Layer]:
         """The layers of one debug screen, from the back to the front."""
         if screen.layout == "26.4":
-            return group_layers(screen, self._letters)
+            return self._boxes.of(screen)
         is_standin = screen.layout == "standin"
         layers: list[Layer] = []
-        for parts, is_right in ((left_parts(screen), False), (right_parts(screen), True)):
+        for parts, is_right in zip(both_columns(screen), (False, True), strict=True):
             top = (_STANDIN if is_standin else _VANILLA).edge
             for part in parts:
                 drawn, top = self._part(part, top, is_right, is_standin)

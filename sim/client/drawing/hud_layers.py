@@ -5,8 +5,8 @@ from functools import lru_cache
 from sim.client.drawing.block_colours import block_colour
 from sim.client.drawing.layers import Blend, Layer, Rect
 from sim.client.drawing.letters import Letters
-from sim.client.game.chat import ChatLine
-from sim.client.game.colours import Colour
+from sim.client.game.chat import ChatLine, TypedLine
+from sim.client.game.colours import DRAFT, PLAIN, Colour
 from sim.client.game.edition import Edition
 from sim.client.game.realm import Stack
 from sim.client.game.view import View
@@ -15,6 +15,12 @@ _CHAT_WIDTH = 320
 _PITCH = 9
 _OPAQUE = 8
 _AXES: tuple[Colour, ...] = ((255, 0, 0), (0, 255, 0), (127, 127, 255))
+
+_HOTBAR_FRAME = {0: 0, 1: 0x93, 2: 0x5D, 19: 0x7E, 20: 0x5D, 21: 0}
+"""The greys of the hotbar's rows that let nothing through, from its top (FACTS: Screens and their buttons)."""
+
+_CHOSEN: Colour = (240, 240, 240)
+"""The frame around the chosen slot."""
 
 
 class HudLayers:
@@ -34,15 +40,15 @@ class HudLayers:
         """Crosshair and hotbar."""
         if not view.hotbar:
             return []
-        return [*self._crosshair(view.f3 is not None), *self._hotbar(view.hotbar, view.slot)]
+        return [*self._crosshair(view.f3 is not None and view.f3.has_axes), *self._hotbar(view.hotbar, view.slot)]
 
-    def chat(self, lines: tuple[ChatLine, ...], typed: str | None) -> list[Layer]:
+    def chat(self, lines: tuple[ChatLine, ...], typed: TypedLine | None) -> list[Layer]:
         """The chat's lines, the newest at the bottom, and the line being typed."""
         layers: list[Layer] = []
         row = 0
         for line in lines:
             for text in reversed(self._wrapped(line.text)):
-                layers += self._line(text, line.colour, line.opacity, row)
+                layers += self._line(line._replace(text=text), row)
                 row += 1
         return layers + (self._input(typed) if typed is not None else [])
 
@@ -60,9 +66,16 @@ class HudLayers:
 
     def _drawn_hotbar(self, hotbar: tuple[Stack | None, ...], slot: int) -> list[Layer]:
         left, top = self._width // 2 - 91, self._height - 22
-        layers: list[Layer] = [self._fill((left, top, left + 182, top + 22), (0, 0, 0), 128)]
+        layers: list[Layer] = [
+            self._fill((left, top, left + 182, top + 22), (0, 0, 0), 128),
+            *(
+                self._fill((left, top + row, left + 182, top + row + 1), (shade, shade, shade))
+                for row, shade in _HOTBAR_FRAME.items()
+            ),
+        ]
         chosen = left + 20 * slot
-        layers.append(self._fill((chosen - 1, top - 1, chosen + 23, top + 22), (255, 255, 255), 100))
+        ring = ((-1, -1, 23, 2), (-1, 2, 2, 20), (20, 2, 23, 20), (-1, 20, 23, 22))
+        layers += [self._fill((chosen + x, top + y, chosen + w, top + h), _CHOSEN) for x, y, w, h in ring]
         for index, stack in enumerate(hotbar):
             if stack is None:
                 continue
@@ -84,19 +97,25 @@ class HudLayers:
                 lines[-1] = longer
         return lines
 
-    def _drawn_line(self, text: str, colour: Colour, opacity: int, row: int) -> list[Layer]:
+    def _drawn_line(self, line: ChatLine, row: int) -> list[Layer]:
+        text, colour, opacity, ground = line
         bottom = self._chat_bottom - _PITCH * row
         faded = (colour[0] * opacity // _OPAQUE, colour[1] * opacity // _OPAQUE, colour[2] * opacity // _OPAQUE)
         return [
-            self._fill((0, bottom - _PITCH, _CHAT_WIDTH + 8, bottom), (0, 0, 0), 128 * opacity // _OPAQUE),
+            self._fill((0, bottom - _PITCH, _CHAT_WIDTH + 8, bottom), (0, 0, 0), ground * opacity // _OPAQUE),
             self._letters.text(text, 4, bottom - _PITCH + 1, faded, shadow=True),
         ]
 
-    def _drawn_input(self, typed: str) -> list[Layer]:
-        shown = f"{typed}_"
-        while self._letters.width(shown) > self._width - 8:
+    def _drawn_input(self, typed: TypedLine) -> list[Layer]:
+        letters, top = self._letters, self._height - 12
+        shown, cursor = typed.text, "_"
+        while letters.width(shown + cursor) > self._width - 8:
             shown = shown[1:]
+        ground = self._fill((2, self._height - 14, self._width - 2, self._height - 2), (0, 0, 0), typed.ground)
+        if not typed.is_draft:
+            return [ground, letters.text(shown + cursor, 4, top, PLAIN, shadow=True)]
         return [
-            self._fill((2, self._height - 14, self._width - 2, self._height - 2), (0, 0, 0), 128),
-            self._letters.text(shown, 4, self._height - 12, (224, 224, 224), shadow=True),
+            ground,
+            letters.text(shown, 4, top, DRAFT, shadow=True, is_slanted=True),
+            letters.text(cursor, 4 + letters.width(shown), top, PLAIN, shadow=True),
         ]

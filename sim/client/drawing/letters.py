@@ -33,35 +33,67 @@ class Letters:
         """A text's width in the game, in GUI pixels; characters that the font lacks are question marks."""
         return len(self._columns(text))
 
-    def text(self, text: str, left: int, top: int, colour: Colour, *, shadow: bool = False, size: int = 1) -> Ink:
-        """A text with its upper left corner at a position in GUI pixels; ``size`` is 2 for a large title."""
+    def text(
+        self,
+        text: str,
+        left: int,
+        top: int,
+        colour: Colour,
+        *,
+        shadow: bool = False,
+        size: int = 1,
+        is_slanted: bool = False,
+    ) -> Ink:
+        """A text with its upper left corner at a position in GUI pixels; ``size`` is 2 for a large title.
+
+        A slanted one reaches a GUI pixel beyond that corner, and beyond its right edge.
+        """
         x, y, step = left * self.scale, top * self.scale, self.scale * size
         right, bottom = x + (self.width(text) + shadow) * step, y + (_ROWS + shadow) * step
-        return Ink((x, y, right, bottom), partial(self._dots, text, colour, shadow, size))
+        if is_slanted:
+            x, right = x - step, right + step
+        return Ink((x, y, right, bottom), partial(self._dots, text, colour, shadow, size, is_slanted))
 
     def _found(self, text: str) -> bytes:
         glyphs, unknown = self._glyphs, self._unknown
         return b"".join([glyphs.get(char, unknown) for char in text])
 
-    def _drawn(self, text: str, colour: Colour, shadow: bool, size: int) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
+    def _drawn(
+        self, text: str, colour: Colour, shadow: bool, size: int, is_slanted: bool
+    ) -> tuple[NDArray[np.uint8], NDArray[np.uint8]]:
         columns, step = self._columns(text), self.scale * size
         rows = b"".join([columns.translate(row) for row in _DOTS])
         lit = np.frombuffer(rows, np.uint8).reshape(_ROWS, len(columns))
+        if is_slanted:
+            lit, step = _slanted(lit, step), 1
         if not shadow:
             mask = _enlarged(lit, step)
             height, width = mask.shape
             return mask, _sheet(colour, height, -(-width // _SHEET) * _SHEET)[:, :width]
-        whole = np.zeros((_ROWS + 1, len(columns) + 1), np.uint8)
-        whole[1:, 1:] = lit
+        far = self.scale * size // step
+        whole = np.zeros((lit.shape[0] + far, lit.shape[1] + far), np.uint8)
+        whole[far:, far:] = lit
         # The game's shadow (FACTS: Screens and their buttons): the colour's upper six bits, shifted right by two.
         colours = np.full((*whole.shape, 3), [(part & 0xFC) >> 2 for part in colour[::-1]], np.uint8)
-        colours[:_ROWS, :-1][lit > 0] = colour[::-1]
-        whole[:_ROWS, :-1] |= lit
+        colours[:-far, :-far][lit > 0] = colour[::-1]
+        whole[:-far, :-far] |= lit
         return _enlarged(whole, step), _enlarged(colours, step)
 
 
 def _enlarged(dots: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
     return dots.repeat(step, 1).repeat(step, 0)
+
+
+def _slanted(dots: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
+    """Dots at ``step`` pixels each, a dot wider on either side: the top is a dot to the right, the bottom to the left.
+
+    A quarter of a dot a dot, of each pixel's middle (FACTS: The chat's line).
+    """
+    rows, columns = dots.shape
+    down, right = np.mgrid[: rows * step, : (columns + 2) * step]
+    at = np.floor((right + 0.5) / step - 2 + 0.25 * (down + 0.5) / step).astype(int)
+    seen = dots[down // step, np.clip(at, 0, columns - 1)]
+    return np.where((at >= 0) & (at < columns), seen, 0).astype(np.uint8)
 
 
 @lru_cache(32)

@@ -5,16 +5,19 @@ from functools import lru_cache
 
 from sim.client.drawing.layers import Blend, Gradient, Layer, Rect
 from sim.client.drawing.letters import Letters
-from sim.client.game.colours import Colour
+from sim.client.game.colours import WHITE, Colour
 from sim.client.game.edition import Edition
-from sim.client.game.screens import MenuState, MenuText, Widget, label_colour, menu
+from sim.client.game.screens import MenuState, ScreenName, label_colour, menu
 from sim.client.game.view import View
+from sim.client.game.widgets import MenuText, Panel, Widget
 
 _BLACK: Colour = (0, 0, 0)
 _DIM = ((16, 16, 16), 192), ((16, 16, 16), 208)
+_DIMMED: frozenset[ScreenName] = frozenset({"pause", "debug_options", "friends"})
 _RED = ((80, 0, 0), 96), ((128, 48, 48), 160)
 _PANELS = {True: (195, 136, "Building Blocks"), False: (176, 166, "Crafting")}
 _DARK: Colour = (64, 64, 64)
+_PANEL: Colour = (24, 24, 24)
 
 
 class MenuLayers:
@@ -37,11 +40,12 @@ class MenuLayers:
 
     def _drawn_menu(self, state: MenuState, hovered: int) -> list[Layer]:
         layers: list[Layer] = []
-        if state.name == "pause":
+        if state.name in _DIMMED:
             layers.append(self._gradient(*_DIM))
         elif state.name == "death":
             layers.append(self._gradient(*_RED))
         shown = menu(state, self._edition, *self._gui)
+        layers += [self._fill(_rect(panel), _PANEL, panel.alpha) for panel in shown.panels]
         for index, button in enumerate(shown.buttons):
             if button.is_drawn:
                 layers += self._button(button, is_hovered=index == hovered)
@@ -65,14 +69,17 @@ class MenuLayers:
         face: Colour = (111, 111, 111) if button.is_active else (44, 44, 44)
         if is_hovered and button.is_active:
             face = (126, 136, 191)
-        colour = label_colour(button, self._edition, is_hovered=is_hovered)
-        label = self._words.get(button.label, button.label)
-        wide = self._letters.width(label)
-        return [
+        plain = [
             self._fill((left, top, right, bottom), _BLACK),
             self._fill((left + 1, top + 1, right - 1, bottom - 1), face),
-            self._letters.text(label, left + (button.width - wide) // 2, top + 6, colour, shadow=True),
         ]
+        if not button.label:
+            # A picture of the project's own: what it shows matters to nobody.
+            return [*plain, self._fill((left + 5, top + 5, right - 5, bottom - 5), WHITE)]
+        colour = button.colour or label_colour(button, self._edition, is_hovered=is_hovered)
+        label = self._words.get(button.label, button.label)
+        across, down = (button.width - self._letters.width(label)) // 2, (button.height - 8) // 2
+        return [*plain, self._letters.text(label, left + across, top + down, colour, shadow=True)]
 
     def _text(self, text: MenuText) -> Layer:
         words = self._words.get(text.text, text.text)
@@ -88,5 +95,5 @@ class MenuLayers:
         return Gradient((0, 0, self._gui[0] * scale, self._gui[1] * scale), upper, lower)
 
 
-def _rect(button: Widget) -> Rect:
-    return button.left, button.top, button.left + button.width, button.top + button.height
+def _rect(shown: Widget | Panel) -> Rect:
+    return shown.left, shown.top, shown.left + shown.width, shown.top + shown.height

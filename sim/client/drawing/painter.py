@@ -7,6 +7,7 @@ import numpy as np
 
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Block
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.vision.font import Font
 from sim.client.drawing.picture import LayeredPicture
 from sim.client.drawing.scenery import SEEN, random_world
@@ -24,11 +25,11 @@ _DIRT, _TILE = 40, 32
 
 
 class Painter:
-    """Draws a game in a window of one size, at one GUI scale.
+    """Draws a game in a window of one size, at one pair of scales.
 
     Args:
         size: the window's width and height in framebuffer pixels.
-        scale: framebuffer pixels a GUI pixel.
+        scales: framebuffer pixels a GUI pixel, of the GUI and of the debug screen.
         font: the font of all texts.
         edition: the game's version.
         kind: the kind of world behind the text, of ``scenery.WORLDS``, bright, dark or ``scenery.SEEN``.
@@ -39,7 +40,7 @@ class Painter:
     def __init__(
         self,
         size: tuple[int, int],
-        scale: int,
+        scales: Scales,
         font: Font,
         edition: Edition,
         kind: str,
@@ -54,7 +55,7 @@ class Painter:
         tile = rng.integers(0, _DIRT, (_TILE, _TILE, 3), np.uint8)
         self._dirt: Frame = np.tile(tile, (-(-height // _TILE), -(-width // _TILE), 1))[:height, :width]
         self._worlds = WorldLayers(size)
-        self._layers = ViewLayers(size, scale, font, edition, words or {})
+        self._layers = ViewLayers(size, scales, font, edition, words or {})
         self._scene = lru_cache(2 * _SHIFTS)(self._moved)
         self._shown: View | None = None
         self._picture = LayeredPicture(self._dirt)

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from sim.client.game.game import VirtualGame
-from sim.client.game.screens import menu
+from sim.client.game.screens import FRIENDS, menu
 
 DEGREES_A_PIXEL = 0.15
 """How far a movement of the mouse by a pixel turns the view, at the game's own sensitivity (FACTS: Keys)."""
@@ -11,6 +11,8 @@ DEGREES_A_PIXEL = 0.15
 DOUBLE_CLICK_S = 0.25
 
 _F3_LETTERS = frozenset("abcdfghilnpqstv")
+_FRIENDS = "o"
+_FRIENDS_OPEN_OVER = frozenset({"world", "pause", "paused", "title"})
 _CONTROL = ("left.control", "right.control", "ctrl")
 
 
@@ -31,6 +33,7 @@ class Controls:
         self.pauses_unfocused = True
         """``pauseOnLostFocus``, which F3+P changes."""
         self._f3_used = False
+        self._f3_keys = {"esc", "f6"} if game.edition.since(1, 21, 9) else {"esc"}
         self._last_click = (-1.0, (-1, -1))
 
     def key(self, key: str, *, is_down: bool) -> None:
@@ -43,23 +46,26 @@ class Controls:
                 game.has_f3 = not game.has_f3
             return
         game.keys.physical.add(key)
-        if game.screen == "world":
+        if key == _FRIENDS and game.edition.since(26, 2) and game.screen in _FRIENDS_OPEN_OVER:
+            game.open_friends()
+        elif game.screen == "world":
             self._in_world(key)
         elif game.screen == "chat":
             self._in_chat(key)
-        elif key == "esc":
-            self._escape()
-        elif key == "e" and game.screen == "inventory":
-            game.open("world")
-        elif key == "enter" and game.screen == "worlds" and game.is_world_chosen and game.edition.since(1, 16):
-            game.do("enter_selected")
+        else:
+            self._in_menu(key)
         if key == "f3":
             self._f3_used = game.screen != "world"
 
     def character(self, text: str) -> None:
-        """A character comes, which a key typed or a program sent: only the chat takes any, and none beside Ctrl."""
-        if self._game.screen == "chat" and not self._game.keys.physical.intersection(_CONTROL):
-            self._game.chat.insert(text)
+        """A character comes, which a key typed or a program sent; beside Ctrl none counts."""
+        game = self._game
+        if game.keys.physical.intersection(_CONTROL):
+            return
+        if game.screen == "chat":
+            game.chat.insert(text)
+        elif game.screen == "debug_options":
+            game.searched += text
 
     def button(
         self, button: str, position: tuple[int, int], size: tuple[int, int], now: float, *, is_down: bool
@@ -93,7 +99,7 @@ class Controls:
 
     def _in_world(self, key: str) -> None:
         game = self._game
-        if key != "f3" and "f3" in game.keys.physical and (key in _F3_LETTERS or key == "esc"):
+        if key != "f3" and "f3" in game.keys.physical and (key in _F3_LETTERS or key in self._f3_keys):
             self._f3_used = True
             self._combine(key)
         elif key == "esc":
@@ -106,8 +112,8 @@ class Controls:
     def _combine(self, key: str) -> None:
         """F3 and another key."""
         game = self._game
-        player, is_reduced = game.realm.player, game.realm.rule("reducedDebugInfo", "reduced_debug_info", False)
-        if key == "c" and game.edition.since(1, 13) and not is_reduced:
+        player = game.realm.player
+        if key == "c" and game.edition.since(1, 13) and not game.is_info_reduced:
             position = " ".join(f"{part:.2f}" for part in (*player.feet, player.yaw, player.pitch))
             self._write_clipboard(f"/execute in minecraft:overworld run tp @s {position}")
             game.chat.say("[Debug]: Copied location to clipboard", game.ticks)
@@ -117,15 +123,18 @@ class Controls:
             self.pauses_unfocused = not self.pauses_unfocused
             state = "enabled" if self.pauses_unfocused else "disabled"
             game.chat.say(f"[Debug]: Pause on lost focus: {state}", game.ticks)
+        elif key == "f6":
+            game.open("debug_options")
         elif key == "esc":
-            game.open("pause")
+            game.open("paused" if game.edition.since(1, 14) else "pause")
 
     def _in_chat(self, key: str) -> None:
         game = self._game
         if key == "esc":
-            game.open("world")
+            game.leave_chat()
         elif key == "enter":
             line = (game.chat.typed or "").strip()
+            game.chat.close(keeps_draft=False)
             game.open("world")
             if line:
                 game.send(line)
@@ -137,11 +146,26 @@ class Controls:
             elif key == "a":
                 game.chat.is_selected = True
 
+    def _in_menu(self, key: str) -> None:
+        game = self._game
+        if key == "esc":
+            self._escape()
+        elif key == "e" and game.screen == "inventory":
+            game.open("world")
+        elif key == "backspace" and game.screen == "debug_options":
+            game.searched = game.searched[:-1]
+        elif key == _FRIENDS and game.screen in FRIENDS:
+            game.close_friends()
+        elif key == "enter" and game.screen == "worlds" and game.is_world_chosen and game.edition.since(1, 16):
+            game.do("enter_selected")
+
     def _escape(self) -> None:
         """Esc closes a screen over the world, and the lists; after a death or a disconnection it does nothing."""
         game = self._game
-        if game.screen in ("pause", "inventory"):
+        if game.screen in ("pause", "paused", "inventory", "debug_options"):
             game.open("world")
+        elif game.screen in FRIENDS:
+            game.close_friends()
         elif game.screen in ("worlds", "servers"):
             game.open("title")
 

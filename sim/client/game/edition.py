@@ -3,8 +3,10 @@
 import re
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal
 
-from sim.client.game.f3_text import Layout
+Layout = Literal["1.8-1.12", "1.13-1.15", "1.16-1.19.2", "1.19.3-1.21.8", "1.21.9-26.3", "standin", "26.4"]
+"""How a debug screen is laid out: by the versions that have it, or the stand-in's."""
 
 _LAYOUTS: tuple[tuple[tuple[int, ...], Layout], ...] = (
     ((26, 4), "26.4"),

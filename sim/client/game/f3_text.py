@@ -1,119 +1,61 @@
-"""The text of each version's debug screen, line by line (FACTS: The F3 debug screen)."""
+"""The text of each version's debug screen, line by line (FACTS: The F3 debug screen).
 
-from dataclasses import dataclass
+From 1.21.9 on it is made from entries (entry_lines.py), and 26.4 puts it into boxes (f3_boxes.py).
+"""
+
 from functools import lru_cache
 from itertools import chain
-from math import floor
-from typing import Literal, NamedTuple, get_args
+from typing import get_args
 
-from mc_nested.live.model.reading import Block, Target
+from sim.client.game.box_columns import box_columns
+from sim.client.game.edition import Layout
+from sim.client.game.entry_boxes import Box
+from sim.client.game.entry_lines import entry_columns
+from sim.client.game.f3_screen import F3Screen, Part, TextLine
+from sim.client.game.places import chunk_of, towards
 
-Layout = Literal["1.8-1.12", "1.13-1.15", "1.16-1.19.2", "1.19.3-1.21.8", "1.21.9-26.3", "standin", "26.4"]
-LAYOUTS: tuple[Layout, ...] = tuple(layout for layout in get_args(Layout) if layout != "26.4")
-"""Those that can be read; 26.4 puts the same contents into boxes (drawing/f3_groups.py)."""
+__all__ = ["LAYOUTS", "F3Screen", "Layout", "Part", "TextLine", "both_columns", "left_lines", "right_lines"]
 
-_VERSIONS: dict[Layout, str] = {
-    "1.8-1.12": "Minecraft 1.12.2 (1.12.2/vanilla)",
-    "1.13-1.15": "Minecraft 1.15.2 (1.15.2/vanilla)",
-    "1.16-1.19.2": "Minecraft 1.16.4 (1.16.4/vanilla)",
-    "1.19.3-1.21.8": "Minecraft 1.20.2 (1.20.2/vanilla)",
-    "1.21.9-26.3": "Minecraft 26.1 (26.1/vanilla)",
-    "standin": "Prismarine Web Client (1.18.2)",
-    "26.4": "Minecraft 26.4-snapshot-1 (26.4-snapshot-1/vanilla)",
-}
-_FACINGS = (
-    "south (Towards positive Z)",
-    "west (Towards negative X)",
-    "north (Towards negative Z)",
-    "east (Towards positive X)",
-)
-
-
-class TextLine(NamedTuple):
-    """A line of the screen; ``value`` is the end of ``text`` that has its own colour: true or false."""
-
-    text: str = ""
-    value: str = ""
-    underlined: bool = False
-
-
-Part = tuple[TextLine, ...]
-"""Lines below each other that change together: what stays the same from frame to frame need not be drawn again."""
+LAYOUTS: tuple[Layout, ...] = get_args(Layout)
+"""All of them."""
 
 _EMPTY: Part = (TextLine(),)
 
 
-@dataclass(frozen=True)
-class F3Screen:
-    """The content of one debug screen. ``xyz`` in blocks, ``yaw`` and ``pitch`` in degrees; yaw is wrapped to +-180.
-
-    ``target`` is the block looked at, its id with the namespace where the layout shows one. ``properties`` and ``tags``
-    are that block's. ``fluid`` is a water block looked at. ``swapped`` puts the groups of 1.21.9 and later on the other
-    side; the game spreads them by their count. ``reduced`` is reducedDebugInfo. ``version`` is the game's, or empty for
-    one with this layout. ``fps`` is the frames a second, ``size`` the window's width and height in framebuffer pixels.
-    """
-
-    layout: Layout
-    gui_scale: int
-    xyz: tuple[float, float, float]
-    yaw: float
-    pitch: float
-    target: Target | None = None
-    properties: tuple[tuple[str, str], ...] = ()
-    tags: tuple[str, ...] = ()
-    fluid: Block | None = None
-    swapped: bool = False
-    reduced: bool = False
-    version: str = ""
-    fps: int = 120
-    size: tuple[int, int] = (1920, 1080)
-
-    @property
-    def title(self) -> str:
-        """The first line: the game and its version."""
-        return f"Minecraft {self.version} ({self.version}/vanilla)" if self.version else _VERSIONS[self.layout]
-
-    @property
-    def block(self) -> Block:
-        """The block that the feet are in."""
-        x, y, z = self.xyz
-        return floor(x), floor(y), floor(z)
-
-
 def left_lines(screen: F3Screen) -> list[TextLine]:
     """The left column, from the top."""
-    return list(chain.from_iterable(left_parts(screen)))
+    return list(chain.from_iterable(both_columns(screen)[0]))
 
 
 def right_lines(screen: F3Screen) -> list[TextLine]:
     """The right column, from the top."""
-    return list(chain.from_iterable(right_parts(screen)))
+    return list(chain.from_iterable(both_columns(screen)[1]))
 
 
-def left_parts(screen: F3Screen) -> list[Part]:
-    """The left column, from the top, in parts."""
+def both_columns(screen: F3Screen) -> tuple[list[Part], list[Part]]:
+    """The left and the right column, from the top, in parts."""
     if screen.layout == "standin":
-        return _standin_left(screen)
-    counts = _counts(screen.layout, screen.title, screen.fps)
+        return _standin_left(screen), [_plain("Renderer: three.js r128", ""), *_standin_target(screen)]
+    if screen.layout == "1.21.9-26.3":
+        return entry_columns(screen)
+    if screen.layout == "26.4":
+        left, right = box_columns(screen, screen.rows)
+        return [_boxed(placed.box) for placed in left], [_boxed(placed.box) for placed in right]
+    counts, machine = _counts(screen.layout, screen.title, screen.fps), _machine(screen.layout)
     if screen.reduced:
         x, y, z = screen.block
-        return [counts, _EMPTY, _plain(f"Chunk-relative: {x & 15} {y & 15} {z & 15}")]
-    if screen.swapped:
-        # Lower than the lines of the right column that a long line would run into.
-        return [counts, *[_EMPTY] * 6, *_right_groups(screen)]
-    return [counts, _EMPTY, *_position(screen), *_looking(screen)]
+        return [counts, _EMPTY, _plain(f"Chunk-relative: {x & 15} {y & 15} {z & 15}")], [machine]
+    return (
+        [counts, _EMPTY, *_position(screen), *_looking(screen)],
+        [machine, _graphics(screen.size), _target_group(screen), _fluid_group(screen)],
+    )
 
 
-def right_parts(screen: F3Screen) -> list[Part]:
-    """The right column, from the top, in parts."""
-    if screen.layout == "standin":
-        return [_plain("Renderer: three.js r128", ""), *_standin_target(screen)]
-    machine = _machine(screen.layout)
-    if screen.reduced:
-        return [machine]
-    if screen.swapped:
-        return [machine, *_position(screen)]
-    return [machine, _graphics(screen.size), *_right_groups(screen)]
+def _boxed(box: Box) -> Part:
+    """What a box of 26.4 says, its facts as one text each, and the gap below it."""
+    facts = (f"{fact.name}: {''.join(text for text, _ in fact.value)}" for fact in box.facts)
+    title = (box.kind.title,) if box.kind.title else ()
+    return _plain(*title, *facts, *box.lines, "")
 
 
 def _plain(*texts: str) -> Part:
@@ -122,7 +64,7 @@ def _plain(*texts: str) -> Part:
 
 @lru_cache(16)
 def _machine(layout: Layout) -> Part:
-    rate = ["Allocation rate: 120MB /s"] if layout in ("1.19.3-1.21.8", "1.21.9-26.3", "26.4") else []
+    rate = ["Allocation rate: 120MB /s"] if layout == "1.19.3-1.21.8" else []
     return _plain(
         *("Java: 21.0.3 64bit", "Mem: 23% 480/2048MB", *rate, "Allocated: 41% 840MB", "", "CPU: 4x AMD Ryzen 5", "")
     )
@@ -153,13 +95,12 @@ def _position(screen: F3Screen) -> list[Part]:
     inside = f"{x & 15} {y & 15} {z & 15}"
     block = f"Block: {x} {y} {z}" + (f" [{inside}]" if layout == "1.19.3-1.21.8" else "")
     chunk = f"Chunk: {inside} in {x >> 4} {y >> 4} {z >> 4}"
-    if layout in ("1.19.3-1.21.8", "1.21.9-26.3", "26.4"):
-        chunk = f"Chunk: {x >> 4} {y >> 4} {z >> 4} [{x >> 4 & 31} {z >> 4 & 31} in r.{x >> 9}.{z >> 9}.mca]"
-    section = [f"Section-relative: {x & 15:02d} {y & 15:02d} {z & 15:02d}"] if layout in ("1.21.9-26.3", "26.4") else []
+    if layout == "1.19.3-1.21.8":
+        chunk = f"Chunk: {chunk_of(screen.block)}"
     return [
         _plain(f"XYZ: {px:.3f} / {py:.5f} / {pz:.3f}"),
-        _plain(block, *section, chunk),
-        _plain(f"Facing: {_towards(screen.yaw)} ({screen.yaw:.1f} / {screen.pitch:.1f})"),
+        _plain(block, chunk),
+        _plain(f"Facing: {towards(screen.yaw)} ({screen.yaw:.1f} / {screen.pitch:.1f})"),
         _surroundings(layout),
     ]
 
@@ -184,11 +125,6 @@ def _looking_at_block(screen: F3Screen) -> list[Part]:
     if screen.layout == "1.8-1.12":
         return [_plain(f"Looking at: {x} {y} {z}")]
     return [_plain(f"Looking at block: {x} {y} {z}")] if screen.layout == "1.13-1.15" else []
-
-
-def _right_groups(screen: F3Screen) -> list[Part]:
-    """The block and the fluid looked at, as far as the right column shows them."""
-    return [_target_group(screen), _fluid_group(screen)]
 
 
 def _target_group(screen: F3Screen) -> Part:
@@ -220,17 +156,17 @@ def _properties(screen: F3Screen) -> Part:
 
 def _standin_left(screen: F3Screen) -> list[Part]:
     (px, py, pz), (x, _, z) = screen.xyz, screen.block
-    towards = _towards(screen.yaw).replace("Towards", "towards")
+    facing = towards(screen.yaw).replace("Towards", "towards")
     return [
         _plain(
-            _VERSIONS["standin"],
+            screen.title,
             "E: 1",
             "minecraft:overworld",
             "",
             f"XYZ: {px:.3f} / {py:.3f} / {pz:.3f}",
             f"Chunk: {x % 16} ~ {z % 16} in {x // 16} ~ {z // 16}",
             "Facing (viewer): 3.142 -1.065",
-            f"Facing (minecraft): {towards} ({screen.yaw:.1f} {screen.pitch:.1f})",
+            f"Facing (minecraft): {facing} ({screen.yaw:.1f} {screen.pitch:.1f})",
             "Light: 15 (15 sky)",
             "Biome: minecraft:plains",
             "Day: 0",
@@ -243,7 +179,3 @@ def _standin_target(screen: F3Screen) -> list[Part]:
         return []
     x, y, z = screen.target.pos
     return [(TextLine(screen.target.id or ""), *_properties(screen), TextLine(f"Looking at: {x} {y} {z}"))]
-
-
-def _towards(yaw: float) -> str:
-    return _FACINGS[floor(yaw / 90 + 0.5) & 3]

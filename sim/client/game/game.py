@@ -1,30 +1,47 @@
 """The game itself, a tick at a time: moving, placing, screens, chat. It knows no pixels and no latencies."""
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from mc_nested.live.model.reading import Target
 from sim.client.game import bodies, physics, ray
 from sim.client.game.block_tags import tags_of
-from sim.client.game.chat import VirtualChat
+from sim.client.game.box_columns import stood_after
+from sim.client.game.chat import ChatLine, TypedLine, VirtualChat
 from sim.client.game.commands import chat_line
+from sim.client.game.debug_entries import GAME_DEFAULT, PERFORMANCE, TUTORIAL, DebugEntries, shown_entries
+from sim.client.game.debug_options import choices
 from sim.client.game.edition import Edition
-from sim.client.game.f3_text import F3Screen
+from sim.client.game.f3_screen import BY_ENTRIES, F3Screen, Stood
 from sim.client.game.gaits import Gaits
 from sim.client.game.keys import HOTBAR, GameKeys
+from sim.client.game.options import HIDDEN, GameOptions
 from sim.client.game.realm import SLOTS, Realm
-from sim.client.game.screens import DEATH_WAIT, IN_WORLD, Effect, MenuState, ScreenName
+from sim.client.game.screens import DEATH_WAIT, IN_WORLD, PAUSING, MenuState, ScreenName
 from sim.client.game.view import Eye, Sight, View
+from sim.client.game.widgets import Effect, EntryChange
 from sim.client.game.world import AIR, block_of
 
 REPEAT_TICKS = 4
 """While the right button is held, the game places again every so many ticks (FACTS: Standing, looking, placing)."""
+
+BREAK_TICKS = 5
+"""While the left one is, it breaks another block every so many."""
 
 SIGHT = 20.0
 """Blocks within which the debug screen names a block; before 1.13 only within reach (FACTS: The F3 debug screen)."""
 
 _REACH = {"creative": 5.0, "survival": 4.5}
 _LOADING_TICKS = {"loading": 40, "saving": 20}
+_PROFILES: Mapping[Effect, DebugEntries] = {"default_profile": GAME_DEFAULT, "performance_profile": PERFORMANCE}
+_LEADS_TO: Mapping[Effect, ScreenName] = {
+    "resume": "world",
+    "to_title": "title",
+    "to_worlds": "worlds",
+    "to_servers": "servers",
+    "enter_world": "loading",
+    "enter_selected": "loading",
+}
 _VOID = 64
 """Blocks below the floor at which a falling player dies."""
 
@@ -36,7 +53,8 @@ class VirtualGame:
         realm: the world, changed as it is played.
         keys: the key bindings and their state.
         ground: the floor that the player walks on.
-        shows_target: whether the debug screen names the block looked at; 1.21.9 and later do so only if set.
+        debug_entries: what the debug screen shows, from 1.21.9 on.
+        options: what its options.txt says.
         on_leave: called with the realm when the world is saved.
         on_enter: returns the realm when the world is entered again.
     """
@@ -47,15 +65,19 @@ class VirtualGame:
         *,
         keys: GameKeys | None = None,
         ground: physics.Ground = physics.STONE,
-        shows_target: bool = True,
+        debug_entries: DebugEntries = TUTORIAL,
+        options: GameOptions | None = None,
         on_leave: Callable[[Realm], None] = lambda _: None,
         on_enter: Callable[[Realm], Realm] = lambda realm: realm,
     ) -> None:
         self.realm = realm
+        self.options = options or GameOptions()
         self.keys = keys or GameKeys()
+        self.keys.toggled = self.options.toggled
         self._ground = ground
         self.chat = VirtualChat()
         self.screen: ScreenName = "world"
+        self._behind: ScreenName = "world"
         self.ticks = 0
         self.has_f3 = True
         self.hides_hud = False
@@ -63,10 +85,10 @@ class VirtualGame:
         self.is_world_chosen = False
         self.reason = ""
         self.notices: tuple[str, ...] = ()
-        self._shows_target = shows_target
+        self.debug_entries, self.searched = debug_entries, ""
         self._on_leave, self._on_enter = on_leave, on_enter
         self._since = 0
-        self._use_delay = 0
+        self._use_delay = self._attack_delay = 0
         self._sent: deque[str] = deque()
         self._ghosts: list[tuple[int, tuple[int, int, int]]] = []
         self._refusals_to_come, self._ghosts_to_come = 0, 0
@@ -76,6 +98,7 @@ class VirtualGame:
         self._looked: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
         self._looked_on_f3: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
         self._shown_f3: tuple[tuple[object, ...], F3Screen | None] = ((), None)
+        self._stood: Stood = ((), ())
         self._before = self._aim()
 
     @property
@@ -88,38 +111,63 @@ class VirtualGame:
         """Whether a world is being played, whatever screen is over it."""
         return self.screen in IN_WORLD
 
-    def open(self, screen: ScreenName) -> None:
-        """Show a screen; over the world, it takes the keys."""
-        self.keys.forget()
-        self.chat.typed = "" if screen == "chat" else None
-        self.chat.is_selected = False
+    @property
+    def is_info_reduced(self) -> bool:
+        """Whether the option or the rule leaves the position out of the debug screen."""
+        return self.options.reduced_debug_info or self.realm.rule("reducedDebugInfo", "reduced_debug_info", False)
+
+    def open(self, screen: ScreenName, typed: str = "") -> None:
+        """Show a screen, the chat with ``typed`` in it; over the world, it takes the keys.
+
+        A line that is broken off by this is kept as a draft, from 1.21.9 on (FACTS: The chat's line).
+        """
+        self.chat.close(keeps_draft=self.edition.since(1, 21, 9))
         if screen == "world":
+            self.keys.forget()
             self.keys.read_again()
+        else:
+            self.keys.leave_world()
+        if screen == "chat":
+            self.chat.open(typed)
+        self.searched = ""
         self.screen, self._since, self.is_world_chosen = screen, self.ticks, False
 
-    def send(self, line: str) -> None:
-        """Send a line of the chat; the server takes it at the next tick."""
-        self._sent.append(line)
+    def leave_chat(self) -> None:
+        """Return from the chat to the world; its line is kept only where the options say so."""
+        self.chat.close(keeps_draft=self.edition.since(1, 21, 9) and self.options.save_chat_drafts)
+        self.open("world")
 
-    def do(self, effect: Effect) -> None:
+    def open_friends(self) -> None:
+        """Show the friends over the screen that is open."""
+        self._behind = self.screen
+        self.open("title_friends" if self.screen == "title" else "friends")
+
+    def close_friends(self) -> None:
+        """Show the screen that the friends were opened over."""
+        self.open(self._behind)
+
+    def send(self, line: str) -> None:
+        """Send a line of the chat; the server takes it at the next tick, unless the options hide the chat."""
+        if self.options.chat_visibility != HIDDEN:
+            self._sent.append(line)
+
+    def do(self, effect: Effect | EntryChange) -> None:
         """Carry out the effect of a button."""
-        if effect == "resume":
-            self.open("world")
+        if isinstance(effect, EntryChange):
+            self.debug_entries = {**self.debug_entries, effect.entry: effect.status}
+        elif effect in _PROFILES:
+            self.debug_entries = _PROFILES[effect]
+        elif effect in _LEADS_TO:
+            self.open(_LEADS_TO[effect])
         elif effect == "leave":
             self._on_leave(self.realm)
             self.open("saving")
         elif effect == "respawn":
             self._respawn()
-        elif effect == "to_title":
-            self.open("title")
-        elif effect == "to_worlds":
-            self.open("worlds")
-        elif effect == "to_servers":
-            self.open("servers")
+        elif effect == "behind":
+            self.close_friends()
         elif effect == "select_world":
             self.is_world_chosen = True
-        elif effect in ("enter_world", "enter_selected"):
-            self.open("loading")
 
     def die(self) -> None:
         """Kill the player, who loses the hotbar unless the rules keep it."""
@@ -161,7 +209,7 @@ class VirtualGame:
         wait = _LOADING_TICKS.get(self.screen)
         if wait is not None and self.ticks - self._since >= wait:
             self._finish_loading()
-        if not self.is_in_world or self.screen == "pause":
+        if not self.is_in_world or self.screen in PAUSING:
             return
         self._take_back_ghosts()
         while self._sent:
@@ -175,33 +223,48 @@ class VirtualGame:
             if self.realm.player.feet[1] < self.realm.world.floor - _VOID:
                 self.die()
 
-    def view(self, fps: int = 60, size: tuple[int, int] = (854, 480), *, is_drawn: bool = False) -> View:
+    def view(
+        self, fps: int = 60, size: tuple[int, int] = (854, 480), scale: int = 2, *, is_drawn: bool = False
+    ) -> View:
         """What the game shows now; its debug screen names ``fps`` frames a second and a window of that size in pixels.
 
-        ``is_drawn`` adds the world as the player sees it.
+        ``scale`` is that of the debug screen. ``is_drawn`` adds the world as the player sees it.
         """
         player = self.realm.player
         is_ready = self.screen != "death" or self.ticks - self._since >= DEATH_WAIT
         state = MenuState(self.screen, is_ready, self.is_world_chosen, self.reason)
+        if self.screen == "debug_options":
+            shown = choices(self.debug_entries, self.edition, self.searched)
+            state = state._replace(choices=shown, searched=self.searched)
         if not self.is_in_world:
             return View(state, (0, 0, 0), pointer=self.pointer, notices=self.notices)
         pointer = (-1, -1) if self.screen == "world" else self.pointer
         scene, sight = block_of(player.feet), self.sight() if is_drawn else None
         if self.hides_hud:
-            return View(state, scene, pointer=pointer, notices=self.notices, sight=sight)
+            # From 1.21.9 on a screen that is open shows the debug text all the same.
+            f3 = self._f3(fps, size, scale) if self.screen != "world" and self.edition.since(1, 21, 9) else None
+            return View(state, scene, f3, pointer=pointer, notices=self.notices, sight=sight)
         return View(
             state,
             scene,
-            self._f3(fps, size) if self.has_f3 else None,
+            self._f3(fps, size, scale),
             tuple(player.hotbar),
             player.slot,
-            self.chat.lines(self.ticks),
-            self.chat.typed,
+            self._messages(),
+            self._typed(),
             player.mode == "creative",
             pointer,
             self.notices,
             sight,
         )
+
+    def _messages(self) -> tuple[ChatLine, ...]:
+        options = self.options
+        return () if options.chat_visibility == HIDDEN else self.chat.lines(self.ticks, options.message_ground)
+
+    def _typed(self) -> TypedLine | None:
+        chat = self.chat
+        return None if chat.typed is None else TypedLine(chat.typed, chat.is_draft, self.options.typed_ground)
 
     def sight(self) -> Sight:
         """The world as the player sees it now."""
@@ -250,7 +313,7 @@ class VirtualGame:
             self.open("title")
             return
         self.realm = self._on_enter(self.realm)
-        self.chat = VirtualChat()
+        self.chat = VirtualChat(self.chat.draft)
         self.open("world")
 
     def _respawn(self) -> None:
@@ -261,7 +324,7 @@ class VirtualGame:
     def _handle_keys(self) -> None:
         """Handle keys in order: the hotbar, attacks, uses, a held use, the inventory; the chat last."""
         keys, player = self.keys, self.realm.player
-        self._use_delay = max(0, self._use_delay - 1)
+        self._use_delay, self._attack_delay = max(0, self._use_delay - 1), max(0, self._attack_delay - 1)
         for slot, binding in enumerate(HOTBAR):
             if keys.presses(binding):
                 player.slot = slot
@@ -270,20 +333,24 @@ class VirtualGame:
         self._handle_clicks()
         if keys.presses("inventory"):
             self.open("inventory")
-        elif keys.presses("chat"):
-            self.open("chat")
-        elif keys.presses("command"):
-            self.open("chat")
-            self.chat.insert("/")
+            return
+        # A hidden chat opens only from 26.1 on (FACTS: The chat's line).
+        opens = self.options.chat_visibility != HIDDEN or self.edition.since(26, 1)
+        for binding, typed in (("chat", ""), ("command", "/")):
+            if keys.presses(binding) and opens:
+                self.open("chat", typed)
+                return
 
     def _handle_clicks(self) -> None:
         keys = self.keys
         attacks, uses = keys.presses("attack"), keys.presses("use")
-        if not (attacks or uses or keys.is_held("use")):
+        if not (attacks or uses or keys.is_held("use") or keys.is_held("attack")):
             return
         target = self.target_block(self.reach())
-        if attacks and target is not None and self.realm.player.mode == "creative":
-            self.realm.world.put(target.block, AIR)
+        if attacks or (keys.is_held("attack") and not self._attack_delay):
+            self._attack_delay = BREAK_TICKS
+            if target is not None and self.realm.player.mode == "creative":
+                self.realm.world.put(target.block, AIR)
         for _ in range(uses):
             self._use(target)
         if keys.is_held("use") and not self._use_delay:
@@ -356,22 +423,44 @@ class VirtualGame:
             player.velocity = (0.0 if stays_x else east, up, 0.0 if stays_z else south)
             player.feet = feet
 
-    def _f3(self, fps: int, size: tuple[int, int]) -> F3Screen | None:
+    def _f3(self, fps: int, size: tuple[int, int], scale: int) -> F3Screen | None:
         realm, player = self.realm, self.realm.player
-        hit = self.target_on_f3() if self._shows_target else None
-        is_reduced = realm.rule("reducedDebugInfo", "reduced_debug_info", False)
-        now = (player.feet, player.yaw, player.pitch, hit, realm.world.revision, is_reduced, fps, size)
+        is_reduced = self.is_info_reduced
+        entries: tuple[str, ...] | None = None
+        if self.edition.layout in BY_ENTRIES:
+            entries = self._shown_entries(has_f3=self.has_f3, is_reduced=is_reduced)
+        if not (self.has_f3 if entries is None else entries):
+            self._shown_f3, self._stood = ((), None), ((), ())
+            return None
+        hit = self.target_on_f3()
+        about = (player.feet, player.yaw, player.pitch, hit, realm.world.revision, fps, size, scale)
+        now = (*about, is_reduced, entries, self.has_f3)
         if self._shown_f3[0] != now:
-            self._shown_f3 = now, self._new_f3(hit, fps, size, is_reduced=is_reduced)
+            self._shown_f3 = now, self._new_f3(hit, fps, size, scale, entries, is_reduced=is_reduced)
         return self._shown_f3[1]
 
-    def _new_f3(self, hit: ray.Hit | None, fps: int, size: tuple[int, int], *, is_reduced: bool) -> F3Screen:
+    def _shown_entries(self, *, has_f3: bool, is_reduced: bool) -> tuple[str, ...]:
+        return shown_entries(self.debug_entries, self.edition, has_f3=has_f3, is_reduced=is_reduced)
+
+    def _new_f3(
+        self,
+        hit: ray.Hit | None,
+        fps: int,
+        size: tuple[int, int],
+        scale: int,
+        entries: tuple[str, ...] | None,
+        *,
+        is_reduced: bool,
+    ) -> F3Screen:
         realm = self.realm
         player, edition = realm.player, self.edition
         name = realm.world.block_at(hit.block) if hit else ""
-        return F3Screen(
+        before = self._shown_f3[1]
+        if before is not None and before.entries != entries:
+            self._stood = ((), ())
+        screen = F3Screen(
             edition.layout,
-            1,
+            scale,
             player.feet,
             (player.yaw + 180.0) % 360.0 - 180.0,
             player.pitch,
@@ -381,4 +470,10 @@ class VirtualGame:
             version=edition.version,
             fps=fps,
             size=size,
+            entries=entries,
+            has_f3=self.has_f3,
+            stood=self._stood,
         )
+        if edition.layout == "26.4":
+            self._stood = stood_after(screen, screen.rows)
+        return screen

@@ -30,12 +30,18 @@ BINDINGS = {
 SIDES_SWAPPED = BINDINGS | {"a": "right", "d": "left"}
 """A and D swapped, as in the stand-in (FACTS: The stand-in)."""
 
+_OF_BUTTONS = frozenset({"attack", "use"})
+
 
 class GameKeys:
-    """The keys as the game knows them; ``physical`` are those that its window saw go down and not up."""
+    """The keys as the game knows them; ``physical`` are those that its window saw go down and not up.
+
+    ``toggled`` are the actions that one press begins and the next one ends, whatever is released (FACTS: Keys).
+    """
 
     def __init__(self, bindings: Mapping[str, str] = BINDINGS) -> None:
         self._bindings = bindings
+        self.toggled: frozenset[str] = frozenset()
         self.physical: set[str] = set()
         self._held: set[str] = set()
         self._presses: Counter[str] = Counter()
@@ -43,17 +49,26 @@ class GameKeys:
     def press(self, key: str) -> None:
         """A key goes down in the world."""
         if action := self._bindings.get(key.lower()):
-            self._held.add(action)
+            if action in self.toggled & self._held:
+                self._held.discard(action)
+            else:
+                self._held.add(action)
             self._presses[action] += 1
 
     def release(self, key: str) -> None:
         """A key goes up, whatever screen is open."""
-        self._held.discard(self._bindings.get(key.lower(), ""))
+        if (action := self._bindings.get(key.lower(), "")) not in self.toggled:
+            self._held.discard(action)
 
     def forget(self) -> None:
-        """Count every key as up, and drop waiting presses: a screen opens, or the focus is lost."""
-        self._held.clear()
+        """Count every key as up, and drop waiting presses: the focus is lost. What was begun by one press goes on."""
+        self._held &= self.toggled
         self._presses.clear()
+
+    def leave_world(self) -> None:
+        """The same, and end what a button has begun: a screen opens."""
+        self.forget()
+        self._held -= _OF_BUTTONS
 
     def read_again(self) -> None:
         """Count keys that are down again, but not mouse buttons: a screen closes."""
@@ -61,6 +76,7 @@ class GameKeys:
             action
             for key in self.physical
             if (action := self._bindings.get(key.lower())) and not key.endswith("button")
+            if action not in self.toggled
         }
 
     def is_held(self, action: str) -> bool:

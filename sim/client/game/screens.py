@@ -4,30 +4,38 @@ Positions and sizes are in GUI pixels; ``width`` and ``height`` are the window's
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from sim.client.game.colours import GREY, WHITE, Colour
+from sim.client.game.debug_options import Choice, debug_options
 from sim.client.game.edition import Edition
+from sim.client.game.widgets import Menu, MenuText, Panel, Widget
 
 ScreenName = Literal[
-    "world", "chat", "inventory", "pause", "death", "disconnected", "title", "worlds", "servers", "loading", "saving"
+    "world",
+    "chat",
+    "inventory",
+    "pause",
+    "paused",
+    "debug_options",
+    "friends",
+    "death",
+    "disconnected",
+    "title",
+    "title_friends",
+    "worlds",
+    "servers",
+    "loading",
+    "saving",
 ]
-IN_WORLD: frozenset[ScreenName] = frozenset({"world", "chat", "inventory", "pause", "death"})
+"""``paused`` is the pause without a menu; the friends are opened over a world, or over the title."""
 
-Effect = Literal[
-    "",
-    "resume",
-    "leave",
-    "respawn",
-    "to_title",
-    "to_worlds",
-    "to_servers",
-    "select_world",
-    "enter_world",
-    "enter_selected",
-]
-"""What a click does: nothing for buttons that no test needs."""
+PAUSING: frozenset[ScreenName] = frozenset({"pause", "paused", "debug_options", "friends"})
+"""The screens that stop the world."""
+
+IN_WORLD: frozenset[ScreenName] = PAUSING | {"world", "chat", "inventory", "death"}
+
+FRIENDS: frozenset[ScreenName] = frozenset({"friends", "title_friends"})
 
 _OLD_WHITE: Colour = (224, 224, 224)
 _OLD_HOVER: Colour = (255, 255, 160)
@@ -37,62 +45,31 @@ DEATH_WAIT = 20
 
 _ROW = (270, 36)
 _ICON = 32
+_ICONS = 20, 4
+"""An icon's side, and the gap between two."""
+
+_FRIENDS_WIDTH, _FRIENDS_ABOVE = 220, 80
+"""The width of the friends' panel inside its border, and by how much less high than the window it is."""
+
+_BORDER = 8
 _GRID = ((-154, 71), (-75, 71), (4, 71), (83, 71))
 _OLD_GRID = ((-154, 72), (-76, 72), (4, 72), (82, 72))
 """Left edges from the middle, and widths, of the lower buttons of the list of worlds; the old one before 1.21.9."""
 
 
-@dataclass(frozen=True)
-class Widget:
-    """A button, or an unlabelled part of the screen that can be clicked."""
-
-    label: str
-    left: int
-    top: int
-    width: int
-    does: Effect = ""
-    height: int = 20
-    is_active: bool = True
-    is_drawn: bool = True
-
-    def contains(self, x: float, y: float) -> bool:
-        """Whether a position in GUI pixels lies on it."""
-        return self.left <= x < self.left + self.width and self.top <= y < self.top + self.height
-
-    @property
-    def middle(self) -> tuple[float, float]:
-        """Its middle, in GUI pixels."""
-        return self.left + self.width / 2, self.top + self.height / 2
-
-
-@dataclass(frozen=True)
-class MenuText:
-    """A text with a shadow; ``left`` is its middle where it is centred, and ``size`` 2 a large title."""
-
-    text: str
-    left: int
-    top: int
-    colour: Colour = WHITE
-    is_centred: bool = True
-    size: int = 1
-
-
-@dataclass(frozen=True)
-class Menu:
-    """A screen's texts and buttons."""
-
-    texts: tuple[MenuText, ...] = ()
-    buttons: tuple[Widget, ...] = ()
-
-
 class MenuState(NamedTuple):
-    """What the look of a screen depends on: ``is_ready`` is whether its buttons are active yet."""
+    """What the look of a screen depends on: ``is_ready`` is whether its buttons are active yet.
+
+    ``choices`` are those of the debug options, found by the text ``searched``.
+    """
 
     name: ScreenName
     is_ready: bool = True
     is_chosen: bool = False
     reason: str = ""
     world: str = "New World"
+    choices: tuple[Choice, ...] = ()
+    searched: str = ""
 
 
 def menu(state: MenuState, edition: Edition, width: int, height: int) -> Menu:
@@ -112,12 +89,15 @@ def label_colour(button: Widget, edition: Edition, *, is_hovered: bool) -> Colou
 
 def _title(_state: MenuState, edition: Edition, width: int, height: int) -> Menu:
     left, top = width // 2 - 100, height // 4 + 48
+    has_icons = edition.since(26, 2)
+    last = top + (96 if has_icons else 84)
     buttons = (
         Widget("Singleplayer", left, top, 200, "to_worlds"),
         Widget("Multiplayer", left, top + 24, 200, "to_servers"),
         Widget("Minecraft Realms", left, top + 48, 200),
-        Widget("Options...", left, top + 84, 98),
-        Widget("Quit Game", width // 2 + 2, top + 84, 98),
+        *(_icons(3, width, top + 72) if has_icons else ()),
+        Widget("Options...", left, last, 98),
+        Widget("Quit Game", width // 2 + 2, last, 98),
     )
     version = MenuText(f"Minecraft {edition.version}", 2, height - 10, is_centred=False)
     return Menu((MenuText("MINECRAFT", width // 2, 30, size=3), version), buttons)
@@ -172,16 +152,49 @@ def _pause(_state: MenuState, edition: Edition, width: int, height: int) -> Menu
     title = (MenuText("Game Menu", middle, 40),)
     top = (height - 166) // 4 + 50 if edition.since(1, 19, 4) else height // 4 + 8
     left, wide, right = middle - 100, 200, middle + 2
-    rows = [(24, ("Advancements", "Statistics")), (72, ("Options...", "Open to LAN"))]
+    others = "World Options..." if edition.since(26, 3) else "Open to LAN"
+    rows = [(24, ("Advancements", "Statistics")), (72, ("Options...", others))]
+    has_icons = edition.since(26, 2)
     if edition.since(1, 14):
         left, wide, right = middle - 102, 204, middle + 4
+    if edition.since(1, 14) and not has_icons:
         rows.insert(1, (48, ("Give Feedback", "Report Bugs")))
     pairs = tuple(
         Widget(name, x, top + down, 98) for down, row in rows for x, name in zip((left, right), row, strict=True)
     )
+    icons = _icons(4, width, top + 48) if has_icons else ()
     back = Widget("Back to Game", left, top, wide, "resume")
     leave = Widget("Save and Quit to Title", left, top + 96, wide, "leave")
-    return Menu(title, (back, *pairs, leave))
+    return Menu(title, (back, *pairs, *icons, leave))
+
+
+def _paused(_state: MenuState, edition: Edition, width: int, _height: int) -> Menu:
+    return Menu((MenuText("Game Paused" if edition.since(1, 17) else "Game paused", width // 2, 10),))
+
+
+def _friends(_state: MenuState, _edition: Edition, width: int, height: int) -> Menu:
+    """Two tabs above a panel. A click beside them leads back."""
+    left, high = width // 2 - _FRIENDS_WIDTH // 2, height - _FRIENDS_ABOVE
+    top = _FRIENDS_ABOVE // 2
+    tabs = tuple(
+        Widget(name, left + across, top - 27, _FRIENDS_WIDTH // 2, is_active=across > 0)
+        for across, name in ((0, "Friends"), (_FRIENDS_WIDTH // 2, "Requests (0)"))
+    )
+    panel = Panel(left - _BORDER, top - _BORDER, _FRIENDS_WIDTH + 2 * _BORDER, high + 2 * _BORDER + 1)
+    inside = Widget("", panel.left, top - 27, panel.width, height=27 + high + 2 * _BORDER, is_drawn=False)
+    beside = Widget("", 0, 0, width, "behind", height, is_drawn=False)
+    return Menu((MenuText("Loading friends", width // 2, height // 2),), (*tabs, inside, beside), (panel,))
+
+
+def _debug_options(state: MenuState, edition: Edition, width: int, height: int) -> Menu:
+    return debug_options(state.choices, state.searched, edition, width, height)
+
+
+def _icons(count: int, width: int, top: int) -> tuple[Widget, ...]:
+    """A row of so many buttons with pictures, in the middle."""
+    side, gap = _ICONS
+    left = width // 2 - (count * (side + gap) - gap) // 2
+    return tuple(Widget("", left + index * (side + gap), top, side, height=side) for index in range(count))
 
 
 def _death(state: MenuState, edition: Edition, width: int, height: int) -> Menu:
@@ -220,6 +233,10 @@ _MENUS: dict[ScreenName, Callable[[MenuState, Edition, int, int], Menu]] = {
     "worlds": _worlds,
     "servers": _servers,
     "pause": _pause,
+    "paused": _paused,
+    "debug_options": _debug_options,
+    "friends": _friends,
+    "title_friends": _friends,
     "death": _death,
     "disconnected": _disconnected,
     "loading": _loading,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from mc_nested.live.model.reading import Block
-from sim.client.game.chat import ChatLine
+from sim.client.game.chat import ChatLine, TypedLine
 from sim.client.game.f3_text import F3Screen
 from sim.client.game.realm import Stack
 from sim.client.game.screens import MenuState
@@ -50,7 +50,7 @@ class View(NamedTuple):
     hotbar: tuple[Stack | None, ...] = ()
     slot: int = 0
     chat: tuple[ChatLine, ...] = ()
-    typed: str | None = None
+    typed: TypedLine | None = None
     is_creative: bool = True
     pointer: tuple[int, int] = (-1, -1)
     notices: tuple[str, ...] = ()

@@ -3,7 +3,7 @@
 The debug screen's own reading is tested in tests/live; here one is drawn with a made-up font, as a game would show it.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 
@@ -124,6 +124,9 @@ class NoInput:
 
     def press(self, key: str) -> None:
         raise AssertionError(key)
+
+    def go_by_symbols(self, keys: Collection[str]) -> None:
+        raise AssertionError(keys)
 
     release = type = press
 

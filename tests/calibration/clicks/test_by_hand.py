@@ -1,6 +1,6 @@
 """Recording clicks by hand: what a hotkey records, what is refused, the picture, and what leaves no trace."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -90,6 +90,9 @@ class NoKeys:
 
     def press(self, key: str) -> None:
         raise AssertionError(key)
+
+    def go_by_symbols(self, keys: Collection[str]) -> None:
+        raise AssertionError(keys)
 
     release = type = press
 

@@ -32,7 +32,20 @@ LABELS: dict[str, tuple[ScreenName, str]] = {
     "play_selected_world": ("worlds", "Play Selected World"),
 }
 PAUSE = ("back_to_game", "save_and_quit_to_title")
-VERSIONS = ["1.8.9", "1.12.2", "1.13.2", "1.14.4", "1.16.5", "1.19.4", "1.20.1", "1.21.8", "1.21.11", "26.1", "26.3"]
+VERSIONS = [
+    "1.8.9",
+    "1.12.2",
+    "1.13.2",
+    "1.14.4",
+    "1.16.5",
+    "1.19.4",
+    "1.20.1",
+    "1.21.8",
+    "1.21.11",
+    "26.1",
+    "26.2",
+    "26.3",
+]
 SIZES = [(854, 480), (1024, 768), (1366, 768), (1919, 1079), (2560, 1440)]
 WORLDS = ["noise", "bright", "dark", "specks", "grey noise"]
 
@@ -66,7 +79,7 @@ def check_all_found(client: VirtualClient, profile: Profile) -> None:
     assert (client.window.down, client.window.strays) == (set(), [])
 
 
-@pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.11"])
+@pytest.mark.parametrize("version", ["1.12.2", "1.16.5", "1.20.1", "1.21.11", "26.2", "26.3"])
 def test_every_button_is_found_within_two_gui_pixels_of_its_middle(version: str, tmp_path: Path) -> None:
     check_all_found(VirtualClient(version=version), profile_in(tmp_path))
 

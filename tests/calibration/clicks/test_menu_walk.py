@@ -51,6 +51,16 @@ def test_without_a_single_players_buttons_it_is_not_surely_one(words: dict[str, 
     assert not walk.is_single_player
 
 
+@pytest.mark.parametrize(("version", "is_own"), [("26.3", True), ("1.12.2", False)])
+def test_world_options_show_a_world_of_ones_own_only_where_the_title_says_so(
+    version: str, is_own: bool, tmp_path: Path
+) -> None:
+    client = started(VirtualClient(version=version, words={"Open to LAN": "World Options..."}))
+    walk, _ = walk_on(client, tmp_path)
+    walk.visit_pause_menu()
+    assert walk.is_single_player is is_own
+
+
 def test_a_menu_without_a_known_label_is_noted_and_left(tmp_path: Path) -> None:
     client = started(VirtualClient(words=SPANISH))
     walk, _ = walk_on(client, tmp_path)

@@ -15,6 +15,7 @@ from mc_nested.errors import DesktopError, NoWindowError
 from mc_nested.live.devices import Devices, Frame, Region
 from mc_nested.live.profile.tables import CalibratedTable, KeysTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
+from sim.client.game.debug_entries import GAME_DEFAULT
 from sim.client.mishaps import Kind
 from sim.client.settings import ClientSettings
 from tests.calibration.doctor.examined import GOOD, Computer, opened, rows, statuses
@@ -94,7 +95,7 @@ def test_each_row_says_what_was_seen(computer: Computer) -> None:
         (lambda client: client.set_front(is_in_front=False), LOOKING_DOWN, {"in front"}, {"debug screen", "input"}),
         (
             as_it_was,
-            ClientSettings(pitch=DOWN, version="1.21.9", shows_target=False),
+            ClientSettings(pitch=DOWN, version="1.21.9", debug_entries=GAME_DEFAULT),
             {"looked-at line", "profile fits"},
             set(),
         ),
@@ -137,7 +138,7 @@ def test_each_fault_fails_in_its_own_rows_and_nothing_is_pressed_where_it_could_
 
 
 def test_the_remedy_for_a_version_that_hides_the_looked_at_line_switches_it_on(computer: Computer) -> None:
-    client = client_in(as_it_was, ClientSettings(pitch=DOWN, version="1.21.9", shows_target=False))
+    client = client_in(as_it_was, ClientSettings(pitch=DOWN, version="1.21.9", debug_entries=GAME_DEFAULT))
     row = rows(computer.examined(opened(client)))["looked-at line"]
     assert "F3+F6" in row.fix
     assert "65 degrees down" in row.detail
@@ -264,11 +265,11 @@ def test_a_profile_that_can_not_be_used_is_a_row_and_the_rest_is_checked_without
 
 
 def test_a_gui_scale_that_the_profile_says_otherwise_is_seen_all_the_same(computer: Computer) -> None:
-    computer.save(Profile(screen=ScreenTable(font=str(computer.font), gui_scale=1)))
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font), debug_scale=1)))
     row = rows(computer.examined(opened(client_in(as_it_was))))["size and GUI scale"]
     assert (row.status, row.detail) == (
         "fail",
-        "854 x 480 pixels, GUI scale 2, and the profile's screen.gui_scale is 1",
+        "854 x 480 pixels, GUI scale 2, and the profile's screen.debug_scale is 1",
     )
 
 

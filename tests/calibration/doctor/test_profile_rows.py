@@ -6,6 +6,7 @@ import pytest
 
 from calibration.doctor.profile_rows import fit_row, font_row, profile_row
 from calibration.installation.folders import System
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable
@@ -38,11 +39,11 @@ def test_a_broken_profile_with_an_earlier_one_can_be_undone(tmp_path: Path) -> N
 @pytest.mark.parametrize(
     ("profile", "seen", "status"),
     [
-        (None, Fingerprint("Minecraft 1.20.1", (854, 480), 2), "skip"),
-        (Profile(), Fingerprint("Minecraft 1.20.1", (854, 480), 2), "skip"),
+        (None, Fingerprint("Minecraft 1.20.1", (854, 480), Scales(2, 2)), "skip"),
+        (Profile(), Fingerprint("Minecraft 1.20.1", (854, 480), Scales(2, 2)), "skip"),
         (CALIBRATED, None, "skip"),
-        (CALIBRATED, Fingerprint("Minecraft 1.20.1", (854, 480), 2), "pass"),
-        (CALIBRATED, Fingerprint("Minecraft 1.20.1", (855, 480), 2), "fail"),
+        (CALIBRATED, Fingerprint("Minecraft 1.20.1", (854, 480), Scales(2, 2)), "pass"),
+        (CALIBRATED, Fingerprint("Minecraft 1.20.1", (855, 480), Scales(2, 2)), "fail"),
     ],
 )
 def test_a_profile_fits_the_window_that_it_was_calibrated_on(

@@ -11,7 +11,7 @@ from calibration.doctor.examination import Examination
 from calibration.doctor.repair import repair
 from calibration.installation.processes import Process
 from mc_nested.errors import ProfileError
-from mc_nested.live.profile.tables import Profile, ScreenTable
+from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
 from tests.calibration.doctor.examined import GOOD, Computer, calibrated, opened, statuses
 from tests.calibration.doctor.test_examination import no_session, no_window, several
@@ -90,7 +90,8 @@ def test_a_scale_of_the_debug_screen_that_is_none_becomes_the_games_own(computer
 
 
 def test_the_gui_scale_is_that_of_the_profile(computer: Computer) -> None:
-    computer.save(Profile(screen=ScreenTable(font=str(computer.font), gui_scale=3)))
+    calibrated = CalibratedTable(date="2026-11-21", gui_scale=3)
+    computer.save(Profile(screen=ScreenTable(font=str(computer.font)), calibrated=calibrated))
     repaired_in(computer, computer.examined(no_window))
     assert "guiScale:3\n" in computer.options.read_text("utf-8")
 

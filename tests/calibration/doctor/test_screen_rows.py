@@ -11,6 +11,7 @@ from calibration.installation.options_txt import parse_options
 from mc_nested.live.menus.screens import ScreenName
 from mc_nested.live.model.debug_entries import switch_on
 from mc_nested.live.model.reading import Reading, Target
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
 
 READ = Reading(xyz=(0.5, 64.0, 0.25), yaw=0.0, pitch=40.0, target=Target((0, 63, 1), "minecraft:stone"))
@@ -19,8 +20,10 @@ READ = Reading(xyz=(0.5, 64.0, 0.25), yaw=0.0, pitch=40.0, target=Target((0, 63,
 def snapshot(
     reading: Reading, screen: ScreenName = "world", line: str | None = "XYZ:", version: str = "1.20.1"
 ) -> WindowSnapshot:
-    contents = ScreenContents(screen, line, 2, reading)
-    return WindowSnapshot(Fingerprint(f"Minecraft {version}", (854, 480), 2), (854, 480), None, True, contents)
+    contents = ScreenContents(screen, line, Scales(2, 2), reading)
+    return WindowSnapshot(
+        Fingerprint(f"Minecraft {version}", (854, 480), Scales(2, 2)), (854, 480), None, True, contents
+    )
 
 
 def rows(of: WindowSnapshot) -> dict[str, tuple[str, str, str]]:

@@ -3,6 +3,7 @@
 import pytest
 
 from calibration.doctor.snapshot import FRONT_S, READABLE_S, WindowSnapshot, take_snapshot, wait_until_readable
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.layout import VANILLA, Overlay
@@ -17,12 +18,12 @@ FONT = font_of(drawn_atlas())
 def shown(client: VirtualClient) -> tuple[str, str | None, int | None]:
     contents = take_snapshot(client.devices, FONT).contents
     assert contents is not None
-    return contents.screen, contents.line, contents.scale
+    return contents.screen, contents.line, contents.scales and contents.scales.gui
 
 
 def test_a_world_is_read() -> None:
     snapshot = take_snapshot(started(VirtualClient()).devices, FONT)
-    assert snapshot.window == Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), 2)
+    assert snapshot.window == Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), Scales(2, 2))
     assert (snapshot.picture_size, snapshot.is_in_front, snapshot.is_world) == ((854, 480), True, True)
     assert snapshot.contents is not None
     assert snapshot.contents.line == "XYZ:"
@@ -46,7 +47,7 @@ def test_a_debug_screen_is_found_where_the_profile_names_another_gui_scale() -> 
     client = started(VirtualClient())
     snapshot = take_snapshot(client.devices, FONT, Overlay(3, VANILLA, (224, 224, 224)))
     assert snapshot.is_world
-    assert snapshot.window.gui_scale == 2
+    assert snapshot.window.scales == Scales(2, 2)
 
 
 def test_behind_another_window_or_without_a_font_nothing_is_read() -> None:
@@ -54,7 +55,7 @@ def test_behind_another_window_or_without_a_font_nothing_is_read() -> None:
     assert take_snapshot(client.devices, None).contents is None
     client.set_front(is_in_front=False)
     behind = take_snapshot(client.devices, FONT)
-    assert (behind.contents, behind.is_in_front, behind.window.gui_scale) == (None, False, None)
+    assert (behind.contents, behind.is_in_front, behind.window.scales) == (None, False, None)
 
 
 def waited(client: VirtualClient, *, has_font: bool = True) -> tuple[WindowSnapshot, float, list[str]]:

@@ -4,6 +4,7 @@ import pytest
 
 from calibration.doctor.snapshot import WindowSnapshot
 from calibration.doctor.window_rows import front_row, scaling_row, size_row, window_row, window_rows
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.tables import Profile, ScreenTable
 
@@ -11,9 +12,9 @@ Size = tuple[int, int]
 
 
 def snapshot(picture_size: Size, points: Size | None, gui_scale: int | None = 2) -> WindowSnapshot:
-    return WindowSnapshot(
-        Fingerprint("Minecraft 1.20.1", picture_size, gui_scale), picture_size, points, is_in_front=True, contents=None
-    )
+    scales = Scales(gui_scale, gui_scale) if gui_scale else None
+    window = Fingerprint("Minecraft 1.20.1", picture_size, scales)
+    return WindowSnapshot(window, picture_size, points, is_in_front=True, contents=None)
 
 
 @pytest.mark.parametrize(
@@ -56,7 +57,7 @@ def test_a_window_smaller_than_the_games_screens_fails() -> None:
 
 @pytest.mark.parametrize(("wanted", "status"), [(2, "pass"), (None, "pass"), (3, "fail")])
 def test_a_gui_scale_is_the_profiles_if_that_names_one(wanted: int | None, status: str) -> None:
-    row = size_row(snapshot((960, 540), None), Profile(screen=ScreenTable(gui_scale=wanted)))
+    row = size_row(snapshot((960, 540), None), Profile(screen=ScreenTable(debug_scale=wanted)))
     assert row.status == status
     assert row.detail.startswith("960 x 540 pixels, GUI scale 2")
     assert ("GUI Scale to 3" in row.fix) == (status == "fail")

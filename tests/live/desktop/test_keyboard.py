@@ -9,6 +9,7 @@ from mc_nested.errors import DesktopError, ProfileError
 from mc_nested.live.desktop.keyboard import DesktopKeyboard
 from mc_nested.live.desktop.lost_display import LOST
 from mc_nested.live.model.key_places import PLACES, KeyPlace
+from mc_nested.live.model.key_symbols import Layout
 from tests.live.desktop.probed import glfw_probed, probed
 
 LAYOUTS = ("us", "fr", "de", "dvorak", "ru")
@@ -38,7 +39,8 @@ def expected_events() -> dict[str, list[list[int]]]:
 class Sender:
     """Notes what is sent, as long as there is a display."""
 
-    def __init__(self) -> None:
+    def __init__(self, made: Layout | None = None) -> None:
+        self.made = made
         self.sent: list[tuple[KeyPlace, bool] | str] = []
         self.has_display = True
 
@@ -47,6 +49,9 @@ class Sender:
 
     def type(self, character: str) -> None:
         self._note(character)
+
+    def layout(self) -> Layout | None:
+        return self.made
 
     def _note(self, what: tuple[KeyPlace, bool] | str) -> None:
         if not self.has_display:
@@ -71,6 +76,56 @@ def test_a_name_that_no_key_has_is_an_error_before_anything_is_sent() -> None:
         with pytest.raises(ProfileError, match="no key is named 'shift'"):
             act("shift")
     assert sender.sent == []
+
+
+def test_where_the_game_goes_by_symbols_a_key_is_pressed_where_its_symbol_is() -> None:
+    sender = Sender({"w": ("z", "z"), "z": ("w", "w"), "1": ("", "1")})
+    keyboard = DesktopKeyboard(sender)
+    keyboard.go_by_symbols(["w", "1"])
+    keyboard.press("W")
+    keyboard.release("w")
+    assert sender.sent == [(PLACES["z"], True), (PLACES["z"], False)]
+
+
+def test_a_digit_that_needs_shift_is_pressed_with_the_right_one_which_goes_up_last() -> None:
+    sender = Sender({"1": ("", "1")})
+    keyboard = DesktopKeyboard(sender)
+    keyboard.go_by_symbols(["1"])
+    keyboard.press("1")
+    keyboard.release("1")
+    shift, one = PLACES["right.shift"], PLACES["1"]
+    assert sender.sent == [(shift, True), (one, True), (one, False), (shift, False)]
+
+
+def test_a_key_goes_up_where_it_went_down_though_the_layout_changes_meanwhile() -> None:
+    sender = Sender({"w": ("z", "z"), "z": ("w", "w")})
+    keyboard = DesktopKeyboard(sender)
+    keyboard.go_by_symbols(["w"])
+    keyboard.press("w")
+    sender.made = {"w": ("", "")}
+    keyboard.release("w")
+    assert sender.sent == [(PLACES["z"], True), (PLACES["z"], False)]
+    keyboard.release("w")
+    assert len(sender.sent) == 2, "there is no such key any more"
+
+
+def test_a_layout_without_the_symbols_is_one_line_and_nothing_is_pressed() -> None:
+    sender = Sender({"w": ("", "w"), "1": ("1", "")})
+    keyboard = DesktopKeyboard(sender)
+    with pytest.raises(DesktopError, match="types no w, s: make English \\(US\\) your first keyboard layout") as raised:
+        keyboard.go_by_symbols(["w", "1", "s", "f3"])
+    assert "\n" not in str(raised.value)
+    with pytest.raises(DesktopError, match="types no w:"):
+        keyboard.press("w")
+    assert sender.sent == []
+
+
+def test_where_every_game_goes_by_places_nothing_changes() -> None:
+    sender = Sender()
+    keyboard = DesktopKeyboard(sender)
+    keyboard.go_by_symbols(["w"])
+    keyboard.press("w")
+    assert sender.sent == [(PLACES["w"], True)]
 
 
 @pytest.mark.skipif(not LOST, reason="the display of an X server")

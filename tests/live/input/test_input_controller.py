@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from mc_nested.errors import NotInFrontError, StoppedError, WrongScreenError
 from mc_nested.live.input.input_controller import FRESH_S, LONGEST_S, OVERDUE_S, InputController, PressTarget
 from mc_nested.live.input.signals import EndedBySignal
+from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import InputTable, Profile
 from tests.live.fake_game import FakeClock, FakeGame, FakeKeyboard, devices_of
@@ -44,6 +45,17 @@ def test_a_hold_of_n_ticks_is_n_ticks_in_the_game(ticks: int) -> None:
     walked = game.read().xyz
     assert walked is not None
     assert walked[2] - 0.5 == pytest.approx(PROFILE.walk.covered[ticks - 1], abs=0.001)
+
+
+def test_a_key_that_is_tapped_alone_waits_until_everything_else_is_up() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.press(game.clock.now() + 0.1, "left.shift")
+    controller.press(game.clock.now() + 0.2, "w")
+    began = game.clock.now()
+    controller.tap_alone("2")
+    assert game.down == set()
+    assert game.clock.now() - began == pytest.approx(0.2 + TICK_S)
 
 
 def test_late_wake_ups_never_add_up() -> None:

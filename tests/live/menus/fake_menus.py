@@ -1,5 +1,6 @@
 """A game of menus on a clock of its own, behind the device protocols: which screen is shown, and where presses lead."""
 
+from collections.abc import Collection
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -8,6 +9,7 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Button, Devices, Frame, Region
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.tables import InputTable
 from mc_nested.live.vision.menu_labels import MenuButton
 from tests.live.fake_game import FakeClipboard, FakeClock
@@ -47,7 +49,7 @@ class FakeMenus:
     labels: set[str] | None = None
     greyed: set[str] = field(default_factory=set)
     world_names: dict[str, tuple[int, int]] = field(default_factory=dict)
-    gui_scale: int = 2
+    scale: int = 2
     front_from: float = 0.0
     window_title: str = "Minecraft 1.20.1 - Singleplayer"
     frame: Frame = field(default_factory=lambda: np.zeros((480, 854, 3), np.uint8))
@@ -55,6 +57,7 @@ class FakeMenus:
     pressed: list[str | tuple[int, int]] = field(default_factory=list)
     looks: int = 0
     is_chosen: bool = False
+    has_red_hotbar: bool = False
 
     def __post_init__(self) -> None:
         self._mouse = (0, 0)
@@ -67,6 +70,12 @@ class FakeMenus:
 
     def read_position(self) -> tuple[float, float, float] | None:
         return self.read().xyz
+
+    def shows_world(self) -> bool:
+        return self.shown == "world"
+
+    def shows_death(self) -> bool:
+        return self.shown == "death" and self.has_red_hotbar
 
     def is_chat_open(self) -> bool:
         return self.shown == "chat"
@@ -84,16 +93,16 @@ class FakeMenus:
         middle = BUTTONS.get(self.shown, {}).get(label)
         if middle is None or not (self.labels is None or label in self.labels):
             return MenuButton(problem=f"no {label!r}")
-        return MenuButton(middle, self._is_enabled(label), None, self.gui_scale)
+        return MenuButton(middle, self._is_enabled(label), None, self.scale)
 
     def position_of(self, text: str) -> tuple[int, int] | None:
         return self.world_names.get(text) if self.shown == "worlds" else None
 
-    def scale(self) -> int:
-        return self.gui_scale
+    def gui_scale(self) -> int:
+        return self.scale
 
-    def seen_scale(self) -> int | None:
-        return self.gui_scale
+    def seen_scales(self) -> Scales | None:
+        return Scales(self.scale, self.scale)
 
     def size(self) -> tuple[int, int]:
         return 854, 480
@@ -113,6 +122,9 @@ class FakeMenus:
 
     def move(self, x: int, y: int) -> None:
         self._mouse = (x, y)
+
+    def go_by_symbols(self, keys: Collection[str]) -> None:
+        raise NotImplementedError(keys)
 
     def press(self, key: str | Button) -> None:
         if key == "left":

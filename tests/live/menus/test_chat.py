@@ -23,6 +23,9 @@ class ChatScreen(FakeScreen):
         self.open_from_look = 10**6
         self.typed_instead: str | None = None
 
+    def shows_world(self) -> bool:
+        return True
+
     def is_chat_open(self) -> bool:
         self.looks += 1
         self.seen.append(self._game.typed())
@@ -79,7 +82,7 @@ def test_a_chat_that_does_not_open_is_an_error_after_the_patience_and_nothing_is
     assert PATIENCE_S <= waited <= PATIENCE_S + TYPING_LOOK_S + 0.001
 
 
-def test_a_chat_that_opens_with_text_in_it_is_not_typed_into() -> None:
+def test_a_chat_that_can_not_be_emptied_is_not_typed_into() -> None:
     class Opened(ChatScreen):
         """A chat that holds a letter already."""
 
@@ -90,7 +93,17 @@ def test_a_chat_that_opens_with_text_in_it_is_not_typed_into() -> None:
     screen = Opened(game)
     with pytest.raises(NotConfirmedError, match="did not open, empty"):
         chat_in(game, screen).send(LINE)
-    assert (game.typed(), game.presses, game.commands) == (None, ["t", "esc"], [])
+    assert (game.typed(), game.commands) == (None, [])
+    assert set(game.presses[1:-1]) == {"backspace"}
+    assert (game.presses[0], game.presses[-1]) == ("t", "esc")
+
+
+def test_what_the_chat_opens_with_is_deleted_before_anything_is_typed() -> None:
+    game = FakeGame(Profile())
+    game.draft = "/fill 0 0"
+    chat_in(game, ChatScreen(game)).send(LINE)
+    assert game.commands == [LINE]
+    assert game.presses == ["t", "backspace", "enter"]
 
 
 def test_a_chat_that_closes_half_way_gets_no_more_letters() -> None:

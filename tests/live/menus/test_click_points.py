@@ -21,7 +21,8 @@ from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import font_of
 from sim.client.client import VirtualClient
 from sim.client.drawing.font import drawn_atlas
-from sim.client.game.screens import MenuState, ScreenName, Widget, menu
+from sim.client.game.screens import MenuState, ScreenName, menu
+from sim.client.game.widgets import Widget
 from tests.live.vision.menu_painter import GREY, WHITE, Colour, MenuPainter
 
 FONT = font_of(drawn_atlas())

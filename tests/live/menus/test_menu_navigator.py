@@ -19,7 +19,7 @@ def navigator_in(menus: FakeMenus, profile: Profile | None = None, points: Click
 def point_in(menus: FakeMenus, name: str, at: tuple[int, int] = (200, 60)) -> ClickPoints:
     """A point recorded on the picture that is shown now."""
     menus.frame = np.random.default_rng(1).integers(0, 256, (480, 854, 3), np.uint8)
-    return {name: record_point(name, menus.frame, at, menus.gui_scale)}
+    return {name: record_point(name, menus.frame, at, menus.scale)}
 
 
 @pytest.mark.parametrize(
@@ -91,7 +91,7 @@ def test_without_a_name_the_first_world_of_the_list_is_chosen_and_then_played(ve
 
 def test_the_first_row_is_found_at_another_scale_too() -> None:
     # 854 pixels at GUI scale 4 are 214 wide, rounded up, with their middle at 107: (107 - 119 + 60) * 4, (48 + 18) * 4.
-    menus = FakeMenus("worlds", gui_scale=4)
+    menus = FakeMenus("worlds", scale=4)
     navigator_in(menus).leave("worlds")
     assert menus.pressed == [(192, 264)]
 

@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.errors import DesktopError, ProfileError
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import (
     Fingerprint,
     check_fit,
@@ -15,7 +16,7 @@ from mc_nested.live.profile.fingerprint import (
 from mc_nested.live.profile.tables import CalibratedTable, GameVersion
 
 CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
-CURRENT = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), 2)
+CURRENT = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), Scales(2, 2))
 
 
 def test_what_was_calibrated_on_fits() -> None:
@@ -26,21 +27,21 @@ def test_what_was_calibrated_on_fits() -> None:
     ("current", "complaint"),
     [
         (
-            Fingerprint("Minecraft* 1.20.2", (854, 480), 2),
+            Fingerprint("Minecraft* 1.20.2", (854, 480), Scales(2, 2)),
             (
                 "profile laptop was calibrated on Minecraft 1.20.1, and this is 1.20.2: start that version, or run "
                 "mc-nested calibrate all --profile laptop"
             ),
         ),
         (
-            Fingerprint("Minecraft 1.20.1", (1024, 768), 2),
+            Fingerprint("Minecraft 1.20.1", (1024, 768), Scales(2, 2)),
             (
                 "profile laptop was calibrated in a window of 854 x 480 pixels, and this one has 1024 x 768: make it "
                 "that size again, or run mc-nested calibrate all --profile laptop"
             ),
         ),
         (
-            Fingerprint("Minecraft 1.20.1", (854, 480), 1),
+            Fingerprint("Minecraft 1.20.1", (854, 480), Scales(1, 1)),
             (
                 "profile laptop was calibrated at GUI scale 2, and this is 1: set Video Settings > GUI Scale to 2, or "
                 "run mc-nested calibrate all --profile laptop"
@@ -65,14 +66,14 @@ def test_a_profile_fits_exactly_where_size_and_scale_are_the_same(
     then: tuple[int, int], now: tuple[int, int], scale: int, scale_now: int
 ) -> None:
     calibrated = CalibratedTable(date="2026-11-21", version="1.20.1", window=then, gui_scale=scale)
-    problem = mismatch(calibrated, Fingerprint("Minecraft 1.20.1", now, scale_now), "default")
+    problem = mismatch(calibrated, Fingerprint("Minecraft 1.20.1", now, Scales(scale_now, scale_now)), "default")
     assert (problem is None) == (then == now and scale == scale_now)
 
 
 def test_a_profile_that_was_never_calibrated_plays_as_before() -> None:
-    check_fit(None, Fingerprint("Minecraft 1.8.9", (640, 480), 1), "default")
+    check_fit(None, Fingerprint("Minecraft 1.8.9", (640, 480), Scales(1, 1)), "default")
     with pytest.raises(ProfileError, match="was calibrated on Minecraft"):
-        check_fit(CALIBRATED, Fingerprint("Minecraft 1.8.9", (640, 480), 1), "default")
+        check_fit(CALIBRATED, Fingerprint("Minecraft 1.8.9", (640, 480), Scales(1, 1)), "default")
 
 
 def test_a_title_without_a_version_leaves_the_profiles() -> None:

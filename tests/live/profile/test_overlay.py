@@ -20,22 +20,22 @@ GREY, WHITE = (224, 224, 224), (255, 255, 255)
         ("", None),
         ("line_pitch = 10\ntext_colour = [255, 255, 255]", None),
         ("layout = 'stand-in'", None),
-        ("gui_scale = 6", Overlay(6, VANILLA, GREY)),
-        ("gui_scale = 3\nlayout = 'vanilla'\ntext_colour = [1, 2, 3]", Overlay(3, VANILLA, (1, 2, 3))),
-        ("gui_scale = 3\nlayout = 'stand-in'", Overlay(3, STANDIN, WHITE)),
-        ("gui_scale = 3\nline_pitch = 12", Overlay(3, dataclasses.replace(VANILLA, pitch=12), GREY)),
+        ("debug_scale = 6", Overlay(6, VANILLA, GREY)),
+        ("debug_scale = 3\nlayout = 'vanilla'\ntext_colour = [1, 2, 3]", Overlay(3, VANILLA, (1, 2, 3))),
+        ("debug_scale = 3\nlayout = 'stand-in'", Overlay(3, STANDIN, WHITE)),
+        ("debug_scale = 3\nline_pitch = 12", Overlay(3, dataclasses.replace(VANILLA, pitch=12), GREY)),
         (
-            "gui_scale = 3\nlayout = 'vanilla'\nline_pitch = 10",
+            "debug_scale = 3\nlayout = 'vanilla'\nline_pitch = 10",
             Overlay(3, dataclasses.replace(VANILLA, pitch=10), GREY),
         ),
     ],
 )
-def test_a_profile_that_says_the_gui_scale_says_how_the_screen_is_drawn(screen: str, overlay: Overlay | None) -> None:
+def test_a_profile_that_says_the_scale_says_how_the_screen_is_drawn(screen: str, overlay: Overlay | None) -> None:
     assert overlay_of(parse_profile(f"[screen]\n{screen}\n", "here")) == overlay
 
 
 def test_a_profile_written_before_layouts_had_names_still_is_the_stand_ins_where_its_lines_are_10_dots_apart() -> None:
-    before = "[screen]\ngui_scale = 3\nline_pitch = 10\ntext_colour = [255, 255, 255]\n"
+    before = "[screen]\ndebug_scale = 3\nline_pitch = 10\ntext_colour = [255, 255, 255]\n"
     assert overlay_of(parse_profile(before, "here")) == Overlay(3, STANDIN, WHITE)
 
 

@@ -35,7 +35,7 @@ def test_a_saved_profile_is_read_back_the_same(tmp_path: Path) -> None:
         window=WindowTable(title="Web Client"),
         game=GameVersion(version="1.12.2"),
         keys=KeysTable(left="d", right="a"),
-        screen=ScreenTable(font=str(tmp_path / "ascii.png"), gui_scale=3, line_pitch=10, text_colour=(255, 255, 255)),
+        screen=ScreenTable(font=str(tmp_path / "ascii.png"), debug_scale=3, line_pitch=10, text_colour=(255, 255, 255)),
         arena=ARENA,
         blocks=BlocksTable(shown_prefix="", names={"oak_planks": "planks"}),
         body=BodyTable(tolerance=0.12),
@@ -81,7 +81,9 @@ def test_saving_twice_changes_nothing(tmp_path: Path) -> None:
 
 def test_what_a_profile_no_longer_says_leaves_the_file(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
-    save_profile(Profile(arena=ARENA, screen=ScreenTable(gui_scale=2), points={"a": (0.1, 0.1), "b": (0.2, 0.2)}), path)
+    save_profile(
+        Profile(arena=ARENA, screen=ScreenTable(debug_scale=2), points={"a": (0.1, 0.1), "b": (0.2, 0.2)}), path
+    )
     save_profile(Profile(points={"b": (0.3, 0.2)}), path)
     assert load_profile(path) == Profile(points={"b": (0.3, 0.2)})
     assert "arena" not in tomlkit.parse(path.read_text("utf-8"))

@@ -11,7 +11,7 @@ from sim.client.client import VirtualClient
 from sim.client.drawing.hud_layers import HudLayers
 from sim.client.drawing.layers import draw_all
 from sim.client.drawing.letters import Letters
-from sim.client.game.chat import ChatLine
+from sim.client.game.chat import ChatLine, TypedLine
 from sim.client.game.colours import WHITE
 from sim.client.game.edition import Edition
 from sim.client.settings import gui_scale
@@ -85,7 +85,7 @@ def chat_over(size: tuple[int, int], scale: int, version: str, said: list[str], 
     letters, gui = Letters(FONT, scale), (-(-size[0] // scale), -(-size[1] // scale))
     lines = tuple(ChatLine(text, WHITE, 8) for text in said)
     frame: Frame = np.full((size[1], size[0], 3), 120, np.uint8)
-    draw_all(frame, HudLayers(letters, gui, Edition(version)).chat(lines, typed), (0, 0, *size))
+    draw_all(frame, HudLayers(letters, gui, Edition(version)).chat(lines, TypedLine(typed)), (0, 0, *size))
     return frame
 
 

@@ -96,8 +96,16 @@ def test_a_long_tag_beside_the_facing_line_needs_480_dots(width: int, is_read: b
     assert reading == expected(shown) if is_read else "Facing" in (reading.problem or "")
 
 
-def test_the_groups_of_1_21_9_are_read_in_either_column() -> None:
-    shown = dataclasses.replace(screen("1.21.9-26.3"), swapped=True)
+@pytest.mark.parametrize(
+    "entries",
+    [
+        ("looking_at_block_state", "player_position"),
+        ("light_levels", "looking_at_block_state", "player_position"),
+        ("heightmap", "light_levels", "looking_at_block_state", "player_position"),
+    ],
+)
+def test_the_groups_of_1_21_9_are_read_in_either_column(entries: tuple[str, ...]) -> None:
+    shown = dataclasses.replace(screen("1.21.9-26.3"), entries=entries, has_f3=False)
     assert read_debug_screen(painted(shown), FONT) == expected(shown)
 
 

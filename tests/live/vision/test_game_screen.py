@@ -31,22 +31,22 @@ def painter(frame: Frame, scale: int) -> MenuPainter:
 def test_the_scale_is_measured_once_for_each_size_of_the_window() -> None:
     display = OneFrameDisplay(debug_screen(2, ground()))
     screen = WindowScreen(display, FONT)
-    assert [screen.scale(), screen.scale(), display.whole_grabs] == [2, 2, 1]
+    assert [screen.gui_scale(), screen.gui_scale(), display.whole_grabs] == [2, 2, 1]
     display.frame = debug_screen(3, ground(960, 720))
-    assert [screen.scale(), screen.scale(), display.whole_grabs] == [3, 3, 2]
+    assert [screen.gui_scale(), screen.gui_scale(), display.whole_grabs] == [3, 3, 2]
 
 
 def test_without_a_debug_screen_the_scale_stays_what_it_was() -> None:
     display = OneFrameDisplay(debug_screen(2, ground()))
     screen = WindowScreen(display, FONT)
-    screen.scale()
+    screen.gui_scale()
     display.frame = ground(960, 720)
-    assert screen.scale() == 2
+    assert screen.gui_scale() == 2
 
 
 def test_the_overlay_that_is_given_says_the_scale_and_no_picture_is_taken() -> None:
     display = OneFrameDisplay(ground())
-    assert WindowScreen(display, FONT, Overlay(3, VANILLA, (224, 224, 224))).scale() == 3
+    assert WindowScreen(display, FONT, Overlay(3, VANILLA, (224, 224, 224))).gui_scale() == 3
     assert display.whole_grabs == 0
 
 
@@ -54,11 +54,11 @@ def test_the_overlay_that_is_given_says_the_scale_and_no_picture_is_taken() -> N
 def test_the_list_of_worlds_says_the_scale_before_any_debug_screen_was_seen(scale: int) -> None:
     frame = ground()
     painter(frame, scale).text(WORLDS_TITLE, 50, 10)
-    assert WindowScreen(OneFrameDisplay(frame), FONT).scale() == scale
+    assert WindowScreen(OneFrameDisplay(frame), FONT).gui_scale() == scale
 
 
 def test_an_unknown_scale_is_1() -> None:
-    assert WindowScreen(OneFrameDisplay(ground()), FONT).scale() == 1
+    assert WindowScreen(OneFrameDisplay(ground()), FONT).gui_scale() == 1
 
 
 @pytest.mark.parametrize("scale", [1, 2])

@@ -7,6 +7,7 @@ import pytest
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Target
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
@@ -27,7 +28,7 @@ TARGET = Target((-9, 63, 12), "minecraft:stone")
 
 def painted(layout: Layout, notices: tuple[str, ...], target: Target | None = TARGET, world: str = "noise") -> Frame:
     shown = F3Screen(layout, 2, (-8.5, 64.0, 12.25), 90.0, 65.0, target)
-    painter = Painter((854, 480), 2, FONT, Edition("1.20.1"), world, 3)
+    painter = Painter((854, 480), Scales(2, 2), FONT, Edition("1.20.1"), world, 3)
     return painter.grab(View(MenuState("world"), (0, 0, 0), shown, notices=notices))
 
 

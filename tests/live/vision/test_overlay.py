@@ -7,6 +7,7 @@ import pytest
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Target
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
 from mc_nested.live.vision.layout import VANILLA, Overlay
@@ -61,7 +62,7 @@ def test_every_layout_is_found_at_every_scale_by_its_position_line(layout: Layou
 def test_the_games_name_on_a_menu_is_no_debug_screen(
     version: str, screen_name: ScreenName, overlay: Overlay | None
 ) -> None:
-    painter = Painter((854, 480), 2, FONT, Edition(version), "noise", 0)
+    painter = Painter((854, 480), Scales(2, 2), FONT, Edition(version), "noise", 0)
     frame = painter.grab(View(MenuState(screen_name), (0, 0, 0)))
     assert positions_of(GlyphGrid(frame, 2, 200), FONT, "Minecraft "), "the name stands there"
     assert find_debug_screen(frame, FONT, overlay) is None

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.live.devices import Frame
+from mc_nested.live.model.scales import Scales
 from mc_nested.live.vision.world_greys import SIDE, hidden_regions, world_greys
 from sim.client.client import VirtualClient
 from sim.client.drawing.scenery import SEEN
@@ -53,7 +54,7 @@ def hidden(size: tuple[int, int], scale: int) -> np.ndarray:
 @pytest.mark.parametrize("scale", [1, 2])
 def test_the_world_comes_out_as_if_nothing_lay_over_it(version: str, scale: int) -> None:
     client = client_looking(scale=scale, version=version)
-    found = world_greys(client.display.grab(), scale).astype(int)
+    found = world_greys(client.display.grab(), Scales(scale, scale)).astype(int)
     elsewhere = ~hidden(client.display.size(), scale)
     away = np.abs(found - plainly(bare(client)))[elsewhere]
     assert away.max() <= NEAR
@@ -63,14 +64,14 @@ def test_the_world_comes_out_as_if_nothing_lay_over_it(version: str, scale: int)
 @given(st.floats(40, 85), st.floats(-180, 180))
 def test_that_holds_wherever_the_agent_looks(pitch: float, yaw: float) -> None:
     client = client_looking(pitch, yaw)
-    away = np.abs(world_greys(client.display.grab(), 1).astype(int) - plainly(bare(client)))
+    away = np.abs(world_greys(client.display.grab(), Scales(1, 1)).astype(int) - plainly(bare(client)))
     # The sky is as bright as letters are, so a horizon at a text's edge may cost a dot.
     assert np.mean(away[~hidden(client.display.size(), 1)] > NEAR) < 0.002
 
 
 def test_a_picture_is_84_rows_of_84_greys_whatever_the_windows_size() -> None:
     for size in ((854, 480), (1280, 720), (640, 360)):
-        greys = world_greys(np.full((size[1], size[0], 3), 77, np.uint8), 1)
+        greys = world_greys(np.full((size[1], size[0], 3), 77, np.uint8), Scales(1, 1))
         assert greys.shape == (84, 84)
         assert greys.dtype == np.uint8
         assert set(np.unique(greys)) <= {0, 77}
@@ -78,14 +79,14 @@ def test_a_picture_is_84_rows_of_84_greys_whatever_the_windows_size() -> None:
 
 def test_chat_hotbar_and_crosshair_make_no_difference() -> None:
     client = client_looking()
-    before = world_greys(client.display.grab(), 1)
+    before = world_greys(client.display.grab(), Scales(1, 1))
     client.realm.player.hotbar[5:] = [Stack("sand", 64)] * 4
     command(client, "/time set 1")
     client.clock.sleep(0.3)
     with_chat = client.display.grab()
     assert (with_chat != client_looking().display.grab()).any()
-    assert np.array_equal(world_greys(with_chat, 1)[hidden((854, 480), 1)], before[hidden((854, 480), 1)])
-    assert np.abs(world_greys(with_chat, 1).astype(int) - before).max() <= NEAR
+    assert np.array_equal(world_greys(with_chat, Scales(1, 1))[hidden((854, 480), 1)], before[hidden((854, 480), 1)])
+    assert np.abs(world_greys(with_chat, Scales(1, 1)).astype(int) - before).max() <= NEAR
 
 
 def test_the_text_of_another_place_makes_no_difference() -> None:
@@ -93,12 +94,12 @@ def test_the_text_of_another_place_makes_no_difference() -> None:
     for x in (0.5, 12345.5):
         client = VirtualClient(world=SEEN, pitch=65.0, scale=1, feet=(x, 64.0, 0.5))
         client.clock.sleep(0.2)
-        pictures.append(world_greys(client.display.grab(), 1).astype(int))
+        pictures.append(world_greys(client.display.grab(), Scales(1, 1)).astype(int))
     assert np.abs(pictures[0] - pictures[1]).max() <= NEAR
 
 
 def test_where_the_chat_may_be_it_is_black() -> None:
-    greys = world_greys(np.full((480, 854, 3), 200, np.uint8), 1)
+    greys = world_greys(np.full((480, 854, 3), 200, np.uint8), Scales(1, 1))
     # From 138 to 38 GUI pixels over the lower edge, 332 wide: rows 60 to 77 of 84, columns 0 to 32.
     assert not greys[61:76, :32].any()
     assert (greys[61:73, 34:] == 200).all()

@@ -41,6 +41,9 @@ class WrittenLines:
     def ending(self, row: int, end: int) -> Line | None:
         return next((line for line in self._lines if (line.row, line.end) == (row, end)), None)
 
+    def begins(self, row: int, start: int) -> bool:
+        return any((line.row, line.start) == (row, start) for line in self._lines)
+
     def right_column(self) -> Sequence[Line]:
         return [line for line in self._lines if line.end == RIGHT]
 

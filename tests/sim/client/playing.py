@@ -1,7 +1,7 @@
 """The unchanged live path on a virtual client: what session.py wires to a desktop, wired to the client."""
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.live.connection import GameConnection
+from mc_nested.live.connection import GameConnection, prepare_keyboard
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.model.coordinates import Facing
@@ -28,15 +28,21 @@ def read(client: VirtualClient) -> Reading:
     return read_debug_screen(client.display.grab(), FONT, Overlay(client.scale, VANILLA, (224, 224, 224)))
 
 
+def screen_of(client: VirtualClient) -> WindowScreen:
+    """What reads the client's window."""
+    return WindowScreen(client.display, FONT, version=client.settings.version)
+
+
 def connection_to(client: VirtualClient, *, is_server_allowed: bool = False) -> GameConnection:
     """The client, read with its own font."""
     controller = InputController(client.devices, InputTable())
-    screen = WindowScreen(client.display, FONT)
+    screen = screen_of(client)
     return GameConnection(client.devices, controller, screen, is_server_allowed=is_server_allowed)
 
 
 def play(client: VirtualClient, scenario: Scenario, facing: Facing = "south") -> LiveGame:
     profile = Profile(game=GameVersion(version=client.settings.version), arena=arena_of(client, facing))
+    prepare_keyboard(profile, client.devices)
     return LiveGame(
         scenario,
         profile,

@@ -18,14 +18,15 @@ from mc_nested.live.vision.chat_region import without_chat
 from mc_nested.live.vision.game_screen import WindowScreen
 from mc_nested.live.vision.last_frames import LastFrames
 from sim.client.client import VirtualClient
-from tests.sim.client.playing import FONT, arena_of, command, connection_to, play
+from sim.client.game.options import GameOptions
+from tests.sim.client.playing import FONT, arena_of, command, connection_to, play, screen_of
 
 LINE = load_scenario("line")
 
 
 def _screen(client: VirtualClient) -> WindowScreen:
     client.clock.sleep(0.2)
-    return WindowScreen(client.display, FONT)
+    return screen_of(client)
 
 
 def _connection(client: VirtualClient) -> GameConnection:
@@ -68,7 +69,6 @@ def test_a_line_that_is_about_as_long_as_the_window_is_wide_is_seen_at_any_width
 def test_the_open_chat_is_seen_to_be_empty_whether_its_cursor_is_there_or_not() -> None:
     client = VirtualClient(world="dark")
     screen = _screen(client)
-    assert screen.is_typed("")
     client.game.open("chat")
     client.clock.sleep(0.2)
     assert screen.is_typed("")
@@ -102,6 +102,54 @@ def test_a_letter_that_is_lost_keeps_the_line_from_being_sent() -> None:
     with pytest.raises(NotConfirmedError, match=r"not seen in the chat|did not open"):
         Chat(Profile(), connection).send("/time set 1")
     assert client.realm.day_time == 6000
+
+
+@pytest.mark.parametrize("scale", [1, 2, 3, 4, 5, 6])
+@pytest.mark.parametrize("draft", ["/tp @s 1 2 3", "hello", "W", "~@#", "it"])
+def test_a_draft_is_an_open_chat_and_is_deleted_before_a_line_is_typed(draft: str, scale: int) -> None:
+    client = VirtualClient(version="26.1", size=(320 * scale + 7, 240 * scale + 3), scale=scale, world="bright")
+    client.game.chat.draft = draft
+    client.clock.sleep(0.2)
+    connection = _connection(client)
+    assert not connection.screen.is_chat_open()
+    connection.controller.confirm_screen("world")
+    Chat(Profile(), connection).send("/time set 1")
+    client.clock.sleep(0.2)
+    assert (client.realm.day_time, client.game.chat.draft) == (1, "")
+
+
+@pytest.mark.parametrize("scale", range(1, 9))
+def test_whatever_letter_a_draft_begins_with_it_is_an_open_chat(scale: int) -> None:
+    client = VirtualClient(version="26.1", size=(320 * scale + 7, 240 * scale + 3), scale=scale, world="dark")
+    screen, letters = _screen(client), FONT.glyphs.keys() - {"."}
+    for letter in letters:
+        client.game.chat.draft = f"{letter}ox"
+        client.game.open("chat")
+        client.clock.sleep(0.2)
+        assert screen.is_chat_open(), letter
+        client.game.chat.close(keeps_draft=False)
+        client.game.open("world")
+
+
+def test_a_line_on_a_ground_too_light_to_be_read_is_not_sent_and_the_error_names_the_option() -> None:
+    options = GameOptions(text_background_opacity=0.0, background_for_chat_only=False)
+    client = VirtualClient(version="26.1", world="bright", options=options)
+    client.clock.sleep(0.2)
+    connection = _connection(client)
+    connection.controller.confirm_screen("world")
+    with pytest.raises(NotConfirmedError, match=r"Options > Accessibility > Text Background is Chat"):
+        Chat(Profile(), connection).send("/time set 1")
+    assert (client.game.screen, client.realm.day_time, client.window.down) == ("world", 6000, set())
+
+
+def test_where_the_background_is_of_the_chat_alone_its_opacity_keeps_nothing_from_being_read() -> None:
+    client = VirtualClient(version="26.1", world="bright", options=GameOptions(text_background_opacity=0.0))
+    client.clock.sleep(0.2)
+    connection = _connection(client)
+    connection.controller.confirm_screen("world")
+    Chat(Profile(), connection).send("/time set 1")
+    client.clock.sleep(0.2)
+    assert client.realm.day_time == 1
 
 
 class ElsewhereScreen(WindowScreen):

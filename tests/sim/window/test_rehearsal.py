@@ -98,13 +98,13 @@ def played(display: dict[str, str], tmp_path: Path) -> Iterator[Played]:
 
 
 def test_its_text_is_that_of_the_game_to_the_dot(played: Played) -> None:
-    for size in ((854, 480), (1023, 767)):
+    for size, scale in (((854, 480), 2), ((1023, 767), 3)):
         played.window.configure(width=size[0], height=size[1])
         played.display.sync()
 
-        def is_read(size: tuple[int, int] = size) -> bool:
+        def is_read(size: tuple[int, int] = size, scale: int = scale) -> bool:
             picture = played.picture()
-            reading = read_debug_screen(picture, FONT, Overlay(2, VANILLA, (224, 224, 224)))
+            reading = read_debug_screen(picture, FONT, Overlay(scale, VANILLA, (224, 224, 224)))
             return picture.shape == (size[1], size[0], 3) and reading.xyz == (0.5, 64.0, 0.5)
 
         assert soon(is_read)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from mc_nested.live.devices import Region
+from mc_nested.live.model.scales import Scales
 from sim.client.desktop.clock import VirtualClock
 from sim.client.desktop.display import GRAB_S, VirtualDisplay
 from sim.client.desktop.frames import Frames
@@ -30,7 +31,7 @@ class Shown:
         self.clock = VirtualClock(0.0)
         rng = np.random.default_rng(0)
         self.window = VirtualWindow(self.clock, Frames(math.inf), rng, SIZE, (0.0, 0.0))
-        self.painter = Painter(SIZE, 1, FONT, Edition("1.20.1"), "noise", 0)
+        self.painter = Painter(SIZE, Scales(1, 1), FONT, Edition("1.20.1"), "noise", 0)
         frames = Frames(10.0, 0.03)
         title = "Minecraft 1.20.1"
         self.display = VirtualDisplay(
@@ -38,7 +39,7 @@ class Shown:
         )
 
     def shows(self, view: View) -> bool:
-        other = Painter(SIZE, 1, FONT, Edition("1.20.1"), "noise", 0)
+        other = Painter(SIZE, Scales(1, 1), FONT, Edition("1.20.1"), "noise", 0)
         return bool(np.array_equal(self.display.grab(), other.grab(view)))
 
 
@@ -71,7 +72,7 @@ def test_a_view_is_seen_from_the_next_frame_on_after_the_latency(wait: float, is
 
 def test_an_older_frame_never_follows_a_newer_one() -> None:
     shown = Shown(0.0, 0.4)
-    pictures = [Painter(SIZE, 1, FONT, Edition("1.20.1"), "noise", 0).grab(moved(x)) for x in range(16)]
+    pictures = [Painter(SIZE, Scales(1, 1), FONT, Edition("1.20.1"), "noise", 0).grab(moved(x)) for x in range(16)]
     order = []
     for x in range(16):
         shown.display.show(moved(x))
@@ -115,5 +116,5 @@ def test_views_are_kept_for_as_long_as_they_may_be_seen() -> None:
 
 def test_another_painter_draws_from_the_next_grab_on() -> None:
     shown = Shown()
-    shown.display.painter = Painter((40, 30), 1, FONT, Edition("1.20.1"), "flat", 0)
+    shown.display.painter = Painter((40, 30), Scales(1, 1), FONT, Edition("1.20.1"), "flat", 0)
     assert shown.display.grab().shape == (30, 40, 3)

@@ -1,4 +1,4 @@
-"""The virtual keyboard: keys by their places, text by its characters."""
+"""The virtual keyboard: keys by their places, to 1.12 by what the layout makes there, and text by its characters."""
 
 import math
 
@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from mc_nested.errors import ProfileError
+from mc_nested.live.desktop.keyboard import DesktopKeyboard
+from mc_nested.live.model.key_places import PLACES
 from sim.client.desktop.clock import VirtualClock
 from sim.client.desktop.frames import Frames
-from sim.client.desktop.keyboard import VirtualKeyboard
+from sim.client.desktop.keyboard import VirtualKeySender
+from sim.client.desktop.layouts import LAYOUTS
 from sim.client.desktop.window import VirtualWindow
 from sim.client.game.controls import Controls
 from sim.client.game.edition import Edition
@@ -20,11 +23,18 @@ from sim.client.game.world import VirtualWorld
 class Typed:
     """A keyboard, the window that it is for, and the game in it."""
 
-    def __init__(self) -> None:
+    def __init__(self, layout: str = "us", *, is_lwjgl_2: bool = False) -> None:
         self.clock = VirtualClock(0.0)
         self.window = VirtualWindow(self.clock, Frames(math.inf), np.random.default_rng(0), (80, 60), (0.01, 0.01))
         self.game = VirtualGame(Realm(Edition("1.20.1"), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5))))
-        self.keyboard = VirtualKeyboard(self.window, Controls(self.game, lambda: "", lambda _: None))
+        controls = Controls(self.game, lambda: "", lambda _: None)
+        self.sender = VirtualKeySender(self.window, controls, layout, is_lwjgl_2=is_lwjgl_2)
+        self.keyboard = DesktopKeyboard(self.sender)
+
+    def held(self) -> set[str]:
+        """The keys that the game takes for down."""
+        self.clock.sleep(0.01)
+        return self.game.keys.physical
 
 
 def test_keys_reach_the_game_after_the_windows_latency() -> None:
@@ -75,3 +85,56 @@ def test_a_key_has_any_of_its_names_and_an_unknown_name_is_an_error() -> None:
     for act in (typed.keyboard.press, typed.keyboard.release):
         with pytest.raises(ProfileError, match="no key is named"):
             act("shift")
+
+
+@pytest.mark.parametrize(
+    ("layout", "taken"),
+    [
+        ("us", {"w": "w", "a": "a", "1": "1", "/": "/"}),
+        ("fr", {"w": "z", "a": "q", "4": "'", ",": ";"}),
+        ("de", {"w": "w", "y": "z", "/": "-"}),
+        ("dvorak", {"w": ",", "d": "e", "/": "z"}),
+        ("il", {"w": "'", "q": "/"}),
+    ],
+)
+def test_to_1_12_a_key_is_what_the_layout_makes_there(layout: str, taken: dict[str, str]) -> None:
+    # As a window of LWJGL 2.9.3 took them (tests/live/desktop/test_lwjgl2_window.py).
+    for place, key in taken.items():
+        typed = Typed(layout, is_lwjgl_2=True)
+        typed.sender.send(PLACES[place], is_down=True)
+        assert typed.held() == {key}
+        typed.sender.send(PLACES[place], is_down=False)
+        assert typed.held() == set()
+
+
+def test_to_1_12_a_key_whose_symbol_lwjgl_2_does_not_have_is_none() -> None:
+    typed = Typed("ru", is_lwjgl_2=True)
+    typed.sender.send(PLACES["w"], is_down=True)
+    assert typed.held() == set()
+
+
+def test_from_1_13_on_a_key_is_its_place_under_every_layout() -> None:
+    for layout in LAYOUTS:
+        typed = Typed(layout)
+        typed.keyboard.press("w")
+        assert typed.held() == {"w"}
+
+
+def test_to_1_12_shift_makes_another_key_of_a_digit_which_stays_down_without_it() -> None:
+    typed = Typed("us", is_lwjgl_2=True)
+    for place in ("left.shift", "2"):
+        typed.sender.send(PLACES[place], is_down=True)
+    assert typed.held() == {"left.shift", "@"}
+    for place in ("left.shift", "2"):
+        typed.sender.send(PLACES[place], is_down=False)
+    assert typed.held() == {"@"}, "it went up as 2"
+
+
+def test_what_a_key_types_is_the_layouts_own() -> None:
+    typed = Typed("fr")
+    typed.game.open("chat")
+    for place in ("w", "q", "2"):
+        typed.keyboard.press(place)
+        typed.keyboard.release(place)
+    typed.clock.sleep(0.01)
+    assert typed.game.chat.typed == "za·"

@@ -36,7 +36,8 @@ def test_screens_stay_in_the_world_and_have_what_their_layout_shows() -> None:
         assert -64 <= y <= 319
         assert abs(screen.yaw) <= 180
         assert abs(screen.pitch) <= 90
-        assert screen.swapped <= (layout == "1.21.9-26.3")
+        assert (screen.entries is not None) == (layout == "1.21.9-26.3")
+        assert screen.names_target
         assert not (screen.tags and layout in ("standin", "1.8-1.12"))
         if screen.target is not None:
             assert (screen.target.id or "").startswith("minecraft:") == (layout != "standin")

@@ -4,7 +4,7 @@ from mc_nested.live.devices import Frame
 from sim.client.drawing.hud_layers import HudLayers
 from sim.client.drawing.layers import Layer, draw_all
 from sim.client.drawing.letters import Letters
-from sim.client.game.chat import ChatLine
+from sim.client.game.chat import ChatLine, TypedLine
 from sim.client.game.colours import RED, WHITE
 from sim.client.game.edition import Edition
 from sim.client.game.f3_text import F3Screen
@@ -63,7 +63,7 @@ def test_with_the_debug_screen_the_crosshair_is_three_coloured_axes() -> None:
 def test_the_chosen_slot_is_brighter_than_the_others() -> None:
     frame = drawn(hud().of(view(None, 3)), 200)[200:]
     left = 213 - 91
-    chosen = bounds((frame[:, left:, 0] > 120) & (frame[:, left:, 0] < 200))
+    chosen = bounds(frame[:, left:, 0] > 200)
     assert (chosen[0], chosen[2]) == (20 * 3 - 1, 20 * 3 + 23)
     bar = bounds((frame != 200).any(2))
     assert bar == (left, 17, left + 182, 40)
@@ -129,26 +129,44 @@ def test_a_word_longer_than_the_chat_stays_on_its_line() -> None:
 
 def test_what_is_typed_has_a_cursor_and_shows_its_end() -> None:
     letters = Letters(FONT, 1)
-    box, text = hud().chat((), "abc")
+    box, text = hud().chat((), TypedLine("abc"))
     assert box.rect == (2, HEIGHT - 14, WIDTH - 2, HEIGHT - 2)
     assert text.rect[:2] == (4, HEIGHT - 12)
     assert text.rect[2] == 4 + letters.width("abc_") + 1
-    _, long = hud().chat((), "x" * 200)
+    _, long = hud().chat((), TypedLine("x" * 200))
     assert WIDTH - 8 - letters.width("x") < long.rect[2] - long.rect[0] - 1 <= WIDTH - 8
+
+
+def test_what_is_behind_the_texts_is_as_dark_as_they_say() -> None:
+    for ground in (0, 51, 255):
+        frame = drawn(hud().chat((ChatLine("I", WHITE, 8, ground),), TypedLine("I", ground=ground)), 200)
+        assert {int(frame[row, 300, 0]) for row in (HEIGHT - 45, HEIGHT - 8)} == {round(200 * (255 - ground) / 255)}
+
+
+def test_a_draft_is_grey_and_slanted_and_its_cursor_is_not() -> None:
+    letters = Letters(FONT, 1)
+    _, text, cursor = hud().chat((), TypedLine("/tp", is_draft=True))
+    assert text.rect[0] == 3
+    assert cursor.rect[0] == 4 + letters.width("/tp")
+    frame = drawn([text])
+    assert (frame == 170).all(2).any()
+    assert not (frame == 224).all(2).any()
 
 
 def test_a_line_that_just_fits_is_shown_from_its_beginning() -> None:
     letters = Letters(FONT, 1)
     texts = ("x" * count + narrow for count in range(100) for narrow in ("", "i", "l", "t", "il", "it", "lt", "ilt"))
     fitting = next(text for text in texts if letters.width(f"{text}_") == WIDTH - 8)
-    _, shown = hud().chat((), fitting)
+    _, shown = hud().chat((), TypedLine(fitting))
     assert shown.rect[2] - shown.rect[0] - 1 == WIDTH - 8
 
 
 def test_what_did_not_change_is_the_same_layer_again() -> None:
     layers = hud()
     assert layers.of(view()) == layers.of(view())
-    assert layers.chat((ChatLine("a", WHITE, 8),), "b") == layers.chat((ChatLine("a", WHITE, 8),), "b")
+    assert layers.chat((ChatLine("a", WHITE, 8),), TypedLine("b")) == layers.chat(
+        (ChatLine("a", WHITE, 8),), TypedLine("b")
+    )
 
 
 def test_everything_grows_with_the_scale() -> None:

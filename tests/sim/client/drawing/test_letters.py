@@ -63,3 +63,26 @@ def test_the_colour_is_written_blue_green_red_and_the_shadow_a_quarter_of_it() -
 def test_an_empty_text_has_no_dots() -> None:
     mask, colours = Letters(FONT, 2).text("", 0, 0, WHITE).dots()
     assert mask.size == colours.size == 0
+
+
+@pytest.mark.parametrize("scale", [1, 2, 3, 4])
+def test_a_slanted_text_leans_to_the_right_by_a_quarter_of_a_dot_a_dot(scale: int) -> None:
+    letters = Letters(FONT, scale)
+    upright, slanted = letters.text("l", 4, 0, WHITE), letters.text("l", 4, 0, WHITE, is_slanted=True)
+    assert slanted.rect == (upright.rect[0] - scale, 0, upright.rect[2] + scale, 8 * scale)
+    ink, leaning = upright.dots()[0] > 0, slanted.dots()[0] > 0
+    for row in range(8 * scale):
+        shift = round(scale - 0.25 * (row + 0.5))
+        there, now = np.flatnonzero(ink[row]) + scale, np.flatnonzero(leaning[row])
+        assert len(now) == len(there)
+        assert all(abs(now - there - shift) <= 1)
+    assert np.flatnonzero(leaning.any(1)).tolist() == np.flatnonzero(ink.any(1)).tolist()
+
+
+def test_the_shadow_of_a_slanted_text_is_a_dot_to_the_right_and_below() -> None:
+    plain, shadowed = (
+        Letters(FONT, 2).text("k", 0, 0, WHITE, shadow=shadow, is_slanted=True) for shadow in (False, True)
+    )
+    ink, (mask, colours) = plain.dots()[0] > 0, shadowed.dots()
+    assert ((colours == 255).all(2) & (mask > 0))[:-2, :-2].tolist() == ink.tolist()
+    assert (mask > 0)[2:, 2:][ink].all()

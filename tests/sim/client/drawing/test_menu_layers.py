@@ -6,8 +6,9 @@ from sim.client.drawing.layers import Layer, draw_all
 from sim.client.drawing.letters import Letters
 from sim.client.drawing.menu_layers import MenuLayers
 from sim.client.game.edition import Edition
-from sim.client.game.screens import MenuState, ScreenName, Widget, menu
+from sim.client.game.screens import MenuState, ScreenName, menu
 from sim.client.game.view import View
+from sim.client.game.widgets import Widget
 from tests.sim.client.playing import FONT
 
 WIDTH, HEIGHT = 427, 240
@@ -71,15 +72,28 @@ def test_a_chosen_world_is_marked() -> None:
     assert (after[corner] == round(200 * (255 - 80) / 255 + 128 * 80 / 255)).all()
 
 
-@pytest.mark.parametrize(("name", "is_red"), [("pause", False), ("death", True)])
+@pytest.mark.parametrize(
+    ("name", "is_red"), [("pause", False), ("debug_options", False), ("friends", False), ("death", True)]
+)
 def test_the_world_behind_a_menu_is_dimmed_or_reddened(name: ScreenName, is_red: bool) -> None:
     corner = drawn(MenuState(name))[0, 0]
     assert corner.max() < 200
     assert (corner[2] > corner[0]) == is_red
 
 
-def test_the_title_is_not_dimmed() -> None:
-    assert (drawn(MenuState("title"))[0, 0] == 200).all()
+@pytest.mark.parametrize("name", ["title", "title_friends", "paused"])
+def test_the_title_and_a_pause_without_a_menu_are_not_dimmed(name: ScreenName) -> None:
+    assert (drawn(MenuState(name))[0, 0] == 200).all()
+
+
+def test_an_icon_is_a_button_with_a_picture() -> None:
+    menus = MenuLayers(Letters(FONT, 1), (WIDTH, HEIGHT), Edition("26.2"), {})
+    frame = np.full((HEIGHT, WIDTH, 3), 200, np.uint8)
+    draw_all(frame, menus.of(View(MenuState("title"), (0, 64, 0))), (0, 0, WIDTH, HEIGHT))
+    icon = frame[180:200, 179:199]
+    assert not icon[0].any()
+    assert (icon[1, 1] == FACE).all()
+    assert (icon[10, 10] == 255).all()
 
 
 def test_labels_and_texts_are_in_the_other_language() -> None:

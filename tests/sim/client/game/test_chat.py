@@ -80,3 +80,37 @@ def test_selected_text_is_deleted_as_a_whole() -> None:
     assert (chat.typed, chat.is_selected) == ("", False)
     chat.backspace()
     assert chat.typed == ""
+
+
+def test_a_draft_is_deleted_as_a_whole_and_typing_goes_on_from_it() -> None:
+    for delete, typed in ((True, "x"), (False, "draftx")):
+        chat = VirtualChat("draft")
+        chat.open()
+        assert (chat.typed, chat.is_draft) == ("draft", True)
+        if delete:
+            chat.backspace()
+        chat.insert("x")
+        assert (chat.typed, chat.is_draft) == (typed, False)
+
+
+def test_a_blank_line_is_no_draft() -> None:
+    chat = VirtualChat("before")
+    chat.open()
+    chat.backspace()
+    chat.insert("  ")
+    chat.close(keeps_draft=True)
+    assert (chat.typed, chat.draft) == (None, "")
+
+
+def test_a_closed_chat_keeps_its_draft_when_it_is_closed_again() -> None:
+    chat = VirtualChat("draft")
+    chat.close(keeps_draft=False)
+    assert chat.draft == "draft"
+
+
+def test_messages_stand_on_their_ground() -> None:
+    chat = VirtualChat()
+    chat.say("text", 0)
+    assert chat.lines(0, 77) == (ChatLine("text", WHITE, 8, 77),)
+    chat.open()
+    assert chat.lines(0, 77) == (ChatLine("text", WHITE, 8, 77),)

@@ -1,8 +1,10 @@
 import pytest
 
 from sim.client.game.controls import Controls
+from sim.client.game.debug_entries import GAME_DEFAULT, PERFORMANCE
 from sim.client.game.edition import Edition
 from sim.client.game.game import VirtualGame
+from sim.client.game.options import GameOptions
 from sim.client.game.realm import Player, Realm
 from sim.client.game.screens import MenuState, ScreenName, menu
 from sim.client.game.world import VirtualWorld
@@ -13,8 +15,11 @@ SIZE = (427, 240)
 class Played:
     """A game, its controls, and the clipboard that they use."""
 
-    def __init__(self, version: str = "1.20.1", screen: ScreenName = "world") -> None:
-        self.game = VirtualGame(Realm(Edition(version), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5))))
+    def __init__(
+        self, version: str = "1.20.1", screen: ScreenName = "world", options: GameOptions | None = None
+    ) -> None:
+        realm = Realm(Edition(version), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5)))
+        self.game = VirtualGame(realm, options=options)
         self.clipboard = "pasted"
         self.controls = Controls(self.game, lambda: self.clipboard, self.write)
         if screen != "world":
@@ -101,10 +106,73 @@ def test_f3_and_d_clears_the_chat() -> None:
     assert played.said() == []
 
 
-def test_f3_and_esc_pauses() -> None:
-    played = Played()
+@pytest.mark.parametrize(("version", "screen"), [("1.13.2", "pause"), ("1.14", "paused"), ("26.3", "paused")])
+def test_f3_and_esc_pauses_without_a_menu_since_1_14(version: str, screen: ScreenName) -> None:
+    played = Played(version)
     played.tap("f3", "esc")
-    assert played.game.screen == "pause"
+    assert (played.game.screen, played.game.has_f3) == (screen, True)
+    ticks = played.game.realm.player.feet
+    played.game.tick()
+    assert played.game.realm.player.feet == ticks
+    played.tap("esc")
+    assert str(played.game.screen) == "world"
+
+
+@pytest.mark.parametrize(("version", "screen"), [("1.21.8", "world"), ("1.21.9", "debug_options")])
+def test_f3_and_f6_opens_the_debug_options_since_1_21_9(version: str, screen: ScreenName) -> None:
+    played = Played(version)
+    played.tap("f3", "f6")
+    assert played.game.screen == screen
+    played.tap("esc")
+    assert played.game.screen == ("pause" if screen == "world" else "world")
+
+
+def test_a_click_on_a_debug_options_button_shows_the_block_looked_at() -> None:
+    played = Played("26.1")
+    played.game.do("default_profile")
+    played.tap("f3", "f6")
+    played.type(*"looking_x")
+    played.tap("backspace")
+    shown = played.game.view().menu
+    assert (shown.searched, shown.choices[0]) == ("looking_", ("looking_at_block_state", "never"))
+    button = next(each for each in menu(shown, played.game.edition, *SIZE).buttons if each.label == "In Overlay")
+    played.click_at(round(button.middle[0]), round(button.middle[1]))
+    assert played.game.debug_entries == {**GAME_DEFAULT, "looking_at_block_state": "inOverlay"}
+    done = next(each for each in menu(shown, played.game.edition, *SIZE).buttons if each.label == "Done")
+    played.click_at(round(done.middle[0]), round(done.middle[1]))
+    assert str(played.game.screen) == "world"
+    played.game.do("performance_profile")
+    assert played.game.debug_entries == PERFORMANCE
+
+
+@pytest.mark.parametrize("screen", ["world", "pause", "paused", "title"])
+def test_o_opens_the_friends_since_26_2_and_closes_them(screen: ScreenName) -> None:
+    old = Played("26.1", screen)
+    old.type("o")
+    assert old.game.screen == screen
+    played = Played("26.2", screen)
+    for key in ("o", "esc"):
+        played.tap("o")
+        assert played.game.screen == ("title_friends" if screen == "title" else "friends")
+        assert played.game.is_in_world == (screen != "title")
+        played.tap(key)
+        assert played.game.screen == screen
+
+
+@pytest.mark.parametrize("screen", ["chat", "inventory", "death", "worlds", "debug_options"])
+def test_o_opens_no_friends_over_other_screens(screen: ScreenName) -> None:
+    played = Played("26.2", screen)
+    played.tap("o")
+    assert played.game.screen == screen
+
+
+def test_a_click_beside_the_friends_closes_them_and_one_on_them_does_not() -> None:
+    played = Played("26.2", "pause")
+    played.tap("o")
+    played.click_at(SIZE[0] // 2, SIZE[1] // 2)
+    assert played.game.screen == "friends"
+    played.click_at(5, SIZE[1] // 2)
+    assert str(played.game.screen) == "pause"
 
 
 def test_f3_and_p_switches_the_pause_without_focus() -> None:
@@ -221,6 +289,65 @@ def test_control_pastes_and_selects_but_types_no_letter() -> None:
     assert played.game.chat.is_selected
     played.tap("left.control", "v")
     assert played.game.chat.typed == "pasted"
+
+
+def test_a_line_that_is_broken_off_comes_back_since_1_21_9() -> None:
+    for version, draft in (("1.21.8", ""), ("1.21.9", "/tp")):
+        played = Played(version, "chat")
+        played.type("/", "t", "p")
+        played.game.die()
+        played.game.do("respawn")
+        played.tap("t")
+        played.game.tick()
+        assert (played.game.chat.typed, played.game.chat.is_draft) == (draft, bool(draft))
+
+
+def test_after_esc_a_line_comes_back_only_where_the_option_says_so() -> None:
+    for saves in (False, True):
+        played = Played("26.1", "chat", GameOptions(save_chat_drafts=saves))
+        played.type("h", "i")
+        for _ in range(2):
+            played.tap("esc")
+            assert played.game.screen == "world"
+            played.game.open("chat")
+            assert played.game.chat.typed == ("hi" if saves else "")
+        played.tap("enter")
+        played.game.open("chat")
+        assert played.game.chat.typed == ""
+
+
+def test_the_key_of_commands_brings_back_commands_alone() -> None:
+    for draft, typed in (("/tp", "/tp"), ("hi", "/")):
+        played = Played("26.1", "chat")
+        played.type(*draft)
+        played.game.open("inventory")
+        played.game.open("world")
+        played.tap("/")
+        played.game.tick()
+        assert played.game.chat.typed == typed
+
+
+@pytest.mark.parametrize(("version", "opens"), [("1.20.1", False), ("26.1", True)])
+def test_a_hidden_chat_opens_from_26_1_on_and_sends_nothing(version: str, opens: bool) -> None:
+    played = Played(version, options=GameOptions(chat_visibility=2))
+    played.tap("t")
+    played.game.tick()
+    assert (played.game.screen == "chat") is opens
+    played.game.open("chat")
+    played.type("h")
+    played.tap("enter")
+    played.game.tick()
+    assert played.said() == []
+    assert played.game.view().chat == ()
+
+
+def test_reduced_debug_info_is_an_option_too() -> None:
+    played = Played(options=GameOptions(reduced_debug_info=True))
+    played.tap("f3", "c")
+    assert played.clipboard == "pasted"
+    f3 = played.game.view().f3
+    assert f3 is not None
+    assert f3.reduced
 
 
 def test_enter_sends_the_line_and_an_empty_one_is_not_sent() -> None:

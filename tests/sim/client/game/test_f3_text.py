@@ -26,8 +26,6 @@ def right(layout: Layout, **more: object) -> list[str]:
         ("1.13-1.15", ["Block: -18 70 513", "Biome: minecraft:plains", "Looking at block: 17 -63 -33"]),
         ("1.16-1.19.2", ["Block: -18 70 513", "Chunk: 14 6 1 in -2 4 32"]),
         ("1.19.3-1.21.8", ["Block: -18 70 513 [14 6 1]", "Chunk: -2 4 32 [30 0 in r.-1.1.mca]"]),
-        ("1.21.9-26.3", ["Block: -18 70 513", "Section-relative: 14 06 01", "Chunk: -2 4 32 [30 0 in r.-1.1.mca]"]),
-        ("26.4", ["Block: -18 70 513", "Section-relative: 14 06 01", "Chunk: -2 4 32 [30 0 in r.-1.1.mca]"]),
     ],
 )
 def test_the_left_column_has_the_lines_of_its_layout(layout: Layout, lines: list[str]) -> None:
@@ -37,7 +35,7 @@ def test_the_left_column_has_the_lines_of_its_layout(layout: Layout, lines: list
     assert "Facing: west (Towards negative X) (91.0 / -3.5)" in shown
 
 
-@pytest.mark.parametrize("layout", ["1.16-1.19.2", "1.19.3-1.21.8", "1.21.9-26.3"])
+@pytest.mark.parametrize("layout", ["1.16-1.19.2", "1.19.3-1.21.8"])
 def test_the_left_column_names_no_target_since_1_16(layout: Layout) -> None:
     assert not [line for line in left(layout) if line.startswith("Looking")]
 
@@ -92,14 +90,6 @@ def test_a_fluid_follows_the_target(layout: Layout, lines: list[str]) -> None:
     assert [line for line in shown if "luid" in line or "water" in line or "level" in line] == lines
     liquid = "Looking at liquid: 3 62 -9" in left(layout, fluid=(3, 62, -9))
     assert liquid == (layout == "1.13-1.15")
-
-
-def test_swapped_groups_change_sides() -> None:
-    shown, other = left("1.21.9-26.3", swapped=True), right("1.21.9-26.3", swapped=True)
-    assert "Targeted Block: 17, -63, -33" in shown
-    assert not [line for line in shown if line.startswith("XYZ")]
-    assert "XYZ: -17.250 / 70.50000 / 513.750" in other
-    assert not [line for line in other if line.startswith("Targeted")]
 
 
 def test_reduced_debug_info_leaves_the_position_in_the_chunk_alone() -> None:

@@ -1,8 +1,11 @@
 import pytest
 
 from mc_nested.live.model.reading import Target
+from sim.client.game.debug_entries import GAME_DEFAULT, TUTORIAL, Status
 from sim.client.game.edition import Edition
+from sim.client.game.f3_text import both_columns
 from sim.client.game.game import VirtualGame
+from sim.client.game.options import GameOptions
 from sim.client.game.realm import Mode, Player, Realm, Stack
 from sim.client.game.screens import MenuState
 from sim.client.game.world import VirtualWorld
@@ -10,11 +13,17 @@ from sim.client.game.world import VirtualWorld
 FRONT = (0, 64, 1)
 
 
-def game(mode: Mode = "creative", z: float = 0.5, pitch: float = 65.0, version: str = "1.20.1") -> VirtualGame:
+def game(
+    mode: Mode = "creative",
+    z: float = 0.5,
+    pitch: float = 65.0,
+    version: str = "1.20.1",
+    options: GameOptions | None = None,
+) -> VirtualGame:
     """A player in the middle of the block at 0, 0, who looks south at the floor ahead, with two stones in hand."""
     player = Player((0.5, 64.0, z), 0.0, pitch, mode=mode)
     player.hotbar[0] = Stack("stone", 2)
-    return VirtualGame(Realm(Edition(version), VirtualWorld(64, "dirt"), player))
+    return VirtualGame(Realm(Edition(version), VirtualWorld(64, "dirt"), player), options=options)
 
 
 def ticks(played: VirtualGame, count: int) -> None:
@@ -70,6 +79,33 @@ def test_a_held_button_places_again_every_four_ticks() -> None:
         played.tick()
         counts.append(len(built(played)))
     assert counts == [1, 1, 1, 1, 2, 2, 2, 2, 2]
+
+
+def test_where_use_is_toggled_one_click_places_every_four_ticks_until_the_next() -> None:
+    played = game(pitch=49.0, options=GameOptions(toggle_use=True))
+    click(played)
+    counts = []
+    for _ in range(5):
+        played.tick()
+        counts.append(len(built(played)))
+    assert counts == [1, 1, 1, 1, 2]
+    click(played)
+    ticks(played, 20)
+    assert len(built(played)) == 2
+
+
+def test_a_held_left_button_breaks_a_block_every_five_ticks() -> None:
+    for options in (None, GameOptions(toggle_attack=True)):
+        played = game(pitch=90.0, options=options)
+        played.keys.press("left button")
+        if options:
+            played.keys.release("left button")
+        counts = []
+        for _ in range(7):
+            # The floor breaks below the player, who falls meanwhile: what is looked at goes down with them.
+            played.tick()
+            counts.append(len(built(played)))
+        assert counts == [1, 1, 1, 1, 1, 2, 2]
 
 
 @pytest.mark.parametrize(("z", "pitch", "count"), [(0.69, 70.0, 1), (0.71, 70.0, 0), (0.5, 80.0, 0)])
@@ -308,11 +344,60 @@ def test_tags_of_the_target_are_shown_since_1_13() -> None:
         assert screen.tags == tags
 
 
-def test_a_game_that_names_no_target_shows_none() -> None:
-    realm = game().realm
-    screen = VirtualGame(realm, shows_target=False).view().f3
-    assert screen is not None
-    assert screen.target is None
+def test_a_screen_of_the_games_own_entries_names_no_target() -> None:
+    realm = game(version="1.21.9").realm
+    for entries, is_named in ((GAME_DEFAULT, False), (TUTORIAL, True)):
+        screen = VirtualGame(realm, debug_entries=entries).view().f3
+        assert screen is not None
+        assert screen.names_target is is_named
+
+
+def test_entries_that_are_always_on_are_there_without_f3() -> None:
+    entries: dict[str, Status] = {"player_position": "alwaysOn", "fps": "inOverlay"}
+    played = VirtualGame(game(version="1.21.9").realm, debug_entries=entries)
+    with_f3 = played.view().f3
+    played.hide_f3()
+    without = played.view().f3
+    assert with_f3 is not None
+    assert without is not None
+    assert (with_f3.shown, with_f3.has_f3) == (("fps", "player_position"), True)
+    assert (without.shown, without.has_f3, without.has_axes) == (("player_position",), False, False)
+    old = VirtualGame(game(version="1.20.1").realm, debug_entries=entries)
+    old.hide_f3()
+    assert old.view().f3 is None
+
+
+@pytest.mark.parametrize(("version", "is_seen"), [("1.21.8", False), ("1.21.9", True)])
+def test_a_screen_shows_the_text_though_the_hud_is_hidden(version: str, is_seen: bool) -> None:
+    played = game(version=version)
+    played.hides_hud = True
+    assert played.view().f3 is None
+    played.open("pause")
+    assert (played.view().f3 is not None) is is_seen
+
+
+def test_a_block_of_26_4_that_was_gone_comes_back_last() -> None:
+    entries: dict[str, Status] = dict.fromkeys(
+        ("fps", "looking_at_block_state", "player_section_position"), "inOverlay"
+    )
+    played = VirtualGame(game(version="26.4", pitch=65.0).realm, debug_entries=entries)
+
+    def columns() -> list[list[str]]:
+        ticks(played, 2)
+        screen = played.view().f3
+        assert screen is not None
+        return [[part[0].text for part in column] for column in both_columns(screen)]
+
+    left = ["60 fps T: 60 (fifo) @60Hz", "Position"]
+    assert columns() == [left, ["Looking At Block", "Help"]]
+    played.realm.player.look(0.0, -90.0)
+    assert columns() == [left, ["Help"]]
+    played.realm.player.look(0.0, 65.0)
+    assert columns() == [left, ["Help", "Looking At Block"]]
+    played.hide_f3()
+    assert played.view().f3 is None
+    played.has_f3 = True
+    assert columns() == [left, ["Looking At Block", "Help"]]
 
 
 def test_the_debug_screen_names_the_block_that_was_looked_at_a_tick_before() -> None:

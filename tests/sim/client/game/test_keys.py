@@ -51,3 +51,28 @@ def test_the_stand_ins_sides_are_swapped() -> None:
     keys.press("d")
     assert keys.is_held("left")
     assert not keys.is_held("right")
+
+
+def test_one_press_begins_what_is_toggled_and_the_next_one_ends_it() -> None:
+    keys = GameKeys()
+    keys.toggled = frozenset({"use"})
+    for is_held in (True, False, True):
+        keys.press("right button")
+        keys.release("right button")
+        assert keys.is_held("use") is is_held
+    assert keys.presses("use") == 3
+
+
+def test_a_screen_ends_what_a_button_began_but_not_what_a_key_did() -> None:
+    keys = GameKeys()
+    keys.toggled = frozenset({"use", "attack", "sneak"})
+    keys.physical.add("left.shift")
+    for key in ("right button", "left button", "left.shift", "w"):
+        keys.press(key)
+    keys.forget()
+    assert [keys.is_held(action) for action in ("use", "attack", "sneak", "forward")] == [True, True, True, False]
+    keys.leave_world()
+    assert [keys.is_held(action) for action in ("use", "attack", "sneak")] == [False, False, True]
+    keys.press("left.shift")
+    keys.read_again()
+    assert not keys.is_held("sneak")

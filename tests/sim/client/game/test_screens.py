@@ -1,11 +1,12 @@
 import pytest
 
 from sim.client.game.edition import Edition
-from sim.client.game.screens import Menu, MenuState, ScreenName, label_colour, menu
+from sim.client.game.screens import MenuState, ScreenName, label_colour, menu
+from sim.client.game.widgets import Menu, MenuText
 
 WIDTH, HEIGHT = 427, 240
 MENUS: tuple[ScreenName, ...] = ("title", "worlds", "servers", "pause", "death", "disconnected")
-VERSIONS = ["1.12.2", "1.13.2", "1.16.5", "1.20.1", "1.21.11", "26.1"]
+VERSIONS = ["1.12.2", "1.13.2", "1.16.5", "1.20.1", "1.21.11", "26.1", "26.2", "26.3", "26.4"]
 
 
 def shown(name: ScreenName, version: str, *, is_chosen: bool = False) -> Menu:
@@ -22,6 +23,12 @@ def rect(name: ScreenName, version: str, label: str) -> tuple[int, int, int, int
     [
         ("title", "1.12.2", "Singleplayer", (113, 108, 200, 20)),
         ("title", "26.1", "Quit Game", (215, 192, 98, 20)),
+        ("title", "26.2", "Quit Game", (215, 204, 98, 20)),
+        ("title", "26.2", "Singleplayer", (113, 108, 200, 20)),
+        ("pause", "26.2", "Back to Game", (111, 68, 204, 20)),
+        ("pause", "26.2", "Open to LAN", (217, 140, 98, 20)),
+        ("pause", "26.3", "World Options...", (217, 140, 98, 20)),
+        ("pause", "26.3", "Save and Quit to Title", (111, 164, 204, 20)),
         ("worlds", "1.20.1", "Play Selected World", (59, 188, 150, 20)),
         ("worlds", "1.20.1", "Cancel", (295, 212, 72, 20)),
         ("worlds", "26.1", "Back", (296, 212, 71, 20)),
@@ -59,6 +66,22 @@ def test_words_change_with_the_version() -> None:
     assert shown("disconnected", "1.17").buttons[0].label == "Back to Server List"
     assert shown("worlds", "1.20.3").buttons[-1].label == "Cancel"
     assert shown("worlds", "1.20.4").buttons[-1].label == "Back"
+
+
+@pytest.mark.parametrize(
+    ("name", "top", "lefts"), [("title", 180, [179, 203, 227]), ("pause", 116, [167, 191, 215, 239])]
+)
+def test_a_row_of_icons_stands_in_the_middle_since_26_2(name: ScreenName, top: int, lefts: list[int]) -> None:
+    assert all(button.label for button in shown(name, "26.1").buttons)
+    icons = [button for button in shown(name, "26.2").buttons if not button.label]
+    assert [(icon.left, icon.top, icon.width, icon.height) for icon in icons] == [(left, top, 20, 20) for left in lefts]
+
+
+@pytest.mark.parametrize(
+    ("version", "words"), [("1.16.5", "Game paused"), ("1.17", "Game Paused"), ("26.4", "Game Paused")]
+)
+def test_a_pause_without_a_menu_is_two_words(version: str, words: str) -> None:
+    assert shown("paused", version) == Menu((MenuText(words, WIDTH // 2, 10),))
 
 
 def test_a_world_can_be_played_once_it_is_chosen() -> None:

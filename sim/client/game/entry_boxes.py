@@ -1,0 +1,217 @@
+"""The debug screen from 26.4 on: what each entry writes into which titled box (FACTS: The F3 debug screen).
+
+A box holds facts, a name and a value each, and below them plain lines. What is a value is white, what stands between
+values is darker.
+"""
+
+from collections.abc import Callable
+from functools import lru_cache
+from typing import Literal, NamedTuple
+
+from sim.client.game.colours import GLUE, WHITE, Colour
+from sim.client.game.f3_screen import F3Screen
+from sim.client.game.places import section_of, towards
+
+_TRUE: Colour = (0, 255, 0)
+_FALSE: Colour = (255, 0, 0)
+
+
+class Kind(NamedTuple):
+    """A kind of box: its title, the colour of its bar, and the column it goes into when it comes; None for any."""
+
+    title: str
+    bar: Colour | None = None
+    side: Literal["left", "right"] | None = None
+
+
+class Fact(NamedTuple):
+    """A row of a box: a name, and a value as pieces of text with their colours."""
+
+    name: str
+    value: tuple[tuple[str, Colour], ...]
+
+
+class Box(NamedTuple):
+    """A box and what is in it."""
+
+    kind: Kind
+    facts: tuple[Fact, ...] = ()
+    lines: tuple[str, ...] = ()
+
+    @property
+    def rows(self) -> int:
+        """How many lines of text it has, the title with them."""
+        return bool(self.kind.title) + len(self.facts) + len(self.lines)
+
+
+FIRST = Kind("")
+"""The lines with priority."""
+
+MISC, HELP = Kind(""), Kind("Help")
+POSITION = Kind("Position", (255, 255, 255), "left")
+_MEMORY = Kind("Memory", (255, 155, 0), "right")
+_IMPACTORS = Kind("Performance Impactors", (0, 255, 0), "right")
+_SPECS = Kind("System Specs", (255, 0, 0), "right")
+BLOCK = Kind("Looking At Block", (204, 0, 255))
+_FLUID = Kind("Looking At Fluid", (255, 204, 0))
+_ENTITY = Kind("Looking At Entity", (0, 255, 204))
+_HEIGHTMAP = Kind("Heightmap", (0, 170, 255))
+_RENDERING = Kind("Chunk Rendering", (240, 176, 160))
+_GENERATION = Kind("Chunk Generation", (153, 255, 170))
+_SPAWNS = Kind("Entity Spawn Counts", (255, 68, 68))
+
+
+def first_lines(screen: F3Screen) -> tuple[str, ...]:
+    """The lines with priority: the first stands left, the second right."""
+    lines = {"fps": f"{screen.fps} fps T: {screen.fps} (fifo) @60Hz", "game_version": screen.title}
+    return tuple(lines[entry] for entry in screen.shown if entry in lines)
+
+
+def boxes(screen: F3Screen) -> list[Box]:
+    """All other boxes that have something in them, in the order in which they are given a column."""
+    said: dict[str, Box] = {}
+    for entry in screen.shown:
+        for box in _ENTRIES.get(entry, _nothing)(screen):
+            before = said.get(box.kind.title, Box(box.kind))
+            said[box.kind.title] = Box(box.kind, before.facts + box.facts, before.lines + box.lines)
+    if MISC.title in said:
+        said[MISC.title] = said.pop(MISC.title)
+    if screen.shown and screen.has_f3:
+        said[HELP.title] = _HELP
+    return list(said.values())
+
+
+def _nothing(_: F3Screen) -> tuple[Box, ...]:
+    return ()
+
+
+def _fact(name: str, *texts: str) -> Fact:
+    """A fact of values and what stands between them, in turn."""
+    pieces = ((text, WHITE if index % 2 == 0 else GLUE) for index, text in enumerate(texts))
+    return Fact(name, tuple((text, colour) for text, colour in pieces if text))
+
+
+def _always(kind: Kind, *facts: Fact, lines: tuple[str, ...] = ()) -> Callable[[F3Screen], tuple[Box, ...]]:
+    box = (Box(kind, facts, lines),)
+    return lambda _: box
+
+
+_HELP = Box(
+    HELP,
+    lines=(
+        "Debug charts: [F3+1] Profiler hidden; [F3+2] fps + tps hidden;",
+        "[F3+3] Ping hidden; [F3+4] Lightmap hidden",
+        "To edit: press [F3+F6]",
+    ),
+)
+
+
+def _position(screen: F3Screen) -> tuple[Box, ...]:
+    (px, py, pz), (x, y, z) = screen.xyz, screen.block
+    direction, axis = towards(screen.yaw).rstrip(")").split(" (")
+    inside = f"{x >> 4 & 31}", " ", f"{z >> 4 & 31}", " in ", f"r.{x >> 9}.{z >> 9}.mca", "]"
+    facts = (
+        _fact("XYZ", f"{px:.3f}", " / ", f"{py:.5f}", " / ", f"{pz:.3f}"),
+        _fact("Block", f"{x}", " ", f"{y}", " ", f"{z}"),
+        _fact("Chunk", f"{x >> 4}", " ", f"{y >> 4}", " ", f"{z >> 4}", " [", *inside),
+        _fact("Facing", direction, " (", axis, ") (", f"{screen.yaw:.1f}", " / ", f"{screen.pitch:.1f}", ")"),
+        _fact("Dimension", "minecraft:overworld"),
+    )
+    return (Box(POSITION, facts),)
+
+
+def _section(screen: F3Screen) -> tuple[Box, ...]:
+    return (Box(POSITION, (_fact("Section-Relative", section_of(screen.block)),)),)
+
+
+def _block(screen: F3Screen) -> tuple[Box, ...]:
+    if screen.target is None or screen.target.pos is None:
+        return ()
+    return _looked_at(BLOCK, screen.target.pos, screen.target.id or "", screen.properties)
+
+
+def _fluid(screen: F3Screen) -> tuple[Box, ...]:
+    if screen.fluid is None:
+        return ()
+    return _looked_at(_FLUID, screen.fluid, "minecraft:water", (("falling", "false"), ("level", "8")))
+
+
+def _entity(screen: F3Screen) -> tuple[Box, ...]:
+    if screen.entity is None:
+        return ()
+    x, y, z = (f"{part:.2f}" for part in screen.entity)
+    return (Box(_ENTITY, (_fact("Coordinates", x, ", ", y, ", ", z), _fact("Type", "minecraft:pig"))),)
+
+
+def _looked_at(
+    kind: Kind, pos: tuple[int, int, int], name: str, properties: tuple[tuple[str, str], ...]
+) -> tuple[Box, ...]:
+    x, y, z = map(str, pos)
+    colours = {"true": _TRUE, "false": _FALSE}
+    states = (Fact(key, ((value, colours.get(value, WHITE)),)) for key, value in properties)
+    return (Box(kind, (_fact("Coordinates", x, ", ", y, ", ", z), _fact("Type", name), *states)),)
+
+
+def _tags(screen: F3Screen) -> tuple[Box, ...]:
+    return (Box(BLOCK, lines=tuple(f"#{tag}" for tag in screen.tags)),) if screen.target and screen.tags else ()
+
+
+def _fluid_tags(screen: F3Screen) -> tuple[Box, ...]:
+    return (Box(_FLUID, lines=("#minecraft:water",)),) if screen.fluid else ()
+
+
+def _system(screen: F3Screen) -> tuple[Box, ...]:
+    return _specs(*screen.size)
+
+
+@lru_cache(16)
+def _specs(width: int, height: int) -> tuple[Box, ...]:
+    size = f"{width}", "x", f"{height}"
+    facts = (
+        _fact("Java", "25.0.2"),
+        _fact("CPU", "4x AMD Ryzen 5"),
+        _fact("Display", *size, " (", "AMD", ")"),
+        _fact("Window", *size, " (", "1.00", "x pixel density)"),
+    )
+    return (Box(_SPECS, facts, ("AMD Radeon (dGPU)", "Vulkan 1.3.0")),)
+
+
+_ENTRIES: dict[str, Callable[[F3Screen], tuple[Box, ...]]] = {
+    "biome": _always(POSITION, _fact("Biome", "minecraft:plains")),
+    "chunk_generation_stats": _always(_GENERATION, lines=("NoiseRouter T: 0.512", "Biome builder PV: Low")),
+    "chunk_render_stats": _always(_RENDERING, _fact("Rendered", "302", "/", "7225"), _fact("Distance", "8")),
+    "day_count": _always(MISC, _fact("Day", "3")),
+    "entity_render_stats": _always(MISC, _fact("Entities", "1", "/", "22")),
+    "entity_spawn_counts": _always(_SPAWNS, _fact("Monster", "17"), _fact("Creature", "10")),
+    "gpu_utilization": _always(MISC, _fact("GPU", "23", "%")),
+    "heightmap": _always(_HEIGHTMAP, _fact("Surface", "63"), _fact("Motion Blocking", "63")),
+    "light_levels": _always(MISC, _fact("Light", "15", " (", "15", " sky, ", "0", " block)")),
+    "local_difficulty": _always(MISC, _fact("Local Difficulty", "2.25", " // ", "0.05")),
+    "looking_at_block_state": _block,
+    "looking_at_block_tags": _tags,
+    "looking_at_entity": _entity,
+    "looking_at_fluid_state": _fluid,
+    "looking_at_fluid_tags": _fluid_tags,
+    "memory": _always(
+        _MEMORY,
+        _fact("Used", "23", "% ", "480", "/", "2048", "MiB"),
+        _fact("Alloc rate", "035", "MiB/s"),
+        _fact("Allocated", "41", "% ", "840", "MiB"),
+    ),
+    "particle_render_stats": _always(MISC, _fact("Particles", "22")),
+    "player_position": _position,
+    "player_section_position": _section,
+    "simple_performance_impactors": _always(
+        _IMPACTORS,
+        *(_fact("OIT", "Off"), _fact("Clouds", "Fancy"), _fact("Biome Blend", "2"), _fact("Filtering", "RGSS")),
+        _fact("Multi-draw", "On"),
+    ),
+    "sound_mood": _always(MISC, _fact("Sounds", "0", "/", "247", " + ", "0", "/", "8")),
+    "system_specs": _system,
+    "tps": _always(
+        MISC,
+        _fact("Server", "Integrated", " @ ", "1.2", "/", "50.0", " ms"),
+        _fact("Packets", "27", " tx, ", "41", " rx"),
+    ),
+}
+"""What writes each entry's facts; the others write nothing, or in a line with priority."""

@@ -1,0 +1,113 @@
+"""What a debug screen is about, before it is put into words (FACTS: The F3 debug screen)."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import floor
+from typing import NamedTuple
+
+from mc_nested.live.model.reading import Block, Target
+from sim.client.game.debug_entries import TUTORIAL, shown_entries
+from sim.client.game.edition import Edition, Layout
+
+VERSIONS: dict[Layout, str] = {
+    "1.8-1.12": "1.12.2",
+    "1.13-1.15": "1.15.2",
+    "1.16-1.19.2": "1.16.4",
+    "1.19.3-1.21.8": "1.20.2",
+    "1.21.9-26.3": "26.1",
+    "standin": "1.18.2",
+    "26.4": "26.4-snapshot-2",
+}
+"""A version of each layout."""
+
+BY_ENTRIES: tuple[Layout, ...] = ("1.21.9-26.3", "26.4")
+"""The layouts whose lines are chosen one by one."""
+
+Stood = tuple[tuple[str, ...], tuple[str, ...]]
+"""Which boxes stood in the left and in the right column in the frame before, from the top (26.4 on)."""
+
+
+class TextLine(NamedTuple):
+    """A line of the screen; ``value`` is the end of ``text`` that has its own colour: true or false."""
+
+    text: str = ""
+    value: str = ""
+    underlined: bool = False
+
+
+Part = tuple[TextLine, ...]
+"""Lines below each other that change together: what stays the same from frame to frame need not be drawn again."""
+
+
+@dataclass(frozen=True)
+class F3Screen:
+    """The content of one debug screen. ``xyz`` in blocks, ``yaw`` and ``pitch`` in degrees; yaw is wrapped to +-180.
+
+    ``target`` is the block looked at, its id with the namespace where the layout shows one. ``properties`` and ``tags``
+    are that block's. ``fluid`` is a water block looked at, ``entity`` the position of a pig. ``reduced`` is
+    reducedDebugInfo. ``version`` is the game's, or empty for one with this layout. ``fps`` is the frames a second,
+    ``size`` the window's width and height in framebuffer pixels.
+
+    From 1.21.9 on ``entries`` are the ids of what is on, in their order: None for what the tutorial asks for. Without
+    ``has_f3`` they are on by themselves. ``stood`` is where the boxes of 26.4 stood before.
+    """
+
+    layout: Layout
+    gui_scale: int
+    xyz: tuple[float, float, float]
+    yaw: float
+    pitch: float
+    target: Target | None = None
+    properties: tuple[tuple[str, str], ...] = ()
+    tags: tuple[str, ...] = ()
+    fluid: Block | None = None
+    entity: tuple[float, float, float] | None = None
+    reduced: bool = False
+    version: str = ""
+    fps: int = 120
+    size: tuple[int, int] = (1920, 1080)
+    entries: tuple[str, ...] | None = None
+    has_f3: bool = True
+    stood: Stood = ((), ())
+
+    @property
+    def title(self) -> str:
+        """The line that names the game and its version."""
+        name = self.edition.version
+        if self.layout == "standin":
+            return f"Prismarine Web Client ({name})"
+        return f"Minecraft {name} ({name}/vanilla)"
+
+    @property
+    def rows(self) -> int:
+        """The window's height in GUI pixels; the last one may be cut."""
+        return -(-self.size[1] // self.gui_scale)
+
+    @cached_property
+    def edition(self) -> Edition:
+        """The game's version."""
+        return Edition(self.version or VERSIONS[self.layout])
+
+    @property
+    def block(self) -> Block:
+        """The block that the feet are in."""
+        x, y, z = self.xyz
+        return floor(x), floor(y), floor(z)
+
+    @cached_property
+    def shown(self) -> tuple[str, ...]:
+        """The ids of the entries that are on the screen, in their order; none before 1.21.9."""
+        if self.entries is not None:
+            return self.entries
+        return shown_entries(TUTORIAL, self.edition, has_f3=True, is_reduced=self.reduced)
+
+    @property
+    def has_axes(self) -> bool:
+        """Whether the crosshair is one of three axes."""
+        return self.layout not in BY_ENTRIES or "3d_crosshair" in self.shown
+
+    @property
+    def names_target(self) -> bool:
+        """Whether it says which block is looked at, if any is."""
+        is_chosen = not {"looking_at_block", "looking_at_block_state"}.isdisjoint(self.shown)
+        return is_chosen if self.layout in BY_ENTRIES else not self.reduced
