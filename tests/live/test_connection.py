@@ -84,6 +84,7 @@ def test_a_game_is_read_with_the_profiles_font(font: ScreenTable) -> None:
 def test_the_controller_has_the_profiles_times(font: ScreenTable) -> None:
     game = FakeGame(Profile())
     connection = connect(Profile(screen=font, input=InputTable(click_s=0.12)), devices_of(game))
+    connection = connection.with_screen(FakeScreen(game))
     connection.controller.confirm_screen("world")
     connection.controller.click("right")
     connection.controller.wait(0.11)

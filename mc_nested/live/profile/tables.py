@@ -161,13 +161,6 @@ class ScreenTable(ProfileTable):
         description="red, green, blue of the text; counts beside debug_scale only, the layout's if left out",
     )
 
-    @model_validator(mode="before")
-    @classmethod
-    def _has_two_scales(cls, table: object) -> object:
-        if isinstance(table, dict) and "gui_scale" in table:
-            raise ValueError("the debug screen has a scale of its own now: write debug_scale in the place of gui_scale")
-        return table
-
     @field_validator("font")
     @classmethod
     def _is_a_whole_path(cls, font: str | None) -> str | None:

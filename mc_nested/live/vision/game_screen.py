@@ -114,7 +114,7 @@ class WindowScreen:
         return reads_as(self._typed_line(), text, self._font)
 
     def menu(self) -> Labels:
-        return MenuLabels(self._display.grab(), self._font)
+        return MenuLabels(self._display.grab(), self._font, is_under_text=self._text_over_menus)
 
     def position_of(self, text: str) -> tuple[int, int] | None:
         frame, columns = self._display.grab(), self._font.columns(text)

@@ -19,6 +19,9 @@ _COLOURS = (WHITE, PLAIN, UNDER_MOUSE, DISABLED)
 _LEAST = (min(PLAIN) - INK_SPREAD, min(DISABLED) - INK_SPREAD)
 """Least green of a label that can be pressed, and of any label: the button behind it has 152 at most."""
 
+_MOSTLY = 0.5
+"""The part of a label's columns that is enough where text may lie over it: no two labels are as alike in one place."""
+
 _ABOVE, _BELOW, _BESIDE = 7, 7, 7
 """Dots around a label that are looked at: to just outside the button, and farther than a space and a gap are wide."""
 
@@ -48,10 +51,15 @@ class _Label:
 
 
 class MenuLabels:
-    """A frame (height, width, 3), blue green red, of a menu; without ``scale`` each of ``SCALES`` is tried."""
+    """A frame (height, width, 3), blue green red, of a menu; without ``scale`` each of ``SCALES`` is tried.
 
-    def __init__(self, frame: Frame, font: Font, scale: int | None = None) -> None:
+    With ``is_under_text`` the debug screen may lie over a part of a label: one in the middle of the window is known by
+    what is seen of it, if that is most of it.
+    """
+
+    def __init__(self, frame: Frame, font: Font, scale: int | None = None, *, is_under_text: bool = False) -> None:
         self._font = font
+        self._is_under_text = is_under_text
         scales = SCALES if scale is None else (scale,)
         self._dots = [GlyphGrid(frame, each, least) for each in scales for least in _LEAST]
 
@@ -69,6 +77,8 @@ class MenuLabels:
         buttons = [seen for seen in labels if _is_on_a_button(seen.around)]
         if len(buttons) == 1:
             return MenuButton(buttons[0].middle, buttons[0].colour != DISABLED, scale=buttons[0].scale)
+        if self._is_under_text and not buttons and (covered := self._covered(label)):
+            return covered
         if buttons:
             return MenuButton(problem=f"{len(buttons)} buttons read {label!r}: close what lies over the menu")
         if labels:
@@ -76,6 +86,17 @@ class MenuLabels:
                 problem=f"{label!r} is to be seen, but on no button: use the game's own look of its buttons"
             )
         return MenuButton(problem=f"no button {label!r} is to be seen: is this menu open, and nothing over it?")
+
+    def _covered(self, label: str) -> MenuButton | None:
+        """A button in the middle of the window of whose label the debug screen's lines cover less than half."""
+        columns = self._font.columns(label)[:-1]
+        for dots in self._dots:
+            middle = dots.columns // 2
+            if row := dots.row_of_most(columns, middle - (len(columns) + 1) // 2, _MOSTLY):
+                colour = WHITE if dots.least > max(DISABLED) else DISABLED
+                where = (middle * dots.scale, (row + GLYPH_ROWS // 2) * dots.scale)
+                return MenuButton(where, colour != DISABLED, scale=dots.scale)
+        return None
 
     def _labels(self, text: str) -> list[_Label]:
         columns = self._font.columns(text)

@@ -177,8 +177,10 @@ def test_a_press_is_permitted_only_while_the_chat_is_closed(observed: Observed) 
     assert observed.game.presses == ["right button"]
     observed.game.send(PROFILE.keys.chat, is_down=True)
     observed.pass_time(0.1)
-    with pytest.raises(NotConfirmedError, match="the chat is open"):
-        observed.observer.permit_press()
+    observed.observer.permit_press()
+    with pytest.raises(WrongScreenError, match="close the chat"):
+        observed.connection.controller.click("right")
+    assert observed.game.presses == ["right button", PROFILE.keys.chat]
 
 
 def test_a_press_that_comes_too_late_after_the_look_looks_again(observed: Observed) -> None:

@@ -58,7 +58,7 @@ def test_unknown_values_are_not_compared() -> None:
     assert mismatch(CALIBRATED, Fingerprint("All the Mods 9", (854, 480)), "default") is None
 
 
-SIZES = st.tuples(st.integers(320, 4000), st.integers(240, 3000))
+SIZES = st.tuples(st.integers(1280, 4000), st.integers(960, 3000))
 
 
 @given(SIZES, SIZES, st.integers(1, 4), st.integers(1, 4))
@@ -68,6 +68,24 @@ def test_a_profile_fits_exactly_where_size_and_scale_are_the_same(
     calibrated = CalibratedTable(date="2026-11-21", version="1.20.1", window=then, gui_scale=scale)
     problem = mismatch(calibrated, Fingerprint("Minecraft 1.20.1", now, Scales(scale_now, scale_now)), "default")
     assert (problem is None) == (then == now and scale == scale_now)
+
+
+@pytest.mark.parametrize(("gui", "debug"), [(4, 4), (2, 3)])
+def test_a_pair_of_scales_that_no_such_window_can_have_is_refused(gui: int, debug: int) -> None:
+    calibrated = CalibratedTable(date="2026-11-21", window=(854, 480), gui_scale=gui, debug_scale=debug)
+    problem = mismatch(calibrated, CURRENT, "mine")
+    assert problem == (
+        f"profile mine names GUI scale {Scales(gui, debug)}, which no window of 854 x 480 pixels can have: "
+        "run mc-nested calibrate all --profile mine"
+    )
+
+
+def test_a_debug_screen_of_another_scale_does_not_fit() -> None:
+    problem = mismatch(CALIBRATED, Fingerprint("Minecraft 1.20.1", (854, 480), Scales(2, 1)), "mine")
+    assert problem == (
+        "profile mine was calibrated at GUI scale 2, and this is 2, debug screen 1: set Video Settings > GUI Scale to "
+        "2, or run mc-nested calibrate all --profile mine"
+    )
 
 
 def test_a_profile_that_was_never_calibrated_plays_as_before() -> None:
