@@ -1,14 +1,16 @@
 """Measures how exactly and how fast the live path plays on the virtual client, whose world checks every action.
 
     python scripts/bench_live.py [--actions 10000] [--rate 0.01] [--frames 20000] [--seed 0] [--json]
-        [--latency-ms 60 90]
+        [--latency-ms 60 90] [--version 26.3]
 
 ``clean`` plays without mishaps, ``soak`` with one before every hundredth action (lost focus, menus, death, disconnect,
-lag, lost keys and so on). Actions are drawn uniformly from those that the rules don't void. An episode ends after 60
-steps, when no block is left, or when an action fails: then it is thrown away, and the reset recovers. An outcome that
-differs from the client's world is a wrong cell or a wrong block. An outcome that matches the world but not the rules is
-unnoticed: the action did not happen. Times are the game's, for one call of act(). ``cpu_ms_per_action`` is the
-processor's time for an action of the clean run, resets included: client, drawing, reading and body. ``reader`` is what
+lag, lost keys and so on); five each of those that open a screen are planned, the others drawn. Actions are drawn
+uniformly from those that the rules don't void. An episode ends after 60 steps, when no block is left, or when an action
+fails: then it is thrown away, and the reset recovers. An outcome that differs from the client's world is a wrong cell
+or a wrong block. An outcome that matches the world but not the rules is unnoticed: the action did not happen.
+``into_screens`` are presses for the world that reached a screen over it, though a picture of that screen was to be had;
+``too_late`` those where none was. Times are the game's, for one call of act(). ``cpu_ms_per_action`` is the processor's
+time for an action of the clean run, resets included: client, drawing, reading and body. ``reader`` is what
 scripts/bench_reader.py measures. Exit code 1 if anything was wrong.
 
 With --latency-ms pictures are so old, from and to, and the walk is calibrated first: latencies are the profile's, as
@@ -21,9 +23,10 @@ import json
 import sys
 import tempfile
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Protocol
 
 import cv2
@@ -50,15 +53,27 @@ from mc_nested.live.profile.tables import GameVersion, InputTable, Profile, Scre
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.game_screen import WindowScreen
 from scripts import bench_reader
+from scripts.into_screens import ScreenPresses
 from sim.client.client import VirtualClient
 from sim.client.drawing.font import drawn_atlas
+from sim.client.mishaps import Kind
+from sim.client.settings import ClientSettings
 
 MISHAP_WITHIN_S = 0.5
 """A mishap happens at a random moment within this time after it is drawn: in that action or in the next one."""
 
+VERSION = "1.20.1"
+"""The game's, if no other is asked for."""
+
+OPEN_SCREENS: tuple[Kind, ...] = ("lost_focus", "pause", "death", "inventory", "chat", "disconnect")
+"""The mishaps after which a screen lies over the world; a game without the focus pauses."""
+
+PLANNED = 5
+"""How often each of them is planned in a soak."""
+
 SOAK_FIGURES = (
     *("actions", "mishaps", "wrong_cells", "wrong_blocks", "unnoticed", "failed_actions", "resets", "recoveries"),
-    *("gave_up", "left_down", "strays", "corrections", "second_clicks"),
+    *("gave_up", "left_down", "strays", "into_screens", "too_late", "corrections", "second_clicks"),
 )
 GROUND_PITCH = 65.0
 """Degrees down at which the ground is looked at: a screen that names a block is read ten times as fast."""
@@ -83,6 +98,8 @@ class PlayCounts:
     gave_up: int = 0
     left_down: int = 0
     strays: int = 0
+    into_screens: int = 0
+    too_late: int = 0
     corrections: int = 0
     second_clicks: int = 0
     recoveries: int = 0
@@ -94,27 +111,43 @@ class PlayCounts:
     @property
     def is_right(self) -> bool:
         """Whether nothing was wrong."""
-        return not (
-            self.wrong_cells or self.wrong_blocks or self.unnoticed or self.gave_up or self.left_down or self.strays
-        )
+        wrong = (self.wrong_cells, self.wrong_blocks, self.unnoticed, self.gave_up, self.left_down)
+        return not any((*wrong, self.strays, self.into_screens))
 
 
 def play(
-    count: int, rate: float, seed: int, scenario: Scenario, latency_ms: tuple[float, float] | None = None
+    count: int,
+    rate: float,
+    seed: int,
+    scenario: Scenario,
+    latency_ms: tuple[float, float] | None = None,
+    version: str = VERSION,
 ) -> PlayCounts:
     """Play ``count`` actions on a new client, with a mishap before a share ``rate`` of them.
 
     With ``latency_ms`` its pictures are so old, from and to, and the walk is calibrated before.
     """
-    if latency_ms is None:
-        client, walk_table = VirtualClient(seed=seed), None
-    else:
-        least, most = latency_ms
-        client = VirtualClient(seed=seed, pitch=GROUND_PITCH, capture_latency_s=(least / 1000, most / 1000))
-        walk_table = calibrated_walk(client)
+    settings = ClientSettings(seed=seed, version=version)
+    if latency_ms is not None:
+        latency_s = (latency_ms[0] / 1000, latency_ms[1] / 1000)
+        settings = dataclasses.replace(settings, pitch=GROUND_PITCH, capture_latency_s=latency_s)
+    client = VirtualClient(settings)
+    walk_table = calibrated_walk(client) if latency_ms else None
     arena = Arena.around((-20, client.realm.world.floor, 31), "south", size=size_for(scenario))
     steps = track(range(count), "soak" if rate else "clean", console=Console(stderr=True))
-    return play_in(client, live_game(client, scenario, arena, walk_table), arena, scenario, steps, rate, seed)
+    presses = ScreenPresses(client)
+    game = live_game(client, scenario, arena, walk_table, presses.controller())
+    planned = planned_mishaps(count, np.random.default_rng(seed)) if rate else {}
+    counts = play_in(client, game, arena, scenario, steps, rate, seed, planned)
+    counts.into_screens, counts.too_late = presses.into_screens, presses.too_late
+    return counts
+
+
+def planned_mishaps(count: int, rng: np.random.Generator) -> dict[int, Kind]:
+    """Before which of so many actions a mishap that opens a screen comes: each kind PLANNED times, if they fit."""
+    kinds = [kind for kind in OPEN_SCREENS for _ in range(PLANNED)]
+    at = rng.permutation(count)[: len(kinds)]
+    return {int(step): kind for step, kind in zip(at, kinds, strict=False)}
 
 
 def calibrated_walk(client: VirtualClient) -> WalkTable:
@@ -164,6 +197,7 @@ def play_in(
     steps: Iterable[int],
     rate: float,
     seed: int,
+    planned: Mapping[int, Kind] = MappingProxyType({}),
 ) -> PlayCounts:
     """Play as many actions as there are steps in that client's game, each checked against the client's world."""
     counts = PlayCounts()
@@ -177,7 +211,9 @@ def play_in(
             while placed is None:
                 placed, cell, in_episode = _reset(game, truth, scenario, counts, rng)
             action = drawn_action(rng, cell, placed, scenario.size)
-            if rate:
+            if (kind := planned.get(counts.actions)) is not None:
+                client.mishaps.plan(kind, float(rng.uniform(0, MISHAP_WITHIN_S)))
+            elif rate:
                 client.mishaps.maybe(rate, MISHAP_WITHIN_S)
             counts.actions += 1
             act_began = client.clock.now()
@@ -208,21 +244,25 @@ def play_in(
     return counts
 
 
-def live_game(client: VirtualClient, scenario: Scenario, arena: Arena, walk_table: WalkTable | None = None) -> LiveGame:
-    """A live game on a virtual client, whose player walks like that, or as usual."""
+def live_game(
+    client: VirtualClient,
+    scenario: Scenario,
+    arena: Arena,
+    walk_table: WalkTable | None = None,
+    controller: InputController | None = None,
+) -> LiveGame:
+    """A live game on a virtual client, whose player walks like that, or as usual; pressed by that controller."""
     return LiveGame(
         scenario,
         Profile(game=GameVersion(version=client.settings.version), arena=arena, walk=walk_table or WalkTable()),
-        connection_to(client),
+        connection_to(client, controller),
     )
 
 
-def connection_to(client: VirtualClient) -> GameConnection:
+def connection_to(client: VirtualClient, controller: InputController | None = None) -> GameConnection:
     """A connection to a virtual client, read with its own font."""
-    controller = InputController(client.devices, InputTable())
-    return GameConnection(
-        client.devices, controller, WindowScreen(client.display, _font(), version=client.settings.version)
-    )
+    screen = WindowScreen(client.display, _font(), version=client.settings.version)
+    return GameConnection(client.devices, controller or InputController(client.devices, InputTable()), screen)
 
 
 def _reset(
@@ -291,6 +331,7 @@ def main() -> int:
     parser.add_argument(
         "--latency-ms", type=float, nargs=2, metavar=("LEAST", "MOST"), help="the age of a picture; calibrates the walk"
     )
+    parser.add_argument("--version", default=VERSION, help="the game's")
     parser.add_argument("--scenario", default="diamond")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--json", action="store_true")
@@ -302,8 +343,8 @@ def main() -> int:
         parser.error(f"--latency-ms must be two times from 0 to {LONGEST_LATENCY_MS}, the shorter one first")
     cv2.setNumThreads(1)
     scenario = load_scenario(arguments.scenario)
-    clean = play(arguments.actions, 0.0, arguments.seed, scenario, latency_ms)
-    soak = play(arguments.actions, arguments.rate, arguments.seed + 1, scenario, latency_ms)
+    clean = play(arguments.actions, 0.0, arguments.seed, scenario, latency_ms, arguments.version)
+    soak = play(arguments.actions, arguments.rate, arguments.seed + 1, scenario, latency_ms, arguments.version)
     reader = bench_reader.measure(_font(), arguments.frames, arguments.seed, arguments.tesseract)
     result = report(clean, soak, reader)
     if arguments.json:

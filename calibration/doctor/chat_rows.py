@@ -43,7 +43,7 @@ def _visibility(value: str | None) -> Check:
     if value in _SEEN:
         return Check(CheckName.CHAT_VISIBILITY, "pass", f"{value}, {_SEEN[value]}")
     fix = f"Options > Chat Settings > Chat: Shown, or {FIX}"
-    return Check(CheckName.CHAT_VISIBILITY, "fail", f"{value}, hidden: no command can be typed", fix)
+    return Check(CheckName.CHAT_VISIBILITY, "fail", f"{value}, hidden: no command gets through", fix)
 
 
 def _background(values: Mapping[str, str]) -> Check:

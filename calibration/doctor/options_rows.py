@@ -24,7 +24,12 @@ SWITCHES = (
         "one click goes on breaking blocks",
         "Options > Controls > Attack/Destroy: Hold",
     ),
-    Check(CheckName.TOGGLE_USE, "fail", "one click goes on placing blocks", "Options > Controls > Use/Place: Hold"),
+    Check(
+        CheckName.TOGGLE_USE,
+        "fail",
+        "one click goes on placing blocks",
+        "Options > Controls > Use Item/Place Block: Hold",
+    ),
     Check(
         CheckName.SAVE_CHAT_DRAFTS,
         "warn",

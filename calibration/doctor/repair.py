@@ -11,8 +11,8 @@ from pathlib import Path
 
 from calibration.doctor.chat_rows import chat_mends
 from calibration.doctor.examination import Examination
-from calibration.doctor.options_rows import gui_scale_row
-from calibration.installation.options_txt import SAFE
+from calibration.doctor.options_rows import debug_scale_row, gui_scale_row
+from calibration.installation.options_txt import SAFE, OptionsTxt
 from calibration.installation.processes import may_have_open
 from mc_nested.errors import ProfileError
 
@@ -50,7 +50,7 @@ def _mend_options(examination: Examination) -> str | None:
     options = examination.options
     if options is None:
         return None
-    wanted = {**SAFE, **_gui_scale(examination), **chat_mends(options)}
+    wanted = {**SAFE, **_gui_scale(examination), **_debug_scale(options), **chat_mends(options)}
     changes = options.changes(wanted)
     if not changes:
         return None
@@ -91,6 +91,12 @@ def _gui_scale(examination: Examination) -> dict[str, str]:
     calibrated = examination.profile.calibrated
     scale = (calibrated and calibrated.gui_scale) or GUI_SCALE
     return {"guiScale": str(scale)}
+
+
+def _debug_scale(options: OptionsTxt) -> dict[str, str]:
+    """The game's own scale of the debug screen's text, where the file has none that is one."""
+    is_none = debug_scale_row(options.values.get("debugGuiScale"), None, None).status == "warn"
+    return {"debugGuiScale": "0"} if is_none else {}
 
 
 def _replace(named: Path, before: bytes | None, after: bytes) -> Path | None:

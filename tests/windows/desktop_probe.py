@@ -30,8 +30,11 @@ _user32 = ctypes.WinDLL("user32")
 
 
 def place_report(window: DrivenWindow, devices: Devices) -> dict[str, Any]:
-    """The window as the project sees it, and as GLFW does."""
+    """The window as the project sees it, and as GLFW does; and the programs of the windows that have a title."""
+    from mc_nested.live.desktop.win32 import titled_windows
+
     return {
+        "programs": {title: program for _, (title, program) in titled_windows()},
         "size": devices.display.size(),
         "title": devices.display.title(),
         "is in front": devices.display.is_in_front(),

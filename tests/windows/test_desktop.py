@@ -77,6 +77,7 @@ def test_the_window_is_where_and_what_it_is(report: dict[str, Any]) -> None:
     place = report["place"]
     assert (place["size"], place["title"], place["is in front"]) == (SIZE, TITLE, True)
     assert place["of GLFW"]["size"] == SIZE
+    assert place["programs"][TITLE] == "python.exe GLFW30"
 
 
 def test_a_picture_is_the_windows_own_pixels(report: dict[str, Any]) -> None:

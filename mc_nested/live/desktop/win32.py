@@ -54,12 +54,17 @@ def open_window(title: str) -> Iterator["Win32Window"]:
     """
     # Fails harmlessly where the process has chosen its awareness already; pyautogui would choose a weaker one.
     _user32.SetProcessDpiAwarenessContext(ctypes.c_void_p(_PER_MONITOR_AWARE_V2))
-    windows = [(handle, TitledWindow(_title_of(handle), _program_of(handle))) for handle in _shown_windows()]
-    windows = [(handle, described) for handle, described in windows if described.title]
+    windows = titled_windows()
     handle, described = windows[game_window(title, [described for _, described in windows])]
     window = Win32Window(handle, described.title)
     window.client_area()
     yield window
+
+
+def titled_windows() -> list[tuple[int, TitledWindow]]:
+    """The handle of each window that is shown and has a title, and what is known of it."""
+    windows = [(handle, TitledWindow(_title_of(handle), _program_of(handle))) for handle in _shown_windows()]
+    return [(handle, described) for handle, described in windows if described.title]
 
 
 def virtual_screen() -> DesktopArea:

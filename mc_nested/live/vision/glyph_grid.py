@@ -89,7 +89,7 @@ class GlyphGrid:
         codes = self._codes.reshape(-1, self.columns)
         wanted = np.frombuffer(pattern, np.uint8)
         ink = wanted > 0
-        best = (least, None)
+        best: tuple[float, int | None] = (least, None)
         for left in (column - 1, column, column + 1):
             shares = (codes[:, left : left + len(wanted)][:, ink] == wanted[ink]).mean(axis=1)
             row = int(shares.argmax())

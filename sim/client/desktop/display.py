@@ -81,6 +81,11 @@ class VirtualDisplay:
         self._shown_at = max(self._shown_at, self._frames.at_or_before(seen))
         return self._view_at(self._shown_at)
 
+    @property
+    def shown_at(self) -> float:
+        """When the game drew the frame that was seen last, in seconds."""
+        return self._shown_at
+
     def is_black(self) -> bool:
         """Whether the desktop shows a black picture now."""
         return self._clock.now() < self._black_until

@@ -83,6 +83,12 @@ def test_the_options_of_26_3_are_repaired_too_and_any_scale_of_the_debug_screen_
     assert computer.options.read_text("utf-8") == repaired
 
 
+def test_a_scale_of_the_debug_screen_that_is_none_becomes_the_games_own(computer: Computer) -> None:
+    computer.options.write_text(GOOD.replace("debugGuiScale:0", "debugGuiScale:half"), "utf-8")
+    assert repaired_in(computer, computer.examined(no_window))[0]
+    assert computer.options.read_text("utf-8") == GOOD
+
+
 def test_the_gui_scale_is_that_of_the_profile(computer: Computer) -> None:
     calibrated = CalibratedTable(date="2026-11-21", gui_scale=3)
     computer.save(Profile(screen=ScreenTable(font=str(computer.font)), calibrated=calibrated))

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from mc_nested.live.menus.screens import identify_screen
 from sim.client.client import VirtualClient
 from sim.client.game.options import GameOptions
-from sim.client.game.screens import IN_WORLD
+from sim.client.game.screens import IN_WORLD, ScreenName
 from tests.sim.client.playing import screen_of
 
 VERSIONS = ("1.12.2", "1.16.5", "1.20.1", "1.21.8", "1.21.9", "1.21.11", "26.1.2", "26.2", "26.3", "26.4")
@@ -34,7 +34,7 @@ def _client(version: str, size: tuple[int, int], scale: int, debug_scale: int, w
     st.sampled_from(sorted(IN_WORLD)),
 )
 def test_only_the_world_is_taken_for_the_world(
-    version: str, size: tuple[int, int], scale: int, debug_scale: int, world: str, name: str
+    version: str, size: tuple[int, int], scale: int, debug_scale: int, world: str, name: ScreenName
 ) -> None:
     client = _client(version, size, scale, debug_scale, world)
     screen = screen_of(client)

@@ -1,0 +1,88 @@
+"""Counts what was pressed for the world of a virtual client and reached a screen that lay over it instead."""
+
+from collections import deque
+from collections.abc import Callable
+from functools import partial
+
+from mc_nested.live.devices import Devices
+from mc_nested.live.input.input_controller import InputController, PressTarget
+from mc_nested.live.profile.tables import InputTable
+from sim.client.client import VirtualClient
+from sim.client.desktop.display import GRAB_S
+from sim.client.game.screens import ScreenName
+
+FORGOTTEN_S = 1.0
+"""After this time a press is taken to have been lost on the way."""
+
+
+class ScreenPresses:
+    """Watches a client's presses. ``into_screens`` of them could have been seen to go wrong, ``too_late`` could not.
+
+    A press could not where the screen opened after the newest picture that was to be had when it was sent.
+    """
+
+    def __init__(self, client: VirtualClient) -> None:
+        self.into_screens, self.too_late = 0, 0
+        self._client = client
+        self._meant: deque[tuple[str, float]] = deque()
+        self._opened_at = 0.0
+        game, controls = client.game, client.controls
+        open_screen, key, button = game.open, controls.key, controls.button
+
+        def watched_open(screen: ScreenName, typed: str = "") -> None:
+            if game.screen == "world":
+                self._opened_at = client.clock.now()
+            open_screen(screen, typed)
+
+        def watched_key(name: str, *, is_down: bool) -> None:
+            self._arrived(f"key {name}", is_down=is_down)
+            key(name, is_down=is_down)
+
+        def watched_button(name: str, *where: object, is_down: bool) -> None:
+            self._arrived(f"{name} button", is_down=is_down)
+            button(name, *where, is_down=is_down)  # type: ignore[arg-type]  # passed on as they came
+
+        game.open, controls.key, controls.button = watched_open, watched_key, watched_button  # type: ignore[method-assign,assignment]
+
+    def controller(self) -> InputController:
+        """The owner of held keys, whose presses are watched."""
+        return _WatchedController(self._client.devices, InputTable(), self)
+
+    def sent(self, name: str) -> None:
+        """Something is pressed that is meant for the world."""
+        if self._client.window.is_in_front:
+            self._meant.append((name, self._client.clock.now()))
+
+    def _arrived(self, name: str, *, is_down: bool) -> None:
+        now = self._client.clock.now()
+        while self._meant and now - self._meant[0][1] > FORGOTTEN_S:
+            self._meant.popleft()
+        meant = next((each for each in self._meant if each[0] == name), None) if is_down else None
+        if meant is None:
+            return
+        self._meant.remove(meant)
+        if self._client.game.screen == "world":
+            return
+        settings = self._client.settings
+        newest = meant[1] - settings.capture_latency_s[1] - 1 / settings.fps - GRAB_S
+        if self._opened_at < max(newest, self._client.display.shown_at):
+            self.into_screens += 1
+        else:
+            self.too_late += 1
+
+
+class _WatchedController(InputController):
+    def __init__(self, devices: Devices, timing: InputTable, presses: ScreenPresses) -> None:
+        super().__init__(devices, timing)
+        self._presses = presses
+
+    def _press(
+        self, name: str, press: Callable[[], None], release: Callable[[], None], until: float, on: PressTarget
+    ) -> None:
+        if on == "world":
+            press = partial(self._sent, name, press)
+        super()._press(name, press, release, until, on)
+
+    def _sent(self, name: str, press: Callable[[], None]) -> None:
+        self._presses.sent(name)
+        press()
