@@ -46,7 +46,7 @@ def profile_for(client: VirtualClient) -> Profile:
     return Profile(game=GameVersion(version=client.settings.version), arena=arena_of(client))
 
 
-@pytest.mark.parametrize("version", ["1.12.2", "1.14.4", "1.20.1", "26.1"])
+@pytest.mark.parametrize("version", ["1.12.2", "1.14.4", "1.20.1", "1.21.10", "26.1", "26.3", "26.4"])
 def test_blocks_are_built_where_they_were_asked_for(version: str) -> None:
     client = VirtualClient(version=version)
     arena = arena_of(client)
