@@ -227,6 +227,7 @@ class LiveGame:
         self._body.check_screen()
         self._controller.tap_alone(self._profile.keys.hotbar[material])
         self._body.arrive(self._scenario.start)
+        self._body.check_ground_is_named(self._profile.game.version)
 
     def _restore_world(self, world: WorldTable) -> None:
         """Leave the world, restore its folder, and enter it again: for games without commands."""

@@ -12,6 +12,7 @@ from mc_nested.arena.rules import front_of, is_inside
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.model.coordinates import GroundVector, cell_at
+from mc_nested.live.model.debug_entries import switch_on
 from mc_nested.live.model.reading import Block, Target
 from mc_nested.live.motion.click_range import COASTING_CLICK, hits_floor, is_click_right, is_near
 from mc_nested.live.motion.effort import Effort
@@ -165,6 +166,15 @@ class Body:
     def check_floor_ahead(self) -> None:
         """Check that no block is left in front of the cell in which the agent stands; presses nothing."""
         self.check_front(self._observer.look_and_check(), {})
+
+    def check_ground_is_named(self, version: str) -> None:
+        """Check that the debug screen names the block ahead, where there is always one; presses nothing.
+
+        Where the entry is off, it looks as if no block were looked at (FACTS: The F3 debug screen).
+        """
+        if self._observer.watch(lambda pose: pose.target is not None, self._limits.confirm_s).target is None:
+            problem = "the debug screen names no block, though the ground is looked at"
+            raise NotConfirmedError(f"{problem}: if that line is off, {switch_on(version)}")
 
     def place(self, cell: Cell, shown_id: str, pose: PoseEstimate | None = None) -> Cell:
         """Place a block in front of ``cell``, where the agent stands or stops, and return the cell where it was seen.

@@ -33,6 +33,9 @@ _FIRST = 2
 _SHORTEST = 8
 """Columns that every line has: what is shorter is the world's."""
 
+_BEGINNINGS = (0, 1, 4, 5)
+"""Columns before a line's first ink: none, or one in some fonts, or a space."""
+
 _WIDEST_GAP = 13
 """Blank columns within a line: three spaces and the gap of one (text_lines.py)."""
 
@@ -84,7 +87,7 @@ def _length(has_ink: Bools, in_a_box: Bools) -> int:
     """The columns of a line that begins at the first or second one, going on while there is a box; 0 if none does."""
     outside = np.flatnonzero(~in_a_box)
     ink = np.flatnonzero(has_ink[: outside[0]] if len(outside) else has_ink)
-    if not len(ink) or ink[0] > 1:
+    if not len(ink) or ink[0] not in _BEGINNINGS:
         return 0
     gaps = np.flatnonzero(np.diff(ink) > _WIDEST_GAP + 1)
     length = int(ink[gaps[0]] if len(gaps) else ink[-1]) + 1

@@ -17,7 +17,7 @@ from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
 from mc_nested.live.vision.layout import BOXES, VANILLA, Overlay
 from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.text_colours import INK_SPREAD, WHITE, Colour
-from mc_nested.live.vision.text_lines import UNKNOWN, Line, is_text, positions_of
+from mc_nested.live.vision.text_lines import UNKNOWN, Line, ink_of, is_text, positions_of
 
 SCALES = (8, 7, 6, 5, 4, 3, 2, 1)
 """The GUI scales that are looked for: the larger, the fewer dots there are to look through."""
@@ -40,6 +40,9 @@ _KNOWN = (*SECTIONS, *OTHERS, "fps T:", "Integrated server @", "Memory", "Lookin
 _VERSION = re.compile(r"Minecraft (\d+(?:\.\d+)+)")
 FIRST_WITH_BOXES = (26, 4)
 """The first version whose debug screen is made of boxes."""
+
+_VALUE = 16
+"""Columns behind a name in which its value has begun, from 26.4 on."""
 
 _MAY_BE_ALONE = (TITLE, "Targeted ", "Mem:", "Java:", *SECTIONS)
 """What is an entry of its own, which can be on without F3: alone it is no debug screen."""
@@ -118,9 +121,12 @@ def _least(overlay: Overlay) -> int:
 
 def _measured(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -> Overlay:
     """The overlay's colour from the ink of a known line, its layout from where the lines beside it stand."""
-    colour, _ = _ink_of(dots, font, label, position)
+    colour, ink = _ink_of(dots, font, label, position)
     boxes = Overlay(dots.scale, BOXES, colour)
-    if _is_of_boxes(fact_from(dots, font, boxes, position), label):
+    row, behind = position[0], position[1] + ink.shape[1]
+    # Only where a value may follow is it read.
+    may_follow = label == TITLE or ink_of(dots.strip(row, behind, behind + _VALUE), WHITE).any()
+    if may_follow and _is_of_boxes(fact_from(dots, font, boxes, position), label):
         return boxes
     overlays = [Overlay(dots.scale, layout, colour) for layout in (VANILLA, STANDIN)]
     return max(overlays, key=lambda overlay: _known_beside(dots, font, overlay, position))

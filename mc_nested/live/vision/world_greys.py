@@ -13,6 +13,7 @@ from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.scales import Scales
 from mc_nested.live.vision.chat_region import messages_region
 from mc_nested.live.vision.debug_boxes import ALPHA, BRIGHTEST, GREY, ink_of, line_boxes
+from mc_nested.live.vision.group_boxes import ground_parts
 
 SIDE = 84
 """Rows and columns of the small picture, as Mnih et al. (2015) took them of Atari's screens."""
@@ -37,8 +38,13 @@ def world_greys(frame: Frame, scales: Scales) -> NDArray[np.uint8]:
     """The world on a picture of the whole window (height, width, 3) at these scales, as greys (84, 84)."""
     greys = cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY).astype(np.float32)
     seen = np.ones_like(greys)
-    for box in line_boxes(frame, scales.debug):
+    parts = ground_parts(frame, scales.debug)
+    for box in () if parts else line_boxes(frame, scales.debug):
         _look_through(frame, greys, seen, box, scales.debug)
+    for part in parts:
+        _look_through(frame, greys, seen, part.region, scales.debug, part.grey)
+    if parts:  # the bars beside the boxes
+        seen[:, : scales.debug] = seen[:, -scales.debug :] = 0
     for region in hidden_regions((frame.shape[1], frame.shape[0]), scales.gui):
         seen[_part(region)] = 0
     share = _smaller(seen)
@@ -55,13 +61,13 @@ def hidden_regions(size: tuple[int, int], scale: int) -> tuple[Region, ...]:
     return (messages_region(size, scale), *(Region(*(max(0, part) * scale for part in each)) for each in (bar, cross)))
 
 
-def _look_through(frame: Frame, greys: Floats, seen: Floats, box: Region, scale: int) -> None:
+def _look_through(frame: Frame, greys: Floats, seen: Floats, box: Region, scale: int, grey: int = GREY) -> None:
     """Undo a box's grey; what its letters hide isn't seen, nor what a line under them does, just below the box."""
     part, below = _part(box), _part(Region(box.left, box.top + box.height, box.width, scale))
     # Where two boxes meet, what is left of the first one's world is not known.
-    seen[part] *= (cv2.inRange(frame[part], (0, 0, 0), (BRIGHTEST,) * 3) > 0) & (greys[part] >= GREY * ALPHA - 1)
+    seen[part] *= (cv2.inRange(frame[part], (0, 0, 0), (BRIGHTEST,) * 3) > 0) & (greys[part] >= grey * ALPHA - 1)
     seen[below] *= ~ink_of(frame[below])
-    greys[part] = np.maximum(0, (greys[part] - GREY * ALPHA) / (1 - ALPHA))
+    greys[part] = np.maximum(0, (greys[part] - grey * ALPHA) / (1 - ALPHA))
 
 
 def _part(region: Region) -> tuple[slice, slice]:

@@ -76,14 +76,17 @@ def test_a_reduced_debug_screen_is_named() -> None:
     assert problem.startswith("the debug screen is reduced and shows no XYZ")
 
 
-@pytest.mark.parametrize(
-    ("title", "is_too_new"),
-    [("26.4", True), ("26.10", True), ("27.1", True), ("26.3", False), ("1.20.1", False), ("x", False)],
-)
-def test_a_version_from_26_4_on_is_named_as_not_supported(title: str, is_too_new: bool) -> None:
+@pytest.mark.parametrize("title", ["1.20.1", "26.3", "26.4", "27.1"])
+def test_a_debug_screen_of_any_version_without_a_position_is_told_how_to_show_it(title: str) -> None:
     problem = said(f"Minecraft {title} (vanilla)", label="Minecraft ").problem or ""
-    assert problem.startswith(f"the debug screen of Minecraft {title} has a layout") is is_too_new
-    assert problem.startswith("no XYZ line is to be seen") is not is_too_new
+    assert problem.startswith("no XYZ line is to be seen")
+
+
+@pytest.mark.parametrize("label", ["Section-relative:", "Section-Relative:"])
+def test_a_section_without_a_position_is_reduced_too(label: str) -> None:
+    problem = said(f"{label} 04 04 11", label=label).problem or ""
+    assert problem.startswith("the debug screen is reduced and shows no XYZ")
+    assert problem.endswith("minecraft:player_position on (F3+F6)")
 
 
 def test_a_debug_screen_without_its_title_and_position_lacks_its_position() -> None:

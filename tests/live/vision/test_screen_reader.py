@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Target
+from mc_nested.live.vision import screen_reader
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.screen_reader import ScreenReader
@@ -105,6 +106,26 @@ def test_that_no_block_is_looked_at_is_only_said_of_the_whole_window() -> None:
     for _ in range(2):
         assert reader.read() == expected(sky)
         assert pictures.grabbed.pop() is None
+
+
+@pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout != "standin"])
+def test_a_block_that_comes_to_be_looked_at_is_seen_at_once(layout: Layout) -> None:
+    block = screen(layout)
+    sky = dataclasses.replace(block, target=None)
+    reader, pictures = opened(sky)
+    for shown in (sky, dataclasses.replace(sky, xyz=(9.0, 64.0, 3.5)), block, sky, block):
+        pictures.frame = painted(shown)
+        assert reader.read() == expected(shown)
+
+
+@pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout != "standin"])
+def test_that_there_is_none_is_seen_without_a_search(layout: Layout, monkeypatch: pytest.MonkeyPatch) -> None:
+    # So small that 26.4's columns leave room for a block.
+    sky = dataclasses.replace(screen(layout), target=None, gui_scale=1)
+    reader, pictures = opened(sky)
+    monkeypatch.setattr(screen_reader, "find_debug_screen", lambda *_: pytest.fail("searched"))
+    pictures.frame = painted(dataclasses.replace(sky, xyz=(9.0, 64.0, 3.5)))
+    assert reader.read().xyz == (9.0, 64.0, 3.5)
 
 
 def test_the_very_picture_that_was_read_is_not_read_again() -> None:

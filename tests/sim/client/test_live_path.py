@@ -23,6 +23,7 @@ from mc_nested.live.profile.tables import GameVersion, Profile, WalkTable
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from sim.client.client import VirtualClient
 from sim.client.drawing.scenery import SEEN
+from sim.client.game.debug_entries import GAME_DEFAULT
 from sim.client.mishaps import KINDS
 from tests.arena.game_contract import BUMPS, check_game, check_materials
 from tests.sim.client.playing import FONT, SOON_S, TAP_S, arena_of, connection_to, play, read
@@ -46,7 +47,7 @@ def profile_for(client: VirtualClient) -> Profile:
     return Profile(game=GameVersion(version=client.settings.version), arena=arena_of(client))
 
 
-@pytest.mark.parametrize("version", ["1.12.2", "1.14.4", "1.20.1", "26.1"])
+@pytest.mark.parametrize("version", ["1.12.2", "1.14.4", "1.20.1", "1.21.10", "26.1", "26.3", "26.4"])
 def test_blocks_are_built_where_they_were_asked_for(version: str) -> None:
     client = VirtualClient(version=version)
     arena = arena_of(client)
@@ -154,6 +155,13 @@ def test_everything_is_read_while_the_world_that_is_seen_is_behind_it() -> None:
         assert found.xyz == player.feet
         if found.target is not None and found.target.pos is not None:
             assert found.target.id == f"minecraft:{client.realm.world.block_at(found.target.pos)}"
+
+
+@pytest.mark.parametrize(("version", "entry"), [("1.21.10", "looking_at_block "), ("26.4", "looking_at_block_state ")])
+def test_a_block_entry_that_is_off_is_said_before_the_first_action(version: str, entry: str) -> None:
+    client = VirtualClient(version=version, debug_entries=GAME_DEFAULT)
+    with play(client, LINE) as game, pytest.raises(LiveError, match=f"set {entry}"):
+        game.reset(LINE.best_material)
 
 
 def test_the_boxes_of_26_4_say_where_the_player_is_and_what_is_looked_at() -> None:
