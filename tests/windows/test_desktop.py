@@ -11,13 +11,13 @@ import pytest
 from mc_nested.live.model.key_places import PLACES
 from scripts.window_display import set_layout
 from scripts.windows_session import Session
-from tests.live.desktop.glfw_driver import TITLE
 from tests.live.desktop.test_keyboard import COMMAND, expected_events
+from tests.live.desktop.window_driver import TITLE
 
 pytestmark = pytest.mark.wine
 
 TESTS = Path(__file__).resolve().parents[1]
-GLFW_PROBE = str(TESTS / "live" / "desktop" / "glfw_probe.py")
+GLFW_PROBE = str(TESTS / "live" / "desktop" / "window_probe.py")
 LEFT_SHIFT = 340
 """GLFW's key."""
 SIZE = [320, 240]

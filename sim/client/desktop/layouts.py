@@ -16,32 +16,32 @@ _ROWS = {
         '!"·$%^&*()_+QWERTYUIOP{}ASDFGHJKL:@·~ZXCVBNM<>?',
     ),
     "de": (
-        "1234567890··qwertzuiop·+asdfghjkl··^#yxcvbnm,.-",
-        "!\"·$%&/()=?`QWERTZUIOP·*ASDFGHJKL···'YXCVBNM;:_",
+        "1234567890··qwertzuiop·+asdfghjkl···#yxcvbnm,.-",
+        "!\"·$%&/()=?·QWERTZUIOP·*ASDFGHJKL···'YXCVBNM;:_",
     ),
     "fr": (
-        "&·\"'(-·_··)=azertyuiop^$qsdfghjklm··*wxcvbn,;:!",
+        "&·\"'(-·_··)=azertyuiop·$qsdfghjklm··*wxcvbn,;:!",
         "1234567890·+AZERTYUIOP··QSDFGHJKLM%~·WXCVBN?./·",
     ),
     "be": (
-        "&·\"'(··!··)-azertyuiop^$qsdfghjklm···wxcvbn,;:=",
+        "&·\"'(··!··)-azertyuiop·$qsdfghjklm···wxcvbn,;:=",
         "1234567890·_AZERTYUIOP·*QSDFGHJKLM%··WXCVBN?./+",
     ),
     "es": (
-        "1234567890'·qwertyuiop`+asdfghjkl····zxcvbnm,.-",
-        '!"·$%&/()=?·QWERTYUIOP^*ASDFGHJKL····ZXCVBNM;:_',
+        "1234567890'·qwertyuiop·+asdfghjkl····zxcvbnm,.-",
+        '!"·$%&/()=?·QWERTYUIOP·*ASDFGHJKL····ZXCVBNM;:_',
     ),
     "it": (
         "1234567890'·qwertyuiop·+asdfghjkl··\\·zxcvbnm,.-",
         '!"·$%&/()=?^QWERTYUIOP·*ASDFGHJKL··|·ZXCVBNM;:_',
     ),
     "pt": (
-        "1234567890'·qwertyuiop+·asdfghjkl··\\~zxcvbnm,.-",
-        '!"#$%&/()=?·QWERTYUIOP*`ASDFGHJKL··|^ZXCVBNM;:_',
+        "1234567890'·qwertyuiop+·asdfghjkl··\\·zxcvbnm,.-",
+        '!"#$%&/()=?·QWERTYUIOP*·ASDFGHJKL··|·ZXCVBNM;:_',
     ),
     "se": (
         "1234567890+·qwertyuiop··asdfghjkl···'zxcvbnm,.-",
-        '!"#·%&/()=?`QWERTYUIOP·^ASDFGHJKL···*ZXCVBNM;:_',
+        '!"#·%&/()=?·QWERTYUIOP··ASDFGHJKL···*ZXCVBNM;:_',
     ),
     "pl": (
         "1234567890-=qwertyuiop[]asdfghjkl;'`\\zxcvbnm,./",
@@ -72,7 +72,7 @@ _ROWS = {
         '!@#$%^&*(){}"<>PYFGCRL?+AOEUIDHTNS_~|:QJKXBMWVZ',
     ),
 }
-"""What each place makes, in the order of _PLACES: without Shift, and with it. A dot is any that isn't ASCII's."""
+"""What each place makes, in the order of _PLACES: without Shift, and with it. A dot is an accent, or isn't ASCII's."""
 
 LAYOUTS = tuple(_ROWS)
 """The layouts, by their names on X11."""
@@ -91,4 +91,4 @@ def taken_by_lwjgl(characters: Layout) -> Layout:
 
 def _key_of(character: str) -> str:
     key = character.lower()
-    return key if key in CHARACTERS or key in "@:^_" else ""
+    return key if key in CHARACTERS - {"\\"} or key in "@:^_" else ""
