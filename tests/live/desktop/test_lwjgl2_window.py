@@ -65,7 +65,7 @@ def test_a_key_is_what_the_layout_makes_and_is_pressed_where_that_is(
         elif key.isdigit() and key in shifted:
             assert came == pressed(key, has_shift=True)
         else:
-            assert f"types no {key}: make English (US) your first keyboard layout" in came
+            assert f"types no {key}: switch to English (US)" in came
     if layout in WITHOUT_LATIN_LETTERS:
         assert "types no w, s, a, d, t:" in report["refused"]
     else:

@@ -12,6 +12,7 @@ from mc_nested.live.model.key_places import PLACES
 from scripts.window_display import set_layout
 from tests.live.desktop.game_window_fixtures import desktop, sdl_program
 from tests.live.desktop.probed import window_probed
+from tests.live.desktop.sdl3_names import expected_keys
 from tests.live.desktop.test_keyboard import COMMAND
 
 pytestmark = pytest.mark.window
@@ -19,23 +20,6 @@ pytestmark = pytest.mark.window
 __all__ = ["desktop", "sdl_program"]
 
 TITLE = "Minecraft 26.3 - Singleplayer"
-_NAMES = {
-    "esc": "Escape",
-    "enter": "Return",
-    "caps.lock": "CapsLock",
-    "page.up": "PageUp",
-    "page.down": "PageDown",
-    **{f"{side}.win": f"{side.title()} GUI" for side in ("left", "right")},
-    **{f"{side}.control": f"{side.title()} Ctrl" for side in ("left", "right")},
-}
-"""SDL's names of scancodes, where they aren't the project's own in other words."""
-
-
-def expected_keys() -> dict[str, list[list[object]]]:
-    """The scancode's name, down and up, for each place."""
-    words = {place: place.replace(".", " ").title() if len(place) > 1 else place.upper() for place in PLACES}
-    names = words | _NAMES
-    return {place: [[name, 1], [name, 0]] for place, name in names.items()}
 
 
 @pytest.fixture(params=["us", "de", "fr", "ru"])

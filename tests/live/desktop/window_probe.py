@@ -31,8 +31,8 @@ CLICKS = 100
 MARK, MARK_NAME = "left.control", "LCONTROL"
 """A key that comes after each place, by LWJGL's name: a modifier, which an accent doesn't wait for."""
 
-CLICK_S = 0.005
-"""Seconds of a click, and between two. The game's are longer; SDL 3 loses or doubles some that have no length."""
+CLICK_S = 0.02
+"""Seconds of a click, and between two. The game's are longer; SDL 3 loses or doubles some that are shorter."""
 
 MOVED_S = 1.0
 """Seconds within which a movement of the pointer comes, if the window takes it for one."""
@@ -53,22 +53,24 @@ def key_report(window: DrivenWindow, devices: Devices, names: list[str]) -> dict
 
 
 def symbol_report(window: DrivenWindow, devices: Devices, names: list[str]) -> dict[str, Any]:
-    """What places arrive as, alone and beside Shift; then the keys, pressed as a version that goes by symbols has them.
-
-    ``refused`` is why the profile's own keys can't be pressed.
-    """
+    """What places arrive as, alone and beside Shift; then what ``prepared_report`` says."""
     report: dict[str, Any] = {"alone": _place_report(window, devices, names)}
     devices.keyboard.press("left.shift")
     window.events_until(lambda came: any(_is_key(each, PRESSED) for each in came))
     report["shifted"] = _place_report(window, devices, names)
     devices.keyboard.release("left.shift")
     window.events_until(lambda came: any(_is_key(each, RELEASED) for each in came))
+    return report | prepared_report(window, devices, names)
+
+
+def prepared_report(window: DrivenWindow, devices: Devices, names: list[str]) -> dict[str, Any]:
+    """What keys arrive as, pressed as the title's version has them; ``refused`` is why a profile's own can't be."""
+    report: dict[str, Any] = {}
     try:
         prepare_keyboard(Profile(), devices)
     except McNestedError as error:
         report["refused"] = str(error)
-    report["keys"] = key_report(window, devices, names)
-    return report
+    return report | {"keys": key_report(window, devices, names)}
 
 
 def _place_report(window: DrivenWindow, devices: Devices, names: list[str]) -> dict[str, Any]:
@@ -178,6 +180,7 @@ def _is_key(event: Event, action: int) -> bool:
 PARTS: dict[str, Callable[[DrivenWindow, Devices, Any], dict[str, Any]]] = {
     "keys": key_report,
     "symbols": symbol_report,
+    "profile keys": prepared_report,
     "focus": focus_report,
     "text": text_report,
     "clicks": click_report,
