@@ -97,7 +97,7 @@ def test_to_1_12_a_key_of_another_layout_is_pressed_where_its_virtual_key_is_or_
         if isinstance(came, list):
             assert came == [[VIRTUAL_KEYS[key], 1], [VIRTUAL_KEYS[key], 0]]
         else:
-            # Wine 8 has no virtual key for a key that makes no letter of ASCII, as some French digits and Russian letters.
+            # Wine 8 has no virtual key for a key whose letter isn's ASCII, as some French digits and Russian ones.
             assert f"types no {key}: switch to English (US)" in came
 
 
