@@ -5,6 +5,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -141,6 +142,10 @@ def test_keys_are_places_whatever_the_layout(tmp_path: Path, window_programs: No
             assert soon(lambda: rehearsal.truth.now()["keys_down"] == [])
 
 
+def _are_down(rehearsal: RehearsalWindow, keys: list[str]) -> bool:
+    return bool(rehearsal.truth.now()["keys_down"] == keys)
+
+
 def test_to_1_12_keys_are_what_the_layout_makes(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
     with (
         open_display(layout="fr") as env,
@@ -151,7 +156,7 @@ def test_to_1_12_keys_are_what_the_layout_makes(tmp_path: Path, window_programs:
         for codes, down in (((W_PLACE,), ["z"]), ((RIGHT_SHIFT, TWO_PLACE), ["2", "right.shift"])):
             for code in codes:
                 hands.key(code, is_down=True)
-            assert soon(lambda down=down: rehearsal.truth.now()["keys_down"] == down)
+            assert soon(partial(_are_down, rehearsal, down))
             for code in reversed(codes):
                 hands.key(code, is_down=False)
             assert soon(lambda: rehearsal.truth.now()["keys_down"] == [])
