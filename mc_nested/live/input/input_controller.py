@@ -238,8 +238,13 @@ class InputController:
         """
         try:
             self._refresh(screen)
-            if screen == "world" and not self._sees_world():
-                self._wait_for_world()
+            if screen == "world":
+                was_fresh = self._is_fresh(screen)
+                if not self._sees_world():
+                    self._wait_for_world()
+                elif was_fresh:
+                    # The look may have taken long itself, on a busy machine.
+                    self._confirmed = screen, self._clock.now()
         except BaseException:
             self.release_all()
             raise

@@ -60,13 +60,20 @@ class CallEncoder:
 
     def encode(self, call: Call) -> tuple[list[Any], list[KeptPicture]]:
         """A call as plain values, and the pictures that belong to it."""
-        if call[0] == "size":
-            self.size = call[1]
+        self._note_window(call)
         if call[0] == "grab":
             return self._grab(*call[1:])
         if call[0] == "screen" and isinstance(call[-1], Look):
             return self._reading(call)
         return plain(call), []
+
+    def _note_window(self, call: Call) -> None:
+        """Keep the window's size, and the chat's scale as long as the size stays: it isn't that of the debug screen."""
+        if call[0] == "size":
+            self._scale = self._scale if call[1] == self.size else None
+            self.size = call[1]
+        if call[:2] == ("screen", "seen_scales"):
+            self._scale = call[3].gui if call[3] else None
 
     def _grab(self, region: Region | None, frame: Frame) -> tuple[list[Any], list[KeptPicture]]:
         pictures = self._picture(self._without_chat(frame, region, None), region)
@@ -74,9 +81,6 @@ class CallEncoder:
 
     def _reading(self, call: Call) -> tuple[list[Any], list[KeptPicture]]:
         *said, answer, look = call
-        lines = look.lines
-        if lines is not None:
-            self._scale = lines.overlay.scale
         text = text_pixels_of(look)
         is_read = answer is not None and (not isinstance(answer, Reading) or answer.target is not None)
         if text is not None and is_read and self.font and reads_the_same(text, look, answer, self.font):

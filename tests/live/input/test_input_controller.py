@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.errors import NotInFrontError, StoppedError, WrongScreenError
-from mc_nested.live.input.input_controller import FRESH_S, LONGEST_S, OVERDUE_S, InputController, PressTarget
+from mc_nested.live.input.input_controller import FRESH_S, LONGEST_S, OVERDUE_S, PATIENCE_S, InputController, PressTarget
 from mc_nested.live.input.signals import EndedBySignal
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.profile.arena import Arena
@@ -142,6 +142,58 @@ def test_a_fresh_look_or_another_screen_is_not_looked_at_again() -> None:
     with pytest.raises(WrongScreenError):
         controller.click("right")
     assert game.presses == ["right button"]
+
+
+@pytest.mark.parametrize("press", ["hold", "tap", "click"])
+def test_nothing_is_pressed_while_the_world_is_not_seen(press: str) -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.press(game.clock.now() + 1.0, "left.shift")
+    controller.guard_world(lambda: False)
+    began = game.clock.now()
+    with pytest.raises(WrongScreenError, match="the world is not seen with nothing over it"):
+        _press(controller, press)
+    assert PATIENCE_S <= game.clock.now() - began < PATIENCE_S + 0.1
+    assert (game.presses, game.down) == (["left.shift"], set())
+
+
+def test_a_world_that_is_not_seen_for_a_moment_is_looked_at_again_before_the_press() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    looks = iter([False, False, True])
+    again: list[float] = []
+    controller.guard_world(lambda: next(looks))
+    controller.confirm_screen("world", lambda: again.append(game.clock.now()))
+    controller.tap("1")
+    assert game.presses == ["1"]
+    assert len(again) == 1
+
+
+def test_a_press_meant_for_a_menu_or_the_chat_asks_nothing_of_the_world() -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    controller.guard_world(lambda: False)
+    controller.confirm_screen("menu")
+    controller.tap("esc", on="menu")
+    controller.confirm_screen("chat")
+    controller.tap("enter", on="chat")
+    assert game.presses == ["esc", "enter"]
+
+
+@pytest.mark.parametrize("look_s", [0.0, 0.03, 0.3])
+def test_a_look_that_takes_long_makes_a_hold_late_but_not_shorter(look_s: float) -> None:
+    game = FakeGame(PROFILE)
+    controller = _controller(game)
+    began = game.clock.now()
+
+    def look() -> bool:
+        game.clock.sleep_until(game.clock.now() + look_s)
+        return True
+
+    controller.guard_world(look)
+    controller.hold("w", 3)
+    assert game.clock.now() - began == pytest.approx(look_s + 3 * TICK_S)
+    assert game.down == set()
 
 
 def test_a_stop_releases_everything_at_once_and_ends_what_is_going_on() -> None:
