@@ -6,6 +6,7 @@ import numpy as np
 
 from sim.client.drawing.scenery import WORLDS
 from sim.client.game.edition import Edition
+from sim.client.game.options import GameOptions
 from sim.client.settings import ClientSettings, gui_scale
 
 VERSIONS = (
@@ -64,7 +65,7 @@ def _client(rng: np.random.Generator, version: str) -> ClientSettings:
         pitch=float(rng.uniform(-10, 60)),
         floor_block=str(rng.choice(floors)),
         mode="creative" if rng.random() < 0.7 else "survival",
-        pauses_unfocused=bool(rng.random() < 0.5),
+        options=GameOptions(pause_on_lost_focus=bool(rng.random() < 0.5)),
         slipperiness=0.6 if rng.random() < 0.8 else float(rng.choice([0.5, 0.7, 0.8])),
         speed=1.0 if rng.random() < 0.8 else float(rng.choice([0.85, 1.2])),
         swaps_sides=bool(rng.random() < 0.2),

@@ -50,7 +50,7 @@ def record_play(
         connection = GameConnection(
             devices,
             InputController(devices, InputTable()),
-            WindowScreen(devices.display, FONT),
+            WindowScreen(devices.display, FONT, version=client.settings.version),
             journal=recording,
             on_screen=recording.screen,
         )

@@ -89,7 +89,6 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         scale=options.gui_scale if gui_scale is None else gui_scale,
         font=load_font(font) if font else font_of(drawn_atlas()),
         floor_block="grass_block" if edition.since(1, 13) else "stone",
-        pauses_unfocused=options.pause_on_lost_focus,
         options=options,
         debug_entries=_entries(debug_profile, edition),
     )
@@ -102,7 +101,7 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 
     def explain() -> None:
         pauses = (
-            " Press F3+P in the window, or it pauses while another is in front." if settings.pauses_unfocused else ""
+            " Press F3+P in the window, or it pauses while another is in front." if options.pause_on_lost_focus else ""
         )
         typer.echo(f"Rehearsing Minecraft {version}.{pauses}")
         if edition.since(1, 21, 9) and not names_block(settings.debug_entries, edition):

@@ -87,7 +87,6 @@ class VirtualClient:
         )
         self.game.has_f3 = settings.has_f3
         self.controls = Controls(self.game, self.clipboard.read, self.clipboard.write)
-        self.controls.pauses_unfocused = settings.pauses_unfocused
         self.mishaps = Mishaps(self, mishaps)
 
         self._font = settings.font or _drawn_font()

@@ -50,7 +50,6 @@ class ClientSettings:
     has_cheats: bool = True
     has_f3: bool = True
     debug_entries: DebugEntries = field(default_factory=lambda: TUTORIAL)
-    pauses_unfocused: bool = True
     options: GameOptions = field(default_factory=GameOptions)
     slipperiness: float = 0.6
     speed: float = 1.0

@@ -7,7 +7,7 @@ import glfw
 from mc_nested.live.devices import Button
 from sim.client.client import VirtualClient
 from sim.window.glfw_window import GlfwWindow
-from sim.window.places import PLACES
+from sim.window.places import PLACES, symbol_at
 
 _BUTTONS: dict[int, Button] = {0: "left", 1: "right", 2: "middle"}
 
@@ -45,11 +45,13 @@ class InputEvents:
         glfw.set_input_mode(handle, glfw.CURSOR, glfw.CURSOR_DISABLED if is_grabbed else glfw.CURSOR_NORMAL)
         glfw.set_cursor_pos(handle, width / 2, height / 2)
 
-    def _on_key(self, _window: Any, key: int, _scancode: int, action: int, _modifiers: int) -> None:
-        name = PLACES.get(key)
-        if name is None:
+    def _on_key(self, _window: Any, key: int, scancode: int, action: int, modifiers: int) -> None:
+        client, name = self._client, PLACES.get(key)
+        if name and not client.edition.since(1, 13):
+            made = glfw.get_key_name(key, scancode)
+            name = symbol_at(name, made, has_shift=bool(modifiers & glfw.MOD_SHIFT))
+        if not name:
             return
-        client = self._client
         if action == glfw.RELEASE:
             client.window.release(name, lambda: client.controls.key(name, is_down=False))
         elif action == glfw.PRESS:

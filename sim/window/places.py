@@ -1,5 +1,7 @@
 """GLFW's keys, by the place where a keyboard of the United States has them, as profiles name keys (FACTS: Keys)."""
 
+from sim.client.desktop.layouts import key_of
+
 _WORDS = {
     32: "space",
     256: "esc",
@@ -35,3 +37,15 @@ PLACES: dict[int, str] = (
     | {_FIRST_FUNCTION_KEY + number: f"f{number + 1}" for number in range(20)}
 )
 """The name of each place, by GLFW's number of its key (glfw3.h)."""
+
+
+def symbol_at(place: str, made: str | None, *, has_shift: bool) -> str:
+    """The key that LWJGL 2 takes the one at a place for, to 1.12 (FACTS: Input and windows); "" for none.
+
+    ``made`` is what it makes without Shift, as GLFW says. GLFW doesn't say what Shift makes; on no layout that is known
+    here is it anything but a digit that the game has a use for, and that where the key makes none without it.
+    """
+    if len(place) > 1:
+        return place
+    plain = key_of(made or "")
+    return place if has_shift and place.isdigit() and not plain.isdigit() else plain

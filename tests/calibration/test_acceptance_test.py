@@ -51,7 +51,7 @@ def test_its_actions_are_the_eight_and_fill_the_design_by_the_rules() -> None:
     assert (cell, frozenset(placed)) == (SCENARIO.start, SCENARIO.design)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", range(12))
 def test_where_one_click_goes_on_placing_the_option_to_switch_off_is_named(seed: int, font: Path) -> None:
     client = VirtualClient(version="26.1", seed=seed, options=GameOptions(toggle_use=True))
     with pytest.raises(LiveError, match=r"Options > Controls > Use Item/Place Block"):

@@ -102,7 +102,7 @@ def test_the_profile_is_written_with_what_it_was_calibrated_on(client: VirtualCl
     assert written.keys.left == "d"
     assert written.game.version == "1.20.1"
     assert written.calibrated == CalibratedTable(
-        date=DAY, version="1.20.1", window=(854, 480), gui_scale=2, samples={"walk": 8}
+        date=DAY, version="1.20.1", window=(854, 480), gui_scale=2, debug_scale=2, samples={"walk": 8}
     )
     assert earlier_path(profile).read_bytes() == before
 

@@ -14,6 +14,7 @@ from mc_nested.live.devices import Frame, Region
 from mc_nested.live.menus import recovery
 from mc_nested.live.profile.store import load_profile, save_profile
 from sim.client.client import VirtualClient
+from sim.client.game.options import GameOptions
 from sim.client.mishaps import Kind
 from tests.calibration.contexts import context_of, profile_in, started
 
@@ -53,7 +54,9 @@ def check_nothing_left(client: VirtualClient, file: Path, before: bytes, clipboa
 
 
 def client_for(step: str, seed: int = 0, *, pauses_unfocused: bool = True) -> VirtualClient:
-    client = started(VirtualClient(has_f3=step != "font", seed=seed, pauses_unfocused=pauses_unfocused))
+    client = started(
+        VirtualClient(has_f3=step != "font", seed=seed, options=GameOptions(pause_on_lost_focus=pauses_unfocused))
+    )
     client.clipboard.write("mine")
     return client
 

@@ -96,7 +96,7 @@ def test_a_profile_gives_the_font_and_how_the_screen_is_drawn(
     scale: int, is_read: bool, tmp_path: Path, font: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     profile = tmp_path / "mine.toml"
-    profile.write_text(f"[screen]\nfont = {json.dumps(str(font))}\ngui_scale = {scale}\n", "utf-8")
+    profile.write_text(f"[screen]\nfont = {json.dumps(str(font))}\ndebug_scale = {scale}\n", "utf-8")
     (line,) = printed(capsys, picture(tmp_path / "a.png", STONE), "--profile", profile)
     assert ("at 8.500" in line) is is_read
     assert ("GUI scale 3" in line) is not is_read

@@ -150,7 +150,6 @@ if sys.platform.startswith("linux"):
         assert run("rehearse", "--version", "26.3", *words) == 0
         settings = opened[0].settings
         assert settings.options == GameOptions(toggle_use=True, pause_on_lost_focus=False)
-        assert not settings.pauses_unfocused
         assert capsys.readouterr().out.startswith("Rehearsing Minecraft 26.3.\n")
 
     def test_without_mishaps_no_seed_is_said(opened: list["Rehearsal"], capsys: pytest.CaptureFixture[str]) -> None:

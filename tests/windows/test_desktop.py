@@ -9,20 +9,49 @@ from typing import Any
 import pytest
 
 from mc_nested.live.model.key_places import PLACES
+from scripts.game_windows import SDL_3_4_WINDOWS, fetch_sdl
 from scripts.window_display import set_layout
+from scripts.windows_parts import windows_path
 from scripts.windows_session import Session
-from tests.live.desktop.glfw_driver import TITLE
+from tests.live.desktop.game_window_fixtures import found_or_skipped
+from tests.live.desktop.sdl3_names import expected_keys
 from tests.live.desktop.test_keyboard import COMMAND, expected_events
+from tests.live.desktop.window_driver import TITLE
 
 pytestmark = pytest.mark.wine
 
 TESTS = Path(__file__).resolve().parents[1]
-GLFW_PROBE = str(TESTS / "live" / "desktop" / "glfw_probe.py")
+WINDOW_PROBE = str(TESTS / "live" / "desktop" / "window_probe.py")
 LEFT_SHIFT = 340
 """GLFW's key."""
 SIZE = [320, 240]
 RED, BLUE = [16, 32, 255], [255, 32, 16]
 """The window's halves as pixels, blue first."""
+
+
+VIRTUAL_KEYS = {
+    **{key: ord(key.upper()) for key in "abcdefghijklmnopqrstuvwxyz0123456789"},
+    ";": 0xBA,
+    "=": 0xBB,
+    ",": 0xBC,
+    "-": 0xBD,
+    ".": 0xBE,
+    "/": 0xBF,
+}
+"""The virtual keys that LWJGL 2 takes for these (its WindowsKeycodes); several have its "`" and accents."""
+
+
+def virtual_keys(windows: Session) -> list[str]:
+    """A title of 1.12 and the program of a window that notes virtual keys, as the probe takes them."""
+    window = windows_path(TESTS / "windows" / "virtual_key_window.py")
+    return ["Minecraft 1.12.2", windows_path(windows.cache / "python" / "python.exe"), window]
+
+
+def sdl_3(windows: Session) -> list[str]:
+    """A title of 26.3 and the program of a window of Windows' SDL 3."""
+    window = windows_path(TESTS / "live" / "desktop" / "sdl3_window.py")
+    library = windows_path(found_or_skipped(lambda: fetch_sdl(SDL_3_4_WINDOWS, print)))
+    return ["Minecraft 26.3 - Singleplayer", windows_path(windows.cache / "python" / "python.exe"), window, library]
 
 
 def report_of(windows: Session, *arguments: str) -> Any:
@@ -38,11 +67,11 @@ def report(windows: Session) -> dict[str, Any]:
 
 
 def test_each_place_reaches_the_window_as_the_key_of_that_place(windows: Session) -> None:
-    assert report_of(windows, GLFW_PROBE, "keys", json.dumps(list(PLACES))) == expected_events()
+    assert report_of(windows, WINDOW_PROBE, "keys", json.dumps(list(PLACES))) == expected_events()
 
 
 def test_a_command_reaches_the_window_to_the_letter(windows: Session) -> None:
-    assert report_of(windows, GLFW_PROBE, "text", json.dumps(COMMAND)) == {"text": COMMAND}
+    assert report_of(windows, WINDOW_PROBE, "text", json.dumps(COMMAND)) == {"text": COMMAND}
 
 
 @pytest.fixture(params=["fr", "de", "ru"])
@@ -55,19 +84,52 @@ def other_layout(request: pytest.FixtureRequest, windows: Session) -> Iterator[N
 
 @pytest.mark.usefixtures("other_layout")
 def test_on_other_layouts_each_place_is_the_same_and_text_is_to_the_letter(windows: Session) -> None:
-    assert report_of(windows, GLFW_PROBE, "keys", json.dumps(list(PLACES))) == expected_events()
-    assert report_of(windows, GLFW_PROBE, "text", json.dumps(COMMAND)) == {"text": COMMAND}
+    assert report_of(windows, WINDOW_PROBE, "keys", json.dumps(list(PLACES))) == expected_events()
+    assert report_of(windows, WINDOW_PROBE, "text", json.dumps(COMMAND)) == {"text": COMMAND}
+
+
+@pytest.mark.usefixtures("other_layout")
+def test_to_1_12_a_key_of_another_layout_is_pressed_where_its_virtual_key_is_or_refused(windows: Session) -> None:
+    report = report_of(windows, WINDOW_PROBE, "profile keys", json.dumps(sorted(VIRTUAL_KEYS)), *virtual_keys(windows))
+    arrived = {key for key, came in report["keys"].items() if isinstance(came, list)}
+    assert {"w", "s", "a", "d", "t"} <= arrived or "types no w, s, a, d, t" in report["refused"]
+    for key, came in report["keys"].items():
+        if isinstance(came, list):
+            assert came == [[VIRTUAL_KEYS[key], 1], [VIRTUAL_KEYS[key], 0]]
+        else:
+            # Wine 8 has no virtual key for a key whose letter isn's ASCII, as some French digits and Russian ones.
+            assert f"types no {key}: switch to English (US)" in came
+
+
+@pytest.mark.parametrize("layout", ["us", "fr"])
+def test_a_window_of_sdl_3_gets_keys_by_place_text_to_the_letter_and_clicks_without_motion(
+    layout: str, windows: Session
+) -> None:
+    program = sdl_3(windows)
+    places = ("w", "a", "1", ";", "left.shift", "f3", "enter")
+    set_layout(layout, windows.env)
+    try:
+        keys = report_of(windows, WINDOW_PROBE, "keys", json.dumps(places), *program)
+        assert keys == {place: expected_keys()[place] for place in places}
+        assert report_of(windows, WINDOW_PROBE, "text", json.dumps(COMMAND), *program) == {"text": COMMAND}
+    finally:
+        set_layout("us", windows.env)
+    if layout == "us":
+        clicks = report_of(windows, WINDOW_PROBE, "clicks", "null", *program)
+        assert (clicks["button"], clicks["cursor"]) == (200, 0)
+        focus = report_of(windows, WINDOW_PROBE, "focus", "null", *program)
+        assert focus == {"in front": [[True, True], [False, False], [True, True]], "keys": []}
 
 
 def test_clicks_move_nothing(windows: Session) -> None:
-    clicks = report_of(windows, GLFW_PROBE, "clicks")
+    clicks = report_of(windows, WINDOW_PROBE, "clicks")
     assert clicks["has raw motion"]
     assert clicks["cursor"] == 0
     assert clicks["button"] >= 200
 
 
 def test_the_panic_key_and_hotkeys_are_heard(windows: Session) -> None:
-    assert report_of(windows, GLFW_PROBE, "hotkeys") == {
+    assert report_of(windows, WINDOW_PROBE, "hotkeys") == {
         "stopped": ["the panic key was pressed"],
         "hotkeys": ["q"],
     }

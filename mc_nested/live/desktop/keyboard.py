@@ -98,6 +98,6 @@ def _open_sender() -> AbstractContextManager[KeySender]:
 
 def _lacking(keys: list[str]) -> DesktopError:
     return DesktopError(
-        f"Minecraft to 1.12 goes by what a key types, and this keyboard layout types no {', '.join(keys)}: make "
-        "English (US) your first keyboard layout, and start again"
+        f"Minecraft to 1.12 goes by what a key types, and this keyboard layout types no {', '.join(keys)}: "
+        "switch to English (US), on Linux as the first of your layouts, and start again"
     )

@@ -21,12 +21,12 @@ EVDEV_TO_KEYCODE = 8
 """What an X server's keycode is more than evdev's code, as GLFW and every layout file for evdev take it."""
 
 _LWJGL_2 = {
-    **{ord(character): character for character in (*CHARACTERS, *"@:^_")},
+    **{ord(character): character for character in (*(CHARACTERS - {"\\"}), *"@:^_")},
     **{ord(letter.upper()): letter for letter in CHARACTERS if letter.isalpha()},
-    0xFE50: "`",
-    0xFE52: "^",  # the dead grave and circumflex
 }
-"""The keys that LWJGL 2 takes keysyms for, as far as keys of characters have them (its LinuxKeycodes)."""
+"""The keys that LWJGL 2 takes keysyms for, as far as keys of characters have them: no backslash (its LinuxKeycodes).
+
+It also has a dead grave and a dead circumflex, but never gets them: the input method waits for the next letter."""
 
 _CHARACTER_KEYCODES = {name: PLACES[name].evdev + EVDEV_TO_KEYCODE for name in CHARACTERS}
 _FIRST, _LAST = min(_CHARACTER_KEYCODES.values()), max(_CHARACTER_KEYCODES.values())

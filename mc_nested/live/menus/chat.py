@@ -15,6 +15,9 @@ from mc_nested.live.profile.tables import Profile
 PATIENCE_S = 1.5
 """How long the chat's line may take to look as it should."""
 
+_CHANGED = ", as where an input method (IBus, Fcitx, an IME) changes letters: switch it to plain letters"
+"""What may keep a line from being seen as it was typed (FACTS: Input and windows)."""
+
 LETTERS_PER_LOOK = 8
 """Letters typed between two looks."""
 
@@ -97,7 +100,7 @@ class Chat:
             self._controller.confirm_screen("chat")
             self._controller.type_line(line[first : first + letters])
         if self._timing.reads_chat:
-            self._wait_until(lambda: self._screen.is_typed(line), f"{line!r} was not seen in the chat")
+            self._wait_until(lambda: self._screen.is_typed(line), f"{line!r} was not seen in the chat{_CHANGED}")
 
     def _wait_until(self, is_so: Callable[[], bool], problem: str) -> None:
         deadline = Deadline(self._clock, PATIENCE_S)

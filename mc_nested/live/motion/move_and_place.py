@@ -156,8 +156,7 @@ class Body:
         if not is_right(pose):
             seen = self._observer.watch(is_right, self._limits.confirm_s)
             if not is_right(seen):
-                # Where one click goes on placing, the agent itself builds on as it walks (FACTS: Keys).
-                also = ", or is Options > Controls > Use Item/Place Block not set to Hold" if own is None else ""
+                also = f", or is {_USE} not set to Hold" if own is None else ""
                 raise NotConfirmedError(
                     f"{own or 'only the floor'} should be at {block}, the screen says "
                     f"{_words(seen.target)}: did somebody else build there{also}?"
@@ -241,7 +240,8 @@ class Body:
         if not self._looks_at_floor(pose, block):
             raise NotConfirmedError(
                 f"the floor at {_below(block)} must be looked at before placing, the screen says "
-                f"{_words(pose.target)}: is the cell free, and the looked-at block on the debug screen?"
+                f"{_words(pose.target)}: is the cell free, the looked-at block on the debug screen, and {_USE} set to "
+                "Hold?"
             )
         if not self._may_click(pose, cell):
             raise NotConfirmedError(
@@ -289,6 +289,10 @@ class Body:
 
     def _ends_in(self, state: CoastingState, cell: Cell) -> bool:
         return is_near(state.end, cell, self._limits.tolerance) and cell_at(state.position) == cell
+
+
+_USE = "Options > Controls > Use Item/Place Block"
+"""Where that says Toggle, one click goes on placing, and the agent builds on as it walks (FACTS: Keys)."""
 
 
 def _below(block: Block) -> Block:

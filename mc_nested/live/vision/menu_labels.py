@@ -77,7 +77,7 @@ class MenuLabels:
         buttons = [seen for seen in labels if _is_on_a_button(seen.around)]
         if len(buttons) == 1:
             return MenuButton(buttons[0].middle, buttons[0].colour != DISABLED, scale=buttons[0].scale)
-        if self._is_under_text and not buttons and (covered := self._covered(label)):
+        if self._is_under_text and not buttons and (covered := self._covered(label, labels)):
             return covered
         if buttons:
             return MenuButton(problem=f"{len(buttons)} buttons read {label!r}: close what lies over the menu")
@@ -87,8 +87,13 @@ class MenuLabels:
             )
         return MenuButton(problem=f"no button {label!r} is to be seen: is this menu open, and nothing over it?")
 
-    def _covered(self, label: str) -> MenuButton | None:
-        """A button in the middle of the window of whose label the debug screen's lines cover less than half."""
+    def _covered(self, label: str, labels: list[_Label]) -> MenuButton | None:
+        """A button that the debug screen's lines cover in part: its edges, or less than half of a label in the middle.
+
+        ``labels`` are those that are seen whole.
+        """
+        if len(labels) == 1:
+            return MenuButton(labels[0].middle, labels[0].colour != DISABLED, scale=labels[0].scale)
         columns = self._font.columns(label)[:-1]
         for dots in self._dots:
             middle = dots.columns // 2

@@ -16,32 +16,32 @@ _ROWS = {
         '!"·$%^&*()_+QWERTYUIOP{}ASDFGHJKL:@·~ZXCVBNM<>?',
     ),
     "de": (
-        "1234567890··qwertzuiop·+asdfghjkl··^#yxcvbnm,.-",
-        "!\"·$%&/()=?`QWERTZUIOP·*ASDFGHJKL···'YXCVBNM;:_",
+        "1234567890··qwertzuiop·+asdfghjkl···#yxcvbnm,.-",
+        "!\"·$%&/()=?·QWERTZUIOP·*ASDFGHJKL···'YXCVBNM;:_",
     ),
     "fr": (
-        "&·\"'(-·_··)=azertyuiop^$qsdfghjklm··*wxcvbn,;:!",
+        "&·\"'(-·_··)=azertyuiop·$qsdfghjklm··*wxcvbn,;:!",
         "1234567890·+AZERTYUIOP··QSDFGHJKLM%~·WXCVBN?./·",
     ),
     "be": (
-        "&·\"'(··!··)-azertyuiop^$qsdfghjklm···wxcvbn,;:=",
+        "&·\"'(··!··)-azertyuiop·$qsdfghjklm···wxcvbn,;:=",
         "1234567890·_AZERTYUIOP·*QSDFGHJKLM%··WXCVBN?./+",
     ),
     "es": (
-        "1234567890'·qwertyuiop`+asdfghjkl····zxcvbnm,.-",
-        '!"·$%&/()=?·QWERTYUIOP^*ASDFGHJKL····ZXCVBNM;:_',
+        "1234567890'·qwertyuiop·+asdfghjkl····zxcvbnm,.-",
+        '!"·$%&/()=?·QWERTYUIOP·*ASDFGHJKL····ZXCVBNM;:_',
     ),
     "it": (
         "1234567890'·qwertyuiop·+asdfghjkl··\\·zxcvbnm,.-",
         '!"·$%&/()=?^QWERTYUIOP·*ASDFGHJKL··|·ZXCVBNM;:_',
     ),
     "pt": (
-        "1234567890'·qwertyuiop+·asdfghjkl··\\~zxcvbnm,.-",
-        '!"#$%&/()=?·QWERTYUIOP*`ASDFGHJKL··|^ZXCVBNM;:_',
+        "1234567890'·qwertyuiop+·asdfghjkl··\\·zxcvbnm,.-",
+        '!"#$%&/()=?·QWERTYUIOP*·ASDFGHJKL··|·ZXCVBNM;:_',
     ),
     "se": (
         "1234567890+·qwertyuiop··asdfghjkl···'zxcvbnm,.-",
-        '!"#·%&/()=?`QWERTYUIOP·^ASDFGHJKL···*ZXCVBNM;:_',
+        '!"#·%&/()=?·QWERTYUIOP··ASDFGHJKL···*ZXCVBNM;:_',
     ),
     "pl": (
         "1234567890-=qwertyuiop[]asdfghjkl;'`\\zxcvbnm,./",
@@ -72,7 +72,10 @@ _ROWS = {
         '!@#$%^&*(){}"<>PYFGCRL?+AOEUIDHTNS_~|:QJKXBMWVZ',
     ),
 }
-"""What each place makes, in the order of _PLACES: without Shift, and with it. A dot is any that isn't ASCII's."""
+"""What each place makes, in the order of _PLACES: without Shift, and with it. A dot is an accent, or isn't ASCII's."""
+
+_LWJGL_2 = CHARACTERS - {"\\"} | set("@:^_")
+"""Its keys, by their characters, as it finds them on X11."""
 
 LAYOUTS = tuple(_ROWS)
 """The layouts, by their names on X11."""
@@ -86,9 +89,10 @@ def characters_of(layout: str) -> Layout:
 
 def taken_by_lwjgl(characters: Layout) -> Layout:
     """The keys that LWJGL 2 takes the places for that type these characters; "" for none."""
-    return {place: (_key_of(plain), _key_of(shifted)) for place, (plain, shifted) in characters.items()}
+    return {place: (key_of(plain), key_of(shifted)) for place, (plain, shifted) in characters.items()}
 
 
-def _key_of(character: str) -> str:
+def key_of(character: str) -> str:
+    """The key that LWJGL 2 has for a character; "" for none."""
     key = character.lower()
-    return key if key in CHARACTERS or key in "@:^_" else ""
+    return key if key in _LWJGL_2 else ""

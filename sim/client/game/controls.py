@@ -30,7 +30,7 @@ class Controls:
     ) -> None:
         self._game = game
         self._read_clipboard, self._write_clipboard = read_clipboard, write_clipboard
-        self.pauses_unfocused = True
+        self.pauses_unfocused = game.options.pause_on_lost_focus
         """``pauseOnLostFocus``, which F3+P changes."""
         self._f3_used = False
         self._f3_keys = {"esc", "f6"} if game.edition.since(1, 21, 9) else {"esc"}

@@ -16,6 +16,7 @@ from mc_nested.live.devices import Devices, Frame, Region
 from mc_nested.live.profile.tables import CalibratedTable, KeysTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
 from sim.client.game.debug_entries import GAME_DEFAULT
+from sim.client.game.options import GameOptions
 from sim.client.mishaps import Kind
 from sim.client.settings import ClientSettings
 from tests.calibration.doctor.examined import GOOD, Computer, opened, rows, statuses
@@ -153,7 +154,7 @@ def test_a_player_who_looks_into_the_sky_is_asked_to_look_down(computer: Compute
 def test_the_game_that_comes_to_the_front_in_time_is_examined(computer: Computer) -> None:
     client = client_in(
         lambda client: client.set_front(is_in_front=False),
-        ClientSettings(pitch=DOWN, pauses_unfocused=False, size=(960, 540)),
+        ClientSettings(pitch=DOWN, options=GameOptions(pause_on_lost_focus=False), size=(960, 540)),
     )
     calibrated = CalibratedTable(date="2026-11-21", version="1.20.1", window=(960, 540), gui_scale=2)
     computer.save(Profile(screen=ScreenTable(font=str(computer.font)), calibrated=calibrated))

@@ -9,6 +9,7 @@ from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.layout import VANILLA, Overlay
 from sim.client.client import VirtualClient
 from sim.client.drawing.font import drawn_atlas
+from sim.client.game.options import GameOptions
 from sim.client.game.screens import ScreenName
 from tests.calibration.contexts import started
 
@@ -86,7 +87,7 @@ def test_a_person_has_half_a_minute_to_switch_to_the_game() -> None:
 
 
 def test_once_there_they_have_five_seconds_to_close_a_menu() -> None:
-    client = started(VirtualClient(pauses_unfocused=False))
+    client = started(VirtualClient(options=GameOptions(pause_on_lost_focus=False)))
     client.game.open("pause")
     client.clock.sleep(0.3)
     snapshot, seconds, said = waited(client)

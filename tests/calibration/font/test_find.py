@@ -41,7 +41,7 @@ def jar(path: Path, picture: Path | None) -> Path:
         ("1.12.2", 1, (854, 480)),
         ("1.16.5", 2, (1024, 768)),
         ("1.20.1", 3, (1366, 768)),
-        ("26.1", 4, (1600, 960)),
+        ("26.1", 4, (2560, 1440)),
     ],
 )
 def test_scale_colour_and_phase_are_found_and_every_line_is_read_back(

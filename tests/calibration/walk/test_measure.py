@@ -15,6 +15,7 @@ from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import load_profile, save_profile
 from mc_nested.live.profile.tables import KeysTable, Profile, WalkTable
 from sim.client.client import VirtualClient
+from sim.client.game.options import GameOptions
 from sim.client.mishaps import Kind
 from tests.calibration.virtual_context import context_on, profile_of
 
@@ -332,7 +333,7 @@ def test_interference_is_one_line_and_the_profile_as_it_was(
     kind: Kind, error: type[McNestedError], after_s: float, kept: Path
 ) -> None:
     before = kept.read_bytes()
-    client = VirtualClient(pitch=65.0, pauses_unfocused=False)
+    client = VirtualClient(pitch=65.0, options=GameOptions(pause_on_lost_focus=False))
     client.mishaps.plan(kind, after_s)
     with pytest.raises(error) as caught:
         calibrate_walk(kept, context_on(client))

@@ -1,17 +1,18 @@
 """A real GLFW window, made as the game's own is, that notes what reaches it and does what it is told.
 
-usage: glfw_window.py PORT TITLE. It connects to 127.0.0.1:PORT and takes one JSON list a line, a command and its
-arguments; it answers each with one JSON line, and ends when the connection does. It runs wherever GLFW does, under Wine
-too.
+usage: glfw_window.py PORT TITLE, as window_server.py has it. It runs wherever GLFW does, under Wine too.
 """
 
-import json
-import socket
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import glfw
 import moderngl
+
+sys.path.insert(0, str(Path(__file__).parents[3]))  # a Windows Python that was only unpacked knows no PYTHONPATH
+
+from tests.live.desktop.window_server import Event, serve
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,8 +22,6 @@ LEFT, TOP = 60, 40
 RED, BLUE = (1.0, 0.125, 0.0625), (0.0625, 0.125, 1.0)
 LOOK_S = 0.004
 """Seconds between two looks at the connection, and at the window's events."""
-
-Event = list[Any]
 
 
 class LoggingWindow:
@@ -51,6 +50,7 @@ class LoggingWindow:
         glfw.set_window_focus_callback(self._window, lambda _, has_it: note(["focus", has_it]))
         self.commands: dict[str, Callable[..., Any]] = {
             "events": self._taken_events,
+            "take text": lambda: None,
             "focus": lambda: glfw.focus_window(self._window),
             "grab cursor": self._grab_cursor,
             "free cursor": lambda: glfw.set_input_mode(self._window, glfw.CURSOR, glfw.CURSOR_NORMAL),
@@ -91,31 +91,8 @@ class LoggingWindow:
         }
 
 
-def serve(window: LoggingWindow, connection: socket.socket) -> None:
-    """Do what comes over the connection until it ends."""
-    connection.setblocking(False)
-    waiting = b""
-    while True:
-        window.step()
-        try:
-            came = connection.recv(65536)
-        except BlockingIOError:
-            continue
-        if not came:
-            return
-        *lines, waiting = (waiting + came).split(b"\n")
-        for line in lines:
-            command, *arguments = json.loads(line)
-            answer = window.commands[command](*arguments)
-            connection.setblocking(True)
-            connection.sendall(json.dumps(answer).encode() + b"\n")
-            connection.setblocking(False)
-
-
 def main(port: int, title: str) -> None:
-    window = LoggingWindow(title)
-    with socket.create_connection(("127.0.0.1", port)) as connection:
-        serve(window, connection)
+    serve(LoggingWindow(title), port)
     glfw.terminate()
 
 

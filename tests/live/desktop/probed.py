@@ -1,8 +1,9 @@
-"""A real window under Xvfb, driven in a process of its own (x11_probe.py, glfw_probe.py)."""
+"""A real window under Xvfb, driven in a process of its own (x11_probe.py, window_probe.py)."""
 
 import json
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +14,15 @@ def probed(environment: dict[str, str], part: str) -> dict[str, Any]:
 
 
 def glfw_probed(environment: dict[str, str], part: str, argument: object = None) -> dict[str, Any]:
-    """What that part of the GLFW probe reports of the display in this environment."""
-    return _report("glfw_probe.py", environment, part, json.dumps(argument))
+    """What that part of the window's probe reports of a GLFW window on the display in this environment."""
+    return _report("window_probe.py", environment, part, json.dumps(argument))
+
+
+def window_probed(
+    environment: dict[str, str], part: str, argument: object, title: str, program: Sequence[str]
+) -> dict[str, Any]:
+    """The same, of the window that this program shows."""
+    return _report("window_probe.py", environment, part, json.dumps(argument), title, *program)
 
 
 def _report(probe: str, environment: dict[str, str], *arguments: str) -> dict[str, Any]:

@@ -112,7 +112,7 @@ def test_a_key_goes_up_where_it_went_down_though_the_layout_changes_meanwhile() 
 def test_a_layout_without_the_symbols_is_one_line_and_nothing_is_pressed() -> None:
     sender = Sender({"w": ("", "w"), "1": ("1", "")})
     keyboard = DesktopKeyboard(sender)
-    with pytest.raises(DesktopError, match="types no w, s: make English \\(US\\) your first keyboard layout") as raised:
+    with pytest.raises(DesktopError, match="types no w, s: switch to English \\(US\\)") as raised:
         keyboard.go_by_symbols(["w", "1", "s", "f3"])
     assert "\n" not in str(raised.value)
     with pytest.raises(DesktopError, match="types no w:"):

@@ -98,4 +98,4 @@ if sys.platform.startswith("linux"):
 
     @pytest.mark.window
     def test_a_hundred_clicks_move_nothing_where_a_game_holds_the_mouse(x_screen: dict[str, str]) -> None:
-        assert glfw_probed(x_screen, "clicks") == {"has raw motion": True, "button": 200, "cursor": 0}
+        assert glfw_probed(x_screen, "clicks") == {"has raw motion": True, "moves": True, "button": 200, "cursor": 0}

@@ -14,9 +14,9 @@ WITHOUT_LATIN_LETTERS = ("ru", "gr", "il")
 WITH_DIGITS_ABOVE = ("fr", "be", "cz")
 
 
-def test_the_us_layout_has_every_key_at_its_place() -> None:
+def test_the_us_layout_has_every_key_at_its_place_that_lwjgl_2_knows_on_x11() -> None:
     layout = taken_by_lwjgl(characters_of("us"))
-    assert all(stroke_for(key, layout) == KeyStroke(key) for key in PLACES)
+    assert [key for key in PLACES if stroke_for(key, layout) != KeyStroke(key)] == ["\\"]
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)

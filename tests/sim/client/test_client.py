@@ -11,6 +11,7 @@ from mc_nested.live.devices import Clipboard, Clock, Display, Keyboard, Pointer,
 from mc_nested.live.model.reading import Reading
 from sim.client.client import VirtualClient
 from sim.client.game.f3_text import left_lines, right_lines
+from sim.client.game.options import GameOptions
 from sim.client.game.physics import displacement
 from sim.client.game.realm import Stack
 from sim.client.game.screens import MenuState, menu
@@ -301,7 +302,7 @@ def test_while_the_game_holds_the_mouse_moving_it_turns_the_view() -> None:
 
 
 def test_what_is_pressed_behind_another_window_never_reaches_the_game() -> None:
-    client = VirtualClient(pauses_unfocused=False)
+    client = VirtualClient(options=GameOptions(pause_on_lost_focus=False))
     client.keyboard.press("w")
     client.clock.sleep(0.2)
     client.set_front(is_in_front=False)

@@ -51,7 +51,7 @@ def test_from_1_13_on_blocks_are_built_under_any_layout(layout: str) -> None:
 def test_to_1_12_a_layout_without_latin_letters_is_one_line_and_nothing_is_pressed(layout: str, tmp_path: Path) -> None:
     client = VirtualClient(version=OLD, layout=layout)
     opened = open_live_game(LINE, profile_in(tmp_path), print, open_devices=opener(client, []))
-    with pytest.raises(DesktopError, match="types no w, s, a, d, t: make English") as raised, opened:
+    with pytest.raises(DesktopError, match="types no w, s, a, d, t: switch to English") as raised, opened:
         pass
     assert "\n" not in str(raised.value)
     assert client.game.keys.physical == set()

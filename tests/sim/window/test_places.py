@@ -2,7 +2,7 @@ import pytest
 
 from mc_nested.live.model.key_names import check_key
 from sim.client.game.keys import BINDINGS
-from sim.window.places import PLACES
+from sim.window.places import PLACES, symbol_at
 
 
 @pytest.mark.parametrize(
@@ -23,3 +23,21 @@ def test_every_name_is_one_that_a_profile_may_use() -> None:
 def test_every_key_of_the_game_has_a_place() -> None:
     keys = {key for key in BINDINGS if not key.endswith("button")} - {" "}
     assert keys <= set(PLACES.values())
+
+
+@pytest.mark.parametrize(
+    ("place", "made", "has_shift", "key"),
+    [
+        ("w", "z", False, "z"),
+        ("w", "z", True, "z"),
+        ("w", "ц", False, ""),
+        ("w", None, False, ""),
+        ("1", "&", False, ""),
+        ("1", "&", True, "1"),
+        ("4", "'", False, "'"),
+        ("4", "'", True, "4"),
+        ("left.shift", None, True, "left.shift"),
+    ],
+)
+def test_to_1_12_a_key_is_what_it_makes(place: str, made: str | None, has_shift: bool, key: str) -> None:
+    assert symbol_at(place, made, has_shift=has_shift) == key

@@ -5,6 +5,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +31,7 @@ from tests.sim.client.playing import FONT
 
 pytestmark = pytest.mark.window
 
-W_PLACE, ESC, F3, C = 25, 9, 69, 54
+W_PLACE, TWO_PLACE, RIGHT_SHIFT, ESC, F3, C = 25, 11, 62, 9, 69, 54
 """Keycodes of an X server: 8 more than Linux's own."""
 
 SOON_S = 5.0
@@ -138,6 +139,26 @@ def test_keys_are_places_whatever_the_layout(tmp_path: Path, window_programs: No
             assert soon(lambda: rehearsal.truth.now()["keys_down"] == ["w"])
             assert soon(lambda: rehearsal.truth.now()["feet"][2] > 1)
             hands.key(W_PLACE, is_down=False)
+            assert soon(lambda: rehearsal.truth.now()["keys_down"] == [])
+
+
+def _are_down(rehearsal: RehearsalWindow, keys: list[str]) -> bool:
+    return bool(rehearsal.truth.now()["keys_down"] == keys)
+
+
+def test_to_1_12_keys_are_what_the_layout_makes(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
+    with (
+        open_display(layout="fr") as env,
+        open_rehearsal(env, tmp_path, "--version", "1.12.2") as rehearsal,
+        connected(env) as connection,
+    ):
+        hands = Played(rehearsal, connection)
+        for codes, down in (((W_PLACE,), ["z"]), ((RIGHT_SHIFT, TWO_PLACE), ["2", "right.shift"])):
+            for code in codes:
+                hands.key(code, is_down=True)
+            assert soon(partial(_are_down, rehearsal, down))
+            for code in reversed(codes):
+                hands.key(code, is_down=False)
             assert soon(lambda: rehearsal.truth.now()["keys_down"] == [])
 
 

@@ -47,7 +47,7 @@ class Served:
             with open_virtual_games([order.scenario], order.seed) as (game,):
                 arena = ArenaVectorEnv([ArenaEnv(game, order.scenario)])
                 keyboard: Any = game.connection.devices.keyboard
-                self.down = keyboard._window.down
+                self.down = keyboard._sender._window.down
                 step = arena.step
 
                 def watched(actions: Any) -> Any:

@@ -1,19 +1,22 @@
-"""Starts the GLFW window of ``glfw_window.py`` and talks to it; on any system."""
+"""Starts a real window that notes what reaches it, and talks to it (window_server.py); on any system."""
 
 import json
 import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from tests.live.desktop.window_server import Event
+
+GLFW_WINDOW = (sys.executable, str(Path(__file__).with_name("glfw_window.py")))
+"""The window of the game from 1.13 to 26.2."""
+
 TITLE = "Minecraft* 1.20.1 - Singleplayer"
 PATIENCE_S = 10.0
-
-Event = list[Any]
 
 
 class DrivenWindow:
@@ -28,10 +31,10 @@ class DrivenWindow:
         self._lines.flush()
         return json.loads(self._lines.readline())
 
-    def events_until(self, is_enough: Callable[[list[Event]], bool]) -> list[Event]:
-        """The events since they were last asked for, once there are enough; or all that came in PATIENCE_S."""
+    def events_until(self, is_enough: Callable[[list[Event]], bool], patience_s: float = PATIENCE_S) -> list[Event]:
+        """The events since they were last asked for, once there are enough; or all that came in that time."""
         came: list[Event] = []
-        end = time.monotonic() + PATIENCE_S
+        end = time.monotonic() + patience_s
         while True:
             came.extend(self.ask("events"))
             if is_enough(came) or time.monotonic() > end:
@@ -50,12 +53,11 @@ class DrivenWindow:
 
 
 @contextmanager
-def driven_window() -> Iterator[DrivenWindow]:
-    """The window, in a process of its own, in front."""
+def driven_window(program: Sequence[str] = GLFW_WINDOW, title: str = TITLE) -> Iterator[DrivenWindow]:
+    """The window of such a program, in a process of its own, in front."""
     with socket.create_server(("127.0.0.1", 0)) as server:
         server.settimeout(60)
-        command = [sys.executable, str(Path(__file__).with_name("glfw_window.py")), str(server.getsockname()[1]), TITLE]
-        process = subprocess.Popen(command)
+        process = subprocess.Popen([*program, str(server.getsockname()[1]), title])
         try:
             connection, _ = server.accept()
             with connection:
