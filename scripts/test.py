@@ -87,7 +87,7 @@ ALL = {
     "real-time tests": Check(
         ["pytest", "-n", "2", "--dist", "loadgroup", "-m", "realtime or window or wine"],
         18,
-        downloads="1.8 GB for Wine and a Windows Python",
+        downloads="2.2 GB for Wine, a Windows Python, Java and an input method",
     ),
     "stand-in tests": Check(["pytest", "-m", "standin"], 6, downloads="0.8 GB for the stand-in, a game in a browser"),
 }

@@ -72,7 +72,8 @@ class Keyboard(Protocol):
     """Keys by their place, text by its characters.
 
     A key is named by what a US keyboard has at its place: one character ("w", "/") or a word ("enter", "esc", "f3",
-    "left.shift", "space"). Whatever the layout, the game takes it as that key (FACTS: Input and windows).
+    "left.shift", "space"). Whatever the layout, the game takes it as that key; to 1.12 it does so once
+    ``go_by_symbols`` was called (FACTS: Input and windows).
     """
 
     def go_by_symbols(self, keys: Collection[str]) -> None:

@@ -1,7 +1,8 @@
 """Where each key lies: the places of a US keyboard, and what each system calls the key at a place.
 
-The game binds keys by place and names a place by what a US keyboard has there, whatever is printed on the key and
-whatever letter it types (FACTS: Input and windows; options.txt). So does a profile, and so are keys sent and heard.
+From 1.13 on the game binds keys by place and names a place by what a US keyboard has there, whatever is printed on the
+key and whatever letter it types (FACTS: Input and windows; options.txt). So does a profile, and so are keys sent and
+heard; before, the game goes by symbols (key_symbols.py).
 """
 
 from collections.abc import Mapping

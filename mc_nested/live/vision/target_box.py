@@ -48,8 +48,7 @@ def target_in_box(lines: DebugLines, player: XYZ) -> Target | None:
     if title is None:
         _check_nothing_hidden(lines)
         return None
-    if title.text != TITLE:
-        raise not_a_form(title)
+    cut_to(lines, title, TITLE)
     place = _below(lines, title, _PLACE, title.row + lines.layout.pitch, title.start)
     kind = _below(lines, title, _KIND, place.row + lines.layout.pitch, place.start)
     form, named = _COORDINATES.fullmatch(place.text), _TYPE.fullmatch(kind.text)

@@ -8,7 +8,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.errors import NotInFrontError, StoppedError, WrongScreenError
-from mc_nested.live.input.input_controller import FRESH_S, LONGEST_S, OVERDUE_S, PATIENCE_S, InputController, PressTarget
+from mc_nested.live.input.input_controller import (
+    FRESH_S,
+    LONGEST_S,
+    OVERDUE_S,
+    PATIENCE_S,
+    InputController,
+    PressTarget,
+)
 from mc_nested.live.input.signals import EndedBySignal
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.profile.arena import Arena

@@ -153,6 +153,7 @@ def test_to_1_12_keys_are_what_the_layout_makes(tmp_path: Path, window_programs:
         connected(env) as connection,
     ):
         hands = Played(rehearsal, connection)
+<<<<<<< .merge_file_2fc21M
         for codes, down in (((W_PLACE,), ["z"]), ((RIGHT_SHIFT, TWO_PLACE), ["2", "right.shift"])):
             for code in codes:
                 hands.key(code, is_down=True)
@@ -160,6 +161,22 @@ def test_to_1_12_keys_are_what_the_layout_makes(tmp_path: Path, window_programs:
             for code in reversed(codes):
                 hands.key(code, is_down=False)
             assert soon(lambda: rehearsal.truth.now()["keys_down"] == [])
+=======
+
+        def are_down(*keys: str) -> bool:
+            return soon(lambda: rehearsal.truth.now()["keys_down"] == [*keys])
+
+        hands.key(W_PLACE, is_down=True)
+        assert are_down("z")
+        hands.key(W_PLACE, is_down=False)
+        assert are_down()
+        for code in (RIGHT_SHIFT, TWO_PLACE):
+            hands.key(code, is_down=True)
+        assert are_down("2", "right.shift")
+        for code in (TWO_PLACE, RIGHT_SHIFT):
+            hands.key(code, is_down=False)
+        assert are_down()
+>>>>>>> .merge_file_fZ0pNZ
 
 
 def test_in_the_world_the_mouse_turns_the_view_and_in_a_menu_it_is_free(played: Played) -> None:
