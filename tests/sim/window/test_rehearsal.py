@@ -5,7 +5,6 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -99,13 +98,13 @@ def played(display: dict[str, str], tmp_path: Path) -> Iterator[Played]:
 
 
 def test_its_text_is_that_of_the_game_to_the_dot(played: Played) -> None:
-    for size, scale in (((854, 480), 2), ((1023, 767), 3)):
+    for size in ((854, 480), (1023, 767)):
         played.window.configure(width=size[0], height=size[1])
         played.display.sync()
 
-        def is_read(size: tuple[int, int] = size, scale: int = scale) -> bool:
+        def is_read(size: tuple[int, int] = size) -> bool:
             picture = played.picture()
-            reading = read_debug_screen(picture, FONT, Overlay(scale, VANILLA, (224, 224, 224)))
+            reading = read_debug_screen(picture, FONT, Overlay(2, VANILLA, (224, 224, 224)))
             return picture.shape == (size[1], size[0], 3) and reading.xyz == (0.5, 64.0, 0.5)
 
         assert soon(is_read)
@@ -142,10 +141,6 @@ def test_keys_are_places_whatever_the_layout(tmp_path: Path, window_programs: No
             assert soon(lambda: rehearsal.truth.now()["keys_down"] == [])
 
 
-def _are_down(rehearsal: RehearsalWindow, keys: list[str]) -> bool:
-    return bool(rehearsal.truth.now()["keys_down"] == keys)
-
-
 def test_to_1_12_keys_are_what_the_layout_makes(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
     with (
         open_display(layout="fr") as env,
@@ -153,15 +148,6 @@ def test_to_1_12_keys_are_what_the_layout_makes(tmp_path: Path, window_programs:
         connected(env) as connection,
     ):
         hands = Played(rehearsal, connection)
-<<<<<<< .merge_file_2fc21M
-        for codes, down in (((W_PLACE,), ["z"]), ((RIGHT_SHIFT, TWO_PLACE), ["2", "right.shift"])):
-            for code in codes:
-                hands.key(code, is_down=True)
-            assert soon(partial(_are_down, rehearsal, down))
-            for code in reversed(codes):
-                hands.key(code, is_down=False)
-            assert soon(lambda: rehearsal.truth.now()["keys_down"] == [])
-=======
 
         def are_down(*keys: str) -> bool:
             return soon(lambda: rehearsal.truth.now()["keys_down"] == [*keys])
@@ -176,7 +162,6 @@ def test_to_1_12_keys_are_what_the_layout_makes(tmp_path: Path, window_programs:
         for code in (TWO_PLACE, RIGHT_SHIFT):
             hands.key(code, is_down=False)
         assert are_down()
->>>>>>> .merge_file_fZ0pNZ
 
 
 def test_in_the_world_the_mouse_turns_the_view_and_in_a_menu_it_is_free(played: Played) -> None:
