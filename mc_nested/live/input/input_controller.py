@@ -70,6 +70,8 @@ class InputController:
         self._confirmed: tuple[PressTarget, float] | None = None
         self._look_again: Callable[[], None] | None = None
         self._sees_world: Callable[[], bool] = lambda: True
+        self.look_s = 0.0
+        """How long the last look before a press took, in seconds."""
         self._stop_reason: str | None = None
         self._exits = ExitStack()
 
@@ -239,8 +241,10 @@ class InputController:
         try:
             self._refresh(screen)
             if screen == "world":
-                was_fresh = self._is_fresh(screen)
-                if not self._sees_world():
+                was_fresh, began = self._is_fresh(screen), self._clock.now()
+                is_seen = self._sees_world()
+                self.look_s = self._clock.now() - began
+                if not is_seen:
                     self._wait_for_world()
                 elif was_fresh:
                     # The look may have taken long itself, on a busy machine.

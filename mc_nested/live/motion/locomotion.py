@@ -174,7 +174,8 @@ class Locomotion:
             return
         if ticks * TICK_S <= 1.5 * TICK_S + self._surely_seen_s + HALF_FRAME_S:
             # It ends before the step of its first tick can be seen.
-            self._controller.wait_until(tick_phase.next(now, mid_tick))
+            look_s = self._controller.look_s
+            self._controller.wait_until(tick_phase.next(now + look_s, mid_tick) - look_s)
             release_at = self._key_hold.hold(self._clock.now() + ticks * TICK_S, key, sneak=sneak)
         else:
             planned = now + ticks * TICK_S

@@ -72,7 +72,7 @@ class CallEncoder:
         if call[0] == "size":
             self._scale = self._scale if call[1] == self.size else None
             self.size = call[1]
-        if call[:2] == ("screen", "seen_scales"):
+        if call[:2] == ["screen", "seen_scales"]:
             self._scale = call[3].gui if call[3] else None
 
     def _grab(self, region: Region | None, frame: Frame) -> tuple[list[Any], list[KeptPicture]]:
