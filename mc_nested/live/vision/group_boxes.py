@@ -1,8 +1,8 @@
 """26.4's boxes on a picture of the whole window, without a font: where they lie, and how grey each part of them is.
 
 A box's lines stand below each other without a gap. In the left column its ground begins one dot left of dot 3, in the
-right one it ends 3 dots from the window's side; its widest line ends, or begins, beside its other side (FACTS: The F3
-debug screen).
+right one it ends 3 dots from the window's side; its widest line ends, or begins, beside its other side
+(FACTS: The F3 debug screen).
 """
 
 from collections.abc import Iterator, Sequence
