@@ -1,5 +1,6 @@
 """Counts what was pressed for the world of a virtual client and reached a screen that lay over it instead."""
 
+import math
 from collections import deque
 from collections.abc import Callable
 from functools import partial
@@ -9,7 +10,7 @@ from mc_nested.live.input.input_controller import InputController, PressTarget
 from mc_nested.live.profile.tables import InputTable
 from sim.client.client import VirtualClient
 from sim.client.desktop.display import GRAB_S
-from sim.client.game.screens import ScreenName
+from sim.client.game.view import View
 
 FORGOTTEN_S = 1.0
 """After this time a press is taken to have been lost on the way."""
@@ -24,15 +25,19 @@ class ScreenPresses:
     def __init__(self, client: VirtualClient) -> None:
         self.into_screens, self.too_late = 0, 0
         self._client = client
-        self._meant: deque[tuple[str, float]] = deque()
-        self._opened_at = 0.0
-        game, controls = client.game, client.controls
-        open_screen, key, button = game.open, controls.key, controls.button
+        self._meant: deque[tuple[str, float, float]] = deque()
+        """The name of each press on its way, when it was sent, and of when the newest picture was that was to be had."""
+        self._drawn_at = math.inf
+        """Since when a screen over the world is drawn: the game draws it at the tick after it opened."""
+        display, controls = client.display, client.controls
+        show, key, button = display.show, controls.key, controls.button
 
-        def watched_open(screen: ScreenName, typed: str = "") -> None:
-            if game.screen == "world":
-                self._opened_at = client.clock.now()
-            open_screen(screen, typed)
+        def watched_show(view: View) -> None:
+            if view.menu.name == "world":
+                self._drawn_at = math.inf
+            else:
+                self._drawn_at = min(self._drawn_at, client.clock.now())
+            show(view)
 
         def watched_key(name: str, *, is_down: bool) -> None:
             self._arrived(f"key {name}", is_down=is_down)
@@ -42,7 +47,8 @@ class ScreenPresses:
             self._arrived(f"{name} button", is_down=is_down)
             button(name, *where, is_down=is_down)  # type: ignore[arg-type]  # passed on as they came
 
-        game.open, controls.key, controls.button = watched_open, watched_key, watched_button  # type: ignore[method-assign,assignment]
+        display.show = watched_show  # type: ignore[method-assign]
+        controls.key, controls.button = watched_key, watched_button  # type: ignore[method-assign,assignment]
 
     def controller(self) -> InputController:
         """The owner of held keys, whose presses are watched."""
@@ -50,8 +56,11 @@ class ScreenPresses:
 
     def sent(self, name: str) -> None:
         """Something is pressed that is meant for the world."""
-        if self._client.window.is_in_front:
-            self._meant.append((name, self._client.clock.now()))
+        client = self._client
+        if client.window.is_in_front:
+            now, frame_s = client.clock.now(), 1 / client.settings.fps
+            surely_had = now - client.settings.capture_latency_s[1] - frame_s - GRAB_S
+            self._meant.append((name, now, max(surely_had, client.display.shown_at)))
 
     def _arrived(self, name: str, *, is_down: bool) -> None:
         now = self._client.clock.now()
@@ -63,9 +72,7 @@ class ScreenPresses:
         self._meant.remove(meant)
         if self._client.game.screen == "world":
             return
-        settings = self._client.settings
-        newest = meant[1] - settings.capture_latency_s[1] - 1 / settings.fps - GRAB_S
-        if self._opened_at < max(newest, self._client.display.shown_at):
+        if self._drawn_at <= meant[2]:
             self.into_screens += 1
         else:
             self.too_late += 1

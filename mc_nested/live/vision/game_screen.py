@@ -40,9 +40,9 @@ class GameScreen(Protocol):
         """Where the player is, and nothing else: faster than ``read``; None where the whole screen has to be read."""
 
     def shows_world(self) -> bool:
-        """Whether nothing lies over the world: no menu, chat, pause or death. To 1.21.8, while the debug screen reads.
+        """Whether nothing lies over the world: no menu, chat, pause or death. Only then a key or a click goes there.
 
-        Only then a key or a click goes into the world.
+        To 1.21.8 the debug screen must be on, too.
         """
 
     def shows_death(self) -> bool:
@@ -84,6 +84,8 @@ class WindowScreen:
         self._reader = ScreenReader(display, font, overlay)
         is_standin = overlay is not None and overlay.layout.name == STANDIN.name
         self._text_over_menus = not is_standin and draws_text_over_menus(version)
+        self._needs_hotbar = self._text_over_menus
+        """Whether a hotbar that isn't seen means a menu: from 1.21.9 on; before, once it was seen as the game's own."""
         self._gui: tuple[tuple[int, int], int] | None = None
         self._debug: tuple[tuple[int, int], int] | None = None
 
@@ -99,10 +101,16 @@ class WindowScreen:
         return self._reader.read_position()
 
     def shows_world(self) -> bool:
-        if not self._text_over_menus:
-            return not self.is_chat_open() and not self._is_paused()
+        # The picture that shows most comes last: what opens meanwhile is on it.
+        if self._is_paused():
+            return False
         look, dots = self._look_at_hotbar()
-        return look == "clear" and not begins_a_line(typed_dots(dots), self._font) and not self._is_paused()
+        if not self._needs_hotbar and look is None:
+            # Every menu dims the debug screen, so where that is read none is open.
+            is_read = self.read_position() is not None or self.read().problem is None
+            return is_read and not self.is_chat_open()
+        self._needs_hotbar |= look == "clear"
+        return look == "clear" and not begins_a_line(typed_dots(dots), self._font)
 
     def shows_death(self) -> bool:
         return self._look_at_hotbar()[0] == "death"
@@ -157,10 +165,13 @@ class WindowScreen:
     def _look_at_hotbar(self) -> tuple[HotbarLook | None, Frame]:
         """How the hotbar looks, and the dots of the picture that shows it; the scale is kept."""
         size = self._display.size()
-        if self._gui is not None and self._gui[0] == size:
-            scale = self._gui[1]
+        scale = self._gui[1] if self._gui and self._gui[0] == size else None
+        if scale is None and not self._text_over_menus:
+            scale = self._seen_gui_scale()
+        if scale is not None:
             dots = bottom_dots(self._display.grab(bottom_region(size, scale)), scale)
-            if look := hotbar_look(dots, -(-size[1] // scale)):
+            look = hotbar_look(dots, -(-size[1] // scale))
+            if look or not self._needs_hotbar:
                 return look, dots
         frame = self._display.grab()
         for scale in range(largest_gui_scale(size) + 1, 0, -1):
