@@ -26,7 +26,7 @@ class ScreenPresses:
         self.into_screens, self.too_late = 0, 0
         self._client = client
         self._meant: deque[tuple[str, float, float]] = deque()
-        """The name of each press on its way, when it was sent, and of when the newest picture was that was to be had."""
+        """Of each press on its way: its name, when it was sent, and when the newest picture to be had was drawn."""
         self._drawn_at = math.inf
         """Since when a screen over the world is drawn: the game draws it at the tick after it opened."""
         display, controls = client.display, client.controls
