@@ -19,14 +19,16 @@ VERSIONS = (
         "1.21.5",
         "1.21.8",
         "1.21.9",
+        "1.21.10",
         "1.21.11",
         "26.1",
         "26.1.2",
         "26.2",
         "26.3",
+        "26.4",
     ),
 )
-"""One or more of each row of FACTS' tables, from the first version with known commands to the last that can be read."""
+"""Each minor version, and of each row of FACTS' tables one or more, from the first with known commands to the last."""
 
 NARROWEST = 480
 """Width in GUI pixels: in a narrower window a block's long tag meets the Facing line (FACTS: The F3 debug screen)."""
@@ -34,6 +36,21 @@ NARROWEST = 480
 FLOORS = ("bedrock", "stone", "dirt", "grass_block", "sand")
 FACING_ERROR_DEG = 15.0
 """How far from an axis of the world a player may look when facing along it."""
+
+
+SIZES = ((854, 480), (1280, 720), (1920, 1080), (2560, 1440))
+"""Windows that people have."""
+
+RANDOM_SIZES = 3
+
+
+def every_version(seed: int) -> Iterator[ClientSettings]:
+    """Each version in each of SIZES and some random ones, the options at their defaults, the GUI scale too (Auto)."""
+    rng = np.random.default_rng(seed)
+    for version in VERSIONS:
+        others = [(int(rng.integers(640, 2561)), int(rng.integers(480, 1441))) for _ in range(RANDOM_SIZES)]
+        for size in (*SIZES, *others):
+            yield ClientSettings(seed=int(rng.integers(2**31)), version=version, size=size, scale=None)
 
 
 def clients(count: int, seed: int) -> Iterator[ClientSettings]:
