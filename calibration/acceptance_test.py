@@ -18,6 +18,7 @@ from mc_nested.errors import NotConfirmedError
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.chat_region import without_chat
+from mc_nested.live.vision.game_screen import seen_gui_scale
 
 ACTIONS = (Action.FD, Action.B, Action.LD, Action.R, Action.RD, Action.BD, Action.L, Action.F)
 
@@ -47,7 +48,7 @@ def run_acceptance_test(context: CalibrationContext, profile: Profile) -> StepRe
             )
         cell = outcome.cell
         placed |= {expected_block} if expected_block else set()
-    picture = without_chat(connection.devices.display.grab(), connection.screen.gui_scale())
+    picture = without_chat(connection.devices.display.grab(), seen_gui_scale(connection.screen))
     game.reset(0)
     effort, seconds = game.log.effort, median(game.log.seconds)
     repeats = effort.corrections + effort.second_clicks

@@ -36,6 +36,7 @@ from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.chat_region import without_chat
+from mc_nested.live.vision.game_screen import seen_gui_scale
 
 
 def calibrate_built_arena(
@@ -115,7 +116,7 @@ def build_arena(
     queries = BlockQueries(console, profile, screen, arena.yaw)
     ground = survey_ground(console, queries, profile, arena, standing)
     arena = arena.model_copy(update={"floor": ground.floor if ground.keeps_floor else FLOOR})
-    before = ReportPicture("The ground of the arena, before", without_chat(display.grab(), screen.gui_scale()))
+    before = ReportPicture("The ground of the arena, before", without_chat(display.grab(), seen_gui_scale(screen)))
     noted = read_copy_note(path) if path else None
     old = noted.arena if noted else profile.arena
     first = _first_copy(queries, arena, [each.arena for each in (noted, profile) if each and each.arena])
@@ -145,7 +146,7 @@ def build_arena(
     looks = _check_built(console, profile, arena, materials, floor=ground.floor if ground.keeps_floor else FLOOR)
     console.send(teleport_command(arena, standing, profile.body.pitch))
     console.watch(lambda seen: seen.pitch is not None and abs(seen.pitch - profile.body.pitch) < 1, 1.0)
-    after = ReportPicture("The arena", without_chat(display.grab(), screen.gui_scale()))
+    after = ReportPicture("The arena", without_chat(display.grab(), seen_gui_scale(screen)))
     with_arena = profile.model_copy(update={"arena": arena})
     undo = undo_command(path) if path else "mc-nested calibrate arena --undo"
     return StepResult("arena", with_arena, tuple(build_summary(arena, ground, undo)), looks, (before, after))

@@ -88,7 +88,8 @@ def contents_of(frame: Frame, font: Font, overlay: Overlay | None, screen: GameS
     name, menu_scale = _menu_in(frame, font)
     if menu_scale is not None:
         # The version in the title screen's corner begins like a line of the debug screen.
-        return ScreenContents(name, None, Scales(menu_scale, menu_scale), reading)
+        debug_scale = scale if scale and reading.problem is None else menu_scale
+        return ScreenContents(name, None, Scales(menu_scale, debug_scale), reading)
     if screen.is_chat_open():
         return ScreenContents("chat", line, scales, reading)
     return ScreenContents("menu" if reading.problem is None else "unknown", line, scales, reading)

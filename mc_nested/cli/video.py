@@ -15,6 +15,7 @@ from mc_nested.errors import FilmError
 from mc_nested.live.devices import Display
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.vision.chat_region import blanked_share, without_chat
+from mc_nested.live.vision.game_screen import seen_gui_scale
 from mc_nested.report.arena_picture import ARENA_PX, SMALL_ARENA_PX
 from mc_nested.report.film import is_gif, open_film
 from mc_nested.report.filmed_game import FilmedGame, Window
@@ -53,8 +54,7 @@ def _window_of(game: Game, display: Display) -> Window:
     """The window's pictures, the chat blanked: a film is there to be shown to others."""
 
     def seen_scale() -> int | None:
-        scales = game.connection.screen.seen_scales() if isinstance(game, LiveGame) else None
-        return scales.gui if scales else None
+        return seen_gui_scale(game.connection.screen) if isinstance(game, LiveGame) else None
 
     share = blanked_share(display.size(), seen_scale())
     if share > HALF:

@@ -19,6 +19,7 @@ from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.world_folder import restore_world
 from mc_nested.live.motion.move_and_place import Body
 from mc_nested.live.profile.tables import Profile, WorldTable
+from mc_nested.live.vision.game_screen import seen_gui_scale
 from mc_nested.live.vision.last_frames import LastFrames
 
 RESET_TRIES = 4
@@ -88,7 +89,7 @@ class LiveGame:
         self._body = Body(profile, connection)
         self._chat = Chat(profile, connection)
         self._recovery = Recovery(profile, connection, points)
-        self._last_frames = LastFrames(connection.devices.display, evidence, self._gui_scale)
+        self._last_frames = LastFrames(connection.devices.display, evidence, lambda: seen_gui_scale(connection.screen))
         self.log = ActionLog(self._body.effort)
         self._commands = reset_commands(profile, scenario.start, [material.block for material in scenario.materials])
         self._cell: Cell | None = None
@@ -186,10 +187,6 @@ class LiveGame:
         if outcome.placed is not None:
             self._placed[outcome.placed] = self._shown_id
         return outcome
-
-    def _gui_scale(self) -> int | None:
-        scales = self.connection.screen.seen_scales()
-        return scales.gui if scales else None
 
     def _with_evidence(self, error: LiveError) -> LiveError:
         """The same error, which also says where the last frames were saved, if there are any."""

@@ -133,7 +133,8 @@ class InputController:
     def tap_alone(self, key: str) -> None:
         """Tap a key in the world once nothing else is down: to 1.12 Shift makes another key of it (FACTS: Keys)."""
         while self._held:
-            self.wait_until(max(held.due for held in list(self._held.values())))
+            # Another thread may release everything meanwhile.
+            self.wait_until(max((held.due for held in list(self._held.values())), default=self._clock.now()))
         self.tap(key)
 
     def click(self, button: Button) -> None:
@@ -241,14 +242,7 @@ class InputController:
         try:
             self._refresh(screen)
             if screen == "world":
-                was_fresh, began = self._is_fresh(screen), self._clock.now()
-                is_seen = self._sees_world()
-                self.look_s = self._clock.now() - began
-                if not is_seen:
-                    self._wait_for_world()
-                elif was_fresh:
-                    # The look may have taken long itself, on a busy machine.
-                    self._confirmed = screen, self._clock.now()
+                self._look_for_world()
         except BaseException:
             self.release_all()
             raise
@@ -257,18 +251,35 @@ class InputController:
         if self._confirmed and self._confirmed[0] == screen and not self._is_fresh(screen) and self._look_again:
             self._look_again()
 
-    def _wait_for_world(self) -> None:
-        """Wait until the world is seen with nothing over it: a picture may be black; then look at all of it again."""
+    def _look_for_world(self) -> None:
+        """Return once the world is seen with nothing over it, by the last look before the press.
+
+        A picture may be black for a moment, and a look may take long on a busy machine: then all is looked at again.
+        """
+        was_fresh, must_look_again = self._is_fresh("world"), False
         until = self._clock.now() + PATIENCE_S
-        while not self._sees_world():
-            if self._clock.now() >= until:
-                raise WrongScreenError(
-                    "the world is not seen with nothing over it, so nothing is pressed: close the chat or the menu, "
-                    "show the hotbar (F1), and take off a resource pack that draws it otherwise"
-                )
-            self.wait(TICK_S / 2)
-        if self._look_again:
-            self._look_again()
+        while True:
+            began = self._clock.now()
+            is_seen = self._sees_world()
+            now = self._clock.now()
+            self.look_s = now - began
+            if not is_seen:
+                if now >= until:
+                    raise WrongScreenError(
+                        "the world is not seen with nothing over it, so nothing is pressed: close the chat or the "
+                        "menu, show the hotbar (F1), and take off a resource pack that draws it otherwise"
+                    )
+                self.wait(TICK_S / 2)
+                must_look_again = True
+            elif self._look_again is None:
+                if was_fresh:
+                    self._confirmed = "world", now
+                return
+            elif (self._is_fresh("world") and not must_look_again) or now >= until:
+                return
+            else:
+                self._look_again()
+                must_look_again = False
 
     def _is_fresh(self, screen: PressTarget) -> bool:
         confirmed, at = self._confirmed or ("nothing", self._clock.now())

@@ -37,8 +37,8 @@ class MenuNavigator:
             self.press("esc")
         elif name == "worlds":
             self._enter_world()
-        else:
-            self._click(LABELS[name], POINTS.get(name))
+        elif not self._click(LABELS[name], POINTS.get(name)) and name == "pause":
+            self.press("esc")
 
     def save_and_quit(self) -> None:
         """Save the world and go to the title screen, from the pause menu."""

@@ -1,7 +1,7 @@
 """PoseObserver: the agent's position and the block it looks at, read from the debug screen, and the game's tick phase.
 
 Every press needs a look first: only what was just seen permits a press. Nothing is pressed while the view or the height
-is not the expected one, or while the chat is open.
+is not the expected one.
 """
 
 from collections.abc import Callable

@@ -56,24 +56,16 @@ class CallEncoder:
         self._budget = ByteBudget(now())
         self._pictured_at = -PICTURE_EVERY_S
         self._index = 0
-        self._scale: int | None = None
 
     def encode(self, call: Call) -> tuple[list[Any], list[KeptPicture]]:
         """A call as plain values, and the pictures that belong to it."""
-        self._note_window(call)
+        if call[0] == "size":
+            self.size = call[1]
         if call[0] == "grab":
             return self._grab(*call[1:])
         if call[0] == "screen" and isinstance(call[-1], Look):
             return self._reading(call)
         return plain(call), []
-
-    def _note_window(self, call: Call) -> None:
-        """Keep the window's size, and the chat's scale as long as the size stays: it isn't that of the debug screen."""
-        if call[0] == "size":
-            self._scale = self._scale if call[1] == self.size else None
-            self.size = call[1]
-        if call[:2] == ["screen", "seen_scales"]:
-            self._scale = call[3].gui if call[3] else None
 
     def _grab(self, region: Region | None, frame: Frame) -> tuple[list[Any], list[KeptPicture]]:
         pictures = self._picture(self._without_chat(frame, region, None), region)
@@ -97,12 +89,12 @@ class CallEncoder:
         return [*(plain(each) for each in said), plain(answer), kept], pictures
 
     def _without_chat(self, frame: Frame, region: Region | None, text: TextPixels | None) -> Frame:
-        """A copy without the chat. The lines that were read are drawn again where the chat would be."""
+        """A copy without the chat, at whichever scale it may be. The lines that were read are drawn again over that."""
         left, top = (region.left, region.top) if region else (0, 0)
         blanked: Frame = frame.copy()
         if region is None:
             self.size = frame.shape[1], frame.shape[0]
-        blank_chat(blanked, self.size, self._scale, left, top)
+        blank_chat(blanked, self.size, None, left, top)
         if text is not None and region is None:
             drawn = blanked.copy()
             paint(drawn, text)

@@ -40,10 +40,7 @@ class GameScreen(Protocol):
         """Where the player is, and nothing else: faster than ``read``; None where the whole screen has to be read."""
 
     def shows_world(self) -> bool:
-        """Whether nothing lies over the world: no menu, chat, pause or death. Only then a key or a click goes there.
-
-        To 1.21.8 the debug screen must be on, too.
-        """
+        """Whether nothing lies over the world: no menu, chat, pause or death. Only then a key or a click goes there."""
 
     def shows_death(self) -> bool:
         """Whether the hotbar is seen red, as behind the death screen: also where text lies over its buttons."""
@@ -65,6 +62,12 @@ class GameScreen(Protocol):
 
     def seen_scales(self) -> Scales | None:
         """Both scales, only if they were seen in a window of the present size; None if not."""
+
+
+def seen_gui_scale(screen: GameScreen) -> int | None:
+    """The scale of the chat, to blank it; None where it isn't seen, and may be any."""
+    scales = screen.seen_scales()
+    return scales.gui if scales else None
 
 
 class WindowScreen:
@@ -163,7 +166,7 @@ class WindowScreen:
         return self._debug[1]
 
     def _look_at_hotbar(self) -> tuple[HotbarLook | None, Frame]:
-        """How the hotbar looks, and the dots of the picture that shows it; the scale is kept."""
+        """How the hotbar looks, and the dots of its region, if it is seen; the scale is kept."""
         size = self._display.size()
         scale = self._gui[1] if self._gui and self._gui[0] == size else None
         if scale is None and not self._text_over_menus:

@@ -1,6 +1,7 @@
 """The hotbar as a mark of the screen: only in the world, and behind the chat, it has its own colours.
 
-From 1.21.9 on the debug screen's text lies over menus, so that reading it doesn't show that none is open. Each menu
+From 1.21.9 on the debug screen's text lies over menus, so that reading it doesn't show that none is open; before, the
+hotbar shows it sooner, where it is the game's own. Each menu
 changes what is behind it: it dims, blurs or tints it. The frame of the hotbar lets nothing through, so its colours are
 known, and the debug screen's lines end above it or cover its left part alone (FACTS: Screens and their buttons).
 """

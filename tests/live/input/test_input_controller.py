@@ -167,7 +167,7 @@ def test_nothing_is_pressed_while_the_world_is_not_seen(press: str) -> None:
 def test_a_world_that_is_not_seen_for_a_moment_is_looked_at_again_before_the_press() -> None:
     game = FakeGame(PROFILE)
     controller = _controller(game)
-    looks = iter([False, False, True])
+    looks = iter([False, False, True, True])
     again: list[float] = []
     controller.guard_world(lambda: next(looks))
     controller.confirm_screen("world", lambda: again.append(game.clock.now()))

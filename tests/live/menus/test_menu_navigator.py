@@ -5,7 +5,7 @@ import pytest
 
 from mc_nested.live.menus.click_points import ClickPoints, record_point
 from mc_nested.live.menus.menu_navigator import MenuNavigator
-from mc_nested.live.menus.screens import ScreenName
+from mc_nested.live.menus.screens import ScreenName, menu_name
 from mc_nested.live.profile.tables import GameVersion, Profile, WorldTable
 from tests.live.menus.fake_menus import BUTTONS, FakeMenus, connection_of
 
@@ -68,11 +68,17 @@ def test_with_its_label_no_point_is_clicked() -> None:
     assert menus.pressed == [BUTTONS["pause"]["Back to Game"]]
 
 
-@pytest.mark.parametrize("name", ["pause", "disconnected"])
-def test_without_its_label_and_without_its_point_nothing_is_clicked(name: ScreenName) -> None:
-    menus = FakeMenus(name, labels=set())
-    navigator_in(menus, points=point_in(menus, "singleplayer")).leave(name)
+def test_without_its_label_and_without_its_point_nothing_is_clicked() -> None:
+    menus = FakeMenus("disconnected", labels=set())
+    navigator_in(menus, points=point_in(menus, "singleplayer")).leave("disconnected")
     assert menus.pressed == []
+
+
+def test_a_game_menu_whose_first_button_is_covered_is_left_by_esc_and_never_by_the_last() -> None:
+    menus = FakeMenus("pause", labels={"Save and Quit to Title"})
+    assert menu_name(menus) == "pause"
+    navigator_in(menus).leave("pause")
+    assert (menus.pressed, menus.shown) == (["esc"], "world")
 
 
 @pytest.mark.parametrize(("version", "y"), [("1.20.1", 132), ("1.12.2", 100)])
