@@ -271,9 +271,10 @@ class InputController:
                     )
                 self.wait(TICK_S / 2)
                 must_look_again = True
+            elif not was_fresh:
+                return  # nothing that was seen permits the press, whatever the last look says
             elif self._look_again is None:
-                if was_fresh:
-                    self._confirmed = "world", now
+                self._confirmed = "world", now
                 return
             elif (self._is_fresh("world") and not must_look_again) or now >= until:
                 return

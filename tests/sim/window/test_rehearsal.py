@@ -98,7 +98,7 @@ def played(display: dict[str, str], tmp_path: Path) -> Iterator[Played]:
 
 
 def test_its_text_is_that_of_the_game_to_the_dot(played: Played) -> None:
-    for size in ((854, 480), (1023, 767)):
+    for size in ((854, 480), (959, 717)):
         played.window.configure(width=size[0], height=size[1])
         played.display.sync()
 
