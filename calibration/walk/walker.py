@@ -126,7 +126,8 @@ class Walker:
             return self._clock.now() if is_far else None
 
         self._key_hold.hold(pressed + seconds, key, sneak=sneak, look_times=self._look_times(), on_look=release_if_far)
-        released = self._clock.now()
+        # The look before a press takes a moment.
+        pressed, released = self._key_hold.pressed_at, self._clock.now()
         latest = recording.sightings[-1].position if recording.sightings else begin
         standstill = Standstill(latest, released, CAREFUL_SETTLE_S)
         self._follow(self._look(), standstill, recording)
