@@ -114,7 +114,8 @@ class Walker:
         if sneak:
             self._key_hold.begin_sneaking(sneak)
         if phase is not None:
-            from_now = (phase - self._clock.now()) % TICK_S
+            look_s = self._controller.look_s
+            from_now = (phase - self._clock.now() - look_s) % TICK_S
             self._controller.wait_until(self._clock.now() + from_now)
         pressed = self._clock.now()
         recording = _Recording(begin, pressed)
