@@ -47,8 +47,8 @@ class ScreenPresses:
             self._arrived(f"{name} button", is_down=is_down)
             button(name, *where, is_down=is_down)  # type: ignore[arg-type]  # passed on as they came
 
-        display.show = watched_show  # type: ignore[method-assign]
-        controls.key, controls.button = watched_key, watched_button  # type: ignore[method-assign,assignment]
+        display.show = watched_show  # type: ignore[method-assign]  # what is called is watched and passed on
+        controls.key, controls.button = watched_key, watched_button  # type: ignore[method-assign,assignment]  # too
 
     def controller(self) -> InputController:
         """The owner of held keys, whose presses are watched."""
