@@ -42,6 +42,8 @@ F12 = 96
 LONGEST_CALIBRATION_S = 180.0
 """On a machine that may be busy; scripts/bench_rehearsal.py asks for 100."""
 ACTIONS = 20
+CURRENT = "26.3"
+"""What people play: its options are at their defaults, and the debug text lies over its menus, smaller than they."""
 SOON_S = 60.0
 
 
@@ -115,9 +117,11 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design(
         assert rehearsal.truth.now()["keys_down"] == []
 
 
-def test_the_line_is_learnt_from_nothing_in_the_window_and_built(profile: Path, tmp_path: Path) -> None:
-    run, line = tmp_path / "run", load_scenario("line")
-    with in_its_arena(profile, tmp_path) as rehearsal:
+@pytest.mark.usefixtures("window_programs")
+def test_the_line_is_learnt_from_nothing_in_the_window_of_a_current_version_and_built(tmp_path: Path) -> None:
+    profile, run, line = tmp_path / "profile.toml", tmp_path / "run", load_scenario("line")
+    with open_display() as env, open_rehearsal(env, tmp_path, "--version", CURRENT) as rehearsal:
+        calibrate(rehearsal, profile)
         words = ("--scenario", "line", "--preset", "live", "--stop-at-optimum", "--out", run)
         mc_nested("train", *words, "--backend", "live", "--profile", profile, env=rehearsal.env, timeout_s=1200)
         assert json.loads((run / "summary.json").read_text())["final_scores"] == [line.optimum]
