@@ -69,7 +69,7 @@ def profile_of(path: Path, facts: Mapping[str, str]) -> Profile:
     if (written := int(facts["format"])) < FORMAT:
         raise RecordingError(
             f"{path}: is of format {written}, of a run by an earlier mc-nested, and this one replays format {FORMAT}: "
-            f"replay it with the mc-nested that recorded it ({facts.get('version', 'an older one')}), or record again"
+            "record the run again, or replay it with the mc-nested of that time"
         )
     try:
         return parse_profile(facts["profile"], f"{path}: its profile")
