@@ -166,10 +166,6 @@ class _Player:
         self._tape.skip()
         if call[:2] == ["note", "acts"]:
             self.seen.actions += 1
-        elif call[0] == "size":
-            width, height = call[1]
-            if self._pixels.canvas.shape[:2] != (height, width):
-                self._pixels.resize((width, height))
         elif call[0] == "screen" and call[1] in ("read", "read_position"):
             self._screen.read_again(call[1], call[3], call[4])
 
