@@ -24,7 +24,6 @@ from mc_nested.live.connection import prepare_keyboard
 from mc_nested.live.desktop import open_desktop, session_kind
 from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.profile.window_title import version_in
 
@@ -123,8 +122,7 @@ def _examine_window(
     version = version_in(devices.display.title()) or settings.game.version
     font, check = font_row(profile, system, version, named_font)
     findings.add(check)
-    overlay = overlay_of(settings)
-    snapshot = findings.snapshot = wait_until_readable(devices, font, overlay, say)
+    snapshot = findings.snapshot = wait_until_readable(devices, font, settings, say)
     findings.add(
         *window_rows(snapshot, profile), *screen_rows(snapshot, font), fit_row(profile_name, profile, snapshot.window)
     )
@@ -134,7 +132,7 @@ def _examine_window(
         findings.add(check_from_message(CheckName.INPUT, "fail", str(error)))
         return
     with InputController(devices, settings.input) as controller:
-        findings.add(input_row(devices, controller, lambda: take_snapshot(devices, font, overlay), settings.keys))
+        findings.add(input_row(devices, controller, lambda: take_snapshot(devices, font, settings), settings.keys))
 
 
 def _examine_files(

@@ -4,22 +4,25 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import SWITCH_KEYS, Devices, Frame
+from mc_nested.live.devices import SWITCH_KEYS, Devices, Display, Frame
 from mc_nested.live.menus.screens import ScreenName, menu_name
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.scales import Scales
 from mc_nested.live.model.timing import PERSON_LOOK_S
-from mc_nested.live.profile.fingerprint import Fingerprint
-from mc_nested.live.profile.window_title import version_in
+from mc_nested.live.profile.fingerprint import Fingerprint, game_in
+from mc_nested.live.profile.overlay import overlay_of
+from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.debug_screen import nothing_seen, read_found
 from mc_nested.live.vision.font import Font
-from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
-from mc_nested.live.vision.layout import Overlay
+from mc_nested.live.vision.game_screen import WindowScreen
 from mc_nested.live.vision.menu_labels import MenuLabels
 from mc_nested.live.vision.overlay import SCALES, find_debug_screen
 
 FRONT_S = 30.0
 """Time for a person to switch to the game: less than elsewhere, since the doctor also runs unattended."""
+
+UNCALIBRATED = Profile()
+"""What is known of a game without a profile."""
 
 READABLE_S = 5.0
 """Time to then close the menu that the game opened meanwhile."""
@@ -59,23 +62,26 @@ class WindowSnapshot:
         return self.contents is not None and self.contents.screen == "world"
 
 
-def take_snapshot(devices: Devices, font: Font | None, overlay: Overlay | None = None) -> WindowSnapshot:
-    """Take a snapshot; ``overlay`` is the debug screen's layout in the profile. DesktopError without a window."""
+def take_snapshot(devices: Devices, font: Font | None, profile: Profile = UNCALIBRATED) -> WindowSnapshot:
+    """Take a snapshot, as the profile says that the game is drawn. DesktopError without a window."""
     display = devices.display
     is_in_front, frame = display.is_in_front(), display.grab()
     contents = None
     if is_in_front and font is not None:
-        screen = WindowScreen(display, font, version=version_in(display.title()) or "")
-        contents = contents_of(frame, font, overlay, screen)
+        contents = _contents_of(frame, font, profile, display)
     window = Fingerprint(display.title(), display.size(), contents.scales if contents else None)
     area = devices.area() if devices.area else None
     points = (area.width, area.height) if area else None
     return WindowSnapshot(window, (frame.shape[1], frame.shape[0]), points, is_in_front, contents, frame)
 
 
-def contents_of(frame: Frame, font: Font, overlay: Overlay | None, screen: GameScreen) -> ScreenContents:
+def _contents_of(frame: Frame, font: Font, profile: Profile, display: Display) -> ScreenContents:
     """What a frame of the game shows. A debug screen whose layout differs from the profile's is found, too."""
+    overlay = overlay_of(profile)
     found = find_debug_screen(frame, font, overlay) or (find_debug_screen(frame, font) if overlay else None)
+    # A modpack's title says no version: the profile's does then, or a menu under the debug text would be the world.
+    version = game_in(display.title(), profile.game).version
+    screen = WindowScreen(display, font, found.overlay if found else None, version)
     reading = read_found(found, font) if found else nothing_seen(overlay)
     scales = screen.seen_scales()
     line, scale = (found.label, found.overlay.scale) if found else (None, None)
@@ -96,12 +102,12 @@ def contents_of(frame: Frame, font: Font, overlay: Overlay | None, screen: GameS
 
 
 def wait_until_readable(
-    devices: Devices, font: Font | None, overlay: Overlay | None, say: Callable[[str], None]
+    devices: Devices, font: Font | None, profile: Profile, say: Callable[[str], None]
 ) -> WindowSnapshot:
     """The first snapshot with the game in front and the debug screen readable; at the deadline, the last snapshot."""
     clock = devices.clock
     deadline, has_arrived = Deadline(clock, FRONT_S), False
-    snapshot = take_snapshot(devices, font, overlay)
+    snapshot = take_snapshot(devices, font, profile)
     if not _is_readable(snapshot):
         say(
             f"Switch to the game now with {SWITCH_KEYS}, not by a click, close its menus, "
@@ -114,7 +120,7 @@ def wait_until_readable(
         if deadline.has_passed:
             break
         clock.sleep_until(clock.now() + PERSON_LOOK_S)
-        snapshot = take_snapshot(devices, font, overlay)
+        snapshot = take_snapshot(devices, font, profile)
     return snapshot
 
 

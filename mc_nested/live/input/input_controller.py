@@ -15,7 +15,7 @@ from functools import partial
 from types import TracebackType
 from typing import Literal, get_args
 
-from mc_nested.errors import NotInFrontError, StoppedError, WrongScreenError
+from mc_nested.errors import NotConfirmedError, NotInFrontError, StoppedError, WrongScreenError
 from mc_nested.live.devices import SWITCH_KEYS, Button, Devices
 from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.model.kinematics import TICK_S
@@ -105,14 +105,20 @@ class InputController:
         """Hold one or more keys for a number of ticks (FACTS: Walking; 100, 150 and 200 ms gave 2, 3 and 4)."""
         self.wait_until(self.press(self._clock.now() + ticks * TICK_S, *others, key))
 
-    def press(self, until: float, *keys: str) -> float:
+    def press(self, until: float, *keys: str, beside: str | None = None) -> float:
         """Press keys in the world and return when they are released, during a later wait.
 
-        That is ``until``, and as much later as the look at the screen took that comes before.
+        That is ``until``, and as much later as the look at the screen took that comes before. NotConfirmedError if the
+        key ``beside`` which they are pressed is not down after that look.
         """
         asked_at = self._clock.now()
         self._permit("world")
         until += self._clock.now() - asked_at
+        if beside is not None and f"key {beside}" not in self._held:
+            raise NotConfirmedError(
+                f"{beside} did not stay down until the screen was seen, so {' '.join(keys)} is not pressed: "
+                "close what slows the computer down"
+            )
         for key in keys:
             self._press_key(key, until, "world")
         return until

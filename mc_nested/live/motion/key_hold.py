@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
+from mc_nested.live.input.input_controller import LONGEST_S
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.timing import FRAME_S, HALF_FRAME_S, THIRD_FRAME_S
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
@@ -22,9 +23,6 @@ EVERY_LOOK = math.inf
 
 SNEAK_FIRST_S = 3 * TICK_S
 """Seconds from the sneak key to the key of a hold: a tick, and a frame where only ten are drawn a second."""
-
-SNEAK_READY_S = 1.0
-"""Seconds for which the sneak key stays down if no hold follows."""
 
 RELEASE_AGAIN_LOOKS = 20
 """Looks at a player that goes on, after which its keys are released once more: a release may have been lost."""
@@ -47,10 +45,12 @@ class KeyHold:
     def begin_sneaking(self, key: str) -> None:
         """Press the sneak key, and wait until it slows the player down: a tick after it is felt (FACTS: Sneaking).
 
-        It stays down for the hold that follows, which names it.
+        It stays down for the hold that follows, which names it, however long the look before that takes: without it, a
+        player at an edge falls. If none follows, it goes up after the longest time that anything is held.
         """
         ready_at = self._clock.now() + SNEAK_FIRST_S
-        self._controller.press(ready_at + SNEAK_READY_S, key)
+        release_at = ready_at + LONGEST_S
+        ready_at += self._controller.press(release_at, key) - release_at
         self._controller.wait_until(ready_at)
 
     def hold(
@@ -66,13 +66,13 @@ class KeyHold:
         Args:
             release_at: when they go up, in seconds of the clock; as much later as the look takes before they go down.
             keys: which, together.
-            sneak: the sneak key, which is down already; it goes up with them.
+            sneak: the sneak key, which is down already; it goes up with them. NotConfirmedError if it went up before.
             look_times: when to look meanwhile. The first one that could make the release late ends the looks.
             on_look: called at each; gives another time for the release, or None to keep it.
         """
         try:
             together = (*keys, sneak) if sneak else keys
-            release_at = self._controller.press(release_at, *keys)
+            release_at = self._controller.press(release_at, *keys, beside=sneak)
             self.pressed_at = self._clock.now()
             if sneak:
                 self._controller.keep_until(release_at, sneak)

@@ -2,7 +2,7 @@
 
 A reading comes with its lines' ink, if the same is read from that alone. The whole picture is kept, the chat blanked,
 where a frame could not be read, where no block is looked at, where the ink is not enough, and every few seconds; all
-that within a budget.
+that within a budget. Pixels of a window that was resized name its size.
 """
 
 import time
@@ -51,6 +51,7 @@ class CallEncoder:
         self, size: tuple[int, int], font: Font | None = None, now: Callable[[], float] = time.monotonic
     ) -> None:
         self.size = size
+        self._first_size = size
         self.font = font
         self._now = now
         self._budget = ByteBudget(now())
@@ -73,6 +74,8 @@ class CallEncoder:
 
     def _reading(self, call: Call) -> tuple[list[Any], list[KeptPicture]]:
         *said, answer, look = call
+        if look.region is None:
+            self.size = look.frame.shape[1], look.frame.shape[0]
         text = text_pixels_of(look)
         is_read = answer is not None and (not isinstance(answer, Reading) or answer.target is not None)
         if text is not None and is_read and self.font and reads_the_same(text, look, answer, self.font):
@@ -86,6 +89,8 @@ class CallEncoder:
             pictures = self._picture(blanked, look.region)
             if pictures and kept is None:
                 kept = {"picture": pictures[0].index, "is_enough": self._is_enough(blanked, look, answer)}
+        if kept is not None and self.size != self._first_size:
+            kept["size"] = list(self.size)
         return [*(plain(each) for each in said), plain(answer), kept], pictures
 
     def _without_chat(self, frame: Frame, region: Region | None, text: TextPixels | None) -> Frame:

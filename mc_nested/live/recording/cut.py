@@ -1,8 +1,11 @@
 """Cutting a recording: a part of it as one file, from a reset on, so that it can be replayed."""
 
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
+
+import tomlkit
 
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RecordingError
@@ -10,6 +13,7 @@ from mc_nested.live.recording.call_encoder import KeptPicture
 from mc_nested.live.recording.events import event_of
 from mc_nested.live.recording.part_writer import PartWriter, Timed
 from mc_nested.live.recording.recording_file import PartEnd, TimedCall, facts_of, parts_of, read_recording
+from mc_nested.toml_file import parse_document
 
 _BATCH = 500
 """Calls that are written at once."""
@@ -20,25 +24,36 @@ _WORDS_AT = {"title": 1, "stop": 1, "error": 3}
 _WORDS_OF_NOTE = "problem"
 """What of a note they can be in. Typed lines are this program's own commands, which hold neither."""
 
+_PATHS = (("screen", "font"), ("world", "folder"), ("world", "template"))
+"""What of a profile are paths: each one's table and key."""
+
+_SEPARATORS = r"[\\/]"
+"""Of the parts of a path, on any system."""
+
 
 def cut(
     path: Path,
     out: Path,
     first: int,
     last: int,
-    clean: Callable[[str], str] = lambda text: text,
+    clean: Callable[[str], str] | None = None,
     *,
     with_pictures: bool = True,
 ) -> int:
     """Write what was recorded between two times of day, in nanoseconds, as one file; how many calls that is.
 
     It begins with the first reset at or behind ``first``, if there is one. Pictures that came shortly before are kept
-    with it, unless none are wanted. ``clean`` takes out of its texts what others mustn't read.
+    with it, unless none are wanted. ``clean`` takes out of its texts what others mustn't read; of its profile's paths
+    the last part alone is kept then. Without it, all texts stay as they are.
 
     Raises:
         RecordingError: nothing was recorded then, or the recording can't be used, or the file can't be written.
     """
-    facts = {name: clean(text) for name, text in facts_of(path).items()}
+    facts = dict(facts_of(path))
+    if clean is not None:
+        if "profile" in facts:
+            facts["profile"] = _without_folders(facts["profile"], path)
+        facts = {name: clean(text) for name, text in facts.items()}
     begin = _first_reset(path, first, last)
     written = 0
     try:
@@ -47,7 +62,7 @@ def cut(
             writer = PartWriter(unfinished, facts)
             try:
                 for calls, pictures in _batches(path, begin, last):
-                    cleaned = [(at, _cleaned(call, clean)) for at, call in calls]
+                    cleaned = [(at, _cleaned(call, clean)) for at, call in calls] if clean else calls
                     events = [(at, event) for at, call in cleaned if (event := event_of(call))]
                     writer.write(cleaned, events, pictures if with_pictures else [])
                     written += len(calls)
@@ -109,6 +124,15 @@ def _batches(path: Path, first: int, last: int) -> Iterator[tuple[list[Timed], l
                 calls, pictures = [], []
     if calls:
         yield calls, pictures
+
+
+def _without_folders(profile: str, recording: Path) -> str:
+    """A profile's text with its paths as ``~/1.20.1.jar``: on another computer their folders are of no use."""
+    document = parse_document(profile, f"{recording}: its profile", RecordingError)
+    for table, key in _PATHS:
+        if key in (values := document.get(table, {})):
+            values[key] = f"~/{re.split(_SEPARATORS, str(values[key]))[-1]}"
+    return tomlkit.dumps(document)
 
 
 def _cleaned(call: list[Any], clean: Callable[[str], str]) -> list[Any]:

@@ -24,21 +24,23 @@ class PixelReader:
     """Shows what a call's pixels were to the reader of this version, which then reads them as it would a window.
 
     Args:
-        size: the window's width and height.
+        size: the window's width and height when the recording began.
         font: the font that reads it.
         overlay: how the debug screen is drawn, as the run's profile says; None where it doesn't.
     """
 
     def __init__(self, size: tuple[int, int], font: Font, overlay: Overlay | None = None) -> None:
-        self._font, self._given, self._overlay = font, overlay, overlay
+        self._font, self._given = font, overlay
         self._pictures: OrderedDict[int, KeptPicture] = OrderedDict()
-        self._painted: list[slice] = []
-        self.resize(size)
+        self._first_size = size
+        self._resize(size)
 
-    def resize(self, size: tuple[int, int]) -> None:
+    def _resize(self, size: tuple[int, int]) -> None:
         """The window has another size now."""
         width, height = size
         self.canvas: Frame = np.full((height, width, 3), OUTSIDE, np.uint8)
+        self._painted: list[slice] = []
+        self._overlay = self._given
         self._screen = WindowScreen(_Canvas(self), self._font, self._overlay)
 
     def keep(self, picture: KeptPicture) -> None:
@@ -55,6 +57,9 @@ class PixelReader:
         if not isinstance(pixels, dict):
             return None
         try:
+            width, height = pixels.get("size", self._first_size)
+            if self.canvas.shape[:2] != (height, width):
+                self._resize((int(width), int(height)))
             if "text" in pixels:
                 self._show_text(TextPixels.from_json(pixels["text"]))
                 return self._screen

@@ -24,6 +24,7 @@ from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.store import parse_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.call_encoder import KeptPicture
+from mc_nested.live.recording.format import FORMAT
 from mc_nested.live.recording.pixel_reader import PixelReader
 from mc_nested.live.recording.recording_file import PartEnd, facts_of, read_recording
 from mc_nested.live.recording.replayed_devices import replayed
@@ -64,7 +65,12 @@ class Replayed:
 
 
 def profile_of(path: Path, facts: Mapping[str, str]) -> Profile:
-    """The profile of a recording that says these facts of itself; RecordingError if it says nothing of it."""
+    """The profile of a recording that says these facts of itself; RecordingError if it can't be replayed with it."""
+    if (written := int(facts["format"])) < FORMAT:
+        raise RecordingError(
+            f"{path}: is of format {written}, of a run by an earlier mc-nested, and this one replays format {FORMAT}: "
+            "record the run again, or replay it with the mc-nested of that time"
+        )
     try:
         return parse_profile(facts["profile"], f"{path}: its profile")
     except KeyError:
@@ -80,7 +86,7 @@ def replay(path: Path, font: Font | None = None, on_progress: Callable[[Replayed
         on_progress: is called after each action.
 
     Raises:
-        RecordingError: it is foreign, newer or holds nothing.
+        RecordingError: it is foreign, of another format or holds nothing.
         FontError: its profile's font isn't on this computer.
     """
     facts = facts_of(path)
@@ -160,10 +166,6 @@ class _Player:
         self._tape.skip()
         if call[:2] == ["note", "acts"]:
             self.seen.actions += 1
-        elif call[0] == "size":
-            width, height = call[1]
-            if self._pixels.canvas.shape[:2] != (height, width):
-                self._pixels.resize((width, height))
         elif call[0] == "screen" and call[1] in ("read", "read_position"):
             self._screen.read_again(call[1], call[3], call[4])
 

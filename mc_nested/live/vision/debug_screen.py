@@ -90,9 +90,14 @@ def _without_position(known_by: str) -> str:
 
 def nothing_seen(overlay: Overlay | None) -> Reading:
     """The reading of a frame without a debug screen that is drawn that way."""
-    scale = f"GUI scale {overlay.scale}" if overlay else f"a GUI scale from {min(SCALES)} to {max(SCALES)}"
+    some = f"{min(SCALES)} to {max(SCALES)}"
+    scale, mend = (
+        (f"GUI scale {overlay.scale}", f"set it to GUI scale {overlay.scale} or correct the profile's debug_scale")
+        if overlay
+        else (f"a GUI scale from {some}", f"set GUI Scale to {some}")
+    )
     return Reading(
         problem=f"no debug screen is to be seen at {scale}: press F3 in the game, and Esc if a menu is open; if it is "
-        f"on, set GUI Scale to {min(SCALES)} to {max(SCALES)}, turn Force Unicode Font off, and give the font of the "
+        f"on, {mend}, turn Force Unicode Font off, and give the font of the "
         "game's own jar, or of the resource pack in use; a pack with finer letters than the game's has to be taken off"
     )

@@ -2,11 +2,18 @@
 
 import pytest
 
-from calibration.doctor.snapshot import FRONT_S, READABLE_S, WindowSnapshot, take_snapshot, wait_until_readable
+from calibration.doctor.snapshot import (
+    FRONT_S,
+    READABLE_S,
+    UNCALIBRATED,
+    WindowSnapshot,
+    take_snapshot,
+    wait_until_readable,
+)
 from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
+from mc_nested.live.profile.tables import GameVersion, Profile, ScreenTable
 from mc_nested.live.vision.font import font_of
-from mc_nested.live.vision.layout import VANILLA, Overlay
 from sim.client.client import VirtualClient
 from sim.client.drawing.font import drawn_atlas
 from sim.client.game.options import GameOptions
@@ -46,9 +53,37 @@ def test_a_world_without_its_debug_screen_is_unknown() -> None:
 
 def test_a_debug_screen_is_found_where_the_profile_names_another_gui_scale() -> None:
     client = started(VirtualClient())
-    snapshot = take_snapshot(client.devices, FONT, Overlay(3, VANILLA, (224, 224, 224)))
+    snapshot = take_snapshot(client.devices, FONT, Profile(screen=ScreenTable(debug_scale=3)))
     assert snapshot.is_world
     assert snapshot.window.scales == Scales(2, 2)
+
+
+@pytest.mark.parametrize(("screen", "name"), [("world", "world"), ("pause", "pause"), ("inventory", "menu")])
+@pytest.mark.parametrize(
+    ("version", "drawn"),
+    [
+        ("1.21.10", ScreenTable(debug_scale=2)),
+        ("26.3", ScreenTable(debug_scale=1)),
+        ("26.4", ScreenTable(debug_scale=1, layout="boxes")),
+        ("26.3", ScreenTable()),
+    ],
+)
+def test_under_a_modpacks_title_the_profile_says_which_game_it_is(
+    version: str, drawn: ScreenTable, screen: ScreenName, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = started(VirtualClient(version=version))
+    monkeypatch.setattr(client.display, "title", lambda: "All the Mods 10")
+    profile = Profile(game=GameVersion(version=version), screen=drawn)
+    if screen != "world":
+        client.game.open(screen)
+        client.clock.sleep(0.3)
+    snapshot = take_snapshot(client.devices, FONT, profile)
+    assert snapshot.contents is not None
+    assert snapshot.contents.screen == name
+    assert snapshot.window.scales is not None
+    assert snapshot.window.scales.debug == client.scales.debug
+    if screen != "inventory":  # no text of the GUI's is to be read there
+        assert snapshot.window.scales.gui == client.scales.gui
 
 
 def test_behind_another_window_or_without_a_font_nothing_is_read() -> None:
@@ -62,7 +97,7 @@ def test_behind_another_window_or_without_a_font_nothing_is_read() -> None:
 def waited(client: VirtualClient, *, has_font: bool = True) -> tuple[WindowSnapshot, float, list[str]]:
     said: list[str] = []
     began = client.clock.now()
-    snapshot = wait_until_readable(client.devices, FONT if has_font else None, None, said.append)
+    snapshot = wait_until_readable(client.devices, FONT if has_font else None, UNCALIBRATED, said.append)
     return snapshot, client.clock.now() - began, said
 
 

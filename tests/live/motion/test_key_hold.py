@@ -7,7 +7,7 @@ import pytest
 
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.input.input_controller import FRESH_S, LONGEST_S, InputController
 from mc_nested.live.model.timing import FRAME_S, HALF_FRAME_S, THIRD_FRAME_S
 from mc_nested.live.motion.key_hold import EVERY_LOOK, SNEAK_FIRST_S, KeyHold
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver
@@ -42,7 +42,8 @@ class Holding:
         self.game = FakeGame(PROFILE, xyz=(7.5, 64.0, 7.5), pitch=65.0)
         self.keyboard = TimedKeyboard(self.game)
         devices = devices_of(self.game, self.keyboard)
-        connection = GameConnection(devices, InputController(devices, PROFILE.input), FakeScreen(self.game))
+        self.controller = InputController(devices, PROFILE.input)
+        connection = GameConnection(devices, self.controller, FakeScreen(self.game))
         self.observer = PoseObserver(PROFILE, connection, PoseFrame.of_arena(PROFILE))
         self.key_hold = KeyHold(connection, self.observer, 5.0)
         self.observer.look()
@@ -153,3 +154,45 @@ def test_keys_are_released_again_at_every_twentieth_look_until_the_patience_ends
     assert again[0] == pytest.approx(0.1 + 15 * FRAME_S)
     assert again[1] == pytest.approx(again[0] + 20 * FRAME_S)
     assert holding.now() == pytest.approx(5.1, abs=FRAME_S)
+
+
+def begin_with_a_slow_look(holding: Holding, seconds: float) -> None:
+    """Sneak, and let the look before the next press take so long, as where the screen can't be read for a while."""
+    holding.key_hold.begin_sneaking("left.shift")
+
+    def look_again() -> None:
+        holding.controller.wait(seconds)
+        holding.controller.confirm_screen("world")
+
+    holding.controller.confirm_screen("world", look_again)
+    holding.game.clock.sleep_until(holding.game.clock.now() + FRESH_S + 0.01)
+
+
+def test_the_sneak_key_is_down_for_three_ticks_before_the_other_however_long_its_look_takes(holding: Holding) -> None:
+    def look() -> bool:
+        if not holding.game.down:
+            holding.game.clock.sleep_until(holding.game.clock.now() + 0.2)
+        return True
+
+    holding.controller.guard_world(look)
+    holding.key_hold.begin_sneaking("left.shift")
+    holding.key_hold.hold(100.0 + holding.now() + 0.1, "w", sneak="left.shift")
+    (_, sneaks_at), (_, walks_at), *_ = holding.keyboard.events
+    assert sneaks_at == pytest.approx(0.2)
+    assert walks_at - sneaks_at == pytest.approx(SNEAK_FIRST_S)
+
+
+@pytest.mark.parametrize("seconds", [0.5, 1.5, 2.5])
+def test_the_sneak_key_stays_down_through_the_look_before_the_other(seconds: float, holding: Holding) -> None:
+    begin_with_a_slow_look(holding, seconds)
+    holding.key_hold.hold(100.0 + holding.now() + 0.1, "w", sneak="left.shift")
+    assert [name for name, _ in holding.keyboard.events] == ["left.shift down", "w down", "w up", "left.shift up"]
+    assert holding.keyboard.events[2][1] - holding.keyboard.events[1][1] == pytest.approx(0.1)
+
+
+def test_where_the_sneak_key_went_up_meanwhile_the_other_is_not_pressed(holding: Holding) -> None:
+    begin_with_a_slow_look(holding, LONGEST_S)
+    with pytest.raises(NotConfirmedError, match=r"left\.shift did not stay down .*: close what slows the computer"):
+        holding.key_hold.hold(100.0 + holding.now() + 0.1, "w", sneak="left.shift")
+    assert "w down" not in [name for name, _ in holding.keyboard.events]
+    assert holding.game.down == set()

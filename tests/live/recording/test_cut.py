@@ -4,12 +4,16 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import tomlkit
 
 from calibration.report.privacy import Names
-from mc_nested.live.recording.cut import cut
+from mc_nested.errors import RecordingError
+from mc_nested.live.profile.tables import Profile, ScreenTable, WorldTable
+from mc_nested.live.recording.cut import cut, trim
 from mc_nested.live.recording.format import FORMAT
 from mc_nested.live.recording.part_writer import PartWriter
-from mc_nested.live.recording.recording_file import TimedCall, read_recording
+from mc_nested.live.recording.recording_file import TimedCall, facts_of, read_recording
+from mc_nested.live.recording.replay import profile_of
 
 CLEAN = Names("/home/ann", ("ann", "left", "note")).removed_from
 
@@ -40,6 +44,33 @@ def test_names_and_paths_are_taken_out_of_what_is_said(
     (found,) = cleaned(tmp_path, call)
     expected = [word if wanted is ... else wanted for word, wanted in zip(call, without_names, strict=True)]
     assert found == expected
+
+
+def test_of_a_profiles_paths_others_see_the_last_part_alone_and_the_rest_stays(tmp_path: Path) -> None:
+    profile = Profile(
+        screen=ScreenTable(font="/mnt/games of ann b/1.20.1/1.20.1.jar", debug_scale=2),
+        world=WorldTable(folder=r"D:\Diary\saves\Arena", template="~/copies/of mine/Arena", name="Arena"),
+    )
+    document = tomlkit.dumps(profile.model_dump(mode="json", exclude_none=True, exclude_defaults=True))
+    writer = PartWriter(tmp_path / "whole.mcap", {"format": str(FORMAT), "profile": document})
+    writer.write([(1, ["now", 1.0])], [], [])
+    writer.close()
+    cut(tmp_path / "whole.mcap", tmp_path / "part.mcap", 0, 1, CLEAN)
+    seen = profile_of(tmp_path / "part.mcap", facts_of(tmp_path / "part.mcap"))
+    assert seen.screen == ScreenTable(font="~/1.20.1.jar", debug_scale=2)
+    assert seen.world == WorldTable(folder="~/Arena", template="~/Arena", name="Arena")
+    assert seen.model_copy(update={"screen": profile.screen, "world": profile.world}) == profile
+    trim(tmp_path / "whole.mcap", 1.0)
+    assert facts_of(tmp_path / "whole.mcap")["profile"] == document
+
+
+def test_a_profile_that_is_none_is_one_line_and_no_part(tmp_path: Path) -> None:
+    writer = PartWriter(tmp_path / "whole.mcap", {"format": str(FORMAT), "profile": "[screen\n"})
+    writer.write([(1, ["now", 1.0])], [], [])
+    writer.close()
+    with pytest.raises(RecordingError, match=r"whole\.mcap: its profile"):
+        cut(tmp_path / "whole.mcap", tmp_path / "part.mcap", 0, 1, CLEAN)
+    assert not (tmp_path / "part.mcap").exists()
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from calibration.font.of_recording import font_of_recording
+from calibration.installation.folders import System
 from mc_nested.errors import ProfileError, RecordingError
 from mc_nested.live.recording.call_encoder import KeptPicture
 from mc_nested.live.recording.cut import cut, trim
@@ -174,6 +176,20 @@ def test_a_newer_recording_is_refused_by_its_format(tmp_path: Path) -> None:
     writer.close()
     with pytest.raises(RecordingError, match=rf"is of format {FORMAT + 1}, written by a newer mc-nested"):
         replay(file, FONT)
+
+
+def test_an_older_recording_is_one_line_and_can_still_be_cut(recording: Path, tmp_path: Path) -> None:
+    facts = {**facts_of(recording), "format": "1", "profile": "[screen]\ngui_scale = 2\n"}
+    pictures = [each for each in read_recording(recording) if isinstance(each, KeptPicture)]
+    calls = calls_of(recording)
+    old = written(tmp_path / "old.mcap", calls, facts, pictures)
+    line = rf"old\.mcap: is of format 1, of a run by an earlier mc-nested, .* format {FORMAT}: record the run again"
+    for refused in (lambda: replay(old, FONT), lambda: font_of_recording(old, System("linux", tmp_path, {}))):
+        with pytest.raises(RecordingError, match=line):
+            refused()
+    cut(old, tmp_path / "part.mcap", 0, calls[-1].at)
+    assert facts_of(tmp_path / "part.mcap")["format"] == "1"
+    assert overview_of(tmp_path / "part.mcap").actions == 60
 
 
 def test_without_a_font_the_profiles_is_asked_for(recording: Path) -> None:

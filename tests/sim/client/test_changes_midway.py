@@ -1,0 +1,184 @@
+"""What changes in the middle of a run: the window's size, a scale, a screen that opens. Nothing wrong is done then."""
+
+import dataclasses
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from mc_nested.arena.action import Action
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import LiveError, UnreadableError, WrongScreenError
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.devices import Button
+from mc_nested.live.input.input_controller import FRESH_S, PressTarget
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile.overlay import overlay_of
+from mc_nested.live.profile.tables import GameVersion, Profile, ScreenTable
+from mc_nested.live.recording.replay import replay
+from mc_nested.live.vision.game_screen import WindowScreen
+from scripts.into_screens import ScreenPresses
+from scripts.recorded_play import record_play
+from sim.client.client import VirtualClient
+from sim.client.game.screens import ScreenName
+from tests.sim.client.playing import FONT, arena_of
+
+LINE = load_scenario("line")
+VERSIONS = ["1.20.1", "1.21.10", "26.3", "26.4"]
+WINDOW, SCALE = (1760, 1200), 3
+
+
+@dataclasses.dataclass
+class Run:
+    """A game that was reset, in a window where scales 1 to 4 fit, and every press into it watched."""
+
+    client: VirtualClient
+    game: LiveGame
+    presses: ScreenPresses
+
+    def change(self, scale: int = SCALE, debug: int = 0, size: tuple[int, int] = WINDOW) -> None:
+        """As by the options of the game, or by the window's edge."""
+        settings = self.client.settings
+        options = dataclasses.replace(settings.options, debug_gui_scale=debug)
+        self.client.settings = dataclasses.replace(settings, scale=scale, options=options)
+        self.client.resize(size)
+
+    def in_s(self, seconds: float, event: Callable[[], None]) -> None:
+        self.client.clock.call_at(self.client.clock.now() + seconds, event)
+
+    def build(self) -> None:
+        """Three blocks, and each outcome is what the world holds."""
+        arena = arena_of(self.client)
+        built = set()
+        for action in (Action.BD, Action.BD, Action.BD):
+            outcome = self.game.act(action)
+            built.add(outcome.placed)
+            assert outcome.cell == self.client.cell(arena)
+        assert self.client.placed(arena) == built
+
+    def check_nothing_went_astray(self) -> None:
+        """Every key is up, and none was pressed into a screen or into another window."""
+        assert (self.presses.into_screens, self.presses.too_late) == (0, 0)
+        assert (self.client.window.down, self.client.window.strays) == (set(), [])
+
+
+def running(version: str, *, is_scale_named: bool = False) -> Run:
+    client = VirtualClient(version=version, size=WINDOW, scale=SCALE, seed=3)
+    presses = ScreenPresses(client)
+    layout = ScreenTable(debug_scale=client.scales.debug, layout="boxes" if version == "26.4" else "vanilla")
+    drawn = layout if is_scale_named else ScreenTable()
+    profile = Profile(game=GameVersion(version=version), arena=arena_of(client), screen=drawn)
+    screen = WindowScreen(client.display, FONT, overlay_of(profile), version)
+    game = LiveGame(LINE, profile, GameConnection(client.devices, presses.controller(), screen))
+    game.reset(LINE.best_material)
+    return Run(client, game, presses)
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("in_s", [0.05, 0.4])
+@pytest.mark.parametrize(
+    "change",
+    [{"scale": 1}, {"scale": 4}, {"debug": 1}, {"debug": -1}, {"size": (1366, 900)}, {"size": (1024, 640)}],
+    ids=str,
+)
+def test_a_scale_or_a_size_that_changes_is_seen_and_play_goes_on(
+    version: str, in_s: float, change: dict[str, int]
+) -> None:
+    run = running(version)
+    before = run.client.scales, run.client.window.size
+    run.in_s(in_s, lambda: run.change(**change))  # type: ignore[arg-type]  # each by its name
+    run.build()
+    assert (run.client.scales, run.client.window.size) != before or (version < "2" and "debug" in change)
+    # A reset types commands: the chat's line is looked for where it is now.
+    assert run.game.reset(LINE.best_material) == LINE.start == run.client.cell(arena_of(run.client))
+    run.build()
+    assert (run.game.log.failed_actions, run.game.log.failed_resets, run.game.log.recoveries) == (0, 0, 0)
+    run.check_nothing_went_astray()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+def test_where_the_profile_names_the_scale_another_one_is_one_line_that_says_so(version: str) -> None:
+    run = running(version, is_scale_named=True)
+    debug = run.client.scales.debug
+    run.in_s(0.1, lambda: run.change(scale=1))
+    with pytest.raises(UnreadableError, match=rf"set it to GUI scale {debug} or correct the profile's debug_scale"):
+        run.build()
+    run.check_nothing_went_astray()
+    run.change()
+    assert run.game.reset(LINE.best_material) == LINE.start == run.client.cell(arena_of(run.client))
+    run.build()
+    run.check_nothing_went_astray()
+
+
+@pytest.mark.parametrize("version", ["1.20.1", "26.4"])
+def test_a_run_whose_window_was_resized_is_recorded_and_read_alike(version: str, tmp_path: Path) -> None:
+    client = VirtualClient(version=version, seed=2)
+    client.mishaps.plan("resized_window", 2.5)
+    size = client.window.size
+    assert record_play(tmp_path / "play", 12, client) == []
+    assert client.window.size != size
+    seen = replay(tmp_path / "play", FONT)
+    assert (seen.actions, seen.followed, seen.differences, seen.damaged) == (12, 12, [], [])
+    assert seen.read_anew > 5 * seen.actions
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("screen", ["inventory", "chat", "pause"])
+def test_a_screen_that_opens_behind_the_look_that_confirms_gets_no_press(
+    version: str, screen: ScreenName, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = running(version)
+    client, controller = run.client, run.game.connection.controller
+    confirm, looked = controller.confirm_screen, list[str]()
+
+    def stalled(on: PressTarget, look_again: Callable[[], None] | None = None) -> None:
+        def look_then_open() -> None:
+            assert look_again is not None
+            look_again()
+            if not looked:
+                client.game.open(screen)
+                client.clock.sleep(0.1)
+            looked.append(screen)
+
+        confirm(on, look_then_open if look_again else None)
+        if not looked:
+            client.clock.sleep(FRESH_S + 0.05)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(controller, "confirm_screen", stalled)
+        with pytest.raises((WrongScreenError, UnreadableError)):
+            run.build()
+    assert looked
+    assert client.game.screen == screen
+    assert client.placed(arena_of(client)) == set()
+    run.check_nothing_went_astray()
+    assert run.game.reset(LINE.best_material) == LINE.start == client.cell(arena_of(client))
+    run.build()
+    run.check_nothing_went_astray()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("screen", ["inventory", "chat", "pause"])
+def test_a_screen_that_opens_while_a_block_is_waited_for_gets_no_second_click(
+    version: str, screen: ScreenName, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = running(version)
+    client, controller = run.client, run.game.connection.controller
+    click, clicks = controller.click, list[Button]()
+
+    def then_open(button: Button) -> None:
+        click(button)
+        clicks.append(button)
+        run.in_s(0.1, lambda: client.game.open(screen))
+
+    client.game.refuse_next()
+    with monkeypatch.context() as patched:
+        patched.setattr(controller, "click", then_open)
+        with pytest.raises(LiveError):
+            run.build()
+    assert clicks == ["right"]
+    assert client.game.screen == screen
+    run.check_nothing_went_astray()
+    assert run.game.reset(LINE.best_material) == LINE.start == client.cell(arena_of(client))
+    run.build()
+    run.check_nothing_went_astray()
