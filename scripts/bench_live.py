@@ -68,6 +68,9 @@ VERSION = "1.20.1"
 OPEN_SCREENS: tuple[Kind, ...] = ("lost_focus", "pause", "death", "inventory", "chat", "disconnect")
 """The mishaps after which a screen lies over the world; a game without the focus pauses."""
 
+GIVES_UP = 3
+"""Resets in a row that may fail: a game that can't be reset would go on for ever."""
+
 PLANNED = 5
 """How often each of them is planned in a soak."""
 
@@ -208,8 +211,11 @@ def play_in(
         placed: set[Cell] | None = None
         cell, in_episode = scenario.start, 0
         for _ in steps:
+            gave_up = counts.gave_up
             while placed is None:
                 placed, cell, in_episode = _reset(game, truth, scenario, counts, rng)
+                if placed is None and counts.gave_up - gave_up == GIVES_UP:
+                    raise LiveError(f"{GIVES_UP} resets in a row failed")
             action = drawn_action(rng, cell, placed, scenario.size)
             if (kind := planned.get(counts.actions)) is not None:
                 client.mishaps.plan(kind, float(rng.uniform(0, MISHAP_WITHIN_S)))
