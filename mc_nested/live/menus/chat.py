@@ -38,6 +38,7 @@ class Chat:
     def __init__(self, profile: Profile, connection: GameConnection) -> None:
         self._key, self._debug_key = profile.keys.chat, profile.keys.debug
         self._version = profile.game.version
+        self._is_counted = profile.input.reads_chat and chat_room(self._version) is not None
         self._lines, self._display = connection.chat_lines, connection.devices.display
         self._timing = profile.input
         self._controller = connection.controller
@@ -65,13 +66,14 @@ class Chat:
         self._lines.forget()
 
     def _send(self, line: str) -> None:
-        if self._timing.reads_chat and self._would_cover(line):
+        if self._is_counted and self._would_cover(line):
             self.clear()
         self._open()
         self._type(line)
         self._controller.confirm_screen("chat")
         self._controller.tap("enter", on="chat")
-        self._lines.note(line, self._clock.now())
+        if self._is_counted:
+            self._lines.note(line, self._clock.now())
         if self._timing.reads_chat:
             self._wait_until(lambda: not self._screen.is_chat_open(), "the chat did not close")
         else:
@@ -82,8 +84,8 @@ class Chat:
 
         The window's height is asked for only where the smallest window wouldn't have the room.
         """
-        lines, room = self._lines.after(line, self._clock.now()), chat_room(self._version)
-        if room is None or lines <= room:
+        lines = self._lines.after(line, self._clock.now())
+        if lines <= (chat_room(self._version) or 0):
             return False
         height = self._display.size()[1] // self._screen.gui_scale()
         return lines > (chat_room(self._version, height) or 0)
