@@ -5,9 +5,10 @@
 
 ``clean`` plays without mishaps, ``soak`` with one before every hundredth action (lost focus, menus, death, disconnect,
 lag, lost keys and so on); five each of those that open a screen are planned, the others drawn. Actions are drawn
-uniformly from those that the rules don't void. An episode ends after 60 steps, when no block is left, or when an action
-fails: then it is thrown away, and the reset recovers. An outcome that differs from the client's world is a wrong cell
-or a wrong block. An outcome that matches the world but not the rules is unnoticed: the action did not happen.
+uniformly from those that the rules don't void. An episode ends after 60 steps, when no block is left, when the agent is
+walled in, or when an action fails: then it is thrown away, and the reset recovers; three resets in a row that fail are
+the end. An outcome that differs from the client's world is a wrong cell or a wrong block. An outcome that matches the
+world but not the rules is unnoticed: the action did not happen.
 ``into_screens`` are presses for the world that reached a screen over it, though a picture of that screen was to be had;
 ``too_late`` those where none was. Times are the game's, for one call of act(). ``cpu_ms_per_action`` is the processor's
 time for an action of the clean run, resets included: client, drawing, reading and body. ``reader`` is what
@@ -239,7 +240,7 @@ def play_in(
             counts.wrong_blocks += not truth.is_built(placed)
             counts.unnoticed += (outcome.cell, outcome.placed) != (expected_cell, expected_block)
             in_episode += 1
-            if len(placed) == scenario.blocks or in_episode == scenario.step_limit:
+            if is_over(cell, placed, in_episode, scenario):
                 placed = None
     counts.mishaps = len(client.mishaps.happened)
     counts.left_down, counts.strays = len(client.window.down), len(client.window.strays)
@@ -284,6 +285,12 @@ def _reset(
     counts.wrong_cells += truth.cell() != cell
     counts.wrong_blocks += not truth.is_built(set())
     return set(), cell, 0
+
+
+def is_over(cell: Cell, placed: set[Cell], steps: int, scenario: Scenario) -> bool:
+    """Whether an episode ends here: no block is left, or no step, or the agent has walled itself in."""
+    is_out = len(placed) == scenario.blocks or steps == scenario.step_limit
+    return is_out or next(_possible(cell, placed, scenario.size), None) is None
 
 
 def drawn_action(rng: np.random.Generator, cell: Cell, placed: set[Cell], size: int) -> Action:
