@@ -6,24 +6,12 @@ from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenErro
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
 from mc_nested.live.menus.chat import Chat
-from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import Profile
 
-COMMANDS_PER_CLEAR = 3
-"""Commands after which the chat is cleared: in a small window nine of its lines cover some of the debug screen's, and
-an answer may take three (FACTS: Answers)."""
-
-LOW_TARGET = "1.13"
-"""The dialect of 1.13 to 1.16: some of them name the block looked at so low on the left that, in a small window, five
-lines of chat cover it. There the chat is cleared before every command."""
-
 TRIES = 4
 """How often a line is begun: on a busy machine its letters may come so late that the rest isn't typed."""
-
-CLEAR = "d"
-"""With the debug screen's key it clears the chat (FACTS: Keys)."""
 
 
 class CommandConsole:
@@ -37,24 +25,18 @@ class CommandConsole:
         self._controller, self._clock = connection.controller, connection.devices.clock
         self._chat = Chat(profile, connection)
         self._profile, self._screen = profile, connection.screen
-        self._commands_sent = 0
 
     def send(self, command: str) -> None:
         """Send a command."""
         self._check_in_world()
-        reads_chat = self._profile.input.reads_chat
-        has_low_target = self._profile.game.dialect == LOW_TARGET
-        if reads_chat and (has_low_target or (self._commands_sent and self._commands_sent % COMMANDS_PER_CLEAR == 0)):
-            self.clear()
         for tries_left in reversed(range(TRIES)):
             try:
                 self._chat.send(command)
                 break
             except WrongScreenError:
-                if not tries_left or not reads_chat:
+                if not tries_left or not self._profile.input.reads_chat:
                     raise
                 self._leave_chat()
-        self._commands_sent += 1
 
     def read(self) -> Reading:
         """Read the debug screen; wait while it can't be read."""
@@ -78,9 +60,7 @@ class CommandConsole:
     def clear(self) -> None:
         """Clear the chat."""
         self._check_in_world()
-        now = self._clock.now()
-        # Together, by one look: a letter without the debug key would walk.
-        self._controller.wait_until(self._controller.press(now + 2 * TICK_S, self._profile.keys.debug, CLEAR))
+        self._chat.clear()
         self._check_in_world()
 
     def _leave_chat(self) -> None:

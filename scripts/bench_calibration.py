@@ -1,6 +1,6 @@
 """Measures how well calibration works unattended: calibrates random virtual clients, then plays in each.
 
-    python scripts/bench_calibration.py [--clients 50 | --every-version] [--actions 200] [--seed 0] [--json]
+    python scripts/bench_calibration.py [--clients 50 | --every-version] [--version 1.13.2] [--actions 200] [--json]
 
 Each client (scripts/calibration_clients.py) is as a person leaves it: in a world, the player looking roughly along an
 axis, the debug screen on, no profile. `calibrate all --yes` runs unattended. Then ``actions`` random actions are
@@ -47,7 +47,7 @@ from mc_nested.live.profile.arena import size_for
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.profile.tables import Profile
 from scripts.bench_live import PlayCounts, play_in
-from scripts.calibration_clients import clients, every_version
+from scripts.calibration_clients import VERSIONS, clients, every_version
 from sim.client.client import VirtualClient
 from sim.client.drawing.font import drawn_atlas
 from sim.client.game.physics import Ground, displacement
@@ -234,6 +234,9 @@ def main() -> int:
         action="store_true",
         help="each version in seven windows, the game's options at their defaults",
     )
+    parser.add_argument(
+        "--version", action="append", choices=VERSIONS, help="only the chosen clients of this version; may be repeated"
+    )
     parser.add_argument("--actions", type=int, default=200, help="played with each profile")
     parser.add_argument("--scenario", default="diamond")
     parser.add_argument("--seed", type=int, default=0)
@@ -245,7 +248,8 @@ def main() -> int:
     scenario, console = load_scenario(arguments.scenario), Console(stderr=True)
     results: list[ClientResult] = []
     seed = arguments.seed
-    chosen = list(every_version(seed) if arguments.every_version else clients(arguments.clients, seed))
+    everyone = every_version(seed) if arguments.every_version else clients(arguments.clients, seed)
+    chosen = [each for each in everyone if not arguments.version or each.version in arguments.version]
     for settings in track(chosen, "clients", console=console):
         with tempfile.TemporaryDirectory() as folder:
             results.append(calibrate_and_play(settings, Path(folder), arguments.actions, scenario))

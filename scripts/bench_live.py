@@ -5,9 +5,10 @@
 
 ``clean`` plays without mishaps, ``soak`` with one before every hundredth action (lost focus, menus, death, disconnect,
 lag, lost keys and so on); five each of those that open a screen are planned, the others drawn. Actions are drawn
-uniformly from those that the rules don't void. An episode ends after 60 steps, when no block is left, or when an action
-fails: then it is thrown away, and the reset recovers. An outcome that differs from the client's world is a wrong cell
-or a wrong block. An outcome that matches the world but not the rules is unnoticed: the action did not happen.
+uniformly from those that the rules don't void. An episode ends after 60 steps, when no block is left, when the agent is
+walled in, or when an action fails: then it is thrown away, and the reset recovers; three resets in a row that fail are
+the end. An outcome that differs from the client's world is a wrong cell or a wrong block. An outcome that matches the
+world but not the rules is unnoticed: the action did not happen.
 ``into_screens`` are presses for the world that reached a screen over it, though a picture of that screen was to be had;
 ``too_late`` those where none was. Times are the game's, for one call of act(). ``cpu_ms_per_action`` is the processor's
 time for an action of the clean run, resets included: client, drawing, reading and body. ``reader`` is what
@@ -67,6 +68,9 @@ VERSION = "1.20.1"
 
 OPEN_SCREENS: tuple[Kind, ...] = ("lost_focus", "pause", "death", "inventory", "chat", "disconnect")
 """The mishaps after which a screen lies over the world; a game without the focus pauses."""
+
+GIVES_UP = 3
+"""Resets in a row that may fail: a game that can't be reset would go on for ever."""
 
 PLANNED = 5
 """How often each of them is planned in a soak."""
@@ -208,8 +212,11 @@ def play_in(
         placed: set[Cell] | None = None
         cell, in_episode = scenario.start, 0
         for _ in steps:
+            gave_up = counts.gave_up
             while placed is None:
                 placed, cell, in_episode = _reset(game, truth, scenario, counts, rng)
+                if placed is None and counts.gave_up - gave_up == GIVES_UP:
+                    raise LiveError(f"{GIVES_UP} resets in a row failed")
             action = drawn_action(rng, cell, placed, scenario.size)
             if (kind := planned.get(counts.actions)) is not None:
                 client.mishaps.plan(kind, float(rng.uniform(0, MISHAP_WITHIN_S)))
@@ -233,7 +240,7 @@ def play_in(
             counts.wrong_blocks += not truth.is_built(placed)
             counts.unnoticed += (outcome.cell, outcome.placed) != (expected_cell, expected_block)
             in_episode += 1
-            if len(placed) == scenario.blocks or in_episode == scenario.step_limit:
+            if is_over(cell, placed, in_episode, scenario):
                 placed = None
     counts.mishaps = len(client.mishaps.happened)
     counts.left_down, counts.strays = len(client.window.down), len(client.window.strays)
@@ -278,6 +285,12 @@ def _reset(
     counts.wrong_cells += truth.cell() != cell
     counts.wrong_blocks += not truth.is_built(set())
     return set(), cell, 0
+
+
+def is_over(cell: Cell, placed: set[Cell], steps: int, scenario: Scenario) -> bool:
+    """Whether an episode ends here: no block is left, or no step, or the agent has walled itself in."""
+    is_out = len(placed) == scenario.blocks or steps == scenario.step_limit
+    return is_out or next(_possible(cell, placed, scenario.size), None) is None
 
 
 def drawn_action(rng: np.random.Generator, cell: Cell, placed: set[Cell], size: int) -> Action:

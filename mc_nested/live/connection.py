@@ -4,6 +4,7 @@ from collections.abc import Callable
 from types import TracebackType
 
 from mc_nested.errors import ProfileError
+from mc_nested.live.chat_lines import ChatLines
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.journal import Journal, NoJournal
@@ -24,6 +25,7 @@ class GameConnection:
         is_server_allowed: whether to play in a game that others may share.
         journal: is told what is waited for, read, planned and done.
         on_screen: what every screen that reads the window is wrapped in, as by a recording.
+        chat_lines: what was sent through the game's chat so far.
     """
 
     def __init__(
@@ -35,11 +37,13 @@ class GameConnection:
         is_server_allowed: bool = False,
         journal: Journal | None = None,
         on_screen: Callable[[GameScreen], GameScreen] = lambda screen: screen,
+        chat_lines: ChatLines | None = None,
     ) -> None:
         self.devices = devices
         self.controller = controller
         self.is_server_allowed = is_server_allowed
         self.journal = journal or NoJournal()
+        self.chat_lines = chat_lines or ChatLines()
         self._screen = on_screen(screen) if screen else None
         if self._screen is not None:
             controller.guard_world(self._screen.shows_world)
@@ -77,6 +81,7 @@ class GameConnection:
             is_server_allowed=self.is_server_allowed,
             journal=self.journal,
             on_screen=self._on_screen,
+            chat_lines=self.chat_lines,
         )
 
     def check_single_player(self) -> None:

@@ -4,29 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from calibration.command_console import COMMANDS_PER_CLEAR, TRIES, CommandConsole
+from calibration.command_console import TRIES, CommandConsole
 from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.profile.tables import Profile
 from sim.client.client import VirtualClient
 from tests.calibration.contexts import context_over, profile_in, started
-
-
-class CountingConsole(CommandConsole):
-    """Counts how often the chat is cleared, and after how many commands."""
-
-    def __init__(self, client: VirtualClient, profile: Profile) -> None:
-        super().__init__(context_over(client).connection.for_profile(profile), profile)
-        self.sent = 0
-        self.cleared_after: list[int] = []
-
-    def send(self, command: str) -> None:
-        super().send(command)
-        self.sent += 1
-
-    def clear(self) -> None:
-        self.cleared_after.append(self.sent)
-        super().clear()
 
 
 @pytest.fixture
@@ -35,11 +18,11 @@ def client() -> VirtualClient:
 
 
 @pytest.fixture
-def console(client: VirtualClient, tmp_path: Path) -> CountingConsole:
-    return CountingConsole(client, profile_in(tmp_path))
+def console(client: VirtualClient, tmp_path: Path) -> CommandConsole:
+    return CommandConsole(context_over(client).connection.for_profile(profile_in(tmp_path)), profile_in(tmp_path))
 
 
-def test_a_command_takes_effect_and_its_effect_is_seen(client: VirtualClient, console: CountingConsole) -> None:
+def test_a_command_takes_effect_and_its_effect_is_seen(client: VirtualClient, console: CommandConsole) -> None:
     console.send("/tp @s 3.5 64 5.5 90 30")
     reading = console.watch(lambda seen: seen.pitch == 30.0, 1.0)
     assert reading is not None
@@ -48,13 +31,7 @@ def test_a_command_takes_effect_and_its_effect_is_seen(client: VirtualClient, co
     assert not client.window.down
 
 
-def test_the_chat_is_cleared_before_every_sixth_command(console: CountingConsole) -> None:
-    for _ in range(2 * COMMANDS_PER_CLEAR + 1):
-        console.send("/time set 6000")
-    assert console.cleared_after == [COMMANDS_PER_CLEAR, 2 * COMMANDS_PER_CLEAR]
-
-
-def test_clearing_leaves_the_debug_screen_on(client: VirtualClient, console: CountingConsole) -> None:
+def test_clearing_leaves_the_debug_screen_on(client: VirtualClient, console: CommandConsole) -> None:
     client.game.chat.say("half a screen of words", client.game.ticks)
     began = client.clock.now()
     console.clear()
@@ -64,7 +41,7 @@ def test_clearing_leaves_the_debug_screen_on(client: VirtualClient, console: Cou
     assert client.game.screen == "world"
 
 
-def test_the_chat_is_cleared_by_d_while_the_debug_key_is_held(client: VirtualClient, console: CountingConsole) -> None:
+def test_the_chat_is_cleared_by_d_while_the_debug_key_is_held(client: VirtualClient, console: CommandConsole) -> None:
     events: list[tuple[str, str, float]] = []
     press, release, began = client.keyboard.press, client.keyboard.release, client.clock.now()
 
@@ -124,21 +101,21 @@ def test_in_a_chat_that_is_not_read_nothing_is_begun_again(client: VirtualClient
 def test_a_chat_that_is_not_read_is_never_cleared(client: VirtualClient, tmp_path: Path) -> None:
     profile = profile_in(tmp_path)
     blind = profile.model_copy(update={"input": profile.input.model_copy(update={"reads_chat": False})})
-    console = CountingConsole(client, blind)
-    for _ in range(COMMANDS_PER_CLEAR + 1):
+    console = CommandConsole(context_over(client).connection.for_profile(blind), blind)
+    for _ in range(4):
         console.send("/time set 6000")
-    assert console.cleared_after == []
+    assert len(client.game.chat.lines(client.game.ticks)) == 4
 
 
 def test_what_does_not_happen_is_watched_for_as_long_as_was_said(
-    client: VirtualClient, console: CountingConsole
+    client: VirtualClient, console: CommandConsole
 ) -> None:
     began = client.clock.now()
     assert console.watch(lambda seen: seen.pitch == 89.0, 0.5) is None
     assert 0.5 <= client.clock.now() - began < 0.7
 
 
-def test_an_open_chat_is_not_typed_into(client: VirtualClient, console: CountingConsole) -> None:
+def test_an_open_chat_is_not_typed_into(client: VirtualClient, console: CommandConsole) -> None:
     client.game.open("chat")
     client.clock.sleep(0.2)
     with pytest.raises(NotConfirmedError, match="the chat is open"):
@@ -154,5 +131,5 @@ def test_a_debug_screen_that_stays_unreadable_is_an_error_after_the_profiles_pat
     client.clock.sleep(0.2)
     began = client.clock.now()
     with pytest.raises(UnreadableError, match="unreadable for too long"):
-        CountingConsole(client, profile).read()
+        CommandConsole(context_over(client).connection.for_profile(profile), profile).read()
     assert profile.body.patience_s <= client.clock.now() - began < profile.body.patience_s + 0.3

@@ -148,6 +148,8 @@ class FakeGame:
                 self._chat = None
             elif name == "backspace":
                 self._chat = ""
+        elif keys.debug in self._game_keys:
+            pass  # with that key down a letter is a command of its own, and doesn't walk (FACTS: Keys)
         elif name == keys.chat:
             self._chat = self.draft
         elif name in keys.hotbar:

@@ -4,11 +4,27 @@ import numpy as np
 import pytest
 
 from mc_nested.arena import rules
-from mc_nested.arena.action import Action
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.errors import LiveError, NotConfirmedError
+from mc_nested.live.live_game import LiveGame
 from mc_nested.live.model.timing import FRAME_S
 from mc_nested.live.profile.arena import Arena
-from scripts.bench_live import GROUND_PITCH, ClientTruth, PlayCounts, calibrated_walk, drawn_action, figures, main, play
+from mc_nested.live.profile.tables import Profile
+from scripts.bench_live import (
+    GIVES_UP,
+    GROUND_PITCH,
+    ClientTruth,
+    PlayCounts,
+    calibrated_walk,
+    connection_to,
+    drawn_action,
+    figures,
+    is_over,
+    main,
+    play,
+    play_in,
+)
 from sim.client.client import VirtualClient
 
 
@@ -75,6 +91,33 @@ def test_only_actions_that_do_something_are_drawn() -> None:
         does_something = target != corner or rules.landing(target, action, placed, 15) is not None
         assert (action in drawn) == does_something
     assert 0 < len(drawn) < len(Action)
+
+
+def test_an_episode_is_over_without_blocks_or_steps_and_where_the_agent_has_walled_itself_in() -> None:
+    line = load_scenario("line")
+    assert is_over((0, 0), {(1, 0), (0, 1)}, 1, line)
+    assert not is_over((0, 0), {(1, 0)}, 1, line)
+    assert is_over((0, 0), {(1, 0)}, line.step_limit, line)
+    assert is_over((0, 0), {(5, each) for each in range(line.blocks)}, 1, line)
+
+
+class LostGame(LiveGame):
+    """A game that can't be reset."""
+
+    tries = 0
+
+    def reset(self, material: int) -> Cell:
+        self.tries += 1
+        raise NotConfirmedError(f"material {material} was not seen")
+
+
+def test_a_game_that_can_not_be_reset_is_given_up() -> None:
+    client, line = VirtualClient(seed=0), load_scenario("line")
+    arena = Arena.around((-20, client.realm.world.floor, 31), "south")
+    game = LostGame(line, Profile(arena=arena), connection_to(client))
+    with pytest.raises(LiveError, match=f"{GIVES_UP} resets in a row failed"):
+        play_in(client, game, arena, line, range(1), 0.0, 0)
+    assert game.tries == GIVES_UP
 
 
 def test_the_figures_are_of_moves_and_placings_apart_and_together() -> None:

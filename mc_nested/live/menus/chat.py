@@ -6,9 +6,11 @@ chat key -> the line is seen, emptied -> letters -> the line is seen to hold all
 from collections.abc import Callable
 
 from mc_nested.errors import NotConfirmedError
+from mc_nested.live.chat_lines import chat_room
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
 from mc_nested.live.menus.screens import LABELS
+from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import Profile
 
@@ -21,15 +23,23 @@ _CHANGED = ", as where an input method (IBus, Fcitx, an IME) changes letters: sw
 LETTERS_PER_LOOK = 8
 """Letters typed between two looks."""
 
+CLEAR = "d"
+"""With the debug screen's key it clears the chat (FACTS: Keys)."""
+
 
 class Chat:
     """Sends lines. The caller has just seen that the world is on the screen, and nothing over it.
+
+    Before answers would cover what is read of the debug screen, the chat is cleared, in whatever way it is sent to.
 
     Raises (everything): NotConfirmedError where the chat's line doesn't look as it should; nothing is sent then.
     """
 
     def __init__(self, profile: Profile, connection: GameConnection) -> None:
-        self._key = profile.keys.chat
+        self._key, self._debug_key = profile.keys.chat, profile.keys.debug
+        self._version = profile.game.version
+        self._is_counted = profile.input.reads_chat and chat_room(self._version) is not None
+        self._lines, self._display = connection.chat_lines, connection.devices.display
         self._timing = profile.input
         self._controller = connection.controller
         self._screen = connection.screen
@@ -48,15 +58,37 @@ class Chat:
             self._close()
             raise
 
+    def clear(self) -> None:
+        """Clear the chat; the world must have been seen just before, as for ``send``."""
+        now = self._clock.now()
+        # Together, by one look: a letter without the debug key would walk.
+        self._controller.wait_until(self._controller.press(now + 2 * TICK_S, self._debug_key, CLEAR))
+        self._lines.forget()
+
     def _send(self, line: str) -> None:
+        if self._is_counted and self._would_cover(line):
+            self.clear()
         self._open()
         self._type(line)
         self._controller.confirm_screen("chat")
         self._controller.tap("enter", on="chat")
+        if self._is_counted:
+            self._lines.note(line, self._clock.now())
         if self._timing.reads_chat:
             self._wait_until(lambda: not self._screen.is_chat_open(), "the chat did not close")
         else:
             self._controller.wait(self._timing.chat_close_s)
+
+    def _would_cover(self, line: str) -> bool:
+        """Whether its answer would make the chat cover lines of the debug screen.
+
+        The window's height is asked for only where the smallest window wouldn't have the room.
+        """
+        lines = self._lines.after(line, self._clock.now())
+        if lines <= (chat_room(self._version) or 0):
+            return False
+        height = self._display.size()[1] // self._screen.gui_scale()
+        return lines > (chat_room(self._version, height) or 0)
 
     def _close(self) -> None:
         """Close a chat that may be open: what is pressed next would be typed into it.
