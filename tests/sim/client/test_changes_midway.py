@@ -13,6 +13,8 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Button
 from mc_nested.live.input.input_controller import FRESH_S, PressTarget
 from mc_nested.live.live_game import LiveGame
+from mc_nested.live.motion.key_hold import KeyHold
+from mc_nested.live.motion.pose_observer import PoseFrame, PoseObserver
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import GameVersion, Profile, ScreenTable
 from mc_nested.live.recording.replay import replay
@@ -21,7 +23,7 @@ from scripts.into_screens import ScreenPresses
 from scripts.recorded_play import record_play
 from sim.client.client import VirtualClient
 from sim.client.game.screens import ScreenName
-from tests.sim.client.playing import FONT, arena_of
+from tests.sim.client.playing import FONT, arena_of, connection_to
 
 LINE = load_scenario("line")
 VERSIONS = ["1.20.1", "1.21.10", "26.3", "26.4"]
@@ -134,11 +136,11 @@ def test_a_screen_that_opens_behind_the_look_that_confirms_gets_no_press(
     def stalled(on: PressTarget, look_again: Callable[[], None] | None = None) -> None:
         def look_then_open() -> None:
             assert look_again is not None
+            looked.append(screen)
             look_again()
-            if not looked:
+            if len(looked) == 1:
                 client.game.open(screen)
                 client.clock.sleep(0.1)
-            looked.append(screen)
 
         confirm(on, look_then_open if look_again else None)
         if not looked:
@@ -182,3 +184,29 @@ def test_a_screen_that_opens_while_a_block_is_waited_for_gets_no_second_click(
     assert run.game.reset(LINE.best_material) == LINE.start == client.cell(arena_of(client))
     run.build()
     run.check_nothing_went_astray()
+
+
+@pytest.mark.parametrize("version", VERSIONS)
+@pytest.mark.parametrize("look_s", [0.1, 1.5])
+def test_a_player_at_an_edge_sneaks_on_however_long_the_look_before_the_walk_takes(version: str, look_s: float) -> None:
+    client = VirtualClient(version=version, seed=1, feet=(0.5, 64.0, 0.9))
+    for z in range(1, 5):
+        client.realm.world.put((0, 63, z), "air")
+    client.clock.sleep(0.3)
+    profile = Profile(game=GameVersion(version=version), arena=arena_of(client))
+    connection = connection_to(client)
+    controller, clock = connection.controller, client.clock
+    key_hold = KeyHold(connection, PoseObserver(profile, connection, PoseFrame.of_arena(profile)), 5.0)
+
+    def look_again() -> None:
+        controller.wait(look_s)
+        controller.confirm_screen("world")
+
+    controller.confirm_screen("world", look_again)
+    key_hold.begin_sneaking("left.shift")
+    clock.sleep(FRESH_S)  # so that all is looked at again
+    key_hold.hold(clock.now() + 0.6, "w", sneak="left.shift")
+    clock.sleep(0.5)
+    assert client.realm.player.feet[1] == 64.0
+    assert client.realm.player.feet[2] > 1.2
+    assert client.window.down == set()
