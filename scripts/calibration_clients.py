@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mc_nested.live.model.versions import draws_text_over_menus
 from sim.client.drawing.scenery import WORLDS
 from sim.client.game.edition import Edition
 from sim.client.game.options import GameOptions
@@ -31,7 +32,8 @@ VERSIONS = (
 """Each minor version, and of each row of FACTS' tables one or more, from the first with known commands to the last."""
 
 NARROWEST = 480
-"""Width in GUI pixels: in a narrower window a block's long tag meets the Facing line (FACTS: The F3 debug screen)."""
+"""Width in GUI pixels: in a narrower window a block's long tag may cover the Facing line to 1.21.8, and the doctor says
+so (FACTS: The F3 debug screen)."""
 
 FLOORS = ("bedrock", "stone", "dirt", "grass_block", "sand")
 FACING_ERROR_DEG = 15.0
@@ -43,12 +45,19 @@ SIZES = ((854, 480), (1280, 720), (1920, 1080), (2560, 1440))
 
 RANDOM_SIZES = 3
 
+LEAST_WIDTH = 320
+"""GUI pixels: the game's own."""
+
 
 def every_version(seed: int) -> Iterator[ClientSettings]:
-    """Each version in each of SIZES and some random ones, the options at their defaults, the GUI scale too (Auto)."""
+    """Each version in each of SIZES and some random ones, the options at their defaults, the GUI scale too (Auto).
+
+    To 1.21.8 the random ones are as wide as the doctor asks for.
+    """
     rng = np.random.default_rng(seed)
     for version in VERSIONS:
-        others = [(int(rng.integers(640, 2561)), int(rng.integers(480, 1441))) for _ in range(RANDOM_SIZES)]
+        narrowest = LEAST_WIDTH if draws_text_over_menus(version) else NARROWEST
+        others = [_size(rng, narrowest) for _ in range(RANDOM_SIZES)]
         for size in (*SIZES, *others):
             yield ClientSettings(seed=int(rng.integers(2**31)), version=version, size=size, scale=None)
 
@@ -91,10 +100,16 @@ def _client(rng: np.random.Generator, version: str) -> ClientSettings:
 
 def _window(rng: np.random.Generator) -> tuple[tuple[int, int], int]:
     """A size, odd or even, and a GUI scale that fits it; 0 is auto."""
+    scale = int(rng.integers(0, 6))
+    return _size(rng, NARROWEST, scale), scale
+
+
+def _size(rng: np.random.Generator, narrowest: int, scale: int = 0) -> tuple[int, int]:
+    """A window, odd or even, of at least so many GUI pixels of width at that GUI scale; 0 is auto."""
     while True:
-        size, scale = (int(rng.integers(640, 2561)), int(rng.integers(480, 1441))), int(rng.integers(0, 6))
-        if size[0] >= NARROWEST * gui_scale(size, scale):
-            return size, scale
+        size = (int(rng.integers(640, 2561)), int(rng.integers(480, 1441)))
+        if size[0] >= narrowest * gui_scale(size, scale):
+            return size
 
 
 def _latency(rng: np.random.Generator, least: float, most: float, spread: float) -> tuple[float, float]:
