@@ -12,7 +12,8 @@ FRAME_S = 1 / 60
 """While the agent moves: a frame of the game, so that no wait is much longer than it must be."""
 
 HALF_FRAME_S = FRAME_S / 2
-"""While a walk is recorded: two looks a frame, so that a step is seen within a frame of being drawn."""
+"""While a walk is recorded, and while a block is awaited: two looks a frame, so that a step is seen within a frame of
+being drawn."""
 
 THIRD_FRAME_S = FRAME_S / 3
 """While an action waits for a step: seen a few milliseconds later, the next press may be felt a whole tick later."""

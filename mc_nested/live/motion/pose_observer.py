@@ -13,7 +13,7 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
 from mc_nested.live.model.coordinates import GroundVector, cell_at, offset_from, turn_between
 from mc_nested.live.model.reading import XYZ, Target, WorldPose
-from mc_nested.live.model.timing import EARLY_LOOK_S, FRAME_S, SAME_FRAME_S
+from mc_nested.live.model.timing import EARLY_LOOK_S, FRAME_S, HALF_FRAME_S, SAME_FRAME_S
 from mc_nested.live.motion.pose_reader import PoseReader
 from mc_nested.live.motion.tick_phase import TickPhase
 from mc_nested.live.profile.tables import Profile
@@ -114,7 +114,7 @@ class PoseObserver:
         """Look until ``is_done`` or for so many seconds; the last pose in both cases."""
         deadline = Deadline(self._clock, seconds)
         while not is_done(pose := self.look()) and not deadline.has_passed:
-            self._controller.wait(FRAME_S)
+            self._controller.wait(HALF_FRAME_S)
         return pose
 
     def read_position(self) -> GroundVector | None:
