@@ -5,6 +5,7 @@ unreadable, and then nothing may be pressed (FACTS: Answers).
 """
 
 from collections import deque
+from collections.abc import Iterable
 
 from mc_nested.live.model.versions import draws_text_over_menus, version_numbers
 
@@ -44,6 +45,15 @@ class ChatLines:
     def forget(self) -> None:
         """The chat was cleared."""
         self._sent.clear()
+
+    @property
+    def state(self) -> tuple[tuple[float, int], ...]:
+        """What is known: when something was sent, and how many lines its answer may take."""
+        return tuple(self._sent)
+
+    def go_on_from(self, state: Iterable[tuple[float, int]]) -> None:
+        """Go on with another game's ``state``, of the same clock."""
+        self._sent = deque(state, maxlen=_MOST)
 
 
 def answer_lines(command: str) -> int:

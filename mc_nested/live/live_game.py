@@ -144,18 +144,24 @@ class LiveGame:
         self._placed, self._others = dict.fromkeys(placed, self._shown_id), frozenset(cells)
 
     def go_on_from(
-        self, placed: Collection[Cell], pressed: Iterable[str], tick_phase: tuple[float, float, float]
+        self,
+        placed: Collection[Cell],
+        pressed: Iterable[str],
+        tick_phase: tuple[float, float, float],
+        chat: Iterable[tuple[float, int]],
     ) -> None:
         """Begin the next reset with what another LiveGame knew there, as the journal's note of its reset says."""
         self._placed = dict.fromkeys(placed, "")  # a reset asks where they are, not what
         self._controller.go_on_after(pressed)
         self._body.tick_phase.go_on_from(tick_phase)
+        self.connection.chat_lines.go_on_from(chat)
 
     def _known(self) -> dict[str, Fact]:
         return {
             "placed": tuple(sorted(self._placed)),
             "pressed": self._controller.pressed_before,
             "tick_phase": self._body.tick_phase.state,
+            "chat": self.connection.chat_lines.state,
         }
 
     def act(self, action: Action, material: int | None = None) -> Outcome:

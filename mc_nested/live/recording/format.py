@@ -14,7 +14,7 @@ A recording of a newer one is refused. One of an older one can be listed, cut an
 episode would differ at its first press, which says nothing of this version.
 
 1: before a press the chat's line was looked for, and a profile had ``screen.gui_scale``.
-2: before a press the hotbar is looked at, and a profile has ``screen.debug_scale``.
+2: before a press the hotbar is looked at, a reset notes the chat, and a profile has ``screen.debug_scale``.
 """
 
 CALLS, EVENTS, WINDOW = "/calls", "/events", "/window"

@@ -137,7 +137,8 @@ class _Player:
         tape = self._tape
         placed = [(int(x), int(y)) for x, y in facts["placed"]]
         real, imaginary, weight = facts["tick_phase"]
-        game.go_on_from(placed, facts["pressed"], (real, imaginary, weight))
+        chat = [(float(sent), int(lines)) for sent, lines in facts["chat"]]
+        game.go_on_from(placed, facts["pressed"], (real, imaginary, weight), chat)
         tape.is_followed = True
         try:
             self._call(lambda: game.reset(int(facts["material"])))
