@@ -17,7 +17,8 @@ def test_an_action_is_noted_from_its_beginning_to_what_was_seen() -> None:
     with LiveGame(scenario, profile, connection) as game:
         game.reset(1)
         outcome = game.act(Action.L)
-    assert notes.of("resets") == [{"material": 1, "placed": (), "pressed": (), "tick_phase": (0.0, 0.0, 0.0)}]
+    known = {"placed": (), "pressed": (), "tick_phase": (0.0, 0.0, 0.0), "chat": ()}
+    assert notes.of("resets") == [{"material": 1, **known}]
     assert notes.of("stands") == [{"cell": scenario.start}]
     assert str(notes.of("types")[0]["line"]).startswith("/")
     assert notes.of("acts") == [{"action": Action.L, "cell": scenario.start}]
