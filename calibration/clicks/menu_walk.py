@@ -17,6 +17,7 @@ from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.screens import BACK, ENTER, LABELS, LEAVE, PLAY, PLAY_IT, QUIT, WORLD
 from mc_nested.live.menus.wait_for_player import wait_for_front, wait_until_standing_still
 from mc_nested.live.model.timing import MENU_LOOK_S
+from mc_nested.live.model.versions import version_numbers
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.profile.window_title import may_be_shared, state_in
@@ -35,9 +36,9 @@ SAVING_S = 60.0
 HOVER_S = 0.2
 """From moving the mouse until the picture shows the button highlighted."""
 
-OWN = ("Open to LAN", "World Options...")
-"""To 26.2 the Game Menu has the first button, and only in a world that nobody else can be in; from 26.3 on it has the
-second one in its place, in any world, and the window's title says whose it is (FACTS: Screens and their buttons)."""
+OWN = "Open to LAN"
+"""To 26.2 the Game Menu has this button, and only in a world that nobody else can be in; from 26.3 on none tells, and
+the window's title says whose world it is (FACTS: Screens and their buttons)."""
 
 _BUTTON = (100, 10)
 """GUI pixels from the middle of the largest button to its sides: a button is opaque."""
@@ -79,11 +80,11 @@ class MenuWalk:
             self._find(BACK, LABELS["pause"], is_over_world=True)
             self._find(LEAVE, (QUIT,), is_over_world=True)
             menu, title = self._screen.menu(), self._display.title()
-            buttons = OWN if state_in(title) else OWN[:1]
+            is_told_by_title = version_numbers(self._game.version) >= (26, 3) and state_in(title) is not None
             self.is_single_player = (
                 not may_be_shared(title)
                 and menu.button(QUIT).is_enabled
-                and any(menu.button(each).is_enabled for each in buttons)
+                and (is_told_by_title or menu.button(OWN).is_enabled)
             )
         else:
             self.note("the Game Menu: no English label is seen after Esc, so nothing of it was recorded")

@@ -23,7 +23,7 @@ _XYZ = re.compile(
 _DEGREES = r"(-?\d{1,3}[.,]\d)"
 _TOWARDS = r"(?:north|south|east|west) \([Tt]owards (?:positive|negative) [XZ]\)"
 _FACINGS = {
-    "Facing: ": re.compile(rf"Facing: {_TOWARDS} \({_DEGREES} / {_DEGREES}\).*"),
+    "Facing: ": re.compile(rf"Facing: {_TOWARDS} \({_DEGREES} / {_DEGREES}[){UNKNOWN}].*"),
     "Facing (minecraft): ": re.compile(rf"Facing \(minecraft\): {_TOWARDS} \({_DEGREES} {_DEGREES}\).*"),
 }
 

@@ -79,23 +79,6 @@ class GlyphGrid:
             (self.first + self.pitch * row, column) for row, column in (divmod(int(index), columns) for index in at)
         ]
 
-    def row_of_most(self, pattern: bytes, column: int, least: float) -> int | None:
-        """The row where most columns of ``pattern`` with ink stand, begun within a dot of ``column``.
-
-        None where it is less than the part ``least`` of them. Every row must be looked at (``pitch`` 1).
-        """
-        if self.rows == 0 or column < 1 or column + len(pattern) >= self.columns:
-            return None
-        codes = self._codes.reshape(-1, self.columns)
-        wanted = np.frombuffer(pattern, np.uint8)
-        ink = wanted > 0
-        best: tuple[float, int | None] = (least, None)
-        for left in (column - 1, column, column + 1):
-            shares = (codes[:, left : left + len(wanted)][:, ink] == wanted[ink]).mean(axis=1)
-            row = int(shares.argmax())
-            best = max(best, (float(shares[row]), row), key=lambda found: found[0])
-        return best[1]
-
     @cached_property
     def _codes(self) -> NDArray[np.uint8]:
         """The byte that starts at each dot and goes down, row after row of those that are looked at."""

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.live.devices import Frame
+from mc_nested.live.vision.covered_label import CoveredLabels
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
 from mc_nested.live.vision.overlay import SCALES
@@ -18,9 +19,6 @@ from mc_nested.live.vision.text_colours import DISABLED, INK_SPREAD, PLAIN, UNDE
 _COLOURS = (WHITE, PLAIN, UNDER_MOUSE, DISABLED)
 _LEAST = (min(PLAIN) - INK_SPREAD, min(DISABLED) - INK_SPREAD)
 """Least green of a label that can be pressed, and of any label: the button behind it has 152 at most."""
-
-_MOSTLY = 0.5
-"""The part of a label's columns that is enough where text may lie over it: no two labels are as alike in one place."""
 
 _ABOVE, _BELOW, _BESIDE = 7, 7, 7
 """Dots around a label that are looked at: to just outside the button, and farther than a space and a gap are wide."""
@@ -53,8 +51,8 @@ class _Label:
 class MenuLabels:
     """A frame (height, width, 3), blue green red, of a menu; without ``scale`` each of ``SCALES`` is tried.
 
-    With ``is_under_text`` the debug screen may lie over a part of a label: one in the middle of the window is known by
-    what is seen of it, if that is most of it.
+    With ``is_under_text`` the debug screen may lie over a label: one in the middle of the window is known by what
+    shows of it.
     """
 
     def __init__(self, frame: Frame, font: Font, scale: int | None = None, *, is_under_text: bool = False) -> None:
@@ -62,6 +60,7 @@ class MenuLabels:
         self._is_under_text = is_under_text
         scales = SCALES if scale is None else (scale,)
         self._dots = [GlyphGrid(frame, each, least) for each in scales for least in _LEAST]
+        self._covered_labels = [CoveredLabels(each) for each in self._dots[:: len(_LEAST)]]
 
     def shows(self, text: str) -> bool:
         """Whether a shadowed text, a button's or not, stands there with nothing beside it."""
@@ -88,19 +87,17 @@ class MenuLabels:
         return MenuButton(problem=f"no button {label!r} is to be seen: is this menu open, and nothing over it?")
 
     def _covered(self, label: str, labels: list[_Label]) -> MenuButton | None:
-        """A button that the debug screen's lines cover in part: its edges, or less than half of a label in the middle.
+        """A button that the debug screen covers: its edges alone, or a part of its label.
 
         ``labels`` are those that are seen whole.
         """
         if len(labels) == 1:
             return MenuButton(labels[0].middle, labels[0].colour != DISABLED, scale=labels[0].scale)
         columns = self._font.columns(label)[:-1]
-        for dots in self._dots:
-            middle = dots.columns // 2
-            if row := dots.row_of_most(columns, middle - (len(columns) + 1) // 2, _MOSTLY):
-                colour = WHITE if dots.least > max(DISABLED) else DISABLED
-                where = (middle * dots.scale, (row + GLYPH_ROWS // 2) * dots.scale)
-                return MenuButton(where, colour != DISABLED, scale=dots.scale)
+        for covered in self._covered_labels:
+            if found := covered.find(columns):
+                (x, y), scale = found.middle, covered.dots.scale
+                return MenuButton((x * scale, y * scale), found.is_enabled, scale=scale)
         return None
 
     def _labels(self, text: str) -> list[_Label]:

@@ -1,0 +1,125 @@
+"""A button's label below the debug screen, known by those of its dots that still show.
+
+From 1.21.9 on the debug screen lies over menus. Its ground is half-transparent, so a label's colour below it is known;
+behind its letters, brighter than anything that is dimmed, a dot may be anything (FACTS: The F3 debug screen).
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from mc_nested.arrays import Bools
+from mc_nested.live.devices import Frame
+from mc_nested.live.vision.debug_boxes import ALPHA
+from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
+from mc_nested.live.vision.group_boxes import FACTS_GREY, TITLE_GREY
+from mc_nested.live.vision.text_colours import DISABLED, GLUE, INK_SPREAD, WHITE
+
+_GROUNDS = ((), (FACTS_GREY,), (TITLE_GREY,), (FACTS_GREY, FACTS_GREY))
+"""The greys that may lie over a dot: none, one, or one of each column of the debug screen."""
+
+_SEEN, _UNLIKE = 0.4, 0.15
+"""The least part of a label's dots that must show, each with its shadow, and the most that may show something else."""
+
+_ROOM = 100
+"""GUI pixels on each side of the window's middle that hold a label there: the largest button is 204 wide."""
+
+
+class CoveredLabel(NamedTuple):
+    """Where the ``middle`` of a label is in a grid's dots, and whether it is white, as one that can be pressed."""
+
+    middle: tuple[int, int]
+    is_enabled: bool
+
+
+class _Shown(NamedTuple):
+    """Which dots may be a label's: ``surely``, seen with their shadow below the same ground, or ``perhaps``."""
+
+    surely: Bools
+    perhaps: Bools
+
+
+@dataclass(frozen=True)
+class CoveredLabels:
+    """The labels on the dots of a frame of the whole window, at one scale, in its middle."""
+
+    dots: GlyphGrid
+
+    def find(self, columns: bytes) -> CoveredLabel | None:
+        """The label with these columns of dots, if enough of it shows; None if not."""
+        glyphs = np.unpackbits(np.frombuffer(columns, np.uint8)[np.newaxis], axis=0, bitorder="little")
+        casting = glyphs.copy()
+        casting[:-1, :-1] &= 1 - glyphs[1:, 1:]
+        for shown, is_white in self._shown:
+            if np.count_nonzero(shown.surely) < _SEEN * np.count_nonzero(casting):
+                continue
+            middle = self.dots.columns // 2
+            if (row := _row_of(shown, casting, middle - self._left - (len(columns) + 1) // 2)) is not None:
+                return CoveredLabel((middle, row + GLYPH_ROWS // 2), is_white)
+        return None
+
+    @property
+    def _left(self) -> int:
+        return max(0, self.dots.columns // 2 - _ROOM)
+
+    @cached_property
+    def _shown(self) -> tuple[tuple[_Shown, bool], ...]:
+        """What may be white labels, and grey ones."""
+        step, offset, left = self.dots.scale, self.dots.scale // 2, self._left
+        right = self.dots.columns // 2 + _ROOM
+        picture = np.ascontiguousarray(self.dots.frame[offset::step, offset::step][:, left:right])
+        if picture.size == 0:
+            return ()
+        return tuple((_shown(picture, colour[0]), colour == WHITE) for colour in (WHITE, DISABLED))
+
+
+def _shown(picture: Frame, shade: int) -> _Shown:
+    """Which dots of a picture may be a label's of that grey. The last row and column have no shadow."""
+    ink, shadow = np.zeros(picture.shape[:2], bool), np.zeros(picture.shape[:2], bool)
+    surely = np.zeros_like(ink)
+    for lit, cast in _pairs(shade):
+        like, casts = _near(picture, lit), _near(picture, cast)
+        surely[:-1, :-1] |= like[:-1, :-1] & casts[1:, 1:]
+        ink |= like
+        shadow |= casts
+    covered = picture.max(axis=2) >= min(GLUE) - INK_SPREAD
+    perhaps = covered.copy()
+    perhaps[:-1, :-1] |= ink[:-1, :-1] & (shadow | covered)[1:, 1:]
+    return _Shown(surely, perhaps)
+
+
+def _row_of(shown: _Shown, casting: NDArray[np.uint8], column: int) -> int | None:
+    """The row of a label that shows, begun within a dot of that column; ``casting`` has its dots with a shadow."""
+    columns = slice(column - 1, column + casting.shape[1] + 1)
+    rows, across = shown.surely.shape
+    if rows < GLYPH_ROWS or columns.start < 0 or columns.stop > across:
+        return None
+    shares = _shares(shown.surely[:, columns], casting)
+    shares[_shares(shown.perhaps[:, columns], casting) < 1 - _UNLIKE] = 0
+    row, at = np.unravel_index(int(shares.argmax()), shares.shape)
+    return int(row) if shares[row, at] >= _SEEN else None
+
+
+def _pairs(shade: int) -> Iterator[tuple[float, float]]:
+    """The shades in which a label of that one and its shadow are seen below each ground."""
+    for ground in _GROUNDS:
+        ink, shadow = float(shade), float(shade >> 2)
+        for grey in ground:
+            ink, shadow = (seen * (1 - ALPHA) + grey * ALPHA for seen in (ink, shadow))
+        yield ink, shadow
+
+
+def _near(picture: Frame, shade: float) -> Bools:
+    least, most = (max(0.0, shade - INK_SPREAD),) * 3, (shade + INK_SPREAD,) * 3
+    return np.asarray(cv2.inRange(picture, least, most) > 0)
+
+
+def _shares(mask: Bools, glyphs: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """For each place of a label in a mask, the part of its dots where the mask is set."""
+    kernel = glyphs.astype(np.float32)
+    return np.asarray(cv2.matchTemplate(mask.astype(np.float32), kernel, cv2.TM_CCORR) / kernel.sum(), np.float32)
