@@ -108,6 +108,21 @@ def test_another_gui_scale_in_the_same_window_is_noticed_also_with_a_packs_hotba
     assert not screen.shows_world()
 
 
+@pytest.mark.parametrize("opacity", [0.1, 0.5, 1.0])
+@pytest.mark.parametrize("version", ["1.20.1", "1.21.9", "26.4"])
+def test_an_empty_chat_is_not_the_world_while_its_cursor_is_off(
+    version: str, opacity: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = hud_layers.HudLayers._drawn_input
+    monkeypatch.setattr(hud_layers.HudLayers, "_drawn_input", lambda layers, typed: drawn(layers, typed)[:1])
+    options = GameOptions(text_background_opacity=opacity, background_for_chat_only=False)
+    client = VirtualClient(version=version, options=options)
+    client.clock.sleep(0.2)
+    client.game.open("chat")
+    client.clock.sleep(0.2)
+    assert not screen_of(client).shows_world()
+
+
 @pytest.mark.parametrize("version", VERSIONS[4:])
 def test_a_hotbar_that_a_pack_draws_otherwise_is_named_as_the_cause_soon(
     version: str, monkeypatch: pytest.MonkeyPatch
