@@ -13,7 +13,7 @@ from mc_nested.live.input.watchdog import watched
 from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.live_game import LiveGame, check_fits
 from mc_nested.live.menus.point_pictures import load_click_points
-from mc_nested.live.menus.wait_for_player import wait_until_standing_still
+from mc_nested.live.menus.wait_for_player import check_hotbar, wait_until_standing_still
 from mc_nested.live.model.scales import Scales
 from mc_nested.live.model.versions import later_version_line
 from mc_nested.live.profile.fingerprint import Fingerprint, check_fit, game_in
@@ -53,7 +53,7 @@ def open_live_game(  # noqa: PLR0913 - each of a session's parts can be another,
     Raises:
         ProfileError, FontError, DesktopError: it can't be played, or the profile was calibrated on another version,
             window or GUI scale. One line each.
-        LiveError: the game did not come to the front.
+        LiveError: the game did not come to the front, its debug screen can't be read, or its hotbar can't be seen.
     """
     profile = load_profile(profile_name)
     check_fits(scenario, profile, profile_name)
@@ -75,8 +75,9 @@ def open_live_game(  # noqa: PLR0913 - each of a session's parts can be another,
                 "Switching away again stops the agent."
             )
         wait_until_standing_still(connection)
-        check_fit(profile.calibrated, fingerprint_of(devices.display, connection.screen.seen_scales()), profile_name)
         points = load_click_points(profile, profile_path(profile_name))
+        check_hotbar(connection, points)
+        check_fit(profile.calibrated, fingerprint_of(devices.display, connection.screen.seen_scales()), profile_name)
         game = LiveGame(scenario, profile, connection, points=points, evidence=evidence)
         controller = connection.controller
         panic = open_panic_switch or _panic_switch_of_the_desktop

@@ -15,6 +15,7 @@ from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable, WindowTable
 from mc_nested.live.session import fingerprint_of, open_live_game
 from sim.client.client import VirtualClient
+from sim.client.drawing import hud_layers
 from sim.client.settings import ClientSettings
 from tests.live.virtual_session import ARENA, font_in, live_on, opener, profile_in, saved
 
@@ -55,6 +56,28 @@ def test_a_version_later_than_all_known_ones_is_played_with_one_line_about_it(tm
     with suppress(LiveError, DesktopError), opened:
         pass
     assert said[0].startswith("Minecraft 27.1 is later than 26.4")
+
+
+@pytest.mark.parametrize("version", ["1.21.9", "26.4"])
+def test_a_hotbar_that_can_not_be_seen_is_refused_soon_and_nothing_is_pressed(
+    version: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # As a resource pack may draw it.
+    monkeypatch.setattr(hud_layers, "_HOTBAR_FRAME", {0: 20, 1: 0x70, 2: 0x40, 19: 0x60, 20: 0x50, 21: 20})
+    client = VirtualClient(version=version)
+    began = client.clock.now()
+    with pytest.raises(LiveError, match="the hotbar isn't seen"), live_on(client)(LINE, profile_in(tmp_path), print):
+        pass
+    assert client.clock.now() - began < 5.0
+    assert (client.game.screen, client.window.down, client.window.strays) == ("world", set(), [])
+
+
+def test_a_game_menu_that_hides_the_hotbar_is_not_refused_but_left_by_the_first_reset(tmp_path: Path) -> None:
+    client = VirtualClient(version="26.4")
+    client.game.open("pause")
+    with live_on(client)(LINE, profile_in(tmp_path), print) as (game, _):
+        game.reset(0)
+    assert client.game.screen == "world"
 
 
 def test_a_profile_that_can_not_be_played_with_opens_no_window(tmp_path: Path) -> None:

@@ -6,7 +6,8 @@ from mc_nested.live.deadline import Deadline
 from mc_nested.live.devices import SWITCH_KEYS
 from mc_nested.live.menus.click_points import ClickPoints
 from mc_nested.live.menus.menu_navigator import MenuNavigator
-from mc_nested.live.menus.screens import ScreenName, identify_screen
+from mc_nested.live.menus.screens import NO_HOTBAR, ScreenName, identify_screen
+from mc_nested.live.model.timing import MENU_LOOK_S
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.profile.window_title import may_be_shared
 
@@ -73,6 +74,9 @@ class Recovery:
                     f"the world was not reached in {PATIENCE_S:g} s, the screen is {name} "
                     f"({reason or problem}): open the world, with the debug screen on, and start again"
                 )
+            if name == "menu" and passed[-2:] == ["menu", "pause"]:
+                # Esc closed nothing there, but opened the Game Menu, which was left.
+                raise LiveError(NO_HOTBAR)
             if not passed or passed[-1] != name:
                 passed.append(name)
                 self._journal.note("recovers", screen=name)
@@ -109,6 +113,11 @@ class Recovery:
         return self._identify()[0]
 
     def _identify(self) -> tuple[ScreenName, str]:
+        """The screen, and why it can't be read. A picture may be torn: a menu without a name is seen twice."""
+        seen = identify_screen(self._screen, self._display, self._points)
+        if seen[0] != "menu":
+            return seen
+        self._sleep(MENU_LOOK_S)
         return identify_screen(self._screen, self._display, self._points)
 
     def _says_multiplayer(self) -> bool:

@@ -35,6 +35,12 @@ PLAY_IT = "play_selected_world"
 RESPAWN = "respawn"
 """The names of the points that stand for buttons whose labels aren't found."""
 
+NO_HOTBAR = (
+    "the hotbar isn't seen as the game draws it: take off a resource pack that changes it, leave the spectator mode, "
+    "and close what lies over the world"
+)
+"""What may be so where nothing else shows why a world that can be read isn't seen played."""
+
 POINTS: dict[ScreenName, str] = {"pause": BACK, "death": RESPAWN, "title": ENTER, "worlds": PLAY_IT}
 """The points by which a screen is known."""
 

@@ -4,8 +4,13 @@ from mc_nested.errors import NotInFrontError, UnreadableError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
 from mc_nested.live.devices import SWITCH_KEYS, Devices
+from mc_nested.live.menus.click_points import ClickPoints
+from mc_nested.live.menus.screens import NO_HOTBAR, identify_screen
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.timing import PERSON_LOOK_S
+
+HOTBAR_S = 3.0
+"""How long the hotbar may be hidden by what has no name here, as by a picture that is black."""
 
 PATIENCE_S = 60.0
 """How long the player has to switch to the game and turn the debug screen on."""
@@ -43,6 +48,19 @@ def wait_until_standing_still(connection: GameConnection) -> Reading:
     if problem is None:
         raise _not_in_front()
     raise UnreadableError(f"the debug screen can't be read ({problem}): mend that, and run this again")
+
+
+def check_hotbar(connection: GameConnection, points: ClickPoints) -> None:
+    """UnreadableError, of one line, where the hotbar isn't seen, and no screen that is known hides it.
+
+    Called once the debug screen could be read. Nothing is pressed.
+    """
+    screen, devices = connection.screen, connection.devices
+    deadline = Deadline(devices.clock, HOTBAR_S)
+    while screen.seen_scales() is None and identify_screen(screen, devices.display, points)[0] == "menu":
+        if deadline.has_passed:
+            raise UnreadableError(NO_HOTBAR)
+        devices.clock.sleep_until(devices.clock.now() + PERSON_LOOK_S)
 
 
 def _not_in_front() -> NotInFrontError:

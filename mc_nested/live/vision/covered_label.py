@@ -37,7 +37,7 @@ class CoveredLabel(NamedTuple):
     is_enabled: bool
 
 
-class _Shown(NamedTuple):
+class ShownDots(NamedTuple):
     """Which dots may be a label's: ``surely``, seen with their shadow below the same ground, or ``perhaps``."""
 
     surely: Bools
@@ -52,14 +52,12 @@ class CoveredLabels:
 
     def find(self, columns: bytes) -> CoveredLabel | None:
         """The label with these columns of dots, if enough of it shows; None if not."""
-        glyphs = np.unpackbits(np.frombuffer(columns, np.uint8)[np.newaxis], axis=0, bitorder="little")
-        casting = glyphs.copy()
-        casting[:-1, :-1] &= 1 - glyphs[1:, 1:]
+        casting = casting_dots(columns)
         for shown, is_white in self._shown:
             if np.count_nonzero(shown.surely) < _SEEN * np.count_nonzero(casting):
                 continue
             middle = self.dots.columns // 2
-            if (row := _row_of(shown, casting, middle - self._left - (len(columns) + 1) // 2)) is not None:
+            if (row := label_row(shown, casting, middle - self._left - (len(columns) + 1) // 2)) is not None:
                 return CoveredLabel((middle, row + GLYPH_ROWS // 2), is_white)
         return None
 
@@ -68,38 +66,51 @@ class CoveredLabels:
         return max(0, self.dots.columns // 2 - _ROOM)
 
     @cached_property
-    def _shown(self) -> tuple[tuple[_Shown, bool], ...]:
+    def _shown(self) -> tuple[tuple[ShownDots, bool], ...]:
         """What may be white labels, and grey ones."""
         step, offset, left = self.dots.scale, self.dots.scale // 2, self._left
         right = self.dots.columns // 2 + _ROOM
         picture = np.ascontiguousarray(self.dots.frame[offset::step, offset::step][:, left:right])
         if picture.size == 0:
             return ()
-        return tuple((_shown(picture, colour[0]), colour == WHITE) for colour in (WHITE, DISABLED))
+        return tuple((shown_dots(picture, colour[0]), colour == WHITE) for colour in (WHITE, DISABLED))
 
 
-def _shown(picture: Frame, shade: int) -> _Shown:
+def shown_dots(picture: Frame, shade: int) -> ShownDots:
     """Which dots of a picture may be a label's of that grey. The last row and column have no shadow."""
     ink, shadow = np.zeros(picture.shape[:2], bool), np.zeros(picture.shape[:2], bool)
     surely = np.zeros_like(ink)
     for lit, cast in _pairs(shade):
-        like, casts = _near(picture, lit), _near(picture, cast)
+        like, casts = dots_near(picture, lit), dots_near(picture, cast)
         surely[:-1, :-1] |= like[:-1, :-1] & casts[1:, 1:]
         ink |= like
         shadow |= casts
     covered = picture.max(axis=2) >= min(GLUE) - INK_SPREAD
     perhaps = covered.copy()
     perhaps[:-1, :-1] |= ink[:-1, :-1] & (shadow | covered)[1:, 1:]
-    return _Shown(surely, perhaps)
+    return ShownDots(surely, perhaps)
 
 
-def _row_of(shown: _Shown, casting: NDArray[np.uint8], column: int) -> int | None:
+def casting_dots(columns: bytes) -> NDArray[np.uint8]:
+    """Of a label's dots (8, columns) those whose shadow is seen beside them."""
+    glyphs = np.unpackbits(np.frombuffer(columns, np.uint8)[np.newaxis], axis=0, bitorder="little")
+    casting: NDArray[np.uint8] = glyphs.copy()
+    casting[:-1, :-1] &= 1 - glyphs[1:, 1:]
+    return casting
+
+
+def label_row(shown: ShownDots, casting: NDArray[np.uint8], column: int) -> int | None:
     """The row of a label that shows, begun within a dot of that column; ``casting`` has its dots with a shadow."""
     columns = slice(column - 1, column + casting.shape[1] + 1)
     rows, across = shown.surely.shape
     if rows < GLYPH_ROWS or columns.start < 0 or columns.stop > across:
         return None
     shares = _shares(shown.surely[:, columns], casting)
+    # On a ground as bright as letters of the debug screen every dot may be covered: another text shows by the others.
+    beside = (
+        _shares(shown.surely[:, columns], np.ones_like(casting)) * casting.size / np.count_nonzero(casting) - shares
+    )
+    shares[beside > _UNLIKE] = 0
     shares[_shares(shown.perhaps[:, columns], casting) < 1 - _UNLIKE] = 0
     row, at = np.unravel_index(int(shares.argmax()), shares.shape)
     return int(row) if shares[row, at] >= _SEEN else None
@@ -114,7 +125,8 @@ def _pairs(shade: int) -> Iterator[tuple[float, float]]:
         yield ink, shadow
 
 
-def _near(picture: Frame, shade: float) -> Bools:
+def dots_near(picture: Frame, shade: float) -> Bools:
+    """Which dots of a picture are of about that grey."""
     least, most = (max(0.0, shade - INK_SPREAD),) * 3, (shade + INK_SPREAD,) * 3
     return np.asarray(cv2.inRange(picture, least, most) > 0)
 

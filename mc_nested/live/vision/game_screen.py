@@ -98,7 +98,12 @@ class WindowScreen:
         return self._reader.last_look
 
     def read(self) -> Reading:
-        return self._reader.read()
+        reading, look = self._reader.read(), self._reader.last_look
+        if self._debug and look and look.lines and look.lines.overlay.scale != self._debug[1]:
+            # The GUI scale was changed in the same window.
+            self._debug = self._display.size(), look.lines.overlay.scale
+            self._gui = self._gui if self._text_over_menus else self._debug
+        return reading
 
     def read_position(self) -> tuple[float, float, float] | None:
         return self._reader.read_position()

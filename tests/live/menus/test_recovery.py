@@ -148,6 +148,36 @@ def test_a_world_of_another_kind_is_not_the_one_that_was_left(before: str, after
         recovery.recover()
 
 
+class Torn(FakeMenus):
+    """The first picture of the hotbar is torn."""
+
+    def shows_world(self) -> bool:
+        self.looks_at_hotbar = getattr(self, "looks_at_hotbar", 0) + 1
+        return self.looks_at_hotbar > 1 and super().shows_world()
+
+
+def test_after_a_single_torn_picture_nothing_is_pressed() -> None:
+    menus = Torn()
+    assert recovery_in(menus).recover() == ()
+    assert menus.pressed == []
+    assert menus.clock.now() - 100.0 < EFFECT_S
+
+
+class Hidden(FakeMenus):
+    """The world's hotbar is never seen as the game draws it."""
+
+    def shows_world(self) -> bool:
+        return False
+
+
+def test_where_esc_only_opens_the_game_menu_the_hotbar_is_named() -> None:
+    menus = Hidden()
+    with pytest.raises(LiveError, match=r"the hotbar isn't seen .*: take off a resource pack"):
+        recovery_in(menus).recover()
+    assert menus.pressed == ["esc", (427, 100)]
+    assert menus.clock.now() - 100.0 < 5 * EFFECT_S
+
+
 @pytest.mark.parametrize("shown", ["world", "chat", "pause", "death"])
 def test_the_world_is_left_for_the_title(shown: str) -> None:
     menus = FakeMenus(shown)

@@ -76,6 +76,14 @@ def test_nor_is_it_taken_for_another(label: str) -> None:
     assert found(frame, label) is None
 
 
+@pytest.mark.parametrize("label", ["Disconnect", "Respawn", "Back to Game"])
+@pytest.mark.parametrize("shown", ["Game Paused", LABEL])
+def test_nor_on_a_ground_as_bright_as_letters(shown: str, label: str) -> None:
+    frame = np.full((480, 854, 3), 240, np.uint8)
+    MenuPainter(frame, SCALE, FONT, np.random.default_rng(0)).text(shown, 213 - len(FONT.columns(shown)) // 2, TOP)
+    assert found(frame, label) is None
+
+
 def test_what_letters_hide_almost_wholly_is_not_known() -> None:
     frame = button()
     frame[SCALE * TOP : SCALE * (TOP + 20), SCALE * 150 : SCALE * 270] = 224

@@ -1,14 +1,24 @@
 """What lies over the world is never taken for it, in any version, window and pair of scales; nor the world for that."""
 
+import dataclasses
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mc_nested.errors import LiveError
+from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.screens import identify_screen
+from mc_nested.live.model.scales import Scales
+from mc_nested.live.profile.tables import Profile
 from sim.client.client import VirtualClient
+from sim.client.drawing import hud_layers
 from sim.client.game.options import GameOptions
 from sim.client.game.screens import IN_WORLD, ScreenName
-from tests.sim.client.playing import screen_of
+from tests.sim.client.playing import connection_to, screen_of
+
+PACK = {0: 20, 1: 0x70, 2: 0x40, 19: 0x60, 20: 0x50, 21: 20}
+"""The greys of a hotbar's rows as a resource pack may draw them."""
 
 VERSIONS = ("1.12.2", "1.16.5", "1.20.1", "1.21.8", "1.21.9", "1.21.11", "26.1.2", "26.2", "26.3", "26.4")
 SIZES = st.one_of(
@@ -59,6 +69,71 @@ def test_only_the_world_is_taken_for_the_world(
 def test_both_scales_are_found(version: str, size: tuple[int, int], scale: int, debug_scale: int) -> None:
     client = _client(version, size, scale, debug_scale, "noise")
     assert screen_of(client).seen_scales() == client.scales
+
+
+@pytest.mark.parametrize("world", ["bright", "dark"])
+@pytest.mark.parametrize("words", ["Game Paused", "Spiel pausiert"])
+@pytest.mark.parametrize("version", VERSIONS)
+def test_a_pause_without_a_menu_is_ended_in_any_language_and_over_any_world(
+    version: str, words: str, world: str
+) -> None:
+    translated = {"Game Paused": words, "Game paused": words}
+    client = VirtualClient(version=version, scale=0, world=world, words=translated)
+    client.clock.sleep(0.2)
+    way = Recovery(Profile(), connection_to(client))
+    assert way.screen_name() == "world"
+    client.game.open("paused")
+    client.clock.sleep(0.2)
+    assert way.recover() == ("menu",)
+    assert client.game.screen == "world"
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.20.1", "1.21.8"])
+def test_another_gui_scale_in_the_same_window_is_noticed_also_with_a_packs_hotbar(
+    version: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(hud_layers, "_HOTBAR_FRAME", PACK)
+    client = _client(version, (1280, 720), 3, 0, "noise")
+    screen = screen_of(client)
+    assert screen.read().problem is None
+    assert screen.seen_scales() == Scales(3, 3)
+    client.settings = dataclasses.replace(client.settings, scale=2)
+    client.resize(client.window.size)
+    client.clock.sleep(0.2)
+    assert screen.read().problem is None
+    assert screen.seen_scales() == Scales(2, 2)
+    client.game.open("chat")
+    client.clock.sleep(0.2)
+    assert screen.is_chat_open()
+    assert not screen.shows_world()
+
+
+@pytest.mark.parametrize("opacity", [0.1, 0.5, 1.0])
+@pytest.mark.parametrize("version", ["1.20.1", "1.21.9", "26.4"])
+def test_an_empty_chat_is_not_the_world_while_its_cursor_is_off(
+    version: str, opacity: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = hud_layers.HudLayers._drawn_input
+    monkeypatch.setattr(hud_layers.HudLayers, "_drawn_input", lambda layers, typed: drawn(layers, typed)[:1])
+    options = GameOptions(text_background_opacity=opacity, background_for_chat_only=False)
+    client = VirtualClient(version=version, options=options)
+    client.clock.sleep(0.2)
+    client.game.open("chat")
+    client.clock.sleep(0.2)
+    assert not screen_of(client).shows_world()
+
+
+@pytest.mark.parametrize("version", VERSIONS[4:])
+def test_a_hotbar_that_a_pack_draws_otherwise_is_named_as_the_cause_soon(
+    version: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(hud_layers, "_HOTBAR_FRAME", PACK)
+    client = _client(version, (854, 480), 0, 0, "noise")
+    began = client.clock.now()
+    with pytest.raises(LiveError, match=r"hotbar isn't seen .* take off a resource pack"):
+        Recovery(Profile(), connection_to(client)).recover()
+    assert client.clock.now() - began < 5.0
+    assert client.game.screen == "world"
 
 
 @pytest.mark.parametrize("version", VERSIONS[4:])
