@@ -4,9 +4,8 @@ From 1.21.9 on the debug screen lies over menus. Its ground is half-transparent,
 behind its letters, brighter than anything that is dimmed, a dot may be anything (FACTS: The F3 debug screen).
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import NamedTuple
 
 import cv2
@@ -23,6 +22,9 @@ from mc_nested.live.vision.text_colours import DISABLED, GLUE, INK_SPREAD, WHITE
 _GROUNDS = ((), (FACTS_GREY,), (TITLE_GREY,), (FACTS_GREY, FACTS_GREY))
 """The greys that may lie over a dot: none, one, or one of each column of the debug screen."""
 
+_INK = (1 << len(_GROUNDS)) - 1
+"""The bits of a label's ink; those of its shadow follow."""
+
 _SEEN, _UNLIKE = 0.4, 0.15
 """The least part of a label's dots that must show, each with its shadow, and the most that may show something else."""
 
@@ -37,11 +39,34 @@ class CoveredLabel(NamedTuple):
     is_enabled: bool
 
 
-class ShownDots(NamedTuple):
-    """Which dots may be a label's: ``surely``, seen with their shadow below the same ground, or ``perhaps``."""
+class ShownDots:
+    """Which dots of a picture (height, width, 3) may be a label's of a shade of grey, by it and by their shadow."""
 
-    surely: Bools
-    perhaps: Bools
+    def __init__(self, picture: Frame, shade: int) -> None:
+        channels: NDArray[np.uint8] = np.asarray(cv2.LUT(picture, _codes(shade)), np.uint8)
+        codes: NDArray[np.uint8] = channels[..., 0] & channels[..., 1] & channels[..., 2]
+        self._picture, self._ink, self._shadow = picture, codes & _INK, codes >> len(_GROUNDS)
+        self._grounds = np.zeros_like(codes)
+        # The last row and column have no shadow.
+        self._grounds[:-1, :-1] = self._ink[:-1, :-1] & self._shadow[1:, 1:]
+
+    @property
+    def bare(self) -> Bools:
+        """Those that are seen with their shadow, and below no ground."""
+        return np.asarray(self._grounds & 1 > 0)
+
+    @cached_property
+    def surely(self) -> Bools:
+        """Those that are seen with their shadow below the same ground."""
+        return np.asarray(self._grounds > 0)
+
+    @cached_property
+    def perhaps(self) -> Bools:
+        """Those and the ones that letters of the debug screen may cover, or cover the shadow of."""
+        covered: Bools = self._picture.max(axis=2) >= min(GLUE) - INK_SPREAD
+        perhaps: Bools = covered.copy()
+        perhaps[:-1, :-1] |= (self._ink > 0)[:-1, :-1] & ((self._shadow > 0) | covered)[1:, 1:]
+        return perhaps
 
 
 @dataclass(frozen=True)
@@ -73,22 +98,7 @@ class CoveredLabels:
         picture = np.ascontiguousarray(self.dots.frame[offset::step, offset::step][:, left:right])
         if picture.size == 0:
             return ()
-        return tuple((shown_dots(picture, colour[0]), colour == WHITE) for colour in (WHITE, DISABLED))
-
-
-def shown_dots(picture: Frame, shade: int) -> ShownDots:
-    """Which dots of a picture may be a label's of that grey. The last row and column have no shadow."""
-    ink, shadow = np.zeros(picture.shape[:2], bool), np.zeros(picture.shape[:2], bool)
-    surely = np.zeros_like(ink)
-    for lit, cast in _pairs(shade):
-        like, casts = dots_near(picture, lit), dots_near(picture, cast)
-        surely[:-1, :-1] |= like[:-1, :-1] & casts[1:, 1:]
-        ink |= like
-        shadow |= casts
-    covered = picture.max(axis=2) >= min(GLUE) - INK_SPREAD
-    perhaps = covered.copy()
-    perhaps[:-1, :-1] |= ink[:-1, :-1] & (shadow | covered)[1:, 1:]
-    return ShownDots(surely, perhaps)
+        return tuple((ShownDots(picture, colour[0]), colour == WHITE) for colour in (WHITE, DISABLED))
 
 
 def casting_dots(columns: bytes) -> NDArray[np.uint8]:
@@ -116,19 +126,17 @@ def label_row(shown: ShownDots, casting: NDArray[np.uint8], column: int) -> int 
     return int(row) if shares[row, at] >= _SEEN else None
 
 
-def _pairs(shade: int) -> Iterator[tuple[float, float]]:
-    """The shades in which a label of that one and its shadow are seen below each ground."""
-    for ground in _GROUNDS:
+@cache
+def _codes(shade: int) -> NDArray[np.uint8]:
+    """For each grey 0 to 255 the grounds below which a label of that shade, or its shadow, is seen so: a bit each."""
+    greys, codes = np.arange(256), np.zeros(256, np.uint8)
+    for bit, ground in enumerate(_GROUNDS):
         ink, shadow = float(shade), float(shade >> 2)
         for grey in ground:
             ink, shadow = (seen * (1 - ALPHA) + grey * ALPHA for seen in (ink, shadow))
-        yield ink, shadow
-
-
-def dots_near(picture: Frame, shade: float) -> Bools:
-    """Which dots of a picture are of about that grey."""
-    least, most = (max(0.0, shade - INK_SPREAD),) * 3, (shade + INK_SPREAD,) * 3
-    return np.asarray(cv2.inRange(picture, least, most) > 0)
+        codes |= (np.abs(greys - ink) <= INK_SPREAD).astype(np.uint8) << bit
+        codes |= (np.abs(greys - shadow) <= INK_SPREAD).astype(np.uint8) << (bit + len(_GROUNDS))
+    return codes
 
 
 def _shares(mask: Bools, glyphs: NDArray[np.uint8]) -> NDArray[np.float32]:

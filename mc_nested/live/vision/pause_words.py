@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.vision.covered_label import casting_dots, dots_near, label_row, shown_dots
+from mc_nested.live.vision.covered_label import ShownDots, casting_dots, label_row
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS
 from mc_nested.live.vision.text_colours import WHITE
@@ -50,11 +50,9 @@ def shows_pause(frame: Frame, scale: int, font: Font) -> bool:
     dots = np.ascontiguousarray(frame[scale // 2 :: scale, scale // 2 :: scale])
     if dots.shape[0] < _ABOVE + GLYPH_ROWS + _BELOW or dots.shape[1] < _ROOM:
         return False
-    white = np.zeros(dots.shape[:2], bool)
-    white[:-1, :-1] = dots_near(dots, WHITE[0])[:-1, :-1] & dots_near(dots, WHITE[0] >> 2)[1:, 1:]
-    if _are_words(white):
+    shown = ShownDots(dots, WHITE[0])
+    if _are_words(shown.bare):
         return True
-    shown = shown_dots(dots, WHITE[0])
     return int(np.count_nonzero(shown.surely)) >= _FEW and any(
         label_row(shown, casting, (_ROOM - casting.shape[1]) // 2) == _ABOVE for casting in _words(font)
     )
