@@ -8,7 +8,7 @@ from mc_nested.live.model.versions import draws_text_over_menus
 from sim.client.drawing.scenery import WORLDS
 from sim.client.game.edition import Edition
 from sim.client.game.options import GameOptions
-from sim.client.settings import ClientSettings, gui_scale
+from sim.client.settings import ClientSettings, Size, gui_scale
 
 VERSIONS = (
     *("1.12.2", "1.13.2", "1.14.4", "1.15.2", "1.16.1", "1.16.5", "1.17.1", "1.18.2", "1.19.2", "1.19.3", "1.19.4"),
@@ -57,7 +57,7 @@ def every_version(seed: int) -> Iterator[ClientSettings]:
     rng = np.random.default_rng(seed)
     for version in VERSIONS:
         narrowest = LEAST_WIDTH if draws_text_over_menus(version) else NARROWEST
-        others = [_size(rng, narrowest) for _ in range(RANDOM_SIZES)]
+        others = [_size_of(rng, narrowest) for _ in range(RANDOM_SIZES)]
         for size in (*SIZES, *others):
             yield ClientSettings(seed=int(rng.integers(2**31)), version=version, size=size, scale=None)
 
@@ -100,16 +100,21 @@ def _client(rng: np.random.Generator, version: str) -> ClientSettings:
 
 def _window(rng: np.random.Generator) -> tuple[tuple[int, int], int]:
     """A size, odd or even, and a GUI scale that fits it; 0 is auto."""
-    scale = int(rng.integers(0, 6))
-    return _size(rng, NARROWEST, scale), scale
-
-
-def _size(rng: np.random.Generator, narrowest: int, scale: int = 0) -> tuple[int, int]:
-    """A window, odd or even, of at least so many GUI pixels of width at that GUI scale; 0 is auto."""
     while True:
-        size = (int(rng.integers(640, 2561)), int(rng.integers(480, 1441)))
-        if size[0] >= narrowest * gui_scale(size, scale):
-            return size
+        size, scale = _size(rng), int(rng.integers(0, 6))
+        if size[0] >= NARROWEST * gui_scale(size, scale):
+            return size, scale
+
+
+def _size(rng: np.random.Generator) -> Size:
+    return int(rng.integers(640, 2561)), int(rng.integers(480, 1441))
+
+
+def _size_of(rng: np.random.Generator, narrowest: int) -> Size:
+    """A window of at least so many GUI pixels of width at GUI scale Auto."""
+    while (size := _size(rng))[0] < narrowest * gui_scale(size, 0):
+        pass
+    return size
 
 
 def _latency(rng: np.random.Generator, least: float, most: float, spread: float) -> tuple[float, float]:

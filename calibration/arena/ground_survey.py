@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 
 from calibration.arena.block_queries import BlockQueries
-from calibration.arena.look_around import LookAroundResult, look_around, teleport_and_look
+from calibration.arena.look_around import ANGLE_TOLERANCE_DEG, LookAroundResult, look_around, teleport_and_look
 from calibration.arena.plan import box_at, box_of, copy_positions, floor_of, is_good_floor
 from calibration.command_console import CommandConsole
 from mc_nested.arena.action import Cell
 from mc_nested.errors import UserError
-from mc_nested.live.model.reading import Block
+from mc_nested.live.model.debug_entries import has_entries, switch_on
+from mc_nested.live.model.reading import Block, Reading
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import Profile
 
@@ -40,10 +41,7 @@ def survey_ground(
     pitch = profile.body.pitch
     target = teleport_and_look(console, f"{x:.1f} {y:.0f} {z:.1f} {arena.yaw:g} {pitch:g}", arena.yaw, pitch)
     if target is None or target.id is None:
-        raise UserError(
-            "the block looked at is not seen, or a teleport had no effect: allow cheats, and from Minecraft 1.21.9 on "
-            "switch the looked-at block on (F3+F6)"
-        )
+        raise UserError(_why_unseen(console.read(), pitch, profile.game.version))
     floor = target.id.removeprefix(profile.blocks.shown_prefix)
     is_free: bool | None = None
     is_flat: bool | None = None
@@ -81,3 +79,11 @@ def _free_copy_position(queries: BlockQueries, arena: Arena, version: str) -> Bl
         if queries.is_air(corner) and queries.are_alike(copy, above):
             return corner
     return None
+
+
+def _why_unseen(reading: Reading, pitch: float, version: str) -> str:
+    """Why no block is seen after a teleport that should look at the ground, and what to do."""
+    if reading.pitch is None or abs(reading.pitch - pitch) > ANGLE_TOLERANCE_DEG:
+        return "a teleport had no effect: allow cheats"
+    remedy = switch_on(version) if has_entries(version) else "stand on solid ground, out of the water"
+    return f"the debug screen names no block, though the ground is looked at: {remedy}"

@@ -7,7 +7,7 @@ from calibration.installation.debug_profile import DebugProfile, load_debug_prof
 from calibration.installation.folders import GameFolder
 from calibration.installation.options_txt import OptionsTxt
 from mc_nested.errors import ProfileError
-from mc_nested.live.model.debug_entries import has_entries
+from mc_nested.live.model.debug_entries import has_entries, on_button
 from mc_nested.live.model.versions import is_minecrafts
 
 _SEEN = (CheckName.POSITION_LINE, CheckName.TARGET_LINE)
@@ -61,7 +61,7 @@ def _judged(profile: DebugProfile) -> Check:
         return Check(row, "pass", f"{_listed(profile.needed)} are on")
     why = "" if profile.data is not None else ", since the default entries are shown"
     detail = f"{_listed(profile.off)} {'are' if len(profile.off) > 1 else 'is'} off{why}"
-    fix = f"press F3+F6 in the game, and set {_listed(profile.off)} to Always; or {FIX}"
+    fix = f"press F3+F6 in the game, and set {_listed(profile.off)} to {on_button(profile.version)}; or {FIX}"
     return Check(row, "fail", detail, fix)
 
 

@@ -14,6 +14,7 @@ from mc_nested.errors import DesktopError, NotInFrontError, WrongScreenError
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.profile.tables import KeysTable
+from mc_nested.live.vision.overlay import POSITION, REDUCED
 
 TRIES = 3
 """Presses to turn the debug screen on again: one may get lost."""
@@ -88,4 +89,5 @@ def _undone(step: Step) -> str:
 
 
 def _is_on(snapshot: WindowSnapshot) -> bool:
-    return snapshot.contents is not None and snapshot.contents.line is not None
+    """Whether the debug screen is on: an entry set to Always is shown without it, too."""
+    return snapshot.contents is not None and snapshot.contents.line in (POSITION, REDUCED)

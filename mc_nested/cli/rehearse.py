@@ -18,6 +18,8 @@ from mc_nested.errors import DesktopError, SeveralWindowsError, UserError
 from mc_nested.file_lock import file_lock
 from mc_nested.live.desktop.system import this_system
 from mc_nested.live.input.signals import signals_as_exit
+from mc_nested.live.model.debug_entries import on_button, target_entry
+from mc_nested.live.model.versions import is_minecrafts
 from mc_nested.live.profile.tables import WindowTable
 from mc_nested.live.vision.font import font_of, load_font
 from sim.client.drawing.font import drawn_atlas
@@ -92,8 +94,8 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         options=options,
         debug_entries=_entries(debug_profile, edition),
     )
-    if truth is not None and not truth.parent.is_dir():
-        raise UserError(f"{truth.parent} is no folder: name a file in a folder that exists")
+    if truth is not None and (truth.is_dir() or not truth.parent.is_dir()):
+        raise UserError(f"{truth} can't be written: name a file in a folder that exists")
     try:
         from sim.window.rehearsal import Rehearsal, rehearse
     except ImportError as error:
@@ -105,10 +107,8 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         )
         typer.echo(f"Rehearsing Minecraft {version}.{pauses}")
         if edition.since(1, 21, 9) and not names_block(settings.debug_entries, edition):
-            typer.echo(
-                "Its debug screen names no block yet, as in the game: press F3+F6 there, type looking_at_block, and"
-            )
-            typer.echo("set the first one to In Overlay (In F3 to 1.21.10).")
+            typer.echo("Its debug screen names no block yet, as in the game: press F3+F6 there, type")
+            typer.echo(f"{target_entry(version)}, press {on_button(version)}, then Done.")
         typer.echo("To learn calibration, run this in another terminal, and switch to the window:")
         typer.echo(f"  mc-nested calibrate all --profile rehearsal --font {font or _font_picture()}")
         if mishaps:
@@ -120,7 +120,7 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 
 
 def _version(name: str) -> str:
-    if not _VERSION.fullmatch(name):
+    if not _VERSION.fullmatch(name) or not is_minecrafts(name):
         raise UserError(f"no version {name!r} can be rehearsed: name one from 1.12 to 26.4, such as 1.20.1")
     return name
 

@@ -74,7 +74,7 @@ def open_live_game(  # noqa: PLR0913 - each of a session's parts can be another,
                 f"Switch to the game now with {SWITCH_KEYS}, not by a click, and have the debug screen on (F3). "
                 "Switching away again stops the agent."
             )
-        wait_until_standing_still(connection)
+        wait_until_standing_still(connection, say)
         points = load_click_points(profile, profile_path(profile_name))
         check_hotbar(connection, points)
         check_fit(profile.calibrated, fingerprint_of(devices.display, connection.screen.seen_scales()), profile_name)

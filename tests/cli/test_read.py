@@ -55,7 +55,7 @@ def test_no_block_with_the_ground_in_view_is_told_to_be_an_entry_that_is_off(
     (line,) = printed(capsys, ground, "--font", font)
     assert line.endswith(
         "looks at no block: if the ground is in view, that line is off: from 1.21.9 on press F3+F6, and set "
-        "looking_at_block (from 26.1 on looking_at_block_state) to Always"
+        "looking_at_block (from 26.1 on looking_at_block_state) to In Overlay"
     )
 
 

@@ -7,10 +7,11 @@ import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.live.model.kinematics import walk_response
+from mc_nested.live.model.versions import draws_text_over_menus
 from mc_nested.live.profile.tables import Profile, WalkTable
 from scripts.bench_calibration import ClientResult, calibrate_and_play, click_errors, report, walk_rms
 from scripts.bench_live import PlayCounts
-from scripts.calibration_clients import NARROWEST, VERSIONS, clients
+from scripts.calibration_clients import NARROWEST, RANDOM_SIZES, SIZES, VERSIONS, clients, every_version
 from sim.client.client import VirtualClient
 from sim.client.game.edition import Edition
 from sim.client.game.f3_text import LAYOUTS
@@ -42,6 +43,13 @@ def test_they_differ_in_all_that_a_calibration_measures() -> None:
 
 def test_their_windows_are_wide_enough_for_the_debug_screens_two_columns() -> None:
     assert all(client.size[0] >= NARROWEST * gui_scale(client.size, client.scale or 0) for client in clients(200, 1))
+
+
+def test_every_version_is_in_seven_windows_of_which_the_random_ones_are_as_wide_as_the_doctor_asks() -> None:
+    each = list(every_version(0))
+    assert Counter(client.version for client in each) == dict.fromkeys(VERSIONS, len(SIZES) + RANDOM_SIZES)
+    covered = [client for client in each if client.size not in SIZES and not draws_text_over_menus(client.version)]
+    assert all(client.size[0] >= NARROWEST * gui_scale(client.size, 0) for client in covered)
 
 
 def test_a_profile_of_the_games_own_walk_is_not_off_it_and_another_one_is() -> None:

@@ -60,9 +60,9 @@ def game_window(title: str, windows: Sequence[TitledWindow]) -> int:
             raise NoWindowError(
                 f"the game is still loading: wait for its title screen; windows on this desktop: {known}"
             )
+        what = "no window of the game is open" if title == GAME_TITLE else f"no window's title matches {title!r}"
         raise NoWindowError(
-            f"no window's title matches {title!r}: start the game, or, where it has another title, {_OWN_TITLE}; "
-            f"windows on this desktop: {known}"
+            f"{what}: start the game, or, where it has another title, {_OWN_TITLE}; windows on this desktop: {known}"
         )
     raise SeveralWindowsError(
         f"{len(found)} windows' titles match {title!r}: {_listed([repr(windows[index].title) for index in found])}: "

@@ -1,5 +1,8 @@
 """Waiting for a person: until the game is in front, its debug screen can be read, and the player stands still."""
 
+import math
+from collections.abc import Callable
+
 from mc_nested.errors import NotInFrontError, UnreadableError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.deadline import Deadline
@@ -8,6 +11,9 @@ from mc_nested.live.menus.click_points import ClickPoints
 from mc_nested.live.menus.screens import NO_HOTBAR, identify_screen
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.timing import PERSON_LOOK_S
+
+SAID_AFTER_S = 3.0
+"""How long a person who has just switched to the game is left alone."""
 
 HOTBAR_S = 3.0
 """How long the hotbar may be hidden by what has no name here, as by a picture that is black."""
@@ -26,8 +32,10 @@ def wait_for_front(devices: Devices) -> None:
         clock.sleep_until(clock.now() + PERSON_LOOK_S)
 
 
-def wait_until_standing_still(connection: GameConnection) -> Reading:
+def wait_until_standing_still(connection: GameConnection, say: Callable[[str], None] = lambda _: None) -> Reading:
     """The first reading that is the same twice in a row while the game is in front.
+
+    Where the debug screen can't be read for SAID_AFTER_S there, ``say`` is told why.
 
     Raises:
         NotInFrontError: the game was not in front when time ran out.
@@ -37,6 +45,7 @@ def wait_until_standing_still(connection: GameConnection) -> Reading:
     deadline = Deadline(clock, PATIENCE_S)
     before: Reading | None = None
     problem: str | None = None
+    unread_since: float | None = None
     connection.journal.note("waits", on="the game in front, its debug screen on, and the player standing still")
     while not deadline.has_passed:
         reading = connection.screen.read() if display.is_in_front() else None
@@ -44,6 +53,11 @@ def wait_until_standing_still(connection: GameConnection) -> Reading:
             return reading
         before = reading
         problem = (reading.problem or "the player keeps moving") if reading else None
+        if reading is not None and reading.problem is not None:
+            unread_since = clock.now() if unread_since is None else unread_since
+            if clock.now() - unread_since >= SAID_AFTER_S:
+                say(f"Waiting up to {PATIENCE_S:.0f} s for the debug screen: {reading.problem}")
+                unread_since = math.inf
         clock.sleep_until(clock.now() + PERSON_LOOK_S)
     if problem is None:
         raise _not_in_front()

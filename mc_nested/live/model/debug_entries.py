@@ -26,8 +26,13 @@ def target_entry(version: str) -> str:
     return _TARGET if version_numbers(version) < (26, 1) else _TARGET_FROM_26_1
 
 
+def on_button(version: str) -> str:
+    """The button that has an entry shown while the debug screen is on."""
+    return "In F3" if version_numbers(version) < (1, 21, 11) else "In Overlay"
+
+
 def switch_on(version: str | None) -> str:
     """How to switch that entry on in the game; None where the version isn't known."""
     if version is None:
-        return f"from 1.21.9 on press F3+F6, and set {_TARGET} (from 26.1 on {_TARGET_FROM_26_1}) to Always"
-    return f"press F3+F6 in the game, and set {target_entry(version)} to Always"
+        return f"from 1.21.9 on press F3+F6, and set {_TARGET} (from 26.1 on {_TARGET_FROM_26_1}) to In Overlay"
+    return f"press F3+F6 in the game, and set {target_entry(version)} to {on_button(version)}"

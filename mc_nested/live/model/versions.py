@@ -28,7 +28,7 @@ def is_minecrafts(version: str) -> bool:
     first, second, patch = version_numbers(version)
     if first == 1:
         return second < len(_LAST_PATCHES) and patch <= _LAST_PATCHES[second]
-    return first >= _FIRST_YEAR and 1 <= second <= _MOST_A_YEAR
+    return first >= _FIRST_YEAR and 1 <= second <= _MOST_A_YEAR and patch <= max(_LAST_PATCHES)
 
 
 def draws_text_over_menus(version: str) -> bool:

@@ -80,11 +80,25 @@ def test_a_slippery_floor_does_not_stay() -> None:
 
 
 @pytest.mark.parametrize("target", [None, Target((0, 63, 1), None)])
-def test_a_block_that_is_not_seen_or_has_no_name_ends_it(target: Target | None) -> None:
-    screen = console(target)
-    with pytest.raises(UserError, match="allow cheats"):
-        survey_ground(screen, ScriptedQueries(), Profile(), ARENA, ARENA.near_middle)
+@pytest.mark.parametrize(
+    ("version", "remedy"),
+    [
+        ("1.20.1", "stand on solid ground"),
+        ("1.21.10", "set looking_at_block to In F3$"),
+        ("26.3", "set looking_at_block_state to In Overlay$"),
+    ],
+)
+def test_a_block_that_is_not_seen_or_has_no_name_ends_it(target: Target | None, version: str, remedy: str) -> None:
+    screen, profile = console(target), Profile(game=GameVersion(version=version))
+    with pytest.raises(UserError, match=f"names no block, though the ground is looked at: .*{remedy}"):
+        survey_ground(screen, ScriptedQueries(), profile, ARENA, ARENA.near_middle)
     assert len(looks(screen.sent)) == 1
+
+
+def test_a_teleport_without_an_effect_asks_for_cheats() -> None:
+    screen = ScriptedConsole(lambda _: Reading(xyz=(0.5, 64.0, 0.5), yaw=0.0, pitch=0.0))
+    with pytest.raises(UserError, match="a teleport had no effect: allow cheats"):
+        survey_ground(screen, ScriptedQueries(), Profile(), ARENA, ARENA.near_middle)
 
 
 def test_a_copy_is_gone_where_there_is_only_air_as_above_it() -> None:

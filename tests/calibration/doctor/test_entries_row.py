@@ -9,7 +9,7 @@ from calibration.doctor.entries_row import entries_row, installed_version, targe
 from calibration.installation.folders import GameFolder
 from calibration.installation.options_txt import OptionsTxt, parse_options
 
-PRESS = f"press F3+F6 in the game, and set looking_at_block_state to Always; or {FIX}"
+PRESS = f"press F3+F6 in the game, and set looking_at_block_state to In Overlay; or {FIX}"
 
 
 def folder(path: Path, text: str | None = None, version: str | None = None) -> GameFolder:
@@ -36,7 +36,7 @@ def test_entries_that_are_on_are_named_and_those_that_are_off_with_what_to_do(tm
 def test_without_a_file_the_default_entries_are_shown(tmp_path: Path) -> None:
     found = row(tmp_path, None, "1.21.11")
     assert (found.status, found.detail) == ("fail", "looking_at_block is off, since the default entries are shown")
-    assert "set looking_at_block to Always" in found.fix
+    assert "set looking_at_block to In Overlay" in found.fix
 
 
 def test_a_damaged_file_is_one_clear_line(tmp_path: Path) -> None:

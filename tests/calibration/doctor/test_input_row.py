@@ -9,10 +9,12 @@ from calibration.doctor.check import Check
 from calibration.doctor.input_row import input_row
 from calibration.doctor.snapshot import WindowSnapshot, take_snapshot
 from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.model.debug_entries import target_entry
 from mc_nested.live.profile.tables import InputTable, KeysTable
 from mc_nested.live.vision.font import font_of
 from sim.client.client import VirtualClient
 from sim.client.drawing.font import drawn_atlas
+from sim.client.game.debug_entries import GAME_DEFAULT, DebugEntries
 from tests.calibration.contexts import started
 
 
@@ -45,6 +47,14 @@ def test_a_step_a_slot_and_the_debug_screen_are_seen_and_undone() -> None:
     assert player.slot == 4
     assert math.dist(player.feet, before) < 0.15
     assert not client.window.down
+
+
+@pytest.mark.parametrize("version", ["1.21.10", "26.3", "26.4"])
+def test_an_entry_that_is_always_shown_does_not_count_as_the_debug_screen(version: str) -> None:
+    entries: DebugEntries = {**GAME_DEFAULT, target_entry(version): "alwaysOn"}
+    client = started(VirtualClient(version=version, pitch=65.0, debug_entries=entries))
+    assert tried(client).status == "pass"
+    assert client.game.has_f3
 
 
 def test_a_step_that_was_not_wholly_taken_back_is_said_with_its_blocks() -> None:

@@ -79,9 +79,9 @@ def test_a_reduced_debug_screen_fails_with_its_remedy() -> None:
 @pytest.mark.parametrize(
     ("pitch", "version", "status", "fix"),
     [
-        (30.0, "1.21.9", "fail", "press F3+F6 in the game, and set looking_at_block to Always"),
-        (30.0, "1.21.11", "fail", "press F3+F6 in the game, and set looking_at_block to Always"),
-        (30.0, "26.1", "fail", "press F3+F6 in the game, and set looking_at_block_state to Always"),
+        (30.0, "1.21.9", "fail", "press F3+F6 in the game, and set looking_at_block to In F3"),
+        (30.0, "1.21.11", "fail", "press F3+F6 in the game, and set looking_at_block to In Overlay"),
+        (30.0, "26.1", "fail", "press F3+F6 in the game, and set looking_at_block_state to In Overlay"),
         (30.0, "1.21.8", "fail", "stand on solid ground, out of the water"),
         (29.9, "1.21.9", "skip", "look down at the ground, and run this again"),
         (30.0, "", "fail", switch_on(None)),

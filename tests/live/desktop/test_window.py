@@ -60,7 +60,9 @@ def test_a_game_that_is_loading_is_waited_for() -> None:
 
 
 def test_a_missing_window_is_an_error_that_names_titles_that_exist() -> None:
-    with pytest.raises(NoWindowError, match=r"start the game.*'Minecraft Launcher', 'Terminal'"):
+    with pytest.raises(
+        NoWindowError, match=r"^no window of the game is open: start the game.*'Minecraft Launcher', 'Terminal'"
+    ):
         found(GAME_TITLE, ["Terminal", "", "Minecraft Launcher"])
 
 

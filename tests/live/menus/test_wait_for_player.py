@@ -1,6 +1,7 @@
 """Waiting for a person: what counts as standing still, and the error when time runs out."""
 
 import dataclasses
+from collections.abc import Callable
 
 import pytest
 
@@ -51,14 +52,16 @@ class Window:
         raise AssertionError(region)
 
 
-def standing(readings: list[Reading], looks_until_front: int = 0) -> Reading:
+def standing(
+    readings: list[Reading], looks_until_front: int = 0, say: Callable[[str], None] = lambda _: None
+) -> Reading:
     """Where the player is found to stand; the last of these readings is repeated."""
     game = FakeGame(Profile())
     later = iter(readings)
     devices = dataclasses.replace(devices_of(game), display=Window(looks_until_front), clock=SkippingClock())
     controller = InputController(devices, game.profile.input)
     return wait_until_standing_still(
-        GameConnection(devices, controller, FakeScreen(game, lambda: next(later, readings[-1])))
+        GameConnection(devices, controller, FakeScreen(game, lambda: next(later, readings[-1]))), say
     )
 
 
@@ -74,6 +77,15 @@ def test_a_game_that_stays_behind_another_window_is_an_error() -> None:
 def test_a_debug_screen_that_stays_off_is_an_error_with_the_readers_reason() -> None:
     with pytest.raises(UnreadableError, match=r"can't be read \(no XYZ line"):
         standing([Reading(problem="no XYZ line: press F3")])
+
+
+def test_what_keeps_the_debug_screen_from_being_read_is_said_once_and_soon() -> None:
+    said: list[str] = []
+    off = [Reading(problem="no XYZ line: press F3")]
+    assert standing([*off * 4, HERE], say=said.append) == HERE
+    assert said == []
+    assert standing([*off * 100, HERE], say=said.append) == HERE
+    assert said == ["Waiting up to 60 s for the debug screen: no XYZ line: press F3"]
 
 
 def test_a_player_who_never_stands_still_is_an_error() -> None:
