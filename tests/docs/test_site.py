@@ -135,3 +135,8 @@ def test_every_page_that_links_to_a_file_of_the_project_links_to_one_that_is_the
         targets = [target for target in re.findall(r"\]\(([^)\s#]+)[^)]*\)", text) if not is_elsewhere(target)]
         broken += [f"{page}: {target}" for target in targets if not ((ROOT / page).parent / target).exists()]
     assert broken == []
+
+
+def test_no_page_holds_two_versions_of_its_text_that_were_not_merged() -> None:
+    texts = {page: (ROOT / page).read_text("utf-8") for page in pages()}
+    assert [page for page, text in texts.items() if re.search("^(<{7}|>{7}) ", text, re.MULTILINE)] == []
