@@ -60,7 +60,9 @@ class Window:
     def is_walking(self) -> bool:
         """Whether the agent takes a step: an episode has begun, and its reset is over."""
         now = self.rehearsal.truth.now()
-        return now["screen"] == "world" and not WALKING.isdisjoint(now["keys_down"])
+        keys = set(now["keys_down"])
+        # With F3 the key D clears the chat, in a reset.
+        return now["screen"] == "world" and not WALKING.isdisjoint(keys) and "f3" not in keys
 
     def press(self, keycode: int) -> None:
         """Press a key as a keyboard does."""
