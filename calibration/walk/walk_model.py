@@ -29,9 +29,10 @@ PLAIN_SPEED = displacement(200) / 200 / TICK_S
 OTHER_SPEED, OTHER_INERTIA = 0.015, 0.01
 """How far speed (relative) and inertia (absolute) may be off the plain walker's before a warning says so."""
 
-SLOW_FRAMES = 0.15
-"""The share of presses and releases that don't fit the round trip where frames are slow: 0.18 and more at up to 18
-frames a second; 0.12 at most in a game of 60 that stalls every second or so."""
+SLOW_FRAMES, SURELY_SLOW = 0.15, 0.25
+"""The share of presses and releases that don't fit the round trip where frames are slow: 0.17 and more at up to 18
+frames a second, 0.34 and more at up to 13. In a game of 60 that stalls every second or so it is 0.20 at most, and some
+holds are late or not of whole ticks: at 14 to 18 frames a second none is."""
 
 LAGGING = 0.1
 """The share of all holds that may be outliers or late before a warning says so."""
@@ -76,7 +77,7 @@ class WalkModel:
     def table(self) -> WalkTable:
         """The profile's table."""
         # Where several ticks come in a frame, the round trip looks too short.
-        shortest_s = INPUT_LATENCY_S + CAPTURE_LATENCY_S if self.disagreeing > SLOW_FRAMES else 0.0
+        shortest_s = INPUT_LATENCY_S + CAPTURE_LATENCY_S if self.has_slow_frames else 0.0
         input_latency_s, capture_latency_s = latencies(max(self.round_trip_s, shortest_s))
         return WalkTable(
             covered=tuple(round(self.walking.covered(ticks), 4) for ticks in range(1, TICKS + 1)),
@@ -85,6 +86,12 @@ class WalkModel:
             input_latency_s=round(input_latency_s, 4),
             capture_latency_s=round(capture_latency_s, 4),
         )
+
+    @property
+    def has_slow_frames(self) -> bool:
+        """Whether frames are slower than ticks, all of them: stalls make some holds late, or of no whole ticks."""
+        has_stalls = self.outliers + self.late > 0
+        return self.disagreeing > (SURELY_SLOW if has_stalls else SLOW_FRAMES)
 
     @property
     def is_lagging(self) -> bool:

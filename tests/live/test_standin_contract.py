@@ -12,13 +12,16 @@ import pytest
 from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import build_with_materials
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.errors import NotConfirmedError
+from mc_nested.errors import NotConfirmedError, WrongScreenError
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.session import open_live_game
 from scripts import standin_oracle
 from scripts.standin import ROOT
 from tests.arena.game_contract import BUMPS, check_game, check_materials
 from tests.standin_fixture import Standin
+
+STALLS = ("carried on while it clicked", "was not just seen on the screen")
+"""What an error says that a stall of the stand-in's frames brings about."""
 
 TRIES = 3
 """Times that a check is begun."""
@@ -49,11 +52,14 @@ def play_in_the_window(profile: str, oracle: str) -> None:
 
 
 def start_over_after_a_stall(check: Callable[[], None], tries: int = TRIES) -> None:
-    """Begin the check again where a stall of the stand-in's frames carried the agent on, as a trainer does (FACTS)."""
+    """Begin the check again where a stall of the stand-in's frames carried the agent on, as a trainer does (FACTS).
+
+    So too where each look before a press took so long that none was fresh, and nothing was pressed.
+    """
     try:
         check()
-    except NotConfirmedError as error:
-        if tries == 1 or "carried on while it clicked" not in str(error):
+    except (NotConfirmedError, WrongScreenError) as error:
+        if tries == 1 or not any(stall in str(error) for stall in STALLS):
             raise
         print(f"starts over: {error}")
         start_over_after_a_stall(check, tries - 1)

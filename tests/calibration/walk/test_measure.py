@@ -231,7 +231,7 @@ def test_lag_costs_holds_but_not_accuracy(seed: int, tmp_path: Path, monkeypatch
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", range(12))
 def test_in_a_quick_game_that_stalls_the_latencies_are_its_own(seed: int, tmp_path: Path) -> None:
     client = VirtualClient(seed=seed, pitch=65.0, input_latency_s=(0.001, 0.004), capture_latency_s=(0.002, 0.006))
     rng = np.random.default_rng(seed)
@@ -241,9 +241,7 @@ def test_in_a_quick_game_that_stalls_the_latencies_are_its_own(seed: int, tmp_pa
         client.clock.call_at(client.clock.now() + float(rng.exponential(1.0)), stall)
 
     stall()
-    found = measured(client, tmp_path)
-    assert any(line.startswith("Warning: the game lags") for line in found.lines)
-    walk_table = found.profile.walk
+    walk_table = measured(client, tmp_path).profile.walk
     assert walk_table.input_latency_s + walk_table.capture_latency_s == pytest.approx(0.0105, abs=0.006)
 
 
