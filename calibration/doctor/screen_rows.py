@@ -7,7 +7,7 @@ from calibration.doctor.picture_faults import picture_fault
 from calibration.doctor.snapshot import ScreenContents, WindowSnapshot
 from calibration.installation.options_txt import OptionsTxt
 from mc_nested.live.devices import Frame
-from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, has_entries, switch_on
+from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, have_block_named
 from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.overlay import POSITION, REDUCED
@@ -109,8 +109,11 @@ def _target_line(contents: ScreenContents, version: str | None) -> Check:
         return Check(row, "pass", f"{reading.target.id} at {xyz}")
     if reading.pitch is None:
         return Check(row, "skip", "the debug screen isn't read")
-    is_switched = version is None or has_entries(version)
-    fix = switch_on(version) if is_switched else "stand on solid ground, out of the water"
     if reading.pitch >= GROUND_PITCH_DEG:
-        return Check(row, "fail", f"missing, with the ground in view ({reading.pitch:.0f} degrees down)", fix)
+        return Check(
+            row,
+            "fail",
+            f"missing, with the ground in view ({reading.pitch:.0f} degrees down)",
+            have_block_named(version),
+        )
     return Check(row, "skip", "no block is looked at", "look down at the ground, and run this again")

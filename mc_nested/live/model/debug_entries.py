@@ -36,3 +36,8 @@ def switch_on(version: str | None) -> str:
     if version is None:
         return f"from 1.21.9 on press F3+F6, and set {_TARGET} (from 26.1 on {_TARGET_FROM_26_1}) to In Overlay"
     return f"press F3+F6 in the game, and set {target_entry(version)} to {on_button(version)}"
+
+
+def have_block_named(version: str | None) -> str:
+    """What to do where the ground is looked at and no block is named; None where the version isn't known."""
+    return switch_on(version) if version is None or has_entries(version) else "stand on solid ground, out of the water"

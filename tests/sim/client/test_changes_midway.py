@@ -58,6 +58,12 @@ class Run:
             assert outcome.cell == self.client.cell(arena)
         assert self.client.placed(arena) == built
 
+    def check_it_goes_on(self) -> None:
+        """The next episode begins where it should, and all is built."""
+        assert self.game.reset(LINE.best_material) == LINE.start == self.client.cell(arena_of(self.client))
+        self.build()
+        self.check_nothing_went_astray()
+
     def check_nothing_went_astray(self) -> None:
         """Every key is up, and none was pressed into a screen or into another window."""
         assert (self.presses.into_screens, self.presses.too_late) == (0, 0)
@@ -107,9 +113,7 @@ def test_where_the_profile_names_the_scale_another_one_is_one_line_that_says_so(
         run.build()
     run.check_nothing_went_astray()
     run.change()
-    assert run.game.reset(LINE.best_material) == LINE.start == run.client.cell(arena_of(run.client))
-    run.build()
-    run.check_nothing_went_astray()
+    run.check_it_goes_on()
 
 
 @pytest.mark.parametrize("version", ["1.20.1", "26.4"])
@@ -154,9 +158,7 @@ def test_a_screen_that_opens_behind_the_look_that_confirms_gets_no_press(
     assert client.game.screen == screen
     assert client.placed(arena_of(client)) == set()
     run.check_nothing_went_astray()
-    assert run.game.reset(LINE.best_material) == LINE.start == client.cell(arena_of(client))
-    run.build()
-    run.check_nothing_went_astray()
+    run.check_it_goes_on()
 
 
 @pytest.mark.parametrize("version", VERSIONS)
@@ -181,9 +183,7 @@ def test_a_screen_that_opens_while_a_block_is_waited_for_gets_no_second_click(
     assert clicks == ["right"]
     assert client.game.screen == screen
     run.check_nothing_went_astray()
-    assert run.game.reset(LINE.best_material) == LINE.start == client.cell(arena_of(client))
-    run.build()
-    run.check_nothing_went_astray()
+    run.check_it_goes_on()
 
 
 @pytest.mark.parametrize("version", VERSIONS)
