@@ -15,6 +15,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from xml.etree import ElementTree
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from scripts import environment
@@ -109,7 +110,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("\nstopped")
         return 130
     print("\n" + "\n".join(table(outcomes)))
-    return 1 if any(code for code, _ in outcomes.values()) else 0
+    return 1 if any(outcome.code for outcome in outcomes.values()) else 0
 
 
 def announcement(checks: Mapping[str, Check]) -> list[str]:
@@ -128,24 +129,47 @@ def announcement(checks: Mapping[str, Check]) -> list[str]:
     ]
 
 
-def run_all(checks: Mapping[str, Check], programs: Path) -> dict[str, tuple[int, float]]:
-    """Each check's exit code and how many seconds it took; one that runs beside others is shown after them."""
-    outcomes: dict[str, tuple[int, float]] = {}
+@dataclass(frozen=True)
+class Outcome:
+    """A check's exit code, how many seconds it took, and its tests that failed."""
+
+    code: int
+    seconds: float
+    failed: Sequence[str] = ()
+
+
+def run_all(checks: Mapping[str, Check], programs: Path) -> dict[str, Outcome]:
+    """Each check's outcome; one that runs beside others is shown after them."""
+    ended: dict[str, tuple[int, float]] = {}
     with ExitStack() as stack:
+        reports = Path(stack.enter_context(tempfile.TemporaryDirectory()))
         beside: dict[str, BesideRun] = {}
         for name, check in checks.items():
             command: list[str | Path] = [programs / check.command[0], *check.command[1:]]
             print(f"\n== {name}: {' '.join(check.command)}", flush=True)
+            if check.command[0] == "pytest":
+                command.append(f"--junitxml={reports / name}.xml")
             if check.is_beside and len(checks) > 1:
                 print("runs beside the checks that follow, and is shown after them", flush=True)
                 beside[name] = stack.enter_context(running_beside(command, check.variables))
                 continue
             began = time.monotonic()
-            outcomes[name] = environment.run(command, check.variables), time.monotonic() - began
+            ended[name] = environment.run(command, check.variables), time.monotonic() - began
         for name, run in beside.items():
             print(f"\n== {name}, beside the checks before", flush=True)
-            outcomes[name] = run.show()
-    return {name: outcomes[name] for name in checks}
+            ended[name] = run.show()
+        return {name: Outcome(*ended[name], failed_tests(reports / f"{name}.xml")) for name in checks}
+
+
+def failed_tests(report: Path) -> list[str]:
+    """The tests that failed by pytest's report in JUnit's format; none where there is no report."""
+    if not report.exists():
+        return []
+    return [
+        f"{test.get('classname')}::{test.get('name')}"
+        for test in ElementTree.parse(report).iter("testcase")  # noqa: S314  # pytest wrote it
+        if test.find("failure") is not None or test.find("error") is not None
+    ]
 
 
 @dataclass(frozen=True)
@@ -182,11 +206,13 @@ def running_beside(command: Sequence[str | Path], variables: Mapping[str, str]) 
             environment.end(process)
 
 
-def table(outcomes: Mapping[str, tuple[int, float]]) -> list[str]:
-    """A row a check: whether it passed, and how long it took."""
-    return [
-        f"{'failed' if code else 'passed'}  {name:<30} {seconds:6.0f} s" for name, (code, seconds) in outcomes.items()
-    ]
+def table(outcomes: Mapping[str, Outcome]) -> list[str]:
+    """A row a check: whether it passed, and how long it took; below it the tests that failed."""
+    rows = []
+    for name, outcome in outcomes.items():
+        rows.append(f"{'failed' if outcome.code else 'passed'}  {name:<30} {outcome.seconds:6.0f} s")
+        rows.extend(f"        {test}" for test in outcome.failed)
+    return rows
 
 
 if __name__ == "__main__":

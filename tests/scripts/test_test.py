@@ -52,7 +52,7 @@ def test_a_failure_ends_nothing_and_stands_in_the_table(capfd: pytest.CaptureFix
         "last": script("print('from the last')"),
     }
     outcomes = run_all(checks, PYTHON.parent)
-    assert [code for code, _ in outcomes.values()] == [3, 0, 0]
+    assert [outcome.code for outcome in outcomes.values()] == [3, 0, 0]
     assert list(outcomes) == ["first", "beside", "last"]
     said = capfd.readouterr().out
     assert said.index("\nfrom the last") < said.index("\nfrom beside")
@@ -61,6 +61,15 @@ def test_a_failure_ends_nothing_and_stands_in_the_table(capfd: pytest.CaptureFix
         ["passed", "beside"],
         ["passed", "last"],
     ]
+
+
+def test_the_tests_that_failed_stand_below_their_row(tmp_path: Path) -> None:
+    test_file = tmp_path / "test_two.py"
+    test_file.write_text("def test_right(): pass\ndef test_wrong(): assert False\n")
+    check = Check(["pytest", "-q", "-p", "no:cacheprovider", f"--rootdir={tmp_path}", str(test_file)], 1)
+    first, second = table(run_all({"unit tests": check}, PYTHON.parent))
+    assert first.startswith("failed  unit tests")
+    assert second.strip() == "test_two::test_wrong"
 
 
 def test_a_check_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str]) -> None:

@@ -8,6 +8,7 @@ import os
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
@@ -142,6 +143,19 @@ def until_asked(name: str) -> Act:
     return act
 
 
+def once_it_trains(workers: Workers, other: str, ending: Ending) -> Act:
+    """Ends so as soon as the other job is being trained."""
+
+    def act(_: Connection) -> Ending:
+        deadline = time.monotonic() + 10
+        while other not in (name for name, _ in workers.trained):
+            assert time.monotonic() < deadline
+            time.sleep(0.001)
+        return ending
+
+    return act
+
+
 def test_each_job_is_trained_once_in_its_folder_and_in_order(workers: Workers) -> None:
     heard = train(1, "a", "b", "c")
     assert workers.trained == [("a", Path("a")), ("b", Path("b")), ("c", Path("c"))]
@@ -182,7 +196,8 @@ def test_all_that_a_process_says_is_passed_on_and_now_and_then_nothing(workers: 
 
 
 def test_a_job_that_fails_ends_it_and_the_others_are_saved(workers: Workers) -> None:
-    workers.acts = {"a": lambda _: JobEnded("a", finished=False, failed="the disk is full"), "b": until_asked("b")}
+    failed = JobEnded("a", finished=False, failed="the disk is full")
+    workers.acts = {"a": once_it_trains(workers, "b", failed), "b": until_asked("b")}
     with pytest.raises(RunError, match=r"^the disk is full$"):
         train(2, "a", "b", "c")
     assert {name for name, _ in workers.trained} == {"a", "b"}
@@ -202,7 +217,7 @@ def test_a_job_that_fails_ends_it_and_the_others_are_saved(workers: Workers) -> 
 def test_a_process_that_is_lost_ends_it_and_the_others_are_saved(ending: Ending, says: str, workers: Workers) -> None:
     if sys.platform == "win32" and isinstance(ending, int) and ending < 0:
         pytest.skip("Windows has no signals for other processes")
-    workers.acts = {"a": lambda _: ending, "b": until_asked("b")}
+    workers.acts = {"a": once_it_trains(workers, "b", ending), "b": until_asked("b")}
     with pytest.raises(RunError, match=f"^{says}"):
         train(2, "a", "b", "c")
     assert {name for name, _ in workers.trained} == {"a", "b"}
@@ -213,7 +228,7 @@ def test_a_failure_is_reported_before_a_loss(workers: Workers) -> None:
         pipe.poll(10)
         return JobEnded("b", finished=False, failed="the disk is full")
 
-    workers.acts = {"a": lambda _: 3, "b": fail_when_asked}
+    workers.acts = {"a": once_it_trains(workers, "b", 3), "b": fail_when_asked}
     with pytest.raises(RunError, match="the disk is full"):
         train(2, "a", "b")
 
