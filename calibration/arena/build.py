@@ -30,6 +30,7 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import NotConfirmedError, UserError
 from mc_nested.live.menus.commands import teleport_command
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
+from mc_nested.live.model.debug_entries import why_none_is_named
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena, near_middle
 from mc_nested.live.profile.fingerprint import game_in
@@ -94,8 +95,8 @@ def build_arena(
 
     Raises:
         DesktopError: others may share the game, and that is not allowed; nothing was pressed.
-        UserError: no arena can be where the player stands, the world has no commands, its blocks aren't loaded, or the
-            answer was no.
+        UserError: no arena can be where the player stands, the debug screen names no block, the world has no commands,
+            its blocks aren't loaded, or the answer was no.
         NotConfirmedError: what was built is not what is seen.
         NotInFrontError, UnreadableError: the game isn't in front, or its debug screen can't be read.
     """
@@ -107,11 +108,14 @@ def build_arena(
     materials = shipped_materials()
     connection = context.connection.for_profile(profile)
     display, screen = connection.devices.display, connection.screen
-    context.say("Stand on the middle of the arena's near edge and look across it; then leave mouse and keys alone.")
+    context.say("Stand on the middle of the arena's near edge, and look across it and down at the ground.")
+    context.say("Then leave mouse and keys alone.")
     reading = wait_until_standing_still(connection)
     connection.check_single_player()
-    arena = arena_from_reading(reading, standing, size)
     profile = profile.model_copy(update={"game": game_in(display.title(), profile.game)})
+    if reason := why_none_is_named(reading, profile.game.version):
+        raise UserError(": ".join(reason))
+    arena = arena_from_reading(reading, standing, size)
     console = CommandConsole(connection, profile)
     queries = BlockQueries(console, profile, screen, arena.yaw)
     ground = survey_ground(console, queries, profile, arena, standing)

@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping
 
-from calibration.doctor.check import FIX, Check, CheckName, check_from_message
+from calibration.doctor.check import FIX, Check, CheckName, Status, check_from_message
 from calibration.doctor.picture_faults import picture_fault
 from calibration.doctor.snapshot import ScreenContents, WindowSnapshot
 from calibration.installation.options_txt import OptionsTxt
 from mc_nested.live.devices import Frame
-from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, have_block_named
+from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, LOOK_DOWN, has_entries, have_block_named
 from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.overlay import POSITION, REDUCED
@@ -116,4 +116,6 @@ def _target_line(contents: ScreenContents, version: str | None) -> Check:
             f"missing, with the ground in view ({reading.pitch:.0f} degrees down)",
             have_block_named(version),
         )
-    return Check(row, "skip", "no block is looked at", "look down at the ground, and run this again")
+    # From 1.21.9 on the line may be off: a calibration begins only where it was seen.
+    status: Status = "fail" if version is not None and has_entries(version) else "skip"
+    return Check(row, status, "no block is looked at", LOOK_DOWN)

@@ -44,7 +44,7 @@ def calibrate(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     quiet: QuietOption = False,
     as_json: JsonOption = False,
 ) -> None:
-    """Do all of it in one go, in about two minutes; stand on the middle of the arena's near edge and look across it."""
+    """Do all of it in one go, in about two minutes: stand on the arena's near edge, and look across it and down."""
     output = Output(quiet, as_json)
     steps = registered_steps(
         font, size=arena_size(size, scenario, layer), standing=standing, path=profile_path(profile)

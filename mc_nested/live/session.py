@@ -13,7 +13,7 @@ from mc_nested.live.input.watchdog import watched
 from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.live_game import LiveGame, check_fits
 from mc_nested.live.menus.point_pictures import load_click_points
-from mc_nested.live.menus.wait_for_player import check_hotbar, wait_until_standing_still
+from mc_nested.live.menus.wait_for_player import check_block_is_named, check_hotbar, wait_until_standing_still
 from mc_nested.live.model.scales import Scales
 from mc_nested.live.model.versions import later_version_line
 from mc_nested.live.profile.fingerprint import Fingerprint, check_fit, game_in
@@ -61,7 +61,8 @@ def open_live_game(  # noqa: PLR0913 - each of a session's parts can be another,
     with open_devices(profile.window.title) as window, open_recorder(profile, window) as recording:
         prepare_keyboard(profile, window)
         devices = recording.devices(window)
-        if line := later_version_line(game_in(devices.display.title(), profile.game).version):
+        version = game_in(devices.display.title(), profile.game).version
+        if line := later_version_line(version):
             say(line)
         journals = Journals(*([journal] if journal else []), recording)
         connection = connect(
@@ -74,10 +75,11 @@ def open_live_game(  # noqa: PLR0913 - each of a session's parts can be another,
                 f"Switch to the game now with {SWITCH_KEYS}, not by a click, and have the debug screen on (F3). "
                 "Switching away again stops the agent."
             )
-        wait_until_standing_still(connection, say)
+        reading = wait_until_standing_still(connection, say)
         points = load_click_points(profile, profile_path(profile_name))
         check_hotbar(connection, points)
         check_fit(profile.calibrated, fingerprint_of(devices.display, connection.screen.seen_scales()), profile_name)
+        check_block_is_named(reading, version)
         game = LiveGame(scenario, profile, connection, points=points, evidence=evidence)
         controller = connection.controller
         panic = open_panic_switch or _panic_switch_of_the_desktop

@@ -57,7 +57,7 @@ def answers(devices: Devices, truth: Truth) -> dict[str, Any]:
         wait(TICK_S)
         pointer.release("right")
         wait(TICK_S)
-    found["turned by clicks"] = [truth()["yaw"], truth()["pitch"]]
+    found["view after clicks"] = [truth()["yaw"], truth()["pitch"]]
     tap("t")
     found["after t"] = truth()["screen"]
     keyboard.type("/tp @s 8.5 64 ~-2 90 40")

@@ -19,7 +19,7 @@ WANTED: dict[str, Any] = {
     "down": ["w"],
     "walked on": True,
     "aside": 0.0,
-    "turned by clicks": [0.0, 0.0],
+    "view after clicks": [0.0, 40.0],
     "after t": "chat",
     "sent": ["world", 8.5, 90.0, 40.0],
     "in hand": "stone",

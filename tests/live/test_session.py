@@ -16,6 +16,7 @@ from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable,
 from mc_nested.live.session import fingerprint_of, open_live_game
 from sim.client.client import VirtualClient
 from sim.client.drawing import hud_layers
+from sim.client.game.debug_entries import GAME_DEFAULT
 from sim.client.settings import ClientSettings
 from tests.live.virtual_session import ARENA, font_in, live_on, opener, profile_in, saved
 
@@ -70,6 +71,16 @@ def test_a_hotbar_that_can_not_be_seen_is_refused_soon_and_nothing_is_pressed(
         pass
     assert client.clock.now() - began < 5.0
     assert (client.game.screen, client.window.down, client.window.strays) == ("world", set(), [])
+
+
+def test_a_debug_screen_that_names_no_block_is_refused_and_nothing_is_pressed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient(version="26.3", debug_entries=GAME_DEFAULT)
+    monkeypatch.setattr(client.keyboard, "press", pytest.fail)
+    says = r"^the debug screen names no block, .*: press F3\+F6 in the game"
+    with pytest.raises(LiveError, match=says), live_on(client)(LINE, profile_in(tmp_path), print):
+        pass
 
 
 def test_a_game_menu_that_hides_the_hotbar_is_not_refused_but_left_by_the_first_reset(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from mc_nested.live.deadline import Deadline
 from mc_nested.live.devices import SWITCH_KEYS, Devices
 from mc_nested.live.menus.click_points import ClickPoints
 from mc_nested.live.menus.screens import NO_HOTBAR, identify_screen
+from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, why_none_is_named
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.timing import PERSON_LOOK_S
 
@@ -75,6 +76,16 @@ def check_hotbar(connection: GameConnection, points: ClickPoints) -> None:
         if deadline.has_passed:
             raise UnreadableError(NO_HOTBAR)
         devices.clock.sleep_until(devices.clock.now() + PERSON_LOOK_S)
+
+
+def check_block_is_named(reading: Reading, version: str) -> None:
+    """UnreadableError, of one line, where the ground is looked at and the debug screen names no block.
+
+    Where the player looks up, the first reset finds it.
+    """
+    looks_down = reading.pitch is not None and reading.pitch >= GROUND_PITCH_DEG
+    if looks_down and (reason := why_none_is_named(reading, version)):
+        raise UnreadableError(": ".join(reason))
 
 
 def _not_in_front() -> NotInFrontError:

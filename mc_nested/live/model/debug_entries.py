@@ -3,6 +3,7 @@
 Each is known by its id, which is also its name on the debug options screen (FACTS: debug-profile.json).
 """
 
+from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.versions import version_numbers
 
 FIRST_WITH_ENTRIES = (1, 21, 9)
@@ -12,6 +13,8 @@ POSITION = "player_position"
 
 GROUND_PITCH_DEG = 30.0
 """At this pitch or more the player looks at the ground, at most some 3 blocks away, and a block is looked at."""
+
+LOOK_DOWN = "look down at the ground, and run this again"
 
 _TARGET, _TARGET_FROM_26_1 = "looking_at_block", "looking_at_block_state"
 
@@ -36,6 +39,18 @@ def switch_on(version: str | None) -> str:
     if version is None:
         return f"from 1.21.9 on press F3+F6, and set {_TARGET} (from 26.1 on {_TARGET_FROM_26_1}) to In Overlay"
     return f"press F3+F6 in the game, and set {target_entry(version)} to {on_button(version)}"
+
+
+def why_none_is_named(reading: Reading, version: str) -> tuple[str, str] | None:
+    """Why no block is named by a version whose entry for it may be off, and what to do; None where all is well.
+
+    Where the player looks up, an entry that is off and a view without a block look the same.
+    """
+    if reading.target is not None or reading.pitch is None or not has_entries(version):
+        return None
+    if reading.pitch < GROUND_PITCH_DEG:
+        return "no block is looked at, so whether the debug screen names it isn't known", LOOK_DOWN
+    return "the debug screen names no block, though the ground is looked at", switch_on(version)
 
 
 def have_block_named(version: str | None) -> str:

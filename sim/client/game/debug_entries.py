@@ -127,10 +127,10 @@ def read_profile(text: str, edition: Edition) -> DebugEntries:
     try:
         return _parsed(json.loads(text), edition)
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
-        problem = str(error).split("\n")[0]
+        problem = "it is no JSON" if isinstance(error, json.JSONDecodeError) else "an entry or a value is unknown there"
         raise UserError(
-            f"no debug-profile.json of Minecraft {edition.version} ({type(error).__name__}: {problem}): the game would "
-            "replace it by its default entries"
+            f"no debug-profile.json of Minecraft {edition.version}, {problem}: the game would replace it by its "
+            "default entries"
         ) from error
 
 

@@ -23,6 +23,7 @@ from mc_nested.live.profile.store import load_profile, save_profile
 from mc_nested.live.profile.tables import Profile, WorldTable
 from sim.client.client import VirtualClient
 from sim.client.game.commands import chat_line
+from sim.client.game.debug_entries import GAME_DEFAULT
 from sim.client.mishaps import Kind
 from tests.calibration.virtual_context import context_on, profile_of
 from tests.calibration.walk.test_measure import Cut
@@ -439,8 +440,8 @@ def test_what_can_not_be_kept_for_the_report_is_a_warning(tmp_path: Path) -> Non
     assert said[-1].startswith("warning: ")
 
 
-def shared(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
-    """Makes the client's world one that others may share; what is sent to it from here on."""
+def pressed_on(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
+    """The keys that are pressed from here on."""
     pressed: list[str] = []
     press = client.keyboard.press
 
@@ -448,9 +449,14 @@ def shared(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
         pressed.append(key)
         press(key)
 
-    patch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
     patch.setattr(client.keyboard, "press", noted)
     return pressed
+
+
+def shared(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
+    """Makes the client's world one that others may share; the keys that are pressed from here on."""
+    patch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
+    return pressed_on(client, patch)
 
 
 def test_in_a_game_that_others_may_share_nothing_is_pressed_and_built(
@@ -546,3 +552,20 @@ def test_a_world_without_commands_is_refused_with_the_whole_command_that_marks_i
         pytest.raises(UserError, match=r"mark the arena only, with mc-nested calibrate arena --mark-only$"),
     ):
         build_arena(context, profile)
+
+
+@pytest.mark.parametrize(
+    ("pitch", "says"),
+    [
+        (0.0, r"^no block is looked at, so .*: look down at the ground, and run this again$"),
+        (30.0, r"^the debug screen names no block, .*: press F3\+F6 in the game, and set looking_at_block_state "),
+    ],
+)
+def test_a_debug_screen_that_may_name_no_block_ends_it_before_anything_is_pressed(
+    pitch: float, says: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client = VirtualClient(version="26.3", pitch=pitch, debug_entries=GAME_DEFAULT)
+    pressed = pressed_on(client, monkeypatch)
+    with pytest.raises(UserError, match=says):
+        built(client, tmp_path)
+    assert pressed == []

@@ -41,7 +41,7 @@ def test_a_dry_run_moves_the_mouse_to_what_is_there_and_presses_nothing(recorded
 def test_a_dry_run_in_the_world_does_not_turn_the_view(recorded: Path) -> None:
     client = started(VirtualClient())
     assert all("not on this screen" in line for line in try_clicks(recorded, context_of(client)))
-    assert (client.realm.player.yaw, client.realm.player.pitch) == (0.0, 0.0)
+    assert (client.realm.player.yaw, client.realm.player.pitch) == (client.settings.yaw, client.settings.pitch)
 
 
 def test_show_marks_what_is_there_green_and_the_rest_red(recorded: Path) -> None:

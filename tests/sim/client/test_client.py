@@ -290,7 +290,7 @@ def test_the_death_screens_buttons_wait_for_a_second() -> None:
 
 
 def test_while_the_game_holds_the_mouse_moving_it_turns_the_view() -> None:
-    client = VirtualClient(size=(854, 480))
+    client = VirtualClient(size=(854, 480), pitch=0.0)
     assert client.pointer.position() == (427, 240)
     client.pointer.move(427 + 100, 240 + 20)
     client.clock.sleep(0.1)
