@@ -27,6 +27,7 @@ SIZES = {
     "python scripts/examples/sb3_dqn.py": "--steps 100",
     "python scripts/examples/cleanrl_dqn.py": "--steps 300",
     "python scripts/bench_calibration.py": "--clients 1 --actions 2",
+    "python scripts/bench_calibration.py --every-version": "--version 26.3 --actions 2",
     "python scripts/bench_games.py": "--designs 1 --seeds 1 --json",
     "python scripts/bench_learning.py": "--runs 1 --rounds 1 --slice-s 0.2",
     "python scripts/bench_live.py": "--actions 20 --frames 20 --tesseract 0",
