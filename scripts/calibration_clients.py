@@ -88,7 +88,7 @@ def _client(rng: np.random.Generator, version: str) -> ClientSettings:
         capture_latency_s=_latency(rng, 0.005, 0.020, 0.02),
         feet=(x, float(rng.integers(lowest, 120)), z),
         yaw=float(rng.choice([0, 90, 180, -90]) + rng.uniform(-FACING_ERROR_DEG, FACING_ERROR_DEG)),
-        pitch=float(rng.uniform(-10, 60)),
+        pitch=float(rng.uniform(10, 60)),
         floor_block=str(rng.choice(floors)),
         mode="creative" if rng.random() < 0.7 else "survival",
         options=GameOptions(pause_on_lost_focus=bool(rng.random() < 0.5)),

@@ -123,9 +123,11 @@ def _examine_window(
     font, check = font_row(profile, system, version, named_font)
     findings.add(check)
     snapshot = findings.snapshot = wait_until_readable(devices, font, settings, say)
-    findings.add(
-        *window_rows(snapshot, profile), *screen_rows(snapshot, font), fit_row(profile_name, profile, snapshot.window)
-    )
+    on_screen = screen_rows(snapshot, font)
+    findings.add(*window_rows(snapshot, profile), *on_screen, fit_row(profile_name, profile, snapshot.window))
+    if any(check.name == CheckName.TARGET_LINE and check.status == "fail" for check in on_screen):
+        findings.add(Check(CheckName.INPUT, "skip", f"no key is pressed before the {CheckName.TARGET_LINE} is right"))
+        return
     try:
         prepare_keyboard(settings, devices)
     except DesktopError as error:

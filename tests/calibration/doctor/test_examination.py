@@ -98,7 +98,13 @@ def test_each_row_says_what_was_seen(computer: Computer) -> None:
             as_it_was,
             ClientSettings(pitch=DOWN, version="1.21.9", debug_entries=GAME_DEFAULT),
             {"looked-at line", "profile fits"},
-            set(),
+            {"input"},
+        ),
+        (
+            as_it_was,
+            ClientSettings(pitch=-30.0, version="1.21.9", debug_entries=GAME_DEFAULT),
+            {"looked-at line", "profile fits"},
+            {"input"},
         ),
         (as_it_was, ClientSettings(pitch=DOWN, version="1.19.4"), {"profile fits"}, set()),
         (lambda client: client.resize((1024, 768)), LOOKING_DOWN, {"profile fits"}, set()),
@@ -114,6 +120,7 @@ def test_each_row_says_what_was_seen(computer: Computer) -> None:
         "worlds",
         "behind",
         "no looked-at line",
+        "looking up",
         "version",
         "size",
         "scale",
@@ -127,7 +134,7 @@ def test_each_fault_fails_in_its_own_rows_and_nothing_is_pressed_where_it_could_
     computer: Computer,
 ) -> None:
     client = client_in(change, choices)
-    screen, has_f3 = client.game.screen, client.game.has_f3
+    screen, has_f3, feet = client.game.screen, client.game.has_f3, client.realm.player.feet
     found = computer.examined(opened(client), clipboard=client.clipboard)
     seen = statuses(found)
     assert tuple(seen) == tuple(CheckName)
@@ -135,6 +142,7 @@ def test_each_fault_fails_in_its_own_rows_and_nothing_is_pressed_where_it_could_
     assert {name for name, status in seen.items() if status == "skip"} >= skipped
     assert (client.game.screen, client.game.has_f3) == (screen, has_f3)
     assert is_untouched(client)
+    assert "input" not in skipped or client.realm.player.feet == feet
     assert all(check.fix for check in found.checks if check.status == "fail")
 
 
