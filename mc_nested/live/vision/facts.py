@@ -3,7 +3,8 @@
 The names of a box end in one column, its values begin in another. What is a value is white, what stands between values
 is darker, ``true`` and ``false`` are green and red; a title is white, all other lines have the names' colour (FACTS:
 The F3 debug screen). A line is taken whole where nothing can have begun to lie over it just behind its last ink: the
-ground goes on there as it was, isn't of one colour, or ends with the box.
+ground goes on there as it was, isn't of one colour, or ends with the box; or the same world as under it goes on behind
+the box's end.
 """
 
 from functools import lru_cache
@@ -43,6 +44,9 @@ _BEHIND = 2
 
 _DARKEST = 22
 """Of the ground under a title, which is 27 at least."""
+
+_GREY, _SEEN_THROUGH = 80, (255 - 0x90) / 255
+"""A box's own grey, and the part of the world that shows through it: 0x90505050."""
 
 _SOME = 3
 """Rows in which ground of one colour that began to lie over a line would hardly be like the ground beside it."""
@@ -123,9 +127,21 @@ def _is_whole(picture: Frame, ink: bytes, ground: Bools, boxed: bytes, last: int
     before, one, two = (picture[:, last + step].astype(np.int16) for step in (0, 1, 2))
     if _goes_on(before[ground[:, last]], one[ground[:, last]]) and _goes_on(one, two):
         return True
+    if _ends_in_same_world(picture[:, last + 2 :]):
+        return True
     three = picture[:, last + 3 : last + 4]
     is_flat = np.ptp(two, axis=0).max() <= _FLAT
     return not is_flat or not three.size or int(np.abs(two - three[:, 0]).max()) > _FLAT
+
+
+def _ends_in_same_world(behind: Frame) -> bool:
+    """Whether a part (8, columns, 3) begins as ground of one colour, and ends in the world that is seen through it."""
+    columns = behind.astype(np.float64)
+    is_other = np.abs(columns - columns[:, :1]).max((0, 2), initial=0) > _FLAT
+    if not is_other.any():
+        return False
+    world = columns[:, is_other.argmax()]
+    return float(np.abs(_GREY + (world - _GREY) * _SEEN_THROUGH - columns[:, 0]).max()) <= _FLAT
 
 
 def _goes_on(one: NDArray[np.int16], other: NDArray[np.int16]) -> bool:

@@ -80,6 +80,18 @@ def test_a_value_whose_end_is_covered_is_not_whole(cover: int) -> None:
     assert not again.whole or UNKNOWN in again.text
 
 
+def test_a_line_is_whole_where_the_world_changes_just_behind_it_and_goes_on_behind_its_box() -> None:
+    screen = dataclasses.replace(SCREEN, entries=("fps", "looking_at_block_state", "player_position"))
+    screen = dataclasses.replace(screen, target=Target((-1234, -61, 123456), "minecraft:dirt"))
+    world = np.full((240, 640, 3), 120, np.uint8)
+    found = line(paint(world, screen, FONT), "Type:")
+    world[:, found.end + 2 :] = (200, 210, 170)
+    frame = paint(world, screen, FONT)
+    assert line(frame, "Type:") == dataclasses.replace(found, whole=True)
+    frame[found.row - 1 : found.row + 9, found.end + 2 :] = 110  # as under one box more
+    assert not line(frame, "Type:").whole
+
+
 def test_ink_behind_a_column_is_left_out() -> None:
     frame = painted()
     dots = GlyphGrid(frame, 1, 200)
