@@ -47,7 +47,7 @@ LOOK_S = 0.5
 
 
 @dataclass(frozen=True)
-class Check:
+class SuiteCheck:
     """One row: a command of the environment, and about how many minutes it takes on two cores.
 
     ``variables`` are environment variables; ``downloads`` what it fetches on a new machine; ``is_beside`` whether it
@@ -62,35 +62,35 @@ class Check:
 
 
 STATIC = {
-    "lint": Check(["ruff", "check", "."], 0.1),
-    "format": Check(["ruff", "format", "--check", "."], 0.1),
-    "types": Check(["mypy"], 0.7),
-    "import contracts": Check(["lint-imports"], 0.2),
+    "lint": SuiteCheck(["ruff", "check", "."], 0.1),
+    "format": SuiteCheck(["ruff", "format", "--check", "."], 0.1),
+    "types": SuiteCheck(["mypy"], 0.7),
+    "import contracts": SuiteCheck(["lint-imports"], 0.2),
 }
 
 UNIT = ["pytest", "-n", "2", "--dist", "loadfile", "-m", f"not ({OTHERS})"]
 
-COMMIT = {**STATIC, "unit tests": Check(UNIT, 3)}
+COMMIT = {**STATIC, "unit tests": SuiteCheck(UNIT, 3)}
 """What a commit must pass."""
 
 ALL = {
     **STATIC,
     # The warning says that mkdocs-material ends in 2027.
-    "documentation": Check(["mkdocs", "build", "--strict"], 0.3, {"NO_MKDOCS_2_WARNING": "1"}),
-    "compiled code in plain Python": Check(
+    "documentation": SuiteCheck(["mkdocs", "build", "--strict"], 0.3, {"NO_MKDOCS_2_WARNING": "1"}),
+    "compiled code in plain Python": SuiteCheck(
         ["pytest", *KERNELS, "--cov", "--cov-report=", "--cov-fail-under=0"], 0.3, {"NUMBA_DISABLE_JIT": "1"}
     ),
-    "unit tests": Check([*UNIT, "--hypothesis-profile=all", "--cov", "--cov-append", "--cov-report="], 5),
-    "branch coverage": Check(["coverage", "report", "--skip-covered"], 0.2),
-    "slow tests": Check(
+    "unit tests": SuiteCheck([*UNIT, "--hypothesis-profile=all", "--cov", "--cov-append", "--cov-report="], 5),
+    "branch coverage": SuiteCheck(["coverage", "report", "--skip-covered"], 0.2),
+    "slow tests": SuiteCheck(
         ["pytest", "-n", "2", "--dist", "loadgroup", "-m", f"slow and not ({REAL})"], 28, is_beside=True
     ),
-    "real-time tests": Check(
+    "real-time tests": SuiteCheck(
         ["pytest", "-n", "2", "--dist", "loadgroup", "-m", "realtime or window or wine"],
         18,
         downloads="2.2 GB for Wine, a Windows Python, Java and an input method",
     ),
-    "stand-in tests": Check(["pytest", "-m", "standin"], 6, downloads="0.8 GB for the stand-in, a game in a browser"),
+    "stand-in tests": SuiteCheck(["pytest", "-m", "standin"], 6, downloads="0.8 GB for the stand-in, a browser's game"),
 }
 """Everything that CI runs."""
 
@@ -113,7 +113,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 1 if any(outcome.code for outcome in outcomes.values()) else 0
 
 
-def announcement(checks: Mapping[str, Check]) -> list[str]:
+def announcement(checks: Mapping[str, SuiteCheck]) -> list[str]:
     """What will be run, how long that takes, and what is fetched for it."""
     rows = [f"  {name:<30} about {check.minutes:g} min" for name, check in checks.items()]
     beside = [check.minutes for check in checks.values() if check.is_beside]
@@ -130,7 +130,7 @@ def announcement(checks: Mapping[str, Check]) -> list[str]:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class CheckOutcome:
     """A check's exit code, how many seconds it took, and its tests that failed."""
 
     code: int
@@ -138,7 +138,7 @@ class Outcome:
     failed: Sequence[str] = ()
 
 
-def run_all(checks: Mapping[str, Check], programs: Path) -> dict[str, Outcome]:
+def run_all(checks: Mapping[str, SuiteCheck], programs: Path) -> dict[str, CheckOutcome]:
     """Each check's outcome; one that runs beside others is shown after them."""
     ended: dict[str, tuple[int, float]] = {}
     with ExitStack() as stack:
@@ -158,18 +158,24 @@ def run_all(checks: Mapping[str, Check], programs: Path) -> dict[str, Outcome]:
         for name, run in beside.items():
             print(f"\n== {name}, beside the checks before", flush=True)
             ended[name] = run.show()
-        return {name: Outcome(*ended[name], failed_tests(reports / f"{name}.xml")) for name in checks}
+        return {name: CheckOutcome(*ended[name], failed_tests(reports / f"{name}.xml")) for name in checks}
 
 
 def failed_tests(report: Path) -> list[str]:
     """The tests that failed by pytest's report in JUnit's format; none where there is no report."""
+    return [f"{module}::{name}" for module, name, fault in tests_in(report) if fault is not None]
+
+
+def tests_in(report: Path) -> list[tuple[str, str, str | None]]:
+    """Of each test that was run, as pytest's report says: its module, its name, and its failure if it failed."""
     if not report.exists():
         return []
-    return [
-        f"{test.get('classname')}::{test.get('name')}"
-        for test in ElementTree.parse(report).iter("testcase")  # noqa: S314  # pytest wrote it
-        if test.find("failure") is not None or test.find("error") is not None
-    ]
+    found: list[tuple[str, str, str | None]] = []
+    for case in ElementTree.parse(report).iter("testcase"):  # noqa: S314 - pytest wrote it
+        if case.find("skipped") is None:
+            faults = [fault.text or "failed" for kind in ("failure", "error") for fault in case.findall(kind)]
+            found.append((case.get("classname", ""), case.get("name", ""), "\n".join(faults) or None))
+    return found
 
 
 @dataclass(frozen=True)
@@ -206,7 +212,7 @@ def running_beside(command: Sequence[str | Path], variables: Mapping[str, str]) 
             environment.end(process)
 
 
-def table(outcomes: Mapping[str, Outcome]) -> list[str]:
+def table(outcomes: Mapping[str, CheckOutcome]) -> list[str]:
     """A row a check: whether it passed, and how long it took; below it the tests that failed."""
     rows = []
     for name, outcome in outcomes.items():

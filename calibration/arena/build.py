@@ -114,7 +114,7 @@ def build_arena(
     connection.check_single_player()
     profile = profile.model_copy(update={"game": game_in(display.title(), profile.game)})
     if reason := why_none_is_named(reading, profile.game.version):
-        raise UserError(": ".join(reason))
+        raise UserError(reason)
     arena = arena_from_reading(reading, standing, size)
     console = CommandConsole(connection, profile)
     queries = BlockQueries(console, profile, screen, arena.yaw)

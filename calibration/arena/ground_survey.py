@@ -8,7 +8,7 @@ from calibration.arena.plan import box_at, box_of, copy_positions, floor_of, is_
 from calibration.command_console import CommandConsole
 from mc_nested.arena.action import Cell
 from mc_nested.errors import UserError
-from mc_nested.live.model.debug_entries import have_block_named
+from mc_nested.live.model.debug_entries import NONE_NAMED, have_block_named
 from mc_nested.live.model.reading import Block, Reading
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import Profile
@@ -85,4 +85,4 @@ def _why_unseen(reading: Reading, pitch: float, version: str) -> str:
     """Why no block is seen after a teleport that should look at the ground, and what to do."""
     if reading.pitch is None or abs(reading.pitch - pitch) > ANGLE_TOLERANCE_DEG:
         return "a teleport had no effect: allow cheats"
-    return f"the debug screen names no block, though the ground is looked at: {have_block_named(version)}"
+    return f"{NONE_NAMED}: {have_block_named(version)}"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts.test import ALL, COMMIT, KERNELS, Check, announcement, main, run_all, table
+from scripts.test import ALL, COMMIT, KERNELS, SuiteCheck, announcement, main, run_all, table
 
 ROOT = Path(__file__).parents[2]
 PYTHON = Path(sys.executable)
@@ -20,8 +20,8 @@ STAYS = (
 )
 
 
-def script(code: str, *, is_beside: bool = False) -> Check:
-    return Check([PYTHON.name, "-c", code], 1, is_beside=is_beside)
+def script(code: str, *, is_beside: bool = False) -> SuiteCheck:
+    return SuiteCheck([PYTHON.name, "-c", code], 1, is_beside=is_beside)
 
 
 @pytest.mark.parametrize("path", KERNELS)
@@ -35,9 +35,9 @@ def test_a_commit_needs_nothing_that_all_does_not_have() -> None:
 
 def test_it_says_how_long_each_check_takes_and_what_is_fetched() -> None:
     checks = {
-        "quick": Check(["a"], 0.5),
-        "beside": Check(["b"], 10, is_beside=True),
-        "real-time tests": Check(["c"], 4, downloads="1.8 GB for Wine"),
+        "quick": SuiteCheck(["a"], 0.5),
+        "beside": SuiteCheck(["b"], 10, is_beside=True),
+        "real-time tests": SuiteCheck(["c"], 4, downloads="1.8 GB for Wine"),
     }
     said = announcement(checks)
     assert "  beside                         about 10 min" in said
@@ -66,7 +66,7 @@ def test_a_failure_ends_nothing_and_stands_in_the_table(capfd: pytest.CaptureFix
 def test_the_tests_that_failed_stand_below_their_row(tmp_path: Path) -> None:
     test_file = tmp_path / "test_two.py"
     test_file.write_text("def test_right(): pass\ndef test_wrong(): assert False\n")
-    check = Check(["pytest", "-q", "-p", "no:cacheprovider", f"--rootdir={tmp_path}", str(test_file)], 1)
+    check = SuiteCheck(["pytest", "-q", "-p", "no:cacheprovider", f"--rootdir={tmp_path}", str(test_file)], 1)
     first, second = table(run_all({"unit tests": check}, PYTHON.parent))
     assert first.startswith("failed  unit tests")
     assert second.strip() == "test_two::test_wrong"
@@ -84,9 +84,9 @@ def test_a_check_that_is_not_there_is_refused(capsys: pytest.CaptureFixture[str]
 def test_ctrl_c_ends_everything_that_was_started(*, is_beside: bool) -> None:
     checks = "{'beside': beside, 'stays': stays}" if is_beside else "{'stays': stays}"
     program = (
-        "import sys; from pathlib import Path; from scripts.test import Check, run_all\n"
-        f"stays = Check([Path(sys.executable).name, '-c', {STAYS!r}], 1)\n"
-        "beside = Check(stays.command, 1, is_beside=True)\n"
+        "import sys; from pathlib import Path; from scripts.test import SuiteCheck, run_all\n"
+        f"stays = SuiteCheck([Path(sys.executable).name, '-c', {STAYS!r}], 1)\n"
+        "beside = SuiteCheck(stays.command, 1, is_beside=True)\n"
         f"run_all({checks}, Path(sys.executable).parent)"
     )
     command = [sys.executable, "-c", program]

@@ -1,10 +1,10 @@
 """The unit tests of what differs on Windows (scripts/windows_suite.py), by a Windows Python under Wine."""
 
-import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import pytest
 
+from scripts.test import tests_in
 from scripts.windows import PYTEST, SUITE
 from scripts.windows_parts import windows_path
 from scripts.windows_session import Session
@@ -23,13 +23,9 @@ class Results:
     def __init__(self, code: int, printed: str, report: Path) -> None:
         self.code = code
         self.printed = printed
-        self.outcomes: list[tuple[str, str | None]] = []
-        cases = ElementTree.parse(report).iter("testcase")  # noqa: S314 - written by this test's own pytest
-        for case in cases:
-            if case.find("skipped") is None:
-                faults = [fault for kind in ("failure", "error") for fault in case.findall(kind)]
-                said = "\n".join(f"{case.get('name')}: {fault.text}" for fault in faults) if faults else None
-                self.outcomes.append((case.get("classname", ""), said))
+        self.outcomes = [
+            (module, None if fault is None else f"{name}: {fault}") for module, name, fault in tests_in(report)
+        ]
 
     def of(self, place: str) -> list[str | None]:
         """What came of the tests in this file or folder of tests."""

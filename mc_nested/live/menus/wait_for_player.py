@@ -85,7 +85,7 @@ def check_block_is_named(reading: Reading, version: str) -> None:
     """
     looks_down = reading.pitch is not None and reading.pitch >= GROUND_PITCH_DEG
     if looks_down and (reason := why_none_is_named(reading, version)):
-        raise UnreadableError(": ".join(reason))
+        raise UnreadableError(reason)
 
 
 def _not_in_front() -> NotInFrontError:

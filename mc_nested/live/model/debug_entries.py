@@ -14,6 +14,7 @@ POSITION = "player_position"
 GROUND_PITCH_DEG = 30.0
 """At this pitch or more the player looks at the ground, at most some 3 blocks away, and a block is looked at."""
 
+NONE_NAMED = "the debug screen names no block, though the ground is looked at"
 LOOK_DOWN = "look down at the ground, and run this again"
 
 _TARGET, _TARGET_FROM_26_1 = "looking_at_block", "looking_at_block_state"
@@ -41,16 +42,16 @@ def switch_on(version: str | None) -> str:
     return f"press F3+F6 in the game, and set {target_entry(version)} to {on_button(version)}"
 
 
-def why_none_is_named(reading: Reading, version: str) -> tuple[str, str] | None:
-    """Why no block is named by a version whose entry for it may be off, and what to do; None where all is well.
+def why_none_is_named(reading: Reading, version: str) -> str | None:
+    """Why a version whose entry may be off names no block, and what to do; None where it names one, or can't be off.
 
     Where the player looks up, an entry that is off and a view without a block look the same.
     """
     if reading.target is not None or reading.pitch is None or not has_entries(version):
         return None
     if reading.pitch < GROUND_PITCH_DEG:
-        return "no block is looked at, so whether the debug screen names it isn't known", LOOK_DOWN
-    return "the debug screen names no block, though the ground is looked at", switch_on(version)
+        return f"no block is looked at, so whether the debug screen names it isn't known: {LOOK_DOWN}"
+    return f"{NONE_NAMED}: {switch_on(version)}"
 
 
 def have_block_named(version: str | None) -> str:

@@ -12,7 +12,7 @@ from mc_nested.arena.rules import front_of, is_inside
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.model.coordinates import GroundVector, cell_at
-from mc_nested.live.model.debug_entries import switch_on
+from mc_nested.live.model.debug_entries import NONE_NAMED, switch_on
 from mc_nested.live.model.reading import Block, Target
 from mc_nested.live.motion.click_range import COASTING_CLICK, hits_floor, is_click_right, is_near
 from mc_nested.live.motion.effort import Effort
@@ -172,8 +172,7 @@ class Body:
         Where the entry is off, it looks as if no block were looked at (FACTS: The F3 debug screen).
         """
         if self._observer.watch(lambda pose: pose.target is not None, self._limits.confirm_s).target is None:
-            problem = "the debug screen names no block, though the ground is looked at"
-            raise NotConfirmedError(f"{problem}: if that line is off, {switch_on(version)}")
+            raise NotConfirmedError(f"{NONE_NAMED}: if that line is off, {switch_on(version)}")
 
     def place(self, cell: Cell, shown_id: str, pose: PoseEstimate | None = None) -> Cell:
         """Place a block in front of ``cell``, where the agent stands or stops, and return the cell where it was seen.

@@ -28,7 +28,7 @@ def check_installed() -> None:
     """ClusterError if Dask or cryptography isn't installed."""
     try:
         import cryptography  # noqa: F401 - only whether it is there
-        import distributed  # noqa: F401
+        import distributed  # noqa: F401 - likewise
     except ImportError as error:
         raise ClusterError(f"a cluster needs Dask, which isn't installed: {HOW_TO_INSTALL}") from error
 
