@@ -163,10 +163,10 @@ def run_all(checks: Mapping[str, SuiteCheck], programs: Path) -> dict[str, Check
 
 def failed_tests(report: Path) -> list[str]:
     """The tests that failed by pytest's report in JUnit's format; none where there is no report."""
-    return [f"{module}::{name}" for module, name, fault in tests_in(report) if fault is not None]
+    return [f"{module}::{name}" for module, name, fault in cases_in(report) if fault is not None]
 
 
-def tests_in(report: Path) -> list[tuple[str, str, str | None]]:
+def cases_in(report: Path) -> list[tuple[str, str, str | None]]:
     """Of each test that was run, as pytest's report says: its module, its name, and its failure if it failed."""
     if not report.exists():
         return []

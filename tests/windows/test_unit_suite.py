@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts.test import tests_in
+from scripts.test import cases_in
 from scripts.windows import PYTEST, SUITE
 from scripts.windows_parts import windows_path
 from scripts.windows_session import Session
@@ -24,7 +24,7 @@ class Results:
         self.code = code
         self.printed = printed
         self.outcomes = [
-            (module, None if fault is None else f"{name}: {fault}") for module, name, fault in tests_in(report)
+            (module, None if fault is None else f"{name}: {fault}") for module, name, fault in cases_in(report)
         ]
 
     def of(self, place: str) -> list[str | None]:
