@@ -135,6 +135,10 @@ def test_the_panic_key_and_hotkeys_are_heard(windows: Session) -> None:
     }
 
 
+def test_a_key_is_heard_that_is_pressed_as_soon_as_a_listener_is_open(windows: Session) -> None:
+    assert report_of(windows, WINDOW_PROBE, "at once") == {"heard": 50}
+
+
 def test_the_window_is_where_and_what_it_is(report: dict[str, Any]) -> None:
     place = report["place"]
     assert (place["size"], place["title"], place["is in front"]) == (SIZE, TITLE, True)

@@ -3,6 +3,7 @@
 import queue
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from typing import Any
@@ -20,6 +21,8 @@ Listen = Callable[[OnKey], AbstractContextManager[IsListening]]
 
 CLOSE_S = 1.0
 """Seconds that a listener gets to close its connection to the desktop."""
+
+_HOOK_LOOK_S = 0.001
 
 _KEY_DOWN, _KEY_UP = (0x0100, 0x0104), (0x0101, 0x0105)
 """WM_KEYDOWN and WM_SYSKEYDOWN, WM_KEYUP and WM_SYSKEYUP (winuser.h)."""
@@ -77,12 +80,26 @@ def listening_through_pynput(on_key: OnKey) -> Iterator[IsListening]:
     try:
         with Listener(on_press=on_press, on_release=on_release, win32_event_filter=on_hook) as listener:
             listener.wait()
+            _wait_for_hook(listener)
             yield listener.is_alive
         # It closes its connection some time after it is stopped.
         listener.join(CLOSE_S)
     finally:
         heard.put(None)
         teller.join(CLOSE_S)
+
+
+def _wait_for_hook(listener: threading.Thread) -> None:
+    """Wait until Windows passes keys to the listener: pynput's ``wait`` returns before it sets its hook."""
+    if sys.platform == "win32":
+        from pynput._util.win32 import SystemHook
+
+        end = time.monotonic() + CLOSE_S
+        while time.monotonic() < end and listener.is_alive():
+            hook = SystemHook._HOOKS.get(listener.ident)  # pynput says it nowhere else
+            if hook is not None and hook._hook is not None:
+                return
+            time.sleep(_HOOK_LOOK_S)
 
 
 def _mac_code(key: Any) -> int:

@@ -10,6 +10,7 @@ import queue
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,7 @@ from tests.live.desktop.window_server import Event
 
 PRESSED, RELEASED = 1, 0
 CLICKS = 100
+TRIES = 50
 MARK, MARK_NAME = "left.control", "LCONTROL"
 """A key that comes after each place, by LWJGL's name: a modifier, which an accent doesn't wait for."""
 
@@ -163,6 +165,19 @@ def hotkey_report(_: DrivenWindow, devices: Devices, __: None) -> dict[str, Any]
         return {"stopped": [stopped.get(timeout=PATIENCE_S)], "hotkeys": [next_key().lower()]}
 
 
+def at_once_report(_: DrivenWindow, devices: Devices, __: None) -> dict[str, Any]:
+    """How many listeners hear a key that is pressed as soon as they are open."""
+    heard: queue.SimpleQueue[str] = queue.SimpleQueue()
+    count = 0
+    for _try in range(TRIES):
+        with listening(lambda name, _: heard.put(name)):
+            devices.keyboard.press("q")
+            devices.keyboard.release("q")
+            with suppress(queue.Empty):
+                count += [heard.get(timeout=MOVED_S) for _event in range(2)] == ["q", "q"]
+    return {"heard": count}
+
+
 def _keys(events: list[Event]) -> list[list[Any]]:
     """The keys and what they do, without what repeats."""
     return [[each[1], each[3]] for each in events if each[0] == "key" and each[3] in (PRESSED, RELEASED)]
@@ -186,6 +201,7 @@ PARTS: dict[str, Callable[[DrivenWindow, Devices, Any], dict[str, Any]]] = {
     "clicks": click_report,
     "listener": listener_report,
     "hotkeys": hotkey_report,
+    "at once": at_once_report,
 }
 
 
