@@ -12,8 +12,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
+from mc_nested.errors import UserError
 from mc_nested.live.input.signals import signals_as_exit
-from scripts.bench_rehearsal import prepare
+from scripts.benches.rehearsal import prepare
 from scripts.rehearsal_window import mc_nested, open_rehearsal
 from scripts.window_display import open_display
 
@@ -27,8 +28,10 @@ def main() -> int:
     parser.add_argument("out", nargs="?", type=Path, default=Path(__file__).with_name("build.gif"))
     parser.add_argument("--scenario", default="zigzag")
     options = parser.parse_args()
-    if not prepare("draw_film", lambda line: print(line, file=sys.stderr)):
-        return 2
+    try:
+        prepare(lambda line: print(line, file=sys.stderr))
+    except UserError as error:
+        parser.error(str(error))
     with (
         signals_as_exit(),  # or an ended film would leave its window and its screen behind
         tempfile.TemporaryDirectory(prefix="mc-nested-film-") as temporary,

@@ -23,9 +23,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 from PIL import Image
 
 from mc_nested.cli.calibrate_report import report_path
+from mc_nested.errors import UserError
 from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.view.app import ViewApp
-from scripts.bench_rehearsal import prepare
+from scripts.benches.rehearsal import prepare
 from scripts.rehearsal_window import ROOT, mc_nested, open_rehearsal
 from scripts.window_display import open_display, running
 
@@ -43,8 +44,10 @@ def main() -> int:
     parser.add_argument("--folder", type=Path, default=Path(__file__).parent)
     parser.add_argument("--seconds", type=float, default=45.0)
     options = parser.parse_args()
-    if not prepare("draw_view", _say):
-        return 2
+    try:
+        prepare(_say)
+    except UserError as error:
+        parser.error(str(error))
     with (
         signals_as_exit(),  # or an ended script would leave its window and its screen behind
         tempfile.TemporaryDirectory(prefix="mc-nested-view-") as temporary,

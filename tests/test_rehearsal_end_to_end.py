@@ -27,7 +27,7 @@ from mc_nested.design_files.load import load_any_scenario
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.recording.recording_file import facts_of
-from scripts.bench_rehearsal import CONDITIONS, USUAL, Condition, play
+from scripts.benches.rehearsal import CONDITIONS, USUAL, Condition, play
 from scripts.rehearsal_window import ROOT, RehearsalWindow, mc_nested, open_rehearsal
 from scripts.window_display import WITH_THIS_PROCESS, open_display
 from sim.client.game.world import AIR
@@ -40,7 +40,7 @@ F12 = 96
 """A keycode of an X server: 8 more than Linux's own."""
 
 LONGEST_CALIBRATION_S = 180.0
-"""On a machine that may be busy; scripts/bench_rehearsal.py asks for 100."""
+"""On a machine that may be busy; `bench.py rehearsal` asks for 100."""
 ACTIONS = 20
 CURRENT = "26.3"
 """What people play: its options are at their defaults, and the debug text lies over its menus, smaller than they."""

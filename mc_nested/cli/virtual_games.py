@@ -26,8 +26,7 @@ GUI_SCALE = 1
 """The smallest: texts hide the least of the world."""
 
 PITCH = 53.0
-"""Degrees down at which the agents look: of the views that place right, one of those that show the most of the arena
-(scripts/bench_screen.py --pitch)."""
+"""Degrees down at which the agents look: of the views that place right, one that shows most of the arena."""
 
 _ORIGIN_X, _ORIGIN_Z = -20, 31
 

@@ -7,10 +7,10 @@ from mc_nested.learn.experiments.benchmark import episodes_without_a_prior
 from mc_nested.learn.preset import Preset
 
 ACTION_S = 0.35
-"""Seconds of game time of an action: what scripts/bench_live.py asks of the median, and README counts with."""
+"""Seconds of game time of an action: what `scripts/bench.py live` asks of the median, and README counts with."""
 
 RESET_S = 1.5
-"""Seconds of game time of a reset: 1.1 to 1.6 on the virtual client (scripts/bench_live.py without mishaps, 300 actions
+"""Seconds of game time of a reset: 1.1 to 1.6 on the virtual client (`scripts/bench.py live`, 300 actions
 on the line and on the diamond: the time played beside the actions, a reset)."""
 
 

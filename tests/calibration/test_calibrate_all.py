@@ -19,7 +19,7 @@ from mc_nested.errors import DesktopError, LiveError, McNestedError, NotConfirme
 from mc_nested.live.profile.store import earlier_path, load_profile, save_profile
 from mc_nested.live.profile.tables import CalibratedTable, KeysTable, Profile, ScreenTable
 from mc_nested.live.vision.chat_region import without_chat
-from scripts.bench_calibration import context_opener_for, doctor_for, write_font
+from scripts.benches.calibration import context_opener_for, doctor_for, write_font
 from sim.client.client import VirtualClient
 from tests.calibration.contexts import SPANISH
 

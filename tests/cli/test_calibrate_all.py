@@ -15,7 +15,7 @@ from mc_nested.cli.app import main
 from mc_nested.cli.json_fields import JSON_FIELDS
 from mc_nested.errors import LiveError
 from mc_nested.live.profile.tables import Profile, ScreenTable
-from scripts.bench_calibration import context_opener_for, write_font
+from scripts.benches.calibration import context_opener_for, write_font
 from sim.client.client import VirtualClient
 
 

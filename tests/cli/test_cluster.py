@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from scripts.dask_programs import scheduler, worker
 from tests.cli.running import run
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, scenario_text, small_preset_text
+from tests.workers.cluster.dask_programs import scheduler, worker
 
 __all__ = ["leftovers"]
 

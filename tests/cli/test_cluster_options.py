@@ -11,9 +11,9 @@ from mc_nested.cli.output import Output
 from mc_nested.errors import ClusterError
 from mc_nested.workers.cluster import connection
 from mc_nested.workers.cluster.address import SchedulerAddress
-from scripts.dask_programs import scheduler
 from tests.cli.running import run
 from tests.dask_fixture import LEFTOVERS, leftovers
+from tests.workers.cluster.dask_programs import scheduler
 
 __all__ = ["leftovers"]
 

@@ -34,10 +34,10 @@ from mc_nested.workers.games.desk import Desk
 from mc_nested.workers.games.game_server import GameServer, OpenGame
 from mc_nested.workers.games.game_worker import GameWorker
 from mc_nested.workers.games.order import GameAnswer, GameOrder
-from scripts.dask_programs import scheduler, tls_words
 from tests.cli.running import run
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, scenario_text
+from tests.workers.cluster.dask_programs import scheduler, tls_words
 
 __all__ = ["leftovers"]
 

@@ -13,8 +13,8 @@ from mc_nested.cli.app import main
 from mc_nested.cli.json_fields import JSON_FIELDS
 from mc_nested.live.recording.opened import MOST_RECORDINGS, kept_recordings, recordings_folder
 from mc_nested.live.recording.recording_file import facts_of
-from scripts.recorded_play import record_play
 from sim.client.drawing.font import drawn_atlas
+from tests.live.recording.recorded_play import record_play
 
 pytestmark = pytest.mark.skipif("sys.platform != 'linux'", reason="elsewhere the folder isn't named by a variable")
 

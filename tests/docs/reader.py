@@ -16,7 +16,7 @@ from typing import Any
 from scripts import environment
 from scripts.test import OTHERS
 from tests.docs.pages import ROOT, Step
-from tests.docs.rules import BY_THE_SUITE, IN_A_WINDOW, IN_THE_STANDIN, LIVE_SNIPPET, MEASURES, as_run, is_live
+from tests.docs.rules import BY_THE_SUITE, IN_A_WINDOW, LIVE_SNIPPET, MEASURES, as_run, is_live
 from tests.docs.shell import Shell, StepError
 from tests.docs.windows import RehearsalWindows, VirtualDesktop
 
@@ -99,7 +99,7 @@ class Reader:
         words = shlex.split(command)[1:]
         if is_live(command):
             return self._desktop.ask(step, {"script": words})
-        if command.startswith((*IN_A_WINDOW, *IN_THE_STANDIN)):
+        if command.startswith(IN_A_WINDOW):
             return self._run_in_a_window(step, words)
         return self._shell.run(step, [sys.executable, *words], ROOT)
 

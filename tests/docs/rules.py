@@ -26,19 +26,14 @@ SIZES = {
     "mc-nested train --scenario line --trials 10": "--episodes 1000",
     "python scripts/examples/sb3_dqn.py": "--steps 100",
     "python scripts/examples/cleanrl_dqn.py": "--steps 300",
-    "python scripts/bench_calibration.py": "--clients 1 --actions 2",
-    "python scripts/bench_calibration.py --every-version": "--version 26.3 --actions 2",
-    "python scripts/bench_games.py": "--designs 1 --seeds 1 --json",
-    "python scripts/bench_learning.py": "--runs 1 --rounds 1 --slice-s 0.2",
-    "python scripts/bench_live.py": "--actions 20 --frames 20 --tesseract 0",
-    "python scripts/bench_live_training.py": "--seeds 1 --scenarios line",
-    "python scripts/bench_replay.py": "--actions 20",
-    "python scripts/bench_recording.py": "--rounds 1 --actions 4 --json",
-    "python scripts/bench_view.py": "--rounds 1 --actions 4 --json",
-    "python scripts/bench_rehearsal.py": "--actions 4 --only '60 fps' --json",
-    "python scripts/bench_rehearsal_clients.py": "--clients 1 --actions 4 --json",
-    "python scripts/bench_screen.py": "--steps 20 --json",
-    "python scripts/bench_standin.py": "--actions 4 --json",
+    "python scripts/bench.py calibration": "--clients 1 --actions 2",
+    "python scripts/bench.py calibration --every-version": "--version 26.3 --actions 2",
+    "python scripts/bench.py game-time": "--seeds 1 --scenarios line",
+    "python scripts/bench.py games": "--designs 1 --seeds 1 --json",
+    "python scripts/bench.py learning": "--runs 1 --rounds 1 --slice-s 0.2",
+    "python scripts/bench.py live": "--actions 20 --frames 20 --tesseract 0",
+    "python scripts/bench.py reader": "--frames 20 --tesseract 0",
+    "python scripts/bench.py rehearsal": "--actions 4 --only '60 fps' --json",
     "python scripts/draw_film.py": "film.gif --scenario line",
     "python scripts/draw_view.py": "--folder . --seconds 15",
 }
@@ -60,26 +55,17 @@ BY_THE_SUITE = {
         ),
         "tests/cli/test_games_training.py",
     ),
-    "python scripts/bench_cluster.py": "it takes minutes of an idle machine",
-    "python scripts/bench_lost_games.py": "tests/cli/test_games_training.py, with two games and one mishap",
-    "python scripts/bench_served_games.py": "tests/scripts/test_bench_served_games.py, with two games on the line",
     "python scripts/test.py": "it runs this test",
     "mc-nested train --preset live --scenario square": "tests/cli/test_train_live_large.py",
 }
 """What takes minutes, and what the suite does without it: which test."""
 
-IN_A_WINDOW = (
-    *(f"python scripts/bench_{name}.py" for name in ("recording", "view", "rehearsal", "rehearsal_clients")),
-    *(f"python scripts/draw_{name}.py" for name in ("film", "view")),
-)
+IN_A_WINDOW = tuple(f"python scripts/{words}" for words in ("bench.py rehearsal", "draw_film.py", "draw_view.py"))
 """Programs that open a rehearsal window on a display of their own."""
 
-IN_THE_STANDIN = ("python scripts/bench_standin.py",)
-"""Programs that play in the stand-in."""
-
-MEASURES = "python scripts/bench_"
-"""Programs whose exit code 1 may say no more than that a target was missed, as in so few actions on a busy machine.
-What was wrong is in their figures, which are JSON."""
+MEASURES = "python scripts/bench.py"
+"""A program whose exit code 1 may say no more than that a target was missed, as in so few actions on a busy machine.
+What was wrong is in its figures, which are JSON."""
 
 CALIBRATE = "mc-nested calibrate all --yes"
 

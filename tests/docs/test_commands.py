@@ -13,7 +13,7 @@ import pytest
 from scripts.window_display import open_display
 from tests.docs.pages import Step, inline_commands, pages, steps_of
 from tests.docs.reader import Reader, not_shown, what_is_wrong
-from tests.docs.rules import BEFORE, IN_A_WINDOW, IN_THE_STANDIN, LIVE_SNIPPET, NEEDS, what_it_does
+from tests.docs.rules import BEFORE, IN_A_WINDOW, LIVE_SNIPPET, NEEDS, what_it_does
 from tests.docs.shell import StepError
 
 if not sys.platform.startswith("linux"):
@@ -91,15 +91,11 @@ def of_figures() -> list[Step]:
 
 def mark_of(step: Step) -> pytest.MarkDecorator:
     """What a command needs."""
-    if step.text.startswith(IN_THE_STANDIN):
-        return pytest.mark.standin
     return pytest.mark.window if step.text.startswith(IN_A_WINDOW) else pytest.mark.slow
 
 
 @pytest.mark.parametrize("step", [pytest.param(step, id=step.text, marks=mark_of(step)) for step in of_figures()])
 def test_a_command_in_a_text_or_table_can_be_run(step: Step, tmp_path: Path, request: pytest.FixtureRequest) -> None:
-    if step.text.startswith(IN_THE_STANDIN):
-        request.getfixturevalue("standin")
     if step.text.startswith(IN_A_WINDOW):
         request.getfixturevalue("window_programs")
     with Reader(tmp_path) as reader:

@@ -5,7 +5,7 @@ import pytest
 from mc_nested.live.chat_lines import SHOWN_S, ChatLines, chat_room
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.profile.tables import GameVersion, Profile
-from scripts.bench_live import connection_to
+from scripts.benches.live import connection_to
 from sim.client.client import VirtualClient
 
 RESET = (

@@ -16,13 +16,13 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import parse_profile
 from mc_nested.workers.cluster.keys import make_keys
-from scripts.dask_programs import scheduler, tls_words
 from scripts.rehearsal_window import TruthReader, mc_nested, write_font
 from scripts.standin_processes import wait_until
 from scripts.windows_parts import windows_path
 from scripts.windows_session import Session
 from sim.client.client import VirtualClient
 from tests.learn.made_experiments import DOT, scenario_text
+from tests.workers.cluster.dask_programs import scheduler, tls_words
 
 pytestmark = pytest.mark.wine
 

@@ -44,7 +44,7 @@ MORE = """\
   spreads and shares were what these trials had: all lines shown, or the opposite of one, at α divided by the number of
   lines. An estimate from few trials is rough, and so is this.
 - A difference of differences has no permutation that leaves it as it was: (l) is tested by Welch and Satterthwaite's t.
-- The states "screen" are not among these: they need a game's window (`python scripts/bench_screen.py`)."""
+- The states "screen" are not among these: they need a game's window."""
 
 
 def beyond_text(arms: Arms, claims: Sequence[JudgedClaim], trials: int, seed: int) -> str:

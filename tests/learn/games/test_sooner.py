@@ -5,14 +5,14 @@ import statistics
 import pytest
 
 from mc_nested.learn.preset import load_preset
-from scripts.bench_games import Pace, scattered, until_optimum
+from scripts.benches.games import Pace, scattered, until_optimum
 
 PACE = Pace(reset_s=6.0, step_s=0.34)
 
 
 @pytest.mark.slow
 def test_three_games_find_scattered_designs_in_at_most_half_the_time_of_one() -> None:
-    # The median over twelve designs and three seeds is 0.32: scripts/bench_games.py.
+    # The median over twelve designs and three seeds is 0.32: `bench.py games`.
     preset, shares = load_preset("live"), []
     for scenario in scattered(3):
         one, three = (until_optimum(scenario, preset, 0, games, PACE) for games in (1, 3))

@@ -16,9 +16,9 @@ from mc_nested.live.recording.recording_file import TimedCall, facts_of, read_re
 from mc_nested.live.recording.replay import replay
 from mc_nested.live.recording.text_pixels import OUTSIDE
 from mc_nested.live.vision.font import font_of
-from scripts.recorded_play import record_play
 from sim.client.client import VirtualClient
 from sim.client.drawing.font import drawn_atlas
+from tests.live.recording.recorded_play import record_play
 from tests.sim.client.playing import FONT
 
 

@@ -7,7 +7,7 @@ from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.game_screen import WORLDS_TITLE, WindowScreen
 from mc_nested.live.vision.layout import VANILLA, Overlay
-from scripts.bench_reader import OneFrameDisplay
+from scripts.benches.reader import OneFrameDisplay
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.font import drawn_atlas
 from sim.client.game.f3_text import F3Screen

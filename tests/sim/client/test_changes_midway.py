@@ -19,10 +19,10 @@ from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import GameVersion, Profile, ScreenTable
 from mc_nested.live.recording.replay import replay
 from mc_nested.live.vision.game_screen import WindowScreen
-from scripts.into_screens import ScreenPresses
-from scripts.recorded_play import record_play
+from scripts.benches.into_screens import ScreenPresses
 from sim.client.client import VirtualClient
 from sim.client.game.screens import ScreenName
+from tests.live.recording.recorded_play import record_play
 from tests.sim.client.playing import FONT, arena_of, connection_to
 
 LINE = load_scenario("line")

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import pytest
 
 from mc_nested.workers.cluster.address import SchedulerAddress
-from scripts.dask_programs import scheduler, worker
+from tests.workers.cluster.dask_programs import scheduler, worker
 
 
 @pytest.fixture(scope="module")

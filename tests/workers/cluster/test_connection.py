@@ -14,8 +14,8 @@ from mc_nested.workers.cluster.address import SchedulerAddress
 from mc_nested.workers.cluster.connection import check_installed, connected
 from mc_nested.workers.cluster.keys import AUTHORITY, CERTIFICATE, KEY, make_keys
 from mc_nested.workers.games.game_worker import GameWorker
-from scripts.dask_programs import scheduler, tls_words
 from tests.dask_fixture import LEFTOVERS, leftovers
+from tests.workers.cluster.dask_programs import scheduler, tls_words
 
 __all__ = ["leftovers"]
 

@@ -24,9 +24,9 @@ from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.executor import train_jobs
 from mc_nested.workers.messages import JobEnded, JobReport
 from mc_nested.workers.training import train_job
-from scripts.dask_programs import scheduler, worker
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, one_job
+from tests.workers.cluster.dask_programs import scheduler, worker
 
 __all__ = ["leftovers"]
 

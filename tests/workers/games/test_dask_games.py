@@ -24,11 +24,11 @@ from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, J
 from mc_nested.workers.games.desk import Desk, Request
 from mc_nested.workers.games.game_worker import LOST, GameWorker
 from mc_nested.workers.games.order import GameAnswer
-from scripts.bench_lost_games import Proxy
-from scripts.dask_programs import scheduler, worker
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, one_job
+from tests.workers.cluster.dask_programs import scheduler, worker
 from tests.workers.games.made_orders import ORDER, new_trainer
+from tests.workers.games.proxy import Proxy
 
 __all__ = ["leftovers"]
 

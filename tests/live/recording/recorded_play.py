@@ -1,4 +1,4 @@
-"""Random play on the virtual client, recorded: for tests, and for bench_replay.py."""
+"""Random play on the virtual client, recorded: for tests."""
 
 import itertools
 from pathlib import Path

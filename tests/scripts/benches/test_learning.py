@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from scripts.bench_learning import PAPER, flops_of_an_update, ours, summary
+from scripts.benches.learning import PAPER, flops_of_an_update, ours, summary
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def test_the_arithmetic_of_an_update_is_that_of_its_products() -> None:
@@ -40,7 +40,7 @@ def test_where_all_runs_have_had_their_episodes_others_begin() -> None:
 def test_it_leaves_nothing_in_the_temporary_folder(tmp_path: Path) -> None:
     env = {**os.environ, **dict.fromkeys(("TMPDIR", "TEMP", "TMP"), str(tmp_path))}
     words = ["--runs", "1", "2", "--rounds", "1", "--slice-s", "0.05", "--json"]
-    command = [sys.executable, "scripts/bench_learning.py", *words]
+    command = [sys.executable, "scripts/bench.py", "learning", *words]
     done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, check=False, timeout=600)
     assert done.returncode == 0, done.stderr
     assert set(json.loads(done.stdout)["ours"]) == {"compiled 1", "compiled 2", "torch 1", "torch 2", "images 1"}

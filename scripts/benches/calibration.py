@@ -1,21 +1,17 @@
-"""Measures how well calibration works unattended: calibrates random virtual clients, then plays in each.
+"""How well random virtual clients are calibrated unattended, and then played in.
 
-    python scripts/bench_calibration.py [--clients 50 | --every-version] [--version 1.13.2] [--actions 200] [--json]
-
-Each client (scripts/calibration_clients.py) is as a person leaves it: in a world, the player looking roughly along an
-axis, the debug screen on, no profile. `calibrate all --yes` runs unattended. Then ``actions`` random actions are
-played with the new profile, each checked against the client's world. A client counts as unattended if it got a profile.
-Seconds are the game's; ``longest_game_s`` and ``median_game_s`` are those of the calibration alone. ``walk_rms_blocks``
-is the worst client's error of the profile's walk against the client's physics; ``click_off_gui_px_max`` is the largest
-distance of a recorded point from its button's middle. Exit code 1 if a target is missed.
+Each client (calibration_clients.py) is as a person leaves it: in a world, the player looking roughly along an axis, the
+debug screen on, no profile. `calibrate all --yes` runs unattended. Then ``actions`` random actions are played with the
+new profile, each checked against the client's world. A client counts as unattended if it got a profile. Seconds are the
+game's; ``longest_game_s`` and ``median_game_s`` are those of the calibration alone. ``walk_rms_blocks`` is the worst
+client's error of the profile's walk against the client's physics; ``click_off_gui_px_max`` is the largest distance of a
+recorded point from its button's middle.
 """
 
 import argparse
 import dataclasses
-import json
 import math
 import statistics
-import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -23,11 +19,9 @@ from pathlib import Path
 from typing import Any
 
 import cv2
+import numpy as np
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from calibration.calibrate_all import Examine, calibrate_all
 from calibration.context import CalibrationContext, StepResult
@@ -38,7 +32,7 @@ from calibration.open_context import OpenContext
 from calibration.registry import registered_steps
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.errors import McNestedError
+from mc_nested.errors import McNestedError, UserError
 from mc_nested.live.connection import GameConnection, connect
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
@@ -46,8 +40,10 @@ from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.arena import size_for
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.profile.tables import Profile
-from scripts.bench_live import PlayCounts, play_in
-from scripts.calibration_clients import VERSIONS, clients, every_version
+from scripts.bench import Figures
+from scripts.benches.calibration_clients import VERSIONS, clients, every_version
+from scripts.benches.live import play_on
+from scripts.benches.played import PlayCounts
 from sim.client.client import VirtualClient
 from sim.client.drawing.font import drawn_atlas
 from sim.client.game.physics import Ground, displacement
@@ -124,7 +120,8 @@ def calibrate_and_play(settings: ClientSettings, folder: Path, actions: int, sce
     result.click_errors = tuple(click_errors(profile, client))
     game = live_game(client, profile, scenario)
     try:
-        result.play = play_in(client, game, profile.marked_arena(), scenario, range(actions), 0.0, settings.seed)
+        rng = np.random.default_rng(settings.seed)
+        result.play = play_on(client, game, profile.marked_arena(), scenario, range(actions), rng)
     except McNestedError as error:
         result.problem = f"playing: {type(error).__name__}: {error}"
     result.play.left_down = len(client.window.down)
@@ -225,9 +222,8 @@ def report(results: Sequence[ClientResult]) -> dict[str, Any]:
     }
 
 
-def main() -> int:
-    """Parse the command line, measure, print."""
-    parser = argparse.ArgumentParser(description="How well calibration works unattended, on random virtual clients.")
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options, with their defaults."""
     parser.add_argument("--clients", type=int, default=50)
     parser.add_argument(
         "--every-version",
@@ -240,33 +236,24 @@ def main() -> int:
     parser.add_argument("--actions", type=int, default=200, help="played with each profile")
     parser.add_argument("--scenario", default="diamond")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--json", action="store_true")
-    arguments = parser.parse_args()
-    if arguments.clients < 1 or arguments.actions < 1:
-        parser.error("--clients and --actions must be at least 1")
+
+
+def measure(options: argparse.Namespace) -> tuple[Figures, bool]:
+    """Calibrate every client, and play in each."""
+    if options.clients < 1 or options.actions < 1:
+        raise UserError("--clients and --actions must be at least 1")
     cv2.setNumThreads(1)
-    scenario, console = load_scenario(arguments.scenario), Console(stderr=True)
+    scenario, console = load_scenario(options.scenario), Console(stderr=True)
     results: list[ClientResult] = []
-    seed = arguments.seed
-    everyone = every_version(seed) if arguments.every_version else clients(arguments.clients, seed)
-    chosen = [each for each in everyone if not arguments.version or each.version in arguments.version]
+    everyone = every_version(options.seed) if options.every_version else clients(options.clients, options.seed)
+    chosen = [each for each in everyone if not options.version or each.version in options.version]
     for settings in track(chosen, "clients", console=console):
         with tempfile.TemporaryDirectory() as folder:
-            results.append(calibrate_and_play(settings, Path(folder), arguments.actions, scenario))
+            results.append(calibrate_and_play(settings, Path(folder), options.actions, scenario))
         if results[-1].problem or results[-1].wrong or results[-1].skipped:
             console.print(f"{settings}: {results[-1].problem or f'{results[-1].wrong} wrong'} {results[-1].skipped}")
-    summary = report(results)
-    print(json.dumps(summary)) if arguments.json else _show(summary)
-    right = summary["unattended"] == summary["clients"] and not any(each.wrong or each.play.gave_up for each in results)
-    return int(not (right and all(summary[name] <= most for name, most in TARGETS.items())))
-
-
-def _show(summary: dict[str, Any]) -> None:
-    table = Table(show_header=False)
-    for key, value in summary.items():
-        table.add_row(key, str(value))
-    Console().print(table)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    figures = report(results)
+    is_right = figures["unattended"] == figures["clients"] and not any(
+        each.wrong or each.play.gave_up for each in results
+    )
+    return figures, is_right and all(figures[name] <= most for name, most in TARGETS.items())

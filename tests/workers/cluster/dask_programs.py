@@ -1,4 +1,4 @@
-"""Dask's own programs on this computer, on loopback: `dask scheduler` and `dask worker`, for measurements and tests."""
+"""Dask's own programs on this computer, on loopback: `dask scheduler` and `dask worker`, for tests."""
 
 import json
 import subprocess
@@ -7,8 +7,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from mc_nested.workers.cluster.keys import AUTHORITY, CERTIFICATE, KEY
 from scripts.window_display import WITH_THIS_PROCESS
@@ -66,7 +64,7 @@ def tls_words(keys: Path) -> tuple[str, ...]:
 def _started(log: Path, *words: str) -> subprocess.Popen[bytes]:
     program = [*(WITH_THIS_PROCESS if sys.platform == "linux" else ()), sys.executable, "-m", "dask", *words]
     with log.open("ab") as file:
-        return subprocess.Popen(program, stdin=subprocess.DEVNULL, stdout=file, stderr=file)  # noqa: S603 - Dask's own
+        return subprocess.Popen(program, stdin=subprocess.DEVNULL, stdout=file, stderr=file)
 
 
 def _address_in(told: Path) -> str | None:

@@ -1,13 +1,10 @@
-"""Measures how exactly and how fast the live path plays in a real window, the rehearsal's; its client checks it.
-
-    python scripts/bench_rehearsal.py [--actions 1000] [--each 100] [--only NAME ...] [--json]
+"""Calibrating and playing in a real window, the rehearsal's, in real time; its client checks what is done.
 
 First `calibrate all` from nothing, and ``--actions`` actions, at 60 frames a second. Then, one factor at a time, a new
 calibration and ``--each`` actions: at 10, 20, 30 and 144 frames a second; on the keyboards of France, Germany and
 Russia, and on Dvorak's; with a window manager. Actions are drawn uniformly from those that the rules don't void.
 Seconds are of wall-clock time, an action's from its call to its confirmation on the screen. Linux, on a display of its
-own; the same computer draws without a graphics card. Exit code 1 if a cell or a block was wrong, a calibration failed,
-or a target was missed.
+own; the same computer draws without a graphics card. Wrong are a wrong cell or block, and a calibration that fails.
 """
 
 import argparse
@@ -21,11 +18,10 @@ from pathlib import Path
 from typing import Any
 
 from rich.console import Console
-from rich.table import Table
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-
+from mc_nested.errors import UserError
 from mc_nested.live.input.signals import signals_as_exit
+from scripts.bench import Figures
 from scripts.rehearsal_window import ROOT, mc_nested, open_rehearsal
 from scripts.standin_parts import MissingError, Say
 from scripts.window_display import install_programs, open_display
@@ -33,10 +29,6 @@ from scripts.window_display import install_programs, open_display
 MOST_MEDIAN_S = 0.36
 MOST_CALIBRATION_S = 100.0
 START_S, LONGEST_ACTION_S = 120.0, 6.0
-COLUMNS = (
-    *("calibration_s", "actions", "wrong_cells", "wrong_blocks", "failed_actions", "corrections"),
-    *("median_action_s", "p95_action_s"),
-)
 
 
 @dataclass(frozen=True)
@@ -59,7 +51,7 @@ CONDITIONS = (
 )
 
 
-def measure(condition: Condition, actions: int, seed: int) -> dict[str, Any]:
+def calibrate_and_play(condition: Condition, actions: int, seed: int) -> dict[str, Any]:
     """Calibrate and play under one condition; ``problem`` says what failed."""
     with (
         signals_as_exit(),  # or an ended benchmark would leave its window and its screen behind
@@ -79,7 +71,7 @@ def measure(condition: Condition, actions: int, seed: int) -> dict[str, Any]:
 
 def play(profile: Path, truth: Path, actions: int, seed: int, env: dict[str, str]) -> dict[str, Any]:
     """Play so many actions in the window on that display; RuntimeError with what was said where that fails."""
-    script = [sys.executable, str(ROOT / "scripts" / "rehearsal_play.py"), str(profile), str(truth)]
+    script = [sys.executable, str(ROOT / "scripts" / "benches" / "rehearsal_play.py"), str(profile), str(truth)]
     options = ["--actions", str(actions), "--seed", str(seed)]
     limit_s = START_S + actions * LONGEST_ACTION_S
     done = subprocess.run(  # noqa: S603 - our own
@@ -91,18 +83,16 @@ def play(profile: Path, truth: Path, actions: int, seed: int, env: dict[str, str
     return figures
 
 
-def prepare(script: str, say: Say) -> bool:
-    """Install what a real window needs; False, and one line, where that is impossible."""
+def prepare(say: Say) -> None:
+    """Install what a real window needs; UserError where that is impossible."""
     with tempfile.TemporaryDirectory(prefix="mc-nested-apt-") as logs:
         try:
             install_programs(say, Path(logs) / "apt.log")
         except MissingError as error:
-            say(f"{script}: {error}")
-            return False
-    return True
+            raise UserError(str(error)) from error
 
 
-def is_right(condition: Condition, figures: dict[str, Any]) -> bool:
+def is_right_under(condition: Condition, figures: dict[str, Any]) -> bool:
     """Whether nothing was wrong, and the usual condition is within its targets."""
     if "problem" in figures or figures["wrong_cells"] or figures["wrong_blocks"]:
         return False
@@ -111,41 +101,24 @@ def is_right(condition: Condition, figures: dict[str, Any]) -> bool:
     return bool(figures["median_action_s"] <= MOST_MEDIAN_S and figures["calibration_s"] <= MOST_CALIBRATION_S)
 
 
-def main() -> int:
-    """Measure every condition and print the figures; 1 if anything was wrong."""
-    parser = argparse.ArgumentParser(description="How exactly and how fast the live path plays in a rehearsal window.")
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options, with their defaults."""
     parser.add_argument("--actions", type=int, default=1000, help="at 60 frames a second")
     parser.add_argument("--each", type=int, default=100, help="under each other condition")
     parser.add_argument("--only", nargs="+", choices=[each.name for each in CONDITIONS], help="these conditions alone")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--json", action="store_true")
-    options = parser.parse_args()
+
+
+def measure(options: argparse.Namespace) -> tuple[Figures, bool]:
+    """Calibrate and play under every condition."""
     say = Console(stderr=True).print
-    if not prepare("bench_rehearsal", say):
-        return 2
+    prepare(say)
     found: dict[str, dict[str, Any]] = {}
-    all_right = True
     for condition in CONDITIONS:
         if options.only and condition.name not in options.only:
             continue
         count = options.actions if condition == USUAL else options.each
         say(f"{condition.name}: a calibration, then {count} actions")
-        found[condition.name] = figures = measure(condition, count, options.seed)
-        all_right &= is_right(condition, figures)
-        say(str(figures))
-    if options.json:
-        print(json.dumps(found))
-    else:
-        _show(found)
-    return 0 if all_right else 1
-
-
-def _show(found: dict[str, dict[str, Any]]) -> None:
-    table = Table("", *COLUMNS, "problem")
-    for name, figures in found.items():
-        table.add_row(name, *(str(figures.get(column, "")) for column in COLUMNS), figures.get("problem", ""))
-    Console().print(table)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+        found[condition.name] = calibrate_and_play(condition, count, options.seed)
+        say(str(found[condition.name]))
+    return found, all(is_right_under(each, found[each.name]) for each in CONDITIONS if each.name in found)

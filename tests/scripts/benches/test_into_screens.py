@@ -2,7 +2,7 @@
 
 import pytest
 
-from scripts.into_screens import ScreenPresses
+from scripts.benches.into_screens import ScreenPresses
 from sim.client.client import VirtualClient
 
 

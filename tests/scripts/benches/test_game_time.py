@@ -5,26 +5,18 @@ from collections.abc import Callable
 
 import pytest
 
-from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.game import Outcome
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.errors import LiveError
 from mc_nested.learn.imagination.background_practice import GoesOn
 from mc_nested.learn.imagination.experience import RECENT
 from mc_nested.learn.preset import load_preset
-from mc_nested.live.live_game import LiveGame
-from scripts.bench_live_training import (
-    CheckedGame,
+from scripts.bench import main
+from scripts.benches.game_time import (
     PracticeOnAClock,
-    Transition,
     Trial,
-    main,
     medians,
     train,
     wrongly_learnt,
 )
-from sim.client.client import VirtualClient
-from tests.sim.client.playing import arena_of, play
 
 LINE = load_scenario("line")
 RIGHT = Trial("line", 1, True, 8, 0, 100.0, 15.0, 5.0, 20.0, 0, 300, 0, 0, 0, 0, 0)
@@ -79,43 +71,9 @@ def test_what_spoiled_episodes_taught_is_not_in_the_experience() -> None:
     assert trial.is_right
 
 
-class Deceived:
-    """Says that the agent stayed where it was, whatever it did; it fails at the third action."""
-
-    resumable, log = None, None
-
-    def __init__(self, game: LiveGame) -> None:
-        self._game, self._acts_left = game, 3
-
-    def reset(self, material: int) -> Cell:
-        return self._game.reset(material)
-
-    def act(self, action: Action, material: int | None = None) -> Outcome:
-        self._acts_left -= 1
-        if not self._acts_left:
-            raise LiveError("gone")
-        self._game.act(action, material)
-        return Outcome(LINE.start, None)
-
-
-def test_what_neither_the_world_nor_the_rules_say_is_counted_and_a_failed_episode_is_dropped() -> None:
-    client = VirtualClient(seed=1)
-    with play(client, LINE) as live:
-        game = CheckedGame(Deceived(live), client, arena_of(client), LINE, 0.0)
-        assert game.reset(0) == LINE.start
-        assert (game.wrong_cells, game.wrong_blocks, game.unnoticed) == (0, 0, 0)
-        game.act(Action.BD)
-        assert (game.wrong_cells, game.wrong_blocks, game.unnoticed) == (1, 1, 1)
-        assert [len(episode) for episode in game.episodes] == [1]
-        game.act(Action.BD)
-        with pytest.raises(LiveError):
-            game.act(Action.BD)
-    assert game.episodes == []
-
-
 def test_what_was_learnt_must_be_the_last_episodes_transitions_and_all_of_them() -> None:
     one, two = (0, 0, 7, 1, 0, 1, 7), (0, 1, 7, 1, 0, 2, 7)
-    later: list[list[Transition]] = [[two]] * RECENT
+    later: list[list[tuple[int, ...]]] = [[two]] * RECENT
     assert wrongly_learnt([list(one), list(two)], [[one], [two]]) == 0
     assert wrongly_learnt([list(two)], [[one], [two]]) == 2
     assert wrongly_learnt([list(one), list(one)], [[one], [two]]) == 1
@@ -142,10 +100,7 @@ def test_each_wrong_count_alone_is_wrong(wrong: str) -> None:
 @pytest.mark.parametrize(
     ("arguments", "told"), [(["--seeds", "0"], "--seeds must be at least 1"), (["--preset", "paper"], "paper has none")]
 )
-def test_bad_options_are_refused_in_a_line(
-    arguments: list[str], told: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr("sys.argv", ["bench_live_training.py", *arguments])
+def test_bad_options_are_refused_in_a_line(arguments: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit, match="2"):
-        main()
+        main(["game-time", *arguments])
     assert told in capsys.readouterr().err

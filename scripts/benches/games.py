@@ -4,24 +4,20 @@ Each game has a clock of its own, which its resets and steps advance. The game w
 and gets its next plan at once: practice takes no game time. What counts is the clock of the game that brings the greedy
 evaluation at the optimum.
 
-    python scripts/bench_games.py [--designs 12] [--seeds 3] [--json]
-
-Beside other games a learner practises more thoroughly than a game alone does with the preset live. With --enough 0.999
-all practise alike: then only what the games don't have to probe any more counts.
+Beside other games a learner practises more thoroughly than a game alone does. With --enough 0.999 all practise alike:
+then only what the games don't have to probe any more counts.
 """
 
 import argparse
 import heapq
-import json
 import pickle
 import statistics
-import sys
 import time
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from rich.console import Console
+from rich.progress import track
 
 from mc_nested.arena.design_kind import KINDS, SCATTERED, kind_of_design
 from mc_nested.arena.env import ArenaEnv
@@ -34,6 +30,7 @@ from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.games.player import play_episode
 from mc_nested.learn.preset import Preset, load_preset
+from scripts.bench import Figures
 from sim.grid import GridGame
 
 LIKE = "line"
@@ -61,14 +58,6 @@ class Reached:
     plan_bytes: int
     episode_bytes: int
     planning_s: float
-
-    def in_words(self) -> str:
-        """Everything, in a line."""
-        return (
-            f"{self.seconds:6.0f} s, {self.slowest_episodes:3} episodes of the slowest, {self.episodes:3} of all, "
-            f"{'optimum' if self.is_optimum else 'NO OPTIMUM'}, planned in {self.planning_s:.0f} s, "
-            f"plan {self.plan_bytes:,} bytes, episode {self.episode_bytes:,} bytes"
-        )
 
 
 def scattered(designs: int) -> list[Scenario]:
@@ -116,40 +105,36 @@ def live(enough: float | None) -> Preset:
     return preset.model_copy(update={"imagination": preset.imagination.model_copy(update={"enough": enough})})
 
 
-def main() -> None:
-    """Compare numbers of games on scattered designs, and show what they do on a line."""
-    parser = argparse.ArgumentParser(description="Several games that feed one learner, in simulated time")
-    parser.add_argument("--designs", type=int, default=12, help="scattered designs of a benchmark [12]")
-    parser.add_argument("--seeds", type=int, default=1, help="trainings on each design, of the seeds from 0 on [1]")
-    parser.add_argument("--games", default="1,3", help="numbers of games; the others are compared with the first [1,3]")
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options, with their defaults."""
+    parser.add_argument("--designs", type=int, default=12, help="scattered designs of a benchmark")
+    parser.add_argument("--seeds", type=int, default=1, help="trainings on each design, of the seeds from 0 on")
+    parser.add_argument("--games", default="1,3", help="numbers of games; the others are compared with the first")
     parser.add_argument("--enough", type=float, help="in place of the preset's, for a game alone")
-    parser.add_argument("--reset-s", type=float, default=6.0, help="seconds of a reset [6]")
-    parser.add_argument("--step-s", type=float, default=0.34, help="seconds of a step [0.34]")
-    parser.add_argument("--json", action="store_true", help="print the figures as JSON, too")
-    options = parser.parse_args()
+    parser.add_argument("--reset-s", type=float, default=6.0, help="seconds of a reset")
+    parser.add_argument("--step-s", type=float, default=0.34, help="seconds of a step")
+
+
+def measure(options: argparse.Namespace) -> tuple[Figures, bool]:
+    """Train with each number of games on a line and on scattered designs; ``ratios`` are of each kind and number."""
     pace, preset = Pace(options.reset_s, options.step_s), live(options.enough)
     first, *more = (int(part) for part in options.games.split(","))
-    ratios: dict[tuple[str, int], list[float]] = {}
+    ratios: dict[str, list[float]] = {}
     rows: list[dict[str, Any]] = []
-    for scenario in [load_scenario(LIKE), *scattered(options.designs)]:
-        for seed in range(options.seeds):
-            of_first = until_optimum(scenario, preset, seed, first, pace)
-            print(f"{scenario.name:14} seed {seed}, games: {first}, {of_first.in_words()}", flush=True)
-            rows.append({"scenario": scenario.name, "seed": seed, "games": first, **asdict(of_first)})
-            for many in more:
-                reached = until_optimum(scenario, preset, seed, many, pace)
-                rows.append({"scenario": scenario.name, "seed": seed, "games": many, **asdict(reached)})
-                ratio = reached.seconds / of_first.seconds
-                ratios.setdefault((kind_of_design(scenario.design), many), []).append(ratio)
-                print(f"{'':14} seed {seed}, games: {many}, {reached.in_words()}, ratio {ratio:.2f}", flush=True)
-    for (kind, many), found in ratios.items():
-        print(
-            f"{kind}, games: {many}, {len(found)} trainings: median ratio {statistics.median(found):.2f}, "
-            f"mean {statistics.mean(found):.2f}, worst {max(found):.2f}"
-        )
-    if options.json:
-        print(json.dumps({"wrong": sum(not row["is_optimum"] for row in rows), "trainings": rows}))
-
-
-if __name__ == "__main__":
-    main()
+    jobs = [
+        (each, seed) for each in [load_scenario(LIKE), *scattered(options.designs)] for seed in range(options.seeds)
+    ]
+    for scenario, seed in track(jobs, "trainings", console=Console(stderr=True)):
+        reached = {many: until_optimum(scenario, preset, seed, many, pace) for many in (first, *more)}
+        rows += [
+            {"scenario": scenario.name, "seed": seed, "games": many, **asdict(each)} for many, each in reached.items()
+        ]
+        for many in more:
+            named = f"{kind_of_design(scenario.design)}, {many} games"
+            ratios.setdefault(named, []).append(reached[many].seconds / reached[first].seconds)
+    wrong = sum(not row["is_optimum"] for row in rows)
+    shown = {
+        named: {"median": statistics.median(found), "mean": statistics.mean(found), "worst": max(found)}
+        for named, found in ratios.items()
+    }
+    return {"wrong": wrong, "ratios": shown, "trainings": rows}, wrong == 0

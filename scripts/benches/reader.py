@@ -1,27 +1,22 @@
-"""Accuracy and speed of the debug screen's reader on painted frames of all layouts, GUI scales, windows and worlds.
-
-    python scripts/bench_reader.py [--frames 20000] [--layout 26.4 ...] [--font PNG_OR_JAR] [--seed 0] [--tesseract 200]
-        [--json]
+"""How exactly and how fast the debug screen is read, on painted frames of all layouts, GUI scales, windows and worlds.
 
 Frames come in pairs: the second shows the player a tick later before another world. A new reader reads the first
 ("cold"), then the second, where it remembers where the lines stood ("warm"). Warm times are of frames that needed no
 second look, each read five times more. Times are medians of processor time at 1920 x 1080 on one core;
 ``workload_ms`` is a fixed piece of NumPy work, to compare machines. Where Tesseract is installed, it is given the XYZ
 line of some of these frames, cut out, black on white, enlarged and smoothed; it is right if the three numbers are. Its
-time is wall clock, process start included. Exit code 1 if a reading was wrong or more than 0.1 % were not read; 0.5 %
-if 26.4's layout is among them.
+time is wall clock, process start included. Right are no wrong reading and at most 0.1 % that were not read; 0.5 % if
+26.4's layout is among them.
 """
 
 import argparse
 import dataclasses
 import itertools
-import json
 import os
 import re
 import shutil
 import statistics
 import subprocess
-import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -38,6 +33,7 @@ from mc_nested.live.vision.font import Font, font_of, load_font
 from mc_nested.live.vision.overlay import POSITION, find_debug_screen
 from mc_nested.live.vision.screen_reader import ScreenReader
 from mc_nested.live.vision.text_lines import positions_of
+from scripts.bench import Figures
 from sim.client.drawing.f3_cases import WORLDS, expected, frames, random_world
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.font import drawn_atlas
@@ -97,7 +93,9 @@ class OneFrameDisplay:
         return self.frame[region.top : region.top + region.height, region.left : region.left + region.width]
 
 
-def measure(font: Font, count: int, seed: int, tesseract_count: int, layouts: tuple[Layout, ...] = LAYOUTS) -> Result:
+def read_frames(
+    font: Font, count: int, seed: int, tesseract_count: int, layouts: tuple[Layout, ...] = LAYOUTS
+) -> Result:
     """Read ``count`` painted frames of layouts, an even number, and give Tesseract ``tesseract_count`` of them."""
     wrong = unread = 0
     cold: list[float] = []
@@ -194,42 +192,21 @@ def _median_ms(seconds: list[float]) -> float | None:
     return round(1000 * statistics.median(seconds), 3) if seconds else None
 
 
-def main() -> int:
-    """Parse the command line, measure, print."""
-    parser = argparse.ArgumentParser(description="Accuracy and speed of the debug screen's reader on painted frames.")
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options, with their defaults."""
     parser.add_argument("--frames", type=int, default=20_000)
     parser.add_argument("--layout", nargs="+", choices=LAYOUTS, default=LAYOUTS, help="all if left out")
     parser.add_argument("--font", type=Path, help="a font picture, jar or resource pack; without it the drawn font")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--tesseract", type=int, default=200, help="frames for Tesseract, if it is installed")
-    parser.add_argument("--json", action="store_true")
-    arguments = parser.parse_args()
-    if arguments.frames < 2:
-        parser.error("--frames must be at least 2")
+
+
+def measure(options: argparse.Namespace) -> tuple[Figures, bool]:
+    """Read so many frames."""
+    if options.frames < 2:
+        raise UserError("--frames must be at least 2")
     cv2.setNumThreads(1)
-    try:
-        font = load_font(arguments.font) if arguments.font else font_of(drawn_atlas())
-    except UserError as error:
-        parser.error(str(error))
-    result = measure(font, arguments.frames, arguments.seed, arguments.tesseract, tuple(arguments.layout))
-    print(json.dumps(dataclasses.asdict(result)) if arguments.json else _words(result))
-    bound = 0.005 if "26.4" in arguments.layout else 0.001
-    return int(result.wrong > 0 or result.unread > bound * result.frames)
-
-
-def _words(result: Result) -> str:
-    tesseract = "Tesseract is not installed"
-    if result.tesseract_accuracy is not None:
-        tesseract = (
-            f"Tesseract reads {result.tesseract_accuracy:.1%} of {result.tesseract_frames} XYZ lines, "
-            f"in {result.tesseract_ms} ms each"
-        )
-    return (
-        f"{result.frames} frames: {result.wrong} wrong, {result.unread} not read; a 1920 x 1080 frame takes "
-        f"{result.warm_ms} ms warm, {result.cold_ms} ms cold (medians, one core; the fixed workload "
-        f"{result.workload_ms} ms); {tesseract}"
-    )
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    font = load_font(options.font) if options.font else font_of(drawn_atlas())
+    result = read_frames(font, options.frames, options.seed, options.tesseract, tuple(options.layout))
+    bound = 0.005 if "26.4" in options.layout else 0.001
+    return dataclasses.asdict(result), result.wrong == 0 and result.unread <= bound * result.frames

@@ -9,9 +9,9 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.live.model.kinematics import walk_response
 from mc_nested.live.model.versions import draws_text_over_menus
 from mc_nested.live.profile.tables import Profile, WalkTable
-from scripts.bench_calibration import ClientResult, calibrate_and_play, click_errors, report, walk_rms
-from scripts.bench_live import PlayCounts
-from scripts.calibration_clients import NARROWEST, RANDOM_SIZES, SIZES, VERSIONS, clients, every_version
+from scripts.benches.calibration import ClientResult, calibrate_and_play, click_errors, report, walk_rms
+from scripts.benches.calibration_clients import NARROWEST, RANDOM_SIZES, SIZES, VERSIONS, clients, every_version
+from scripts.benches.played import PlayCounts
 from sim.client.client import VirtualClient
 from sim.client.game.edition import Edition
 from sim.client.game.f3_text import LAYOUTS

@@ -1,8 +1,8 @@
 """Plays random actions in a rehearsal window, each checked against what its client says, and prints the figures.
 
-    python scripts/rehearsal_play.py PROFILE TRUTH [--actions 100] [--seed 0]
+    python scripts/benches/rehearsal_play.py PROFILE TRUTH [--actions 100] [--seed 0]
 
-A process of its own for scripts/bench_rehearsal.py: a program keeps to the display that it was started on.
+A process of its own for rehearsal.py: a program keeps to the display that it was started on.
 """
 
 import argparse
@@ -10,13 +10,16 @@ import json
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+import numpy as np
+from rich.console import Console
+from rich.progress import track
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.session import open_live_game
-from scripts.bench_live import figures
-from scripts.bench_standin import play
+from scripts.benches.played import figures_of, play_in
 from scripts.rehearsal_window import RehearsalTruth
 
 
@@ -32,8 +35,9 @@ def main() -> int:
     arena = load_profile(options.profile).marked_arena()
     truth = RehearsalTruth(options.truth, arena)
     with open_live_game(scenario, options.profile, lambda line: print(line, file=sys.stderr)) as (game, _):
-        played = play(game, scenario, truth, options.actions, options.seed)
-    print(json.dumps(figures(played)))
+        steps = track(range(options.actions), "actions", console=Console(stderr=True))
+        played = play_in(game, truth, scenario, steps, np.random.default_rng(options.seed))
+    print(json.dumps(figures_of(played)))
     return 1 if played.wrong_cells or played.wrong_blocks else 0
 
 

@@ -1,4 +1,4 @@
-"""What bench_learning.py compares this project with: DDQN loops of a single run, doing the same work."""
+"""DDQN loops of a single run, with which learning.py compares this project: the same work."""
 
 from collections.abc import Callable, Iterator
 

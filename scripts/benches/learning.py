@@ -1,43 +1,35 @@
-"""How fast the agents learn: updates per second of many runs at once, compared with single-run loops.
+"""Updates a second of many runs at once, compared with single-run loops.
 
 The same work: the line in the simulator, one environment step and one DDQN update of batch 32 per step, two hidden
 layers of 32, Adam. Each contestant uses all cores: our runs are divided over the cores as in ``mc-nested reproduce``,
 and each core runs one single-run loop. All take turns in short slices, so that a drift in the machine's speed affects
-them equally; quote the ratios. The torch engine takes part with one run and with the most, its images with one and ten.
-
-Usage: python scripts/bench_learning.py [--runs 1 10 30 90] [--rounds 5] [--slice-s 2] [--json]
-stable-baselines3 takes part where the bench extra is installed.
+them equally; quote the ratios. The torch engine takes part with one run and with the most, its images with one and ten;
+stable-baselines3 where the bench extra is installed.
 """
 
 import argparse
 import importlib.util
 import itertools
-import json
 import multiprocessing
 import os
 import statistics
-import sys
 import tempfile
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
 from multiprocessing.connection import Connection
-from pathlib import Path
-from typing import Any
 
 import torch
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.learn.trainer import Trainer
+from scripts.bench import Figures
+from scripts.benches.single_run_loops import Slices, plain_loop, sb3
 from sim.grid import GridVectorEnv
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from scripts.bench_learning_loops import Slices, plain_loop, sb3
 
 LINE, PAPER = load_scenario("line"), load_preset("paper")
 WARM_UP_S = 1.0
@@ -140,7 +132,7 @@ def ours_named(runs: Sequence[int]) -> list[str]:
     return [f"{kind} {count}" for kind, own in counts.items() for count in own]
 
 
-def measure(runs: Sequence[int], rounds: int, slice_s: float, cores: int) -> dict[str, list[float]]:
+def rates_of(runs: Sequence[int], rounds: int, slice_s: float, cores: int) -> dict[str, list[float]]:
     """Updates a second of each contestant on all cores together, a figure a round."""
     names = [*ours_named(runs), "plain loop", "plain loop, one", "bmm"]
     if importlib.util.find_spec("stable_baselines3"):
@@ -175,7 +167,7 @@ def ratio(rates: dict[str, list[float]], one: str, other: str) -> float:
     return statistics.median(a / b for a, b in zip(rates[one], rates[other], strict=True))
 
 
-def summary(rates: dict[str, list[float]], runs: Sequence[int], cores: int) -> dict[str, Any]:
+def summary(rates: dict[str, list[float]], runs: Sequence[int], cores: int) -> Figures:
     """The figures as one JSON object; every ratio at the largest number of runs but ``ratio_one_run``."""
     medians = {name: statistics.median(found) for name, found in rates.items()}
     most, has_sb3 = f"compiled {max(runs)}", "stable-baselines3" in rates
@@ -195,32 +187,15 @@ def summary(rates: dict[str, list[float]], runs: Sequence[int], cores: int) -> d
     }
 
 
-def main() -> None:
-    """Measure and print a table, or one JSON object."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def add_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options, with their defaults."""
     parser.add_argument("--runs", type=int, nargs="+", default=[1, 10, 30, MOST_RUNS])
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--slice-s", type=float, default=2.0)
-    parser.add_argument("--json", action="store_true")
-    options = parser.parse_args()
+
+
+def measure(options: argparse.Namespace) -> tuple[Figures, bool]:
+    """Let every contestant learn, by turns; nothing is judged."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    rates = measure(options.runs, options.rounds, options.slice_s, cores)
-    found = summary(rates, options.runs, cores)
-    if options.json:
-        print(json.dumps(found))
-        return
-    table = Table(
-        "what, and runs at once", "updates/s", "beside the plain loop", title=f"median over the rounds, {cores} cores"
-    )
-    for name in rates:
-        if name not in ("bmm", "plain loop, one"):
-            beside = ratio(rates, name, "plain loop")
-            table.add_row(name, f"{statistics.median(rates[name]):,.0f}", f"{beside:.1f} times")
-    table.add_row("the arithmetic limit", f"{found['limit']:,}", f"{found['ratio_limit']} of it are reached")
-    Console().print(table)
-    one, torch_one = found["ratio_one_run"], found["ratio_torch_one_run"]
-    print(f"one run beside one plain loop on one core: compiled {one} times, torch {torch_one} times")
-
-
-if __name__ == "__main__":
-    main()
+    rates = rates_of(options.runs, options.rounds, options.slice_s, cores)
+    return summary(rates, options.runs, cores), True

@@ -1,0 +1,223 @@
+"""Random actions in a live game, each held against its world and against the rules."""
+
+import dataclasses
+import time
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from typing import Any, Protocol
+
+import numpy as np
+
+from mc_nested.arena import rules
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.game import Game, Outcome, PlayLog
+from mc_nested.arena.scenario import Scenario
+from mc_nested.errors import LiveError
+from mc_nested.live.action_log import percentile
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile.arena import Arena
+from sim.client.client import VirtualClient
+
+GIVES_UP = 3
+"""Resets in a row that may fail: a game that can't be reset would go on for ever."""
+
+Transition = tuple[int, ...]
+"""(x, y, b), the action, and (x, y, b) after it."""
+
+
+@dataclasses.dataclass
+class PlayCounts:
+    """What was played, what went wrong, and how long it took."""
+
+    actions: int = 0
+    mishaps: int = 0
+    wrong_cells: int = 0
+    wrong_blocks: int = 0
+    unnoticed: int = 0
+    failed_actions: int = 0
+    resets: int = 0
+    gave_up: int = 0
+    left_down: int = 0
+    strays: int = 0
+    into_screens: int = 0
+    too_late: int = 0
+    corrections: int = 0
+    second_clicks: int = 0
+    recoveries: int = 0
+    played_s: float = 0.0
+    cpu_s: float = 0.0
+    moves_s: list[float] = dataclasses.field(default_factory=list)
+    placings_s: list[float] = dataclasses.field(default_factory=list)
+
+    @property
+    def is_right(self) -> bool:
+        """Whether nothing was wrong."""
+        wrong = (self.wrong_cells, self.wrong_blocks, self.unnoticed, self.gave_up, self.left_down)
+        return not any((*wrong, self.strays, self.into_screens))
+
+
+class WorldTruth(Protocol):
+    """What the game's world really holds, known without its screen."""
+
+    def cell(self) -> Cell:
+        """The cell that the player stands on."""
+
+    def is_built(self, placed: set[Cell]) -> bool:
+        """Whether these cells hold a block, and nothing else was built."""
+
+
+class ClientTruth:
+    """What the client's world really holds. What was built before, such as a floor and a border, must stay."""
+
+    def __init__(self, client: VirtualClient, arena: Arena) -> None:
+        self._client, self._arena = client, arena
+        self._built_before = client.built
+
+    def cell(self) -> Cell:
+        """The cell that the player stands on."""
+        return self._client.cell(self._arena)
+
+    def is_built(self, placed: set[Cell]) -> bool:
+        """Whether these cells hold a block, and everything else is as before."""
+        cells = {self._arena.block_of(cell) for cell in placed}
+        built = self._client.built
+        others = {block: built[block] for block in built if block not in cells}
+        return cells <= built.keys() and others == self._built_before
+
+
+class CheckedGame:
+    """A game whose every outcome is held against its world and the rules.
+
+    An outcome that differs from the world is a wrong cell or a wrong block. One that matches the world but not the
+    rules is unnoticed: the action did not happen. ``episodes`` are those that nothing spoiled so far, the running one
+    last; ``now`` gives the seconds by which actions are timed.
+    """
+
+    resumable = None
+
+    def __init__(self, game: Game, truth: WorldTruth, scenario: Scenario, now: Callable[[], float]) -> None:
+        self.scenario, self.counts = scenario, PlayCounts()
+        self.cell, self.placed = scenario.start, set[Cell]()
+        self.episodes: list[list[Transition]] = []
+        self.before_reset: Callable[[], None] = lambda: None
+        self.before_act: Callable[[int], None] = lambda _action: None
+        self._game, self._truth, self._now = game, truth, now
+
+    @property
+    def log(self) -> PlayLog | None:
+        """The game's."""
+        return self._game.log
+
+    def reset(self, material: int) -> Cell:
+        """Begin an episode."""
+        self.before_reset()
+        self.cell, self.placed = self._game.reset(material), set()
+        self.counts.resets += 1
+        self._check()
+        self.episodes.append([])
+        return self.cell
+
+    def act(self, action: Action, material: int | None = None) -> Outcome:
+        """Act in the game, after what happens before that action."""
+        counts, size = self.counts, self.scenario.size
+        self.before_act(counts.actions)
+        counts.actions += 1
+        began = self._now()
+        try:
+            outcome = self._game.act(action, material)
+        except LiveError:
+            counts.failed_actions += 1
+            self.episodes.pop()
+            raise
+        (counts.placings_s if action in rules.PLACES else counts.moves_s).append(self._now() - began)
+        before, left = self.cell, self.scenario.blocks - len(self.placed)
+        cell = rules.moved(before, action, self.placed, size)
+        block = rules.landing(cell, action, self.placed, size)
+        counts.unnoticed += (outcome.cell, outcome.placed) != (cell, block)
+        self.cell = outcome.cell
+        self.placed |= {outcome.placed} if outcome.placed else set()
+        self._check()
+        after = self.scenario.blocks - len(self.placed)
+        self.episodes[-1].append((*before, left, int(action), *self.cell, after))
+        return outcome
+
+    def _check(self) -> None:
+        self.counts.wrong_cells += self._truth.cell() != self.cell
+        self.counts.wrong_blocks += not self._truth.is_built(self.placed)
+
+
+def play(game: CheckedGame, steps: Iterable[object], rng: np.random.Generator) -> PlayCounts:
+    """Play as many random actions as there are steps; LiveError where GIVES_UP resets in a row fail."""
+    in_episode = None
+    for _ in steps:
+        if in_episode is None:
+            in_episode = _begin(game, rng)
+        try:
+            game.act(drawn_action(rng, game.cell, game.placed, game.scenario.size))
+        except LiveError:
+            in_episode = None
+            continue
+        in_episode += 1
+        if is_over(game.cell, game.placed, in_episode, game.scenario):
+            in_episode = None
+    return game.counts
+
+
+def _begin(game: CheckedGame, rng: np.random.Generator) -> int:
+    """Begin an episode with a random material, in which no step was taken yet."""
+    for _try in range(GIVES_UP):
+        with suppress(LiveError):
+            game.reset(int(rng.integers(len(game.scenario.materials))))
+            return 0
+        game.counts.gave_up += 1
+    raise LiveError(f"{GIVES_UP} resets in a row failed")
+
+
+def play_in(
+    game: LiveGame,
+    truth: WorldTruth,
+    scenario: Scenario,
+    steps: Iterable[object],
+    rng: np.random.Generator,
+    before_act: Callable[[int], None] = lambda _action: None,
+    now: Callable[[], float] = time.perf_counter,
+) -> PlayCounts:
+    """Play random actions in a live game that is open; returns what was counted, and what the game logged."""
+    checked = CheckedGame(game, truth, scenario, now)
+    checked.before_act = before_act
+    counts = play(checked, steps, rng)
+    effort = game.log.effort
+    counts.corrections, counts.second_clicks = effort.corrections, effort.second_clicks
+    counts.recoveries = game.log.recoveries
+    return counts
+
+
+def is_over(cell: Cell, placed: set[Cell], steps: int, scenario: Scenario) -> bool:
+    """Whether an episode ends here: no block is left, or no step, or the agent has walled itself in."""
+    is_out = len(placed) == scenario.blocks or steps == scenario.step_limit
+    return is_out or next(_possible(cell, placed, scenario.size), None) is None
+
+
+def drawn_action(rng: np.random.Generator, cell: Cell, placed: set[Cell], size: int) -> Action:
+    """A random action among those that the rules don't void."""
+    return Action(int(rng.choice([int(action) for action in _possible(cell, placed, size)])))
+
+
+def _possible(cell: Cell, placed: set[Cell], size: int) -> Iterator[Action]:
+    for action in Action:
+        target = rules.moved(cell, action, placed, size)
+        if target != cell or rules.landing(target, action, placed, size) is not None:
+            yield action
+
+
+def figures_of(played: PlayCounts) -> dict[str, Any]:
+    """The counts and times of playing without mishaps, as JSON holds them."""
+    every = sorted([*played.moves_s, *played.placings_s])
+    counts = ("actions", "wrong_cells", "wrong_blocks", "failed_actions", "corrections", "second_clicks")
+    return {
+        **{name: getattr(played, name) for name in counts},
+        "median_action_s": percentile(every, 50),
+        "p95_action_s": percentile(every, 95),
+        "moves": {"median_s": percentile(played.moves_s, 50), "p95_s": percentile(played.moves_s, 95)},
+        "placings": {"median_s": percentile(played.placings_s, 50), "p95_s": percentile(played.placings_s, 95)},
+    }

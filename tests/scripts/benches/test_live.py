@@ -1,0 +1,39 @@
+"""The benchmark of the live path: a short play, older pictures, and options that can't be."""
+
+import pytest
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.live.model.timing import FRAME_S
+from scripts.bench import main
+from scripts.benches.live import GROUND_PITCH, calibrated_walk, play
+from sim.client.client import VirtualClient
+
+
+def test_nothing_is_wrong_in_a_short_play_without_mishaps() -> None:
+    counts = play(12, 0.0, 3, load_scenario("diamond"))
+    assert counts.is_right
+    assert (counts.actions, counts.failed_actions, counts.mishaps) == (12, 0, 0)
+    assert len(counts.moves_s) + len(counts.placings_s) == 12
+    assert counts.resets >= 1
+    assert min([*counts.moves_s, *counts.placings_s]) > 0
+    assert sum([*counts.moves_s, *counts.placings_s]) < counts.played_s < 60
+
+
+@pytest.mark.slow
+def test_a_clients_older_pictures_are_found_by_calibration_and_played_with_as_well() -> None:
+    found = calibrated_walk(VirtualClient(pitch=GROUND_PITCH, capture_latency_s=(0.075, 0.075)))
+    assert found.input_latency_s + found.capture_latency_s == pytest.approx(0.075 + 0.0125 + FRAME_S / 2, abs=0.012)
+    usual, slow = (play(40, 0.0, 1, load_scenario("diamond"), latency_ms) for latency_ms in (None, (60.0, 90.0)))
+    assert usual.is_right
+    assert slow.is_right
+    assert slow.corrections <= 2
+    assert sum([*usual.moves_s, *usual.placings_s]) + 1.0 < sum([*slow.moves_s, *slow.placings_s]) < 40 * 0.45
+
+
+@pytest.mark.parametrize("latency_ms", [("90", "60"), ("-1", "5"), ("10", "900")])
+def test_latencies_that_no_profile_holds_are_refused_in_a_line(
+    latency_ms: tuple[str, str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit, match="2"):
+        main(["live", "--latency-ms", *latency_ms])
+    assert "--latency-ms must be two times from 0 to 350, the shorter one first" in capsys.readouterr().err
