@@ -6,9 +6,10 @@ about a single block only; for regions its chat shows how many blocks were compa
 no answer, the answer is unknown.
 """
 
-from calibration.arena.plan import Box, box_text, volume
+from calibration.arena.plan import box_text, volume
 from calibration.command_console import CommandConsole
 from mc_nested.live.model.reading import Block, Reading
+from mc_nested.live.profile.built_arena import Box
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.game_screen import GameScreen
 

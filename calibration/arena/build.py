@@ -19,7 +19,7 @@ from calibration.arena.ground_survey import is_copy_gone, survey_ground
 from calibration.arena.look_around import teleport_and_look
 from calibration.arena.mark import arena_from_reading, load_profile_with_font
 from calibration.arena.messages import build_question, build_summary, undo_hint
-from calibration.arena.plan import FLOOR, border_block, box_of, build_commands, copy_command, do_overlap
+from calibration.arena.plan import build_commands, copy_command, do_overlap
 from calibration.command_console import CommandConsole
 from calibration.context import CalibrationContext, ReportPicture, StepResult
 from calibration.open_context import OpenContext
@@ -33,6 +33,7 @@ from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.debug_entries import why_none_is_named
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena, near_middle
+from mc_nested.live.profile.built_arena import FLOOR, border_block, box_of
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile

@@ -4,13 +4,14 @@ from dataclasses import dataclass
 
 from calibration.arena.block_queries import BlockQueries
 from calibration.arena.look_around import ANGLE_TOLERANCE_DEG, LookAroundResult, look_around, teleport_and_look
-from calibration.arena.plan import box_at, box_of, copy_positions, floor_of, is_good_floor
+from calibration.arena.plan import box_at, copy_positions, is_good_floor
 from calibration.command_console import CommandConsole
 from mc_nested.arena.action import Cell
 from mc_nested.errors import UserError
 from mc_nested.live.model.debug_entries import NONE_NAMED, have_block_named
 from mc_nested.live.model.reading import Block, Reading
 from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.built_arena import box_of, floor_of
 from mc_nested.live.profile.tables import Profile
 
 

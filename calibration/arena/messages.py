@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 
 from calibration.arena.ground_survey import GroundSurvey
-from calibration.arena.plan import FLOOR, border_block, box_at, box_of, copy_command
+from calibration.arena.plan import box_at, copy_command
 from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.built_arena import FLOOR, border_block, box_of
 
 
 def build_question(arena: Arena, ground: GroundSurvey, old: Arena | None, materials: Sequence[str]) -> str:

@@ -5,7 +5,7 @@ from pathlib import Path
 from calibration.arena.block_queries import BlockQueries
 from calibration.arena.copy_note import read_copy_note, remove_copy_note
 from calibration.arena.ground_survey import is_copy_gone
-from calibration.arena.plan import box_at, box_of, copy_command, fill_command
+from calibration.arena.plan import box_at, copy_command, fill_command
 from calibration.command_console import CommandConsole
 from calibration.context import CalibrationContext, StepResult
 from calibration.open_context import OpenContext
@@ -15,6 +15,7 @@ from mc_nested.live.devices import SWITCH_KEYS
 from mc_nested.live.menus.commands import teleport_command
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.reading import Block
+from mc_nested.live.profile.built_arena import box_of
 from mc_nested.live.profile.store import load_profile, profile_path, save_profile
 from mc_nested.live.profile.tables import Profile
 

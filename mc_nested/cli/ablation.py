@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from mc_nested.cli.experiment import Outcomes, train_all
-from mc_nested.cli.experiment_end import say_end
+from mc_nested.cli.experiment_end import Experiment, say_end
 from mc_nested.cli.output import Output
 from mc_nested.errors import RunError
 from mc_nested.learn.experiments.ablation import AblationConfig
@@ -35,7 +35,7 @@ def run_ablation(folder: ExperimentFolder[AblationConfig], output: Output, sched
 
     with folder.writing():
         write_ablation(folder.path, found)
-    say_end(output, folder.path, FILES, {})
+    say_end(output, Experiment, folder.path, FILES, {})
 
 
 def ablation_of(config: AblationConfig, outcomes: Outcomes) -> Ablation:

@@ -15,6 +15,7 @@ from mc_nested.arena.random_designs import random_scenario
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.cli.cluster_options import ClusterOption, InsecureOption, KeysOption, cluster_of
+from mc_nested.cli.completion import complete_of
 from mc_nested.cli.experiment import (
     MOST_TRIALS,
     JobsOption,
@@ -26,10 +27,9 @@ from mc_nested.cli.experiment import (
     jobs_at_once,
     train_all,
 )
-from mc_nested.cli.experiment_end import say_end
-from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.experiment_end import Benchmarked, say_end
+from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
-from mc_nested.cli.screen_states import check_window
 from mc_nested.errors import UserError
 from mc_nested.learn.experiments.benchmark import (
     AGENTS,
@@ -45,6 +45,7 @@ from mc_nested.learn.preset import load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.benchmark_results import Benchmark, BenchmarkRow, played_to_optimum
 from mc_nested.workers.cluster.address import SchedulerAddress
+from sim.worlds import check_window
 
 if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others doesn't need
     from mc_nested.report.benchmark_measures import Measures
@@ -59,6 +60,7 @@ LIKE = "line"
 """The shipped design whose start cell and materials every design of a benchmark has."""
 
 
+@prints(Benchmarked)
 def benchmark(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     designs: Annotated[
@@ -69,7 +71,12 @@ def benchmark(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     ] = None,
     agents: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME,...", help=f"of {', '.join(AGENTS)} [{','.join(DEFAULT_AGENTS)}]"),
+        typer.Option(
+            metavar="NAME,...",
+            help=f"of {', '.join(AGENTS)}",
+            show_default=",".join(DEFAULT_AGENTS),
+            autocompletion=complete_of(lambda: AGENTS),
+        ),
     ] = None,
     presets: Annotated[
         list[str] | None, typer.Option(metavar="NAME|FILE,...", help=f"of each agent [{','.join(DEFAULT_PRESETS)}]")
@@ -153,7 +160,7 @@ def _run(folder: ExperimentFolder[BenchmarkConfig], output: Output, scheduler: S
     with folder.writing():
         measures = write_benchmark(folder.path, found)
     figures = [{"contestant": name, **dataclasses.asdict(own)} for name, own in measures]
-    say_end(output, folder.path, FILES, {"measures": figures}, _table(measures))
+    say_end(output, Benchmarked, folder.path, FILES, {"measures": figures}, _table(measures))
 
 
 def benchmark_of(config: BenchmarkConfig, outcomes: Outcomes) -> Benchmark:

@@ -4,7 +4,7 @@ from rich.table import Table
 from rich.text import Text
 
 from mc_nested.cli.experiment import Outcomes, train_all
-from mc_nested.cli.experiment_end import say_end
+from mc_nested.cli.experiment_end import Reproduced, say_end
 from mc_nested.cli.output import Output
 from mc_nested.learn.experiments.beyond import Arm, BeyondConfig
 from mc_nested.learn.experiments.experiment_folder import ExperimentFolder
@@ -36,7 +36,7 @@ def run_beyond(folder: ExperimentFolder[BeyondConfig], output: Output, scheduler
     shown = Table("", "what the paper says it could do", "verdict", "trials to decide it", box=None, padding=(0, 1))
     for each in claims:
         shown.add_row(f"({each.claim.letter})", Text(each.claim.title), each.verdict.value, in_words(each))
-    say_end(output, folder.path, FILES, {"claims": found}, shown)
+    say_end(output, Reproduced, folder.path, FILES, {"claims": found}, shown)
 
 
 def arms_of(config: BeyondConfig, outcomes: Outcomes) -> Arms:

@@ -1,7 +1,7 @@
 """``mc-nested cooperate``: train several builders in one simulated arena, or resume that."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
@@ -14,13 +14,14 @@ from mc_nested.arena.cooperative.team import Team, team_of
 from mc_nested.arena.cooperative.team_env import TeamEnv
 from mc_nested.arena.cooperative.team_picture import draw_team_picture
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.scenario_file import table_of
+from mc_nested.arena.scenario_file import shipped_scenarios, table_of
 from mc_nested.atomic_file import atomic_write
+from mc_nested.cli.completion import complete_of, complete_runs
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
-from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.options import FILES, NAME_OR_FILE, LayerOption, PresetOption, named_scenario
+from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.progress import STOPPING
-from mc_nested.cli.scenario_options import FILES, NAME_OR_FILE, LayerOption, named_scenario
 from mc_nested.cli.team_progress import TeamProgress
 from mc_nested.cli.train import MOST_TRIALS
 from mc_nested.errors import UserError
@@ -47,10 +48,41 @@ PICTURE_CELL_PX = 32
 BUILDERS = 2
 
 
+@dataclass(frozen=True)
+class Cooperated:
+    """What ``cooperate`` prints."""
+
+    folder: Annotated[Path, "the run's folder"]
+    scenario: Annotated[str, "the design's name"]
+    builders: Annotated[int, "in one arena"]
+    networks_kind: Annotated[str, "shared, own or single"]
+    starts: Annotated[Sequence[object], "the builders' cells at the start"]
+    preset: Annotated[str, "the hyper-parameters' name or file"]
+    trials: Annotated[int, "independent trainings"]
+    seed: Annotated[int, "of all random numbers"]
+    episodes: Annotated[int, "a trial's"]
+    optimum: Annotated[float, "the highest score possible"]
+    final_scores: Annotated[Sequence[float], "the team's, of each trial's policy, played greedily"]
+    episodes_to_optimum: Annotated[Sequence[int | None], "training episodes until each trial was at the optimum"]
+    episodes_done: Annotated[Sequence[int], "of each trial"]
+    env_ticks: Annotated[int, "of training episodes: in a tick every builder acts once"]
+    evaluation_ticks: Annotated[int, "of greedy episodes"]
+    updates: Annotated[int, "of all networks"]
+    wall_s: Annotated[float, "seconds that it took"]
+    networks: Annotated[int, "of a trial"]
+    parameters: Annotated[int, "of a trial's networks"]
+
+
+@prints(Cooperated)
 def cooperate(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     scenario: Annotated[
-        str | None, typer.Option(metavar=NAME_OR_FILE, help=f"the design to build: {FILES} [line]")
+        str | None,
+        typer.Option(
+            metavar=NAME_OR_FILE,
+            help=f"the design to build: {FILES} [line]",
+            autocompletion=complete_of(shipped_scenarios),
+        ),
     ] = None,
     layer: LayerOption = None,
     builders: Annotated[int | None, typer.Option(help=f"builders in one arena, 1 to 4 [{BUILDERS}]")] = None,
@@ -65,7 +97,7 @@ def cooperate(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             "single agents [shared]"
         ),
     ] = None,
-    preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="hyper-parameters [paper]")] = None,
+    preset: PresetOption = None,
     episodes: Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial [the preset's]")] = None,
     trials: Annotated[
         int | None, typer.Option(min=1, max=MOST_TRIALS, help="independent trials, trained as one batch [1]")
@@ -74,7 +106,10 @@ def cooperate(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="a new or empty folder for the run [runs/DESIGN-BUILDERS-DATE]")
     ] = None,
-    resume: Annotated[Path | None, typer.Option(metavar="DIR", help="go on from a run's last checkpoint")] = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="go on from a run's last checkpoint", autocompletion=complete_runs),
+    ] = None,
     quiet: QuietOption = False,
     as_json: JsonOption = False,
 ) -> None:
@@ -206,7 +241,7 @@ def _title(run: TeamRun) -> str:
 def _say_end(run: TeamRun, output: Output, summary: dict[str, Any]) -> None:
     scores = ", ".join(f"{score:g}" for score in summary["final_scores"])
     output.result(
-        {"folder": run.path, **summary},
+        Cooperated(run.path, **summary),
         f"final scores (optimum {summary['optimum']:g}): {scores}",
         f"run:        {run.path}",
         f"curve:      {run.path / CURVE}",

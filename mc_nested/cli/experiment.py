@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from mc_nested.cli.cluster_options import workers_of
+from mc_nested.cli.completion import complete_runs
 from mc_nested.cli.experiment_progress import ExperimentProgress
 from mc_nested.cli.experiment_status import ExperimentStatus
 from mc_nested.cli.interrupt import Stopped, catch_interrupts
@@ -43,7 +44,9 @@ JobsOption = Annotated[
 OutOption = Annotated[
     Path | None, typer.Option(metavar="DIR", help="a new or empty folder for all of it [one under runs, with the date]")
 ]
-ResumeOption = Annotated[Path | None, typer.Option(metavar="DIR", help="go on where it was stopped or killed")]
+ResumeOption = Annotated[
+    Path | None, typer.Option(metavar="DIR", help="go on where it was stopped or killed", autocompletion=complete_runs)
+]
 
 
 def cores() -> int:

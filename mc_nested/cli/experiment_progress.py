@@ -11,7 +11,7 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from mc_nested.cli.experiment_status import ExperimentStatus
-from mc_nested.cli.progress_line import print_line
+from mc_nested.cli.output import print_line
 from mc_nested.workers.messages import JobEnded, JobReport
 
 REFRESH_S = 0.25

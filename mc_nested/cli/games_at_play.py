@@ -75,7 +75,7 @@ class GamesAtPlay:
         """How many games there are, and what is lost."""
         records = self._records.values()
         here, playing = sum(each.is_here for each in records), sum(each.playing is not None for each in records)
-        words = f"{counted(here, 'game')}, {playing} playing" if here else "waiting for a game (mc-nested serve-game)"
+        words = f"{counted(here, 'game')}, {playing} playing" if here else "waiting for a game (mc-nested train serve)"
         return words + (f", {counted(self._lost, 'episode')} lost" if self._lost else "")
 
     def summary(self) -> dict[str, Any]:

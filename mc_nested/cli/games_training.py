@@ -6,10 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mc_nested.cli.earlier_run import earlier_run
 from mc_nested.cli.games_at_play import GamesAtPlay, LastEpisode, games_at_play
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
-from mc_nested.cli.options import Backend
 from mc_nested.cli.output import Output
 from mc_nested.cli.progress import STOPPING, TrainingProgress
 from mc_nested.cli.training import SAVE_EVERY_S, HowToRun, begin_or_resume, draw_results, events_of, published
@@ -17,10 +15,12 @@ from mc_nested.cli.training_end import say_end
 from mc_nested.cli.training_view import TrainingView
 from mc_nested.errors import ClusterError, UserError
 from mc_nested.learn.games.games_trainer import GamesTrainer
+from mc_nested.learn.runs.earlier_run import earlier_run
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.view.publisher import Publisher
 from mc_nested.workers.cluster.address import SchedulerAddress, scheduler_address
 from mc_nested.workers.games.order import GameOrder
+from sim.worlds import Backend
 
 OF_THIS_GAME = ("profile", "server_allowed", "record")
 """Options of this computer's own game, which doesn't play."""

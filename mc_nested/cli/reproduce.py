@@ -22,14 +22,19 @@ from mc_nested.cli.experiment import (
     jobs_at_once,
     train_all,
 )
-from mc_nested.cli.experiment_end import say_end
+from mc_nested.cli.experiment_end import Reproduced, say_end
 from mc_nested.cli.experiment_results import results_of_groups
-from mc_nested.cli.options import DeviceOption, EngineOption
-from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.options import (
+    DeviceOption,
+    EngineOption,
+    LayerOption,
+    PresetOption,
+    ScenariosOption,
+    named_scenarios,
+)
+from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
 from mc_nested.cli.robustness import run_robustness
-from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
-from mc_nested.cli.screen_states import check_window
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import AGENT_SPECS, check_exploration, check_parts
 from mc_nested.learn.experiments.beyond import FEW, BeyondConfig, shipped_arms
@@ -41,6 +46,7 @@ from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.results import Results
 from mc_nested.toml_file import parse_document, read_toml_text
 from mc_nested.workers.cluster.address import SchedulerAddress
+from sim.worlds import check_window
 
 if TYPE_CHECKING:  # it loads scipy, which a process that only waits for others doesn't need
     from collections.abc import Sequence
@@ -69,6 +75,7 @@ BESIDE_BEYOND = (
 FILES = {"report": "report.md", "figure": "figure5.png", "table": "results.csv"}
 
 
+@prints(Reproduced)
 def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     trials: Annotated[
@@ -81,7 +88,7 @@ def reproduce(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     agent: Annotated[
         list[str] | None, typer.Option(help=f"an agent, as often as you like [{', '.join(AGENT_SPECS)}]")
     ] = None,
-    preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=f"hyper-parameters [{PRESET}]")] = None,
+    preset: PresetOption = None,
     engine: EngineOption = None,
     device: DeviceOption = None,
     longer: Annotated[
@@ -216,7 +223,7 @@ def _run(folder: ExperimentFolder[ReproduceConfig], output: Output, scheduler: S
             {"letter": each.claim.letter, "claim": each.claim.title, "verdict": each.verdict.value} for each in claims
         ]
     }
-    say_end(output, folder.path, FILES, found, _verdicts(claims))
+    say_end(output, Reproduced, folder.path, FILES, found, _verdicts(claims))
 
 
 def results_of(config: ReproduceConfig, outcomes: Outcomes) -> tuple[Results, Results | None]:

@@ -6,7 +6,7 @@ from rich.table import Table
 from rich.text import Text
 
 from mc_nested.cli.experiment import Outcomes, train_all
-from mc_nested.cli.experiment_end import say_end
+from mc_nested.cli.experiment_end import Reproduced, say_end
 from mc_nested.cli.experiment_results import results_of_groups
 from mc_nested.cli.output import Output
 from mc_nested.learn.agents import AGENT_SPECS
@@ -47,7 +47,7 @@ def run_robustness(
         counted = Counter(each.verdicts[base.claim.letter].value for each in found[1:])
         others = ", ".join(f"{count} {verdict}" for verdict, count in sorted(counted.items()))
         shown.add_row(f"({base.claim.letter})", Text(base.claim.title), base.verdict.value, others)
-    say_end(output, folder.path, FILES, {"claims": claims}, shown)
+    say_end(output, Reproduced, folder.path, FILES, {"claims": claims}, shown)
 
 
 def results_under(choice: Choice, config: RobustnessConfig, outcomes: Outcomes) -> Results:

@@ -21,11 +21,10 @@ from mc_nested.cli.experiment import (
     jobs_at_once,
     train_all,
 )
-from mc_nested.cli.experiment_end import say_end
-from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.experiment_end import Experiment, say_end
+from mc_nested.cli.options import LayerOption, ScenariosOption, named_scenarios
+from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
-from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
-from mc_nested.cli.screen_states import check_window
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import check_parts
 from mc_nested.learn.experiments.ablation import AblationConfig, shipped_parts
@@ -35,6 +34,7 @@ from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.sweep_results import Sweep, SweepRow
 from mc_nested.workers.cluster.address import SchedulerAddress
+from sim.worlds import check_window
 
 VERB = "sweep"
 TRIALS, EPISODES, PRESET = 5, 1000, "paper"
@@ -42,6 +42,7 @@ TRIALS, EPISODES, PRESET = 5, 1000, "paper"
 FILES = {"table": "sweep.md", "plot": "sweep.png", "rows": "sweep.csv"}
 
 
+@prints(Experiment)
 def sweep(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     ablation: Annotated[
@@ -132,7 +133,7 @@ def _run(folder: ExperimentFolder[SweepConfig], output: Output, scheduler: Sched
 
     with folder.writing():
         write_sweep(folder.path, found)
-    say_end(output, folder.path, FILES, {})
+    say_end(output, Experiment, folder.path, FILES, {})
 
 
 def sweep_of(config: SweepConfig, outcomes: Outcomes) -> Sweep:

@@ -7,8 +7,8 @@ from types import TracebackType
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from mc_nested.cli.output import print_line
 from mc_nested.cli.progress import LINE_EVERY_S, RECENT, REFRESH_S
-from mc_nested.cli.progress_line import print_line
 from mc_nested.learn.cooperation.team_trainer import TeamTrainer
 
 

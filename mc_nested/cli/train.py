@@ -1,34 +1,43 @@
 """``mc-nested train``: begin a training, or resume one."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from mc_nested.arena.scenario_file import table_of
+from mc_nested.arena.scenario_file import shipped_scenarios, table_of
 from mc_nested.cli.cluster_options import InsecureOption, KeysOption
+from mc_nested.cli.completion import complete_of, complete_profiles, complete_runs
 from mc_nested.cli.games_training import games_of, run_games_training
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
-    Backend,
+    FILES,
+    NAME_OR_FILE,
     DeviceOption,
     EngineOption,
-    ProfileOption,
+    LayerOption,
+    PresetOption,
+    RecordOption,
     ServerOption,
     StatesOption,
+    check_nothing_before,
+    named_scenario,
+    opening_of,
 )
-from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
-from mc_nested.cli.recording_options import RecordOption
-from mc_nested.cli.scenario_options import FILES, NAME_OR_FILE, LayerOption, named_scenario
-from mc_nested.cli.screen_states import check_window
+from mc_nested.cli.serve import keys as make_keys
+from mc_nested.cli.serve import serve
 from mc_nested.cli.training import HowToRun, run_training
-from mc_nested.cli.viewing import ViewOption
+from mc_nested.cli.training_end import Trained
+from mc_nested.cli.view import ViewOption
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
+from sim.worlds import Backend, check_window
 
 MOST_TRIALS = 1000
 """More at once would only run out of memory."""
@@ -58,15 +67,25 @@ DEFAULTS: dict[str, Any] = {
 }
 
 
+app = typer.Typer()
+
+
+@app.callback(invoke_without_command=True)
+@prints(Trained)
 def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     scenario: Annotated[
-        str | None, typer.Option(metavar=NAME_OR_FILE, help=f"the design to build: {FILES} [line]")
+        str | None,
+        typer.Option(
+            metavar=NAME_OR_FILE,
+            help=f"the design to build: {FILES} [line]",
+            autocompletion=complete_of(shipped_scenarios),
+        ),
     ] = None,
     layer: LayerOption = None,
     agent: Annotated[str | None, typer.Option(help=f"the agent: {', '.join(AGENT_SPECS)} [nested]")] = None,
     backend: Annotated[Backend | None, typer.Option(help="where [sim]")] = None,
-    preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="hyper-parameters [paper]")] = None,
+    preset: PresetOption = None,
     engine: EngineOption = None,
     device: DeviceOption = None,
     states: StatesOption = None,
@@ -78,32 +97,51 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     stop_at_optimum: Annotated[
         bool, typer.Option("--stop-at-optimum", help="end a trial at its first greedy evaluation at the optimum")
     ] = False,
-    profile: ProfileOption = None,
+    profile: Annotated[
+        str | None,
+        typer.Option(
+            metavar=NAME_OR_FILE,
+            help="the profile of your game and screen",
+            show_default=DEFAULT_PROFILE,
+            autocompletion=complete_profiles,
+        ),
+    ] = None,
     server_allowed: ServerOption = False,
     record: RecordOption = None,
     games: Annotated[
         str | None,
-        typer.Option(metavar="ADDRESS", help="let the games of a Dask scheduler play (mc-nested serve-game)"),
+        typer.Option(metavar="ADDRESS", help="let the games of a Dask scheduler play (mc-nested train serve)"),
     ] = None,
     keys: KeysOption = None,
     insecure: InsecureOption = False,
     begin_from: Annotated[
         Path | None,
         typer.Option(
-            "--from", metavar="RUN", help="begin with the best policy of an earlier training, and its learnt game"
+            "--from",
+            metavar="RUN",
+            help="begin with the best policy of an earlier training, and its learnt game",
+            autocompletion=complete_runs,
         ),
     ] = None,
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="a new or empty folder for the run [runs/DESIGN-AGENT-DATE]")
     ] = None,
-    resume: Annotated[Path | None, typer.Option(metavar="DIR", help="go on from a run's last checkpoint")] = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="go on from a run's last checkpoint", autocompletion=complete_runs),
+    ] = None,
     view: ViewOption = False,
     quiet: QuietOption = False,
     as_json: JsonOption = False,
 ) -> None:
     """Train an agent; Ctrl+C saves, and --resume goes on from there."""
+    if context.invoked_subcommand is not None:
+        check_nothing_before(context)
+        return
     served = games_of(games, keys, insecure, context.params)
-    how = HowToRun(Output(quiet, as_json), server_allowed, record, view, served)
+    named = DEFAULT_PROFILE if profile is None else profile
+    opening = opening_of(named, "train", record, server_allowed=server_allowed)
+    how = HowToRun(Output(quiet, as_json), opening, view, served)
     if resume is not None:
         given = [name for name, value in context.params.items() if value is not None and value is not False]
         beside = [name for name in given if name not in BESIDE_RESUME]
@@ -113,9 +151,10 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         folder = RunFolder.open(resume)
         if device:
             folder = RunFolder(resume, folder.config.on_device(device))
-        where_played = profile or folder.config.profile
+        if profile is None and folder.config.profile:
+            how = replace(how, opening=replace(opening, profile=folder.config.profile))
         with folder_lock(resume):
-            train_run(folder, where_played, not folder.only_begun, how)
+            train_run(folder, not folder.only_begun, how)
         return
     if agent not in (None, *AGENT_SPECS):
         raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENT_SPECS)}")
@@ -126,7 +165,7 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     config = RunConfig(
         agent=agent or DEFAULTS["agent"],
         backend=where.value,
-        profile=(DEFAULT_PROFILE if profile is None else profile) if where is Backend.LIVE and not games else None,
+        profile=named if where is Backend.LIVE and not games else None,
         trials=trials or DEFAULTS["trials"],
         seed=seed or DEFAULTS["seed"],
         stop_at_optimum=stop_at_optimum,
@@ -136,14 +175,16 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     )
     with output_folder(out, f"{config.scenario.name}-{config.agent}") as path:
         folder = RunFolder.new(path, config)
-        train_run(folder, config.profile, False, how, begin_from)
+        train_run(folder, False, how, begin_from)
 
 
-def train_run(
-    folder: RunFolder, profile: str | None, resumed: bool, how: HowToRun, begin_from: Path | None = None
-) -> None:
+app.command()(serve)
+app.command("keys")(make_keys)
+
+
+def train_run(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Path | None = None) -> None:
     """Train in this computer's game, in the simulator, or with the games of a scheduler."""
     if how.games:
         run_games_training(folder, how.games, resumed, how, begin_from)
     else:
-        run_training(folder, profile, resumed, how, begin_from)
+        run_training(folder, resumed, how, begin_from)

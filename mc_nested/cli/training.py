@@ -3,26 +3,25 @@
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from mc_nested.atomic_file import atomic_write
-from mc_nested.cli.earlier_run import EarlierRun, earlier_run
 from mc_nested.cli.interrupt import Interrupt, Stopped, catch_interrupts
-from mc_nested.cli.options import Backend, open_arenas, played_live, where_words
+from mc_nested.cli.options import played_live
 from mc_nested.cli.output import Output
 from mc_nested.cli.progress import STOPPING, TrainingProgress
-from mc_nested.cli.recording_options import live_recorder
-from mc_nested.cli.screen_states import as_shown
 from mc_nested.cli.training_end import MAP, say_end
 from mc_nested.cli.training_view import TrainingView
-from mc_nested.cli.viewing import Viewed, viewed
+from mc_nested.cli.view import Viewed, viewed
 from mc_nested.errors import DesktopError, LiveError, NotInFrontError
+from mc_nested.learn.runs.earlier_run import EarlierRun, earlier_run
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.learn.training import Training
 from mc_nested.live.failure_budget import FailureBudget
+from mc_nested.live.opening import Opening
 from mc_nested.report.arena_map import draw_map
 from mc_nested.report.curve import align_trials, draw_curve
 from mc_nested.report.game_time import expected
@@ -32,6 +31,7 @@ from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from mc_nested.view.publisher import Publisher
 from mc_nested.view.status_files import remove_status
 from mc_nested.workers.cluster.address import SchedulerAddress
+from sim.worlds import Backend, as_shown, open_arenas, where_words
 
 SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.VIRTUAL: 60.0, Backend.LIVE: 15.0}
 """Seconds between checkpoints, which is what a kill can cost: in the simulator, or in a game of a block per second."""
@@ -39,11 +39,13 @@ SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.VIRTUAL: 60.0, Backend.LIVE: 15.0}
 
 @dataclass(frozen=True)
 class HowToRun:
-    """What a run is asked for that its config.toml doesn't say; ``games`` have joined that scheduler."""
+    """What a run is asked for that its config.toml doesn't say.
+
+    ``opening`` is how a live game is opened; ``games`` have joined that scheduler.
+    """
 
     output: Output
-    server_allowed: bool = False
-    record: str | None = None
+    opening: Opening
     is_viewed: bool = False
     games: SchedulerAddress | None = None
 
@@ -60,26 +62,16 @@ class _Training:
     failure_budget: FailureBudget
 
 
-def run_training(
-    folder: RunFolder, profile: str | None, resumed: bool, how: HowToRun, begin_from: Path | None = None
-) -> None:
+def run_training(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Path | None = None) -> None:
     """Train until the run is finished or somebody stops it; saved on the way and at the end."""
     config, output = folder.config, how.output
     earlier = earlier_run(begin_from, folder) if begin_from else None
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
     with catch_interrupts() as interrupt, published(folder, how) as view:
         board = view.publisher.board
-        what = f"train-{folder.scenario.name}"
-        with open_arenas(
-            Backend(config.backend),
-            profile,
-            folder.scenarios,
-            server_allowed=how.server_allowed,
-            evidence=folder.path / "evidence",
-            open_recorder=live_recorder(how.record, what, folder.scenario, server_allowed=how.server_allowed),
-            journal=board,
-            seed=config.seed,
-        ) as (env, log):
+        what, evidence = f"train-{folder.scenario.name}", folder.path / "evidence"
+        opening = replace(how.opening, what=what, evidence=evidence, journal=board)
+        with open_arenas(Backend(config.backend), folder.scenarios, opening, config.seed) as (env, log):
             agent = folder.new_agent(config.trials, config.preset.device)
             arenas = agent.view_of(as_shown(env, config.preset.states), folder.scenarios)
             trainer = Trainer(arenas, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)

@@ -4,8 +4,9 @@ import shlex
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 from mc_nested.arena.scenario_file import ScenarioTable, load_scenario, shipped_scenarios, table_of
 from mc_nested.cli.options import DEFAULT_PROFILE
@@ -16,6 +17,32 @@ from mc_nested.learn.runs.run_folder import RunConfig
 
 MAP = "map.png"
 """What was learnt of the arena, in a run's folder."""
+
+
+@dataclass(frozen=True)
+class Trained:
+    """What ``train`` prints."""
+
+    folder: Annotated[Path, "the run's folder"]
+    scenario: Annotated[str, "the design's name"]
+    agent: Annotated[str, "who learnt"]
+    preset: Annotated[str, "the hyper-parameters' name or file"]
+    backend: Annotated[str, "sim, virtual or live"]
+    trials: Annotated[int, "independent trainings"]
+    seed: Annotated[int, "of all random numbers"]
+    episodes: Annotated[int, "a trial's, at most"]
+    optimum: Annotated[float, "the highest score possible"]
+    final_scores: Annotated[Sequence[float], "of each trial's policy, played greedily"]
+    episodes_to_optimum: Annotated[Sequence[int | None], "training episodes until each trial was at the optimum"]
+    played_to_optimum: Annotated[Sequence[object], "episodes and steps until then, greedy ones too"]
+    episodes_done: Annotated[Sequence[int], "of each trial"]
+    env_steps: Annotated[int, "of training episodes"]
+    evaluation_steps: Annotated[int, "of greedy episodes"]
+    updates: Annotated[int, "of all networks"]
+    wall_s: Annotated[float, "seconds that it took"]
+    networks: Annotated[int, "of a trial"]
+    parameters: Annotated[int, "of a trial's networks"]
+    live: Annotated[Mapping[str, Any] | None, "of a live game, or of virtual ones: what playing took"] = None
 
 
 def say_end(output: Output, path: Path, config: RunConfig, summary: Mapping[str, Any]) -> None:
@@ -36,7 +63,7 @@ def say_end(output: Output, path: Path, config: RunConfig, summary: Mapping[str,
     if config.preset.imagination:
         lines.append(f"map:        {path / MAP}")
     lines.append(f"checkpoint: {path / 'checkpoint'}")
-    output.result({"folder": path, **summary}, *lines)
+    output.result(Trained(path, **summary), *lines)
     for line in next_steps(path, config, max(summary["final_scores"]) >= summary["optimum"]):
         output.hint(line)
 
@@ -49,7 +76,9 @@ def next_steps(path: Path, config: RunConfig, is_at_optimum: bool) -> list[str]:
         return [*lines, f"next:       {play} builds it again"]
     lines.append(f"next:       {play} shows what it builds; in your game: with --backend live")
     if config.trials > 1 and config.preset.states != SCREEN:
-        lines.append(f"            {command_line(['mc-nested', 'evaluate', str(path)])} plays each of its trials")
+        lines.append(
+            f"            {command_line(['mc-nested', 'runs', 'evaluate', str(path)])} plays each of its trials"
+        )
     return lines
 
 

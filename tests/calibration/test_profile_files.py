@@ -16,7 +16,7 @@ from calibration.profile_files import (
     rename_profile,
 )
 from calibration.report.kept import kept_folder
-from mc_nested.cli.calibrate_report import report_path
+from calibration.report.write import report_path
 from mc_nested.errors import ProfileError
 from mc_nested.live.menus.point_pictures import picture_file
 from mc_nested.live.profile.arena import Arena

@@ -106,7 +106,7 @@ def test_one_that_only_begun_can_be_resumed_and_a_damaged_one_says_so(
 def test_another_verbs_folder_is_refused_with_its_verb(
     team_run: Path, trained: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run("evaluate", team_run) == 2
+    assert run("runs", "evaluate", team_run) == 2
     said = capsys.readouterr().err
     assert "the folder of mc-nested cooperate, not of train" in said
     assert f"mc-nested cooperate --resume {team_run}" in said

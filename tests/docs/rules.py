@@ -47,7 +47,7 @@ BY_THE_SUITE = {
     "dask worker": "tests/workers/cluster",
     "mc-nested reproduce --cluster": "tests/cli/test_cluster.py",
     "mc-nested sweep --cluster": "tests/cli/test_cluster.py",
-    "mc-nested serve-game": "tests/cli/test_games_training.py",
+    "mc-nested train serve": "tests/cli/test_games_training.py",
     **dict.fromkeys(
         (
             "mc-nested train --backend live --preset live --scenario diamond --stop-at-optimum --games",
@@ -95,7 +95,7 @@ _OF_NO_MATTER = re.compile(r"--(?:trials|episodes|designs|seed) \d+|--out|runs/\
 STANDS_FOR = {"--scenario …": "--scenario line"}
 """What a reader puts in place of an ellipsis."""
 
-LIVE = ("bug-report", "calibrate", "doctor", "read", "recordings", "replay")
+LIVE = ("calibrate", "doctor", "read", "recordings", "replay")
 """Verbs that look at the game's window, or at what was written there."""
 
 LIVE_SNIPPET = 'backend="live"'

@@ -9,10 +9,10 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
-from mc_nested.cli.virtual_games import open_virtual_games
 from mc_nested.errors import LiveError, UserError
 from mc_nested.live.screen_arenas import FRAMES, NEEDS_A_WINDOW, ScreenArenas
 from sim.grid import GridGame
+from sim.virtual_games import open_virtual_games
 
 SMALL = Scenario("small", frozenset({(2, 2), (3, 2)}), (2, 0), 5, (Material("stone", 1.0, "stone"),), 5)
 F, R, FD = int(Action.F), int(Action.R), int(Action.FD)

@@ -85,6 +85,12 @@ class RunFolder:
         preset = self.config.preset.model_copy(update={"device": device})
         return Agent(AGENT_SPECS[self.config.agent], [self.scenario] * runs, preset, self.config.seed)
 
+    def trained_agent(self) -> Agent:
+        """The agent of the last checkpoint, every trial, able to act."""
+        agent = self.new_agent(self.config.trials)
+        agent.load_every_online(self.kept())
+        return agent
+
     @property
     def scenarios(self) -> list[Scenario]:
         """Each trial's scenario."""

@@ -9,7 +9,6 @@ import pytest
 from calibration.arena import build
 from calibration.arena.build import build_arena, calibrate_built_arena
 from calibration.arena.copy_note import note_path, read_copy_note
-from calibration.arena.plan import FLOOR, box_of
 from calibration.arena.undo import undo_arena, undo_built_arena
 from calibration.context import StepResult
 from mc_nested.arena.action import Action, Cell
@@ -19,6 +18,7 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, ProfileError, UserError
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.built_arena import FLOOR, box_of
 from mc_nested.live.profile.store import load_profile, save_profile
 from mc_nested.live.profile.tables import Profile, WorldTable
 from sim.client.client import VirtualClient

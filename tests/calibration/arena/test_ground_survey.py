@@ -3,10 +3,11 @@
 import pytest
 
 from calibration.arena.ground_survey import GroundSurvey, is_copy_gone, survey_ground
-from calibration.arena.plan import box_at, box_of
+from calibration.arena.plan import box_at
 from mc_nested.errors import UserError
 from mc_nested.live.model.reading import Reading, Target
 from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.built_arena import box_of
 from mc_nested.live.profile.tables import GameVersion, Profile
 from tests.calibration.arena.scripted import ScriptedConsole, ScriptedQueries, looks
 
