@@ -20,7 +20,7 @@ from mc_nested.live.vision.font import font_of
 from mc_nested.report.curve import MEAN, OPTIMUM, align_trials, t_interval
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import F3Screen
+from sim.client.game.f3_screen import F3Screen
 from sim.grid import arena_env
 
 DEFAULT_OUT = Path(__file__).with_name("overview.png")

@@ -6,6 +6,7 @@ about a single block only; for regions its chat shows how many blocks were compa
 no answer, the answer is unknown.
 """
 
+from calibration.arena.look_around import ANGLE_TOLERANCE_DEG
 from calibration.arena.plan import Box, box_text, volume
 from calibration.command_console import CommandConsole
 from mc_nested.live.model.reading import Block, Reading
@@ -14,9 +15,6 @@ from mc_nested.live.vision.game_screen import GameScreen
 
 ANSWER_S = 0.8
 """How long an answer may take: a command is done within a tick or two, and seen a frame later."""
-
-ANGLE_TOLERANCE_DEG = 0.2
-"""How far the view may differ from what a command asked for."""
 
 _FIRST_PITCH, _PITCHES = 20, 40
 """Answers turn the view down by whole degrees, from the first on, one after the other, so that each differs."""

@@ -16,8 +16,6 @@ from sim.client.game.edition import Edition, Layout
 from sim.client.game.f3_screen import BY_ENTRIES, F3Screen
 from sim.client.game.f3_text import LAYOUTS
 
-__all__ = ["WINDOWS", "WORLDS", "expected", "frames", "random_screen", "random_world"]
-
 WINDOWS = ((854, 480), (1280, 720), (1366, 768), (1600, 900), (1920, 1080), (2560, 1440))
 """Widths and heights in pixels, wide enough that the two columns don't overlap."""
 

@@ -14,8 +14,6 @@ from sim.client.game.entry_lines import entry_columns
 from sim.client.game.f3_screen import F3Screen, Part, TextLine
 from sim.client.game.places import chunk_of, towards
 
-__all__ = ["LAYOUTS", "F3Screen", "Layout", "Part", "TextLine", "both_columns", "left_lines", "right_lines"]
-
 LAYOUTS: tuple[Layout, ...] = get_args(Layout)
 """All of them."""
 

@@ -29,7 +29,7 @@ from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import load_font
 from sim.client.desktop.clipboard import VirtualClipboard
 from sim.client.drawing.f3_layers import paint
-from sim.client.game.f3_text import F3Screen
+from sim.client.game.f3_screen import F3Screen
 
 FACINGS: list[Facing] = ["north", "south", "west", "east"]
 CELLS = st.tuples(st.integers(0, 14), st.integers(0, 14))

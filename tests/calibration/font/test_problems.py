@@ -8,12 +8,10 @@ import pytest
 from calibration.font.problems import Candidate, fits_in_part, nothing_fits
 from mc_nested.errors import FontError, UnreadableError
 from mc_nested.live.devices import Frame
-from mc_nested.live.vision.font import font_of
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import F3Screen
+from sim.client.game.f3_screen import F3Screen
+from tests.sim.client.playing import FONT
 
-FONT = font_of(drawn_atlas())
 MINE = Candidate(Path("mine.jar"), FONT)
 
 

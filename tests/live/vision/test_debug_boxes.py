@@ -5,13 +5,12 @@ import pytest
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.debug_boxes import ALPHA, GREY, ink_of, line_boxes
-from mc_nested.live.vision.font import font_of
-from sim.client.drawing.f3_cases import WORLDS, random_world
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import F3Screen, left_lines, right_lines
+from sim.client.drawing.scenery import WORLDS, random_world
+from sim.client.game.f3_screen import F3Screen
+from sim.client.game.f3_text import left_lines, right_lines
+from tests.sim.client.playing import FONT
 
-FONT = font_of(drawn_atlas())
 SCREEN = F3Screen("1.19.3-1.21.8", 1, (0.5, 64.0, 0.5), 0.0, 65.0)
 
 

@@ -8,8 +8,8 @@ import pytest
 from mc_nested.live.devices import Region
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.group_boxes import FACTS_GREY, TITLE_GREY, GroundPart, ground_parts
-from sim.client.drawing.f3_cases import WORLDS, random_world
 from sim.client.drawing.f3_layers import paint
+from sim.client.drawing.scenery import WORLDS, random_world
 from sim.client.game.f3_screen import F3Screen
 from tests.sim.client.playing import FONT
 

@@ -11,10 +11,11 @@ from mc_nested.live.vision.debug_screen import read_lines
 from mc_nested.live.vision.no_block import shows_no_block, sign_of_no_block
 from mc_nested.live.vision.overlay import find_debug_screen
 from mc_nested.live.vision.screen_lines import ScreenLines
-from sim.client.drawing.f3_cases import random_world
 from sim.client.drawing.f3_layers import paint
+from sim.client.drawing.scenery import random_world
+from sim.client.game.edition import Layout
 from sim.client.game.f3_screen import F3Screen
-from sim.client.game.f3_text import LAYOUTS, Layout
+from sim.client.game.f3_text import LAYOUTS
 from tests.sim.client.playing import FONT
 
 GAMES = [layout for layout in LAYOUTS if layout != "standin"]

@@ -16,7 +16,9 @@ from sim.client.drawing.f3_cases import frames
 from sim.client.drawing.font import drawn_atlas
 from sim.client.drawing.painter import Painter
 from sim.client.drawing.scenery import WORLDS
-from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+from sim.client.game.edition import Layout
+from sim.client.game.f3_screen import F3Screen
+from sim.client.game.f3_text import LAYOUTS
 from sim.client.game.screens import MenuState
 from sim.client.game.view import View
 

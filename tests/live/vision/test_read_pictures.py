@@ -17,7 +17,7 @@ from mc_nested.live.vision.layout import VANILLA, Overlay
 from mc_nested.live.vision.read_pictures import read_picture
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import F3Screen
+from sim.client.game.f3_screen import F3Screen
 
 FONT = font_of(drawn_atlas())
 SCREEN = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, 65.0, Target((8, 63, -2), "minecraft:stone"))

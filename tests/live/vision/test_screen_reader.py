@@ -11,14 +11,14 @@ from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision import screen_reader
 from mc_nested.live.vision.debug_screen import read_debug_screen
-from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.screen_reader import ScreenReader
-from sim.client.drawing.f3_cases import WORLDS, expected, random_screen, random_world
+from sim.client.drawing.f3_cases import expected, random_screen
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
-
-FONT = font_of(drawn_atlas())
+from sim.client.drawing.scenery import WORLDS, random_world
+from sim.client.game.edition import Layout
+from sim.client.game.f3_screen import F3Screen
+from sim.client.game.f3_text import LAYOUTS
+from tests.sim.client.playing import FONT
 
 
 class Pictures:

@@ -10,7 +10,9 @@ from mc_nested.live.vision.overlay import find_debug_screen
 from mc_nested.live.vision.whole_window import shows_more_than_window
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+from sim.client.game.edition import Layout
+from sim.client.game.f3_screen import F3Screen
+from sim.client.game.f3_text import LAYOUTS
 
 FONT = font_of(drawn_atlas())
 WIDTH, HEIGHT = 854, 480

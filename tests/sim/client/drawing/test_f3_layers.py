@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from mc_nested.live.model.reading import Target
-from mc_nested.live.vision.font import font_of
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout, left_lines, right_lines
+from sim.client.game.edition import Layout
+from sim.client.game.f3_screen import F3Screen
+from sim.client.game.f3_text import LAYOUTS, left_lines, right_lines
+from tests.sim.client.playing import FONT
 
-FONT = font_of(drawn_atlas())
 SCREEN = F3Screen("1.8-1.12", 2, (-8.5, 64.0, 100.25), 90.0, 65.0, Target((-9, 63, 101), "minecraft:stone"))
 
 

@@ -1,9 +1,7 @@
 import numpy as np
 
-from mc_nested.live.vision.font import font_of
 from sim.client.drawing.font import drawn_atlas
-
-FONT = font_of(drawn_atlas())
+from tests.sim.client.playing import FONT
 
 
 def test_every_printable_letter_is_drawn_in_a_shape_of_its_own() -> None:

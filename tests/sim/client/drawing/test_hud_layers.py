@@ -7,7 +7,7 @@ from sim.client.drawing.letters import Letters
 from sim.client.game.chat import ChatLine, TypedLine
 from sim.client.game.colours import RED, WHITE
 from sim.client.game.edition import Edition
-from sim.client.game.f3_text import F3Screen
+from sim.client.game.f3_screen import F3Screen
 from sim.client.game.realm import Stack
 from sim.client.game.screens import MenuState
 from sim.client.game.view import View

@@ -2,7 +2,7 @@ from mc_nested.live.model.scales import Scales
 from sim.client.drawing.view_layers import ViewLayers
 from sim.client.game.chat import TypedLine
 from sim.client.game.edition import Edition
-from sim.client.game.f3_text import F3Screen
+from sim.client.game.f3_screen import F3Screen
 from sim.client.game.realm import Stack
 from sim.client.game.screens import MenuState
 from sim.client.game.view import View
