@@ -19,7 +19,7 @@ from markupsafe import Markup
 
 from calibration.context import ReportPicture
 from calibration.doctor.check import Status
-from calibration.report.kept import Kept, KeptStep
+from calibration.report.findings import Kept, KeptStep
 from calibration.report.privacy import Names
 from mc_nested.live.devices import Frame
 from mc_nested.live.profile.tables import Profile

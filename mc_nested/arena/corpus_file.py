@@ -11,7 +11,7 @@
 A row of text is a row of the arena, the far edge on top: ``#`` is a block, ``.`` none. Rows are of equal length. A
 drawing smaller than the arena is centred; where it can't be in the very middle it stands one cell nearer to the left
 and to the far edge. Start cell and materials are those of the shipped designs, the step limit follows one rule
-(design_scenario.py).
+(design.py).
 """
 
 from pathlib import Path
@@ -20,7 +20,7 @@ from typing import Annotated
 from pydantic import BaseModel, ConfigDict, Field
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.design_scenario import scenario_of_design
+from mc_nested.arena.design import scenario_of_design
 from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.arena.scenario_file import BLOCK, FREE, Name
 from mc_nested.errors import ScenarioError

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from calibration.report.kept import load_kept
+from calibration.report.findings import load_kept
 from calibration.report.page import CalibrationReport, contents, report_html
 from calibration.report.privacy import names_here
 from mc_nested.atomic_file import atomic_write

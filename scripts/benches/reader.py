@@ -36,8 +36,8 @@ from mc_nested.live.vision.text_lines import positions_of
 from scripts.bench import Figures
 from sim.client.drawing.f3_cases import expected, frames
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.drawing.scenery import WORLDS, random_world
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.drawing.painter import WORLDS, random_world
 from sim.client.game.edition import Layout
 from sim.client.game.f3_screen import F3Screen
 from sim.client.game.f3_text import LAYOUTS

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibration.context import ReportPicture, StepResult
-from calibration.report.kept import keep
+from calibration.report.findings import keep
 from mc_nested.cli.app import main
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile, ScreenTable

@@ -5,11 +5,10 @@ from functools import lru_cache
 
 from sim.client.drawing.layers import Blend, Gradient, Layer, Rect
 from sim.client.drawing.letters import Letters
-from sim.client.game.colours import WHITE, Colour
 from sim.client.game.edition import Edition
 from sim.client.game.screens import MenuState, ScreenName, label_colour, menu
 from sim.client.game.view import View
-from sim.client.game.widgets import MenuText, Panel, Widget
+from sim.client.game.widgets import WHITE, Colour, MenuText, Panel, Widget
 
 _BLACK: Colour = (0, 0, 0)
 _DIM = ((16, 16, 16), 192), ((16, 16, 16), 208)

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibration.context import ReportPicture
-from calibration.report.kept import Kept, KeptCheck, KeptStep
+from calibration.report.findings import Kept, KeptCheck, KeptStep
 from calibration.report.page import SMALL_BYTES, CalibrationReport, contents, data_uri, report_html
 from calibration.report.privacy import Names
 from mc_nested.live.profile.tables import CalibratedTable, Profile

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from mc_nested.errors import LiveError
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.screens import identify_screen
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.layout import Scales
 from sim.client.client import VirtualClient
 from sim.client.drawing import hud_layers
 from sim.client.game.options import GameOptions

@@ -5,12 +5,12 @@ from sim.client.drawing.hud_layers import HudLayers
 from sim.client.drawing.layers import Layer, draw_all
 from sim.client.drawing.letters import Letters
 from sim.client.game.chat import ChatLine, TypedLine
-from sim.client.game.colours import RED, WHITE
 from sim.client.game.edition import Edition
 from sim.client.game.f3_screen import F3Screen
 from sim.client.game.realm import Stack
 from sim.client.game.screens import MenuState
 from sim.client.game.view import View
+from sim.client.game.widgets import RED, WHITE
 from tests.sim.client.playing import FONT
 
 WIDTH, HEIGHT = 427, 240
