@@ -17,7 +17,7 @@ from typing import Protocol
 from calibration.arena.undo import remove_saved_copy_note, undo_hint_on_error
 from calibration.context import CalibrationContext, OpenContext, StepResult
 from calibration.doctor.check import Check, CheckName
-from calibration.report.findings import keep_or_warn
+from calibration.report.findings import save_findings_or_warn
 from calibration.step_profile import starting_profile, write_result
 from mc_nested.errors import DesktopError, LiveError, McNestedError, NotInFrontError, StoppedError, UserError
 from mc_nested.live.connection import screen_for
@@ -183,7 +183,7 @@ def calibrate_all(
         write_result(StepResult("all", run.profile, (), 0, points=points), path)
     remove_saved_copy_note(run.profile, path)
     checks = examine(profile_name)
-    keep_or_warn(context.say, path, run.results, checks, fingerprint.date)
+    save_findings_or_warn(context.say, path, run.results, checks, fingerprint.date)
     return CalibrationResult(path, run, checks)
 
 

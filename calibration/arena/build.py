@@ -19,7 +19,7 @@ from calibration.arena.undo import (
 )
 from calibration.command_console import CommandConsole
 from calibration.context import CalibrationContext, OpenContext, ReportPicture, StepResult
-from calibration.report.findings import keep_or_warn
+from calibration.report.findings import save_findings_or_warn
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import DEFAULT_SIZE
 from mc_nested.arena.scenario_file import load_scenario
@@ -110,7 +110,7 @@ def calibrate_built_arena(
     with undo_hint_on_error(path):
         save_profile(result.profile, path)
     remove_saved_copy_note(result.profile, path)
-    keep_or_warn(context.say, path, [result])
+    save_findings_or_warn(context.say, path, [result])
     return result, path
 
 

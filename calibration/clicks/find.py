@@ -12,7 +12,7 @@ from pathlib import Path
 from calibration.clicks.menu_walk import MenuWalk
 from calibration.clicks.points import RecordedPoint, picture_of_points
 from calibration.context import CalibrationContext, OpenContext, ReportPicture, StepResult
-from calibration.report.findings import keep_or_warn
+from calibration.report.findings import save_findings_or_warn
 from calibration.step_profile import starting_profile, write_picture, write_result
 from mc_nested.errors import NotConfirmedError, ProfileError, UserError
 from mc_nested.live.desktop.key_listener import open_hotkeys
@@ -139,7 +139,7 @@ def calibrate_clicks(
                 context.say(line)
             return None
     write_result(result, path)
-    keep_or_warn(context.say, path, [result])
+    save_findings_or_warn(context.say, path, [result])
     picture = picture_file(path)
     write_picture(result.pictures[0].frame, picture)
     return result, picture

@@ -16,7 +16,7 @@ from calibration.cross_check import cross_check
 from calibration.font.read_back import ReadLine, phase_of, read_back, side_by_side
 from calibration.font.sources import FontSources, font_sources
 from calibration.installation.folders import System
-from calibration.report.findings import keep_or_warn
+from calibration.report.findings import save_findings_or_warn
 from calibration.step_profile import starting_profile, write_picture, write_result
 from mc_nested.errors import ClipboardError, FontError, LiveError, NotConfirmedError, UnreadableError
 from mc_nested.live.devices import SWITCH_KEYS, Frame
@@ -131,7 +131,7 @@ def calibrate_font(
     with context_of(profile) as context:
         found = find_font(context, profile, sources_for(context, profile, font, sources))
     write_result(found, path)
-    keep_or_warn(context.say, path, [found])
+    save_findings_or_warn(context.say, path, [found])
     picture = path.with_name(f"{path.stem}-font.png")
     write_picture(found.pictures[0].frame, picture)
     return found, picture

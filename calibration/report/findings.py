@@ -56,7 +56,7 @@ class _List(_Table):
 
 
 @dataclass(frozen=True)
-class KeptStep:
+class StepFindings:
     """What a step found, as in ``StepResult``, and the day (year-month-day)."""
 
     step: str
@@ -67,7 +67,7 @@ class KeptStep:
 
 
 @dataclass(frozen=True)
-class KeptCheck:
+class CheckFinding:
     """A row of the doctor's table as it was shown; an older doctor may have named its rows otherwise."""
 
     name: str
@@ -77,26 +77,28 @@ class KeptCheck:
 
 
 @dataclass(frozen=True)
-class Kept:
+class Findings:
     """All that is kept beside a profile: the steps in the order of their first run, and the doctor's table."""
 
-    steps: tuple[KeptStep, ...] = ()
-    checks: tuple[KeptCheck, ...] = ()
+    steps: tuple[StepFindings, ...] = ()
+    checks: tuple[CheckFinding, ...] = ()
     checked: str | None = None
     """The day of the checks."""
 
 
-def kept_folder(profile: Path) -> Path:
+def findings_folder(profile: Path) -> Path:
     """The folder beside a profile's file."""
     return profile.with_name(f"{profile.stem}-calibration")
 
 
-def keep(profile: Path, found: Sequence[StepResult], checks: Sequence[Check] = (), today: str | None = None) -> None:
+def save_findings(
+    profile: Path, found: Sequence[StepResult], checks: Sequence[Check] = (), today: str | None = None
+) -> None:
     """Keep these beside a profile. They replace what the same steps, or the doctor, left before.
 
     ProfileError where the disk refuses.
     """
-    folder, day = kept_folder(profile), today or datetime.date.today().isoformat()
+    folder, day = findings_folder(profile), today or datetime.date.today().isoformat()
     before = _read(folder)
     entries = {entry.step: entry for entry in before.steps}
     try:
@@ -124,29 +126,29 @@ def keep(profile: Path, found: Sequence[StepResult], checks: Sequence[Check] = (
         raise ProfileError(f"{folder}: can't be written ({error}): make room, or mend its permissions") from error
 
 
-def keep_or_warn(
+def save_findings_or_warn(
     say: Callable[[str], None],
     profile: Path,
     found: Sequence[StepResult],
     checks: Sequence[Check] = (),
     today: str | None = None,
 ) -> None:
-    """As ``keep``, after the profile was written: a failure is only a warning."""
+    """As ``save_findings``, after the profile was written: a failure is only a warning."""
     try:
-        keep(profile, found, checks, today)
+        save_findings(profile, found, checks, today)
     except ProfileError as error:
         say(f"warning: {error}; the profile is written, only the report will lack what was found")
 
 
-def load_kept(profile: Path) -> Kept:
+def load_findings(profile: Path) -> Findings:
     """What is kept beside a profile, without pictures that are gone; empty where no calibration left anything.
 
     ProfileError if it can't be read.
     """
-    folder = kept_folder(profile)
+    folder = findings_folder(profile)
     found = _read(folder)
     steps = tuple(
-        KeptStep(
+        StepFindings(
             entry.step,
             entry.date,
             tuple(entry.lines),
@@ -155,8 +157,8 @@ def load_kept(profile: Path) -> Kept:
         )
         for entry in found.steps
     )
-    checks = tuple(KeptCheck(row.name, row.status, row.detail, row.fix) for row in found.checks)
-    return Kept(steps, checks, found.checked)
+    checks = tuple(CheckFinding(row.name, row.status, row.detail, row.fix) for row in found.checks)
+    return Findings(steps, checks, found.checked)
 
 
 def _read(folder: Path) -> _List:

@@ -19,7 +19,7 @@ from markupsafe import Markup
 
 from calibration.context import ReportPicture
 from calibration.doctor.check import Status
-from calibration.report.findings import Kept, KeptStep
+from calibration.report.findings import Findings, StepFindings
 from calibration.report.privacy import Names
 from mc_nested.live.devices import Frame
 from mc_nested.live.profile.tables import Profile
@@ -53,7 +53,7 @@ class CalibrationReport:
     name: str
     profile: Profile
     text: str
-    kept: Kept
+    kept: Findings
     version: str
     with_pictures: bool = True
 
@@ -125,7 +125,7 @@ def _tiles(report: CalibrationReport) -> list[tuple[str, str]]:
     ]
 
 
-def _section(step: KeptStep, *, with_pictures: bool) -> dict[str, Any]:
+def _section(step: StepFindings, *, with_pictures: bool) -> dict[str, Any]:
     return {
         "id": step.step,
         "title": TITLES.get(step.step, step.step),
@@ -156,7 +156,7 @@ def data_uri(frame: Frame) -> str:
     return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
 
 
-def _in_order(steps: Sequence[KeptStep]) -> list[KeptStep]:
+def _in_order(steps: Sequence[StepFindings]) -> list[StepFindings]:
     order = list(TITLES)
     return sorted(steps, key=lambda step: order.index(step.step) if step.step in order else len(order))
 
@@ -171,7 +171,7 @@ def _about_pictures(report: CalibrationReport) -> str:
     return f"{_count(len(titles), 'picture')} of the game's window, its chat blanked, or drawn: {shown}"
 
 
-def _titles(kept: Kept) -> list[str]:
+def _titles(kept: Findings) -> list[str]:
     return [picture.title for step in _in_order(kept.steps) for picture in step.pictures]
 
 

@@ -13,7 +13,7 @@ import cv2
 
 from calibration.command_console import CommandConsole
 from calibration.context import CalibrationContext, OpenContext, StepResult
-from calibration.report.findings import keep_or_warn
+from calibration.report.findings import save_findings_or_warn
 from calibration.step_profile import starting_profile
 from calibration.walk.figure import picture_of_empirical_walk, picture_of_walk
 from calibration.walk.gait_fit import rms
@@ -65,7 +65,7 @@ def calibrate_walk(profile_name: str | Path, context_of: OpenContext) -> tuple[S
     with context_of(profile) as context:
         found = walk(context, profile)
     save_profile(found.profile, path)
-    keep_or_warn(context.say, path, [found])
+    save_findings_or_warn(context.say, path, [found])
     picture = path.with_name(f"{path.stem}-walk.png")
     try:
         picture.write_bytes(cv2.imencode(".png", found.pictures[0].frame)[1].tobytes())

@@ -52,9 +52,9 @@ def scenario_of_layer(name: str, volume: Volume, layer: int) -> tuple[Scenario, 
     return scenario, _notes(volume, layer, trimmed, len(design))
 
 
-def kinds_in_words(kinds: Counter[str], most: int = KINDS_TOLD) -> str:
+def kinds_in_words(kinds: Counter[str]) -> str:
     """``12 stone, 8 oak_planks, 5 others``: blocks by how many there are, at most so many kinds by name."""
-    common = kinds.most_common(most)
+    common = kinds.most_common(KINDS_TOLD)
     named = [f"{count} {name}" for name, count in common]
     others = kinds.total() - sum(count for _, count in common)
     return ", ".join([*named, f"{others} others"] if others else named)

@@ -1,7 +1,7 @@
 """NBT from a file that nobody vouches for: bounded before anything is allocated, and typed where it is read.
 
-pynbt believes every length in the file. So it reads from a stream that hands out no byte which isn't there and no more
-than so many values, and the stream's bytes were unpacked up to a limit.
+pynbt, which is an extra, believes every length in the file. So it reads from a stream that hands out no byte which
+isn't there and no more than so many values, and the stream's bytes were unpacked up to a limit.
 
 A file whose stated size is too large is refused at once: decoding it first takes seconds. A size is a tag of a known
 name and form, wherever it stands in the file: programs write a schematic's tags in any order.
@@ -15,10 +15,10 @@ import zlib
 from collections.abc import Iterator
 from typing import Any, TypeVar
 
-import pynbt
-
 from mc_nested.design_files.volume import MOST_CELLS, too_large_error
 from mc_nested.errors import ScenarioError
+
+INSTALL = "pip install -c constraints.txt -e '.[schematics]'"
 
 MOST_BYTES = 32 * 1024 * 1024
 """Bytes of a file, and of what it unpacks to."""
@@ -59,7 +59,11 @@ def read_nbt(data: bytes, most_reads: int = MOST_READS) -> Compound:
 
 
 def root_of(plain: bytes, most_reads: int = MOST_READS) -> Compound:
-    """The root compound of unpacked NBT, with the same limits."""
+    """The root compound of unpacked NBT, with the same limits; ScenarioError without pynbt, too."""
+    try:
+        import pynbt
+    except ImportError:
+        raise ScenarioError(f"reading schematics needs pynbt: {INSTALL}") from None
     stream = _BoundedStream(plain, most_reads)
     try:
         root: Compound = pynbt.NBTFile(stream)

@@ -138,11 +138,11 @@ class Board:
                 self._action = Action(cast("int", facts["action"]))
             self._begin(doing)
 
-    def does(self, text: str, mood: Mood = "works") -> None:
+    def does(self, text: str) -> None:
         """What the run does from now on; said again, it goes on as before."""
         if self._own != text:
             self._own = text
-            self._begin(Doing(text, mood))
+            self._begin(Doing(text, "works"))
 
     def go_on(self) -> None:
         """A pause is over: what is done begins anew."""

@@ -26,7 +26,7 @@ from calibration.calibrate_all import (
 from calibration.context import CalibrationContext, ReportPicture, StepResult
 from calibration.doctor.check import Check, CheckName
 from calibration.registry import registered_steps
-from calibration.report.findings import kept_folder, load_kept
+from calibration.report.findings import findings_folder, load_findings
 from mc_nested.errors import (
     DesktopError,
     LiveError,
@@ -130,7 +130,7 @@ def test_the_profile_is_written_with_what_it_was_calibrated_on(client: VirtualCl
 
 def test_what_was_seen_lies_beside_it(client: VirtualClient, profile: Path) -> None:
     run(client, profile, CalibrationStep("walk", swapped))
-    kept = load_kept(profile)
+    kept = load_findings(profile)
     assert [(step.step, step.lines, step.date) for step in kept.steps] == [("walk", ("swapped",), DAY)]
     assert [check.name for check in kept.checks] == list(CheckName)
     assert kept.steps[0].pictures[0].frame.shape == (480, 854, 3)
@@ -175,7 +175,7 @@ def test_however_it_ends_early_the_profile_is_as_it_was_and_no_key_is_down(
     with pytest.raises((LiveError, KeyboardInterrupt)):
         run(client, profile, CalibrationStep("walk", swapped), CalibrationStep("proof", last))
     assert profile.read_bytes() == before
-    assert not kept_folder(profile).exists()
+    assert not findings_folder(profile).exists()
     assert not earlier_path(profile).exists()
     assert not client.window.down
 
@@ -205,7 +205,7 @@ def test_a_path_that_can_not_be_written_is_reported_before_the_window_is_looked_
 
 
 def test_what_can_not_be_kept_for_the_report_does_not_end_it(client: VirtualClient, profile: Path) -> None:
-    kept_folder(profile).write_text("no folder", "utf-8")
+    findings_folder(profile).write_text("no folder", "utf-8")
     run(client, profile, CalibrationStep("walk", swapped))
     assert load_profile(profile).keys.left == "d"
 
@@ -298,7 +298,7 @@ def test_a_tested_profile_is_made_unattended(tmp_path: Path) -> None:
     assert set(written.points) == {
         *("back_to_game", "save_and_quit_to_title", "singleplayer", "world", "play_selected_world")
     }
-    assert [step.step for step in load_kept(result.path).steps] == [
+    assert [step.step for step in load_findings(result.path).steps] == [
         *("font", "arena", "walk", "clicks", "cross-check", "proof")
     ]
     assert not [check for check in result.checks if check.status == "fail"]

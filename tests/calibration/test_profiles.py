@@ -20,7 +20,7 @@ from calibration.profiles import (
     named_profiles,
     rename_profile,
 )
-from calibration.report.findings import kept_folder
+from calibration.report.findings import findings_folder
 from mc_nested.cli.calibrate_report import report_path
 from mc_nested.errors import ProfileError
 from mc_nested.live.menus.click_points import picture_file
@@ -41,12 +41,12 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         save_profile(Profile(), folder / f"{name}.toml")
     laptop, point = folder / "laptop.toml", picture_file(folder / "laptop.toml", "Respawn")
     point.parent.mkdir()
-    kept_folder(laptop).mkdir()
+    findings_folder(laptop).mkdir()
     files = [
         *(earlier_path(laptop), note_path(laptop), clicks_picture(laptop), report_path(laptop), point),
         *(folder / f"laptop{ending}" for ending in ("-font.png", "-walk.png", "-clicks-now.png", ".toml.undone")),
         *(folder / f"laptop.toml.broken{number}" for number in ("", 1)),
-        kept_folder(laptop) / "found.json",
+        findings_folder(laptop) / "found.json",
         report_path(folder / "laptop-old.toml"),
     ]
     for file in files:

@@ -15,7 +15,7 @@ import cv2
 
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Reading
-from mc_nested.live.recording.format import plain
+from mc_nested.live.recording.format import plain_value
 from mc_nested.live.recording.tape import Call
 from mc_nested.live.recording.text_pixels import TextPixels, paint, reads_the_same, text_pixels_of
 from mc_nested.live.vision.chat_region import blank_chat
@@ -95,11 +95,11 @@ class CallEncoder:
             return self._grab(*call[1:])
         if call[0] == "screen" and isinstance(call[-1], Look):
             return self._reading(call)
-        return plain(call), []
+        return plain_value(call), []
 
     def _grab(self, region: Region | None, frame: Frame) -> tuple[list[Any], list[KeptPicture]]:
         pictures = self._picture(self._without_chat(frame, region, None), region)
-        return ["grab", plain(region), pictures[0].index if pictures else None], pictures
+        return ["grab", plain_value(region), pictures[0].index if pictures else None], pictures
 
     def _reading(self, call: Call) -> tuple[list[Any], list[KeptPicture]]:
         *said, answer, look = call
@@ -120,7 +120,7 @@ class CallEncoder:
                 kept = {"picture": pictures[0].index, "is_enough": self._is_enough(blanked, look, answer)}
         if kept is not None and self.size != self._first_size:
             kept["size"] = list(self.size)
-        return [*(plain(each) for each in said), plain(answer), kept], pictures
+        return [*(plain_value(each) for each in said), plain_value(answer), kept], pictures
 
     def _without_chat(self, frame: Frame, region: Region | None, text: TextPixels | None) -> Frame:
         """A copy without the chat, at whichever scale it may be. The lines that were read are drawn again over that."""
@@ -146,7 +146,7 @@ class CallEncoder:
         self._budget.spend(len(png))
         self._pictured_at = now
         self._index += 1
-        return [KeptPicture(self._index, plain(region), png.tobytes())]
+        return [KeptPicture(self._index, plain_value(region), png.tobytes())]
 
     def _is_enough(self, blanked: Frame, look: Look, answer: object) -> bool:
         """Whether the picture without the chat gives the same answer."""

@@ -69,16 +69,16 @@ def event_of(call: list[Any]) -> dict[str, Any] | None:
     return None
 
 
-def plain(value: Any) -> Any:
+def plain_value(value: Any) -> Any:
     """Regions, readings and buttons as their fields, tuples as lists; everything else must be plain already."""
     if isinstance(value, Region):
         return [value.left, value.top, value.width, value.height]
     if is_dataclass(value) and not isinstance(value, type):
-        return {name: plain(part) for name, part in asdict(value).items() if part is not None}
+        return {name: plain_value(part) for name, part in asdict(value).items() if part is not None}
     if isinstance(value, Mapping):
-        return {name: plain(part) for name, part in value.items()}
+        return {name: plain_value(part) for name, part in value.items()}
     if isinstance(value, tuple | list):
-        return [plain(part) for part in value]
+        return [plain_value(part) for part in value]
     return value
 
 

@@ -75,7 +75,6 @@ class Recorder:
         facts: what the recording is of, as texts by name.
         size: the window's width and height.
         say: shows the person one line, where the disk refuses.
-        kept_s: seconds that are kept at most.
         kept_bytes: bytes that are kept at most.
 
     Raises OSError where the folder can't be made.
@@ -88,7 +87,6 @@ class Recorder:
         size: tuple[int, int],
         say: Callable[[str], None],
         *,
-        kept_s: float = KEPT_S,
         kept_bytes: int = KEPT_BYTES,
     ) -> None:
         folder.mkdir(parents=True, exist_ok=True)
@@ -96,7 +94,7 @@ class Recorder:
         self.tape = Tape()
         self._facts = dict(facts)
         self._say = say
-        self._kept_s, self._kept_bytes = kept_s, kept_bytes
+        self._kept_bytes = kept_bytes
         self._encoder = CallEncoder(size)
         self._part: PartWriter | None = None
         self._part_began = 0.0
@@ -185,7 +183,7 @@ class Recorder:
 
     def _drop_old(self, now: float) -> None:
         sizes = [path.stat().st_size for _, path in self._closed]
-        while self._closed and (sum(sizes) > self._kept_bytes or now - self._closed[0][0] > self._kept_s):
+        while self._closed and (sum(sizes) > self._kept_bytes or now - self._closed[0][0] > KEPT_S):
             _, path = self._closed.pop(0)
             sizes.pop(0)
             path.unlink()

@@ -11,7 +11,7 @@ import numpy as np
 from mc_nested import errors
 from mc_nested.live.devices import Button, Devices, Frame, Region
 from mc_nested.live.journal import Fact, NoteKind
-from mc_nested.live.recording.format import plain
+from mc_nested.live.recording.format import plain_value
 
 
 class OtherCall(BaseException):
@@ -60,7 +60,7 @@ class ReplayedTape:
 
         Raises OtherCall if it is another one, or the error that the call then raised.
         """
-        now = plain(list(asked))
+        now = plain_value(list(asked))
         then = self.peek()
         if then is not None and then[0] == "error" and then[1] == asked[0]:
             self.skip()

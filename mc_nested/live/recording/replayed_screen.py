@@ -14,7 +14,7 @@ from mc_nested.errors import RecordingError
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.recording.call_encoder import KeptPicture
-from mc_nested.live.recording.format import button_of, plain, position_of, reading_of, region_of
+from mc_nested.live.recording.format import button_of, plain_value, position_of, reading_of, region_of
 from mc_nested.live.recording.replayed_devices import ReplayedTape
 from mc_nested.live.recording.text_pixels import OUTSIDE, TextPixels, paint
 from mc_nested.live.vision.font import Font
@@ -157,11 +157,11 @@ class ReplayedScreen:
         if screen is None:
             self._on_reading([then], None)
         elif name == "read":
-            self._on_reading([then], [plain(screen.read())])
+            self._on_reading([then], [plain_value(screen.read())])
         else:
             # A quick look reads nothing where the reading before it didn't say where: that one differs then, not this.
             position = screen.read_position()
-            self._on_reading([then], None if position is None else [plain(position)])
+            self._on_reading([then], None if position is None else [plain_value(position)])
 
     def shows_world(self) -> bool:
         return bool(self._answer("shows_world"))

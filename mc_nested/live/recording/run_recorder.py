@@ -49,9 +49,9 @@ def recordings_folder() -> Path:
     return platformdirs.user_state_path("mc-nested", appauthor=False) / "recordings"
 
 
-def kept_recordings(folder: Path | None = None) -> list[Path]:
-    """The recordings in a folder, the oldest first: folders of files, and single files."""
-    folder = folder or recordings_folder()
+def kept_recordings() -> list[Path]:
+    """The recordings in their folder, the oldest first: folders of files, and single files."""
+    folder = recordings_folder()
     if not folder.is_dir():
         return []
     found = [

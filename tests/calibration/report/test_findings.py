@@ -7,7 +7,14 @@ import pytest
 
 from calibration.context import ReportPicture, StepResult
 from calibration.doctor.check import Check, CheckName
-from calibration.report.findings import Kept, KeptCheck, KeptStep, keep, kept_folder, load_kept
+from calibration.report.findings import (
+    CheckFinding,
+    Findings,
+    StepFindings,
+    findings_folder,
+    load_findings,
+    save_findings,
+)
 from mc_nested.errors import ProfileError
 from mc_nested.live.profile.tables import Profile
 
@@ -22,9 +29,9 @@ def found(step: str, *lines: str, pictures: tuple[ReportPicture, ...] = ()) -> S
 def test_what_is_kept_comes_back(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
     font = found("font", "scale 2", pictures=(ReportPicture("grey", GREY, "all over"), ReportPicture("red", RED)))
-    keep(profile, [font, found("cross-check")], [Check(CheckName.CLIPBOARD, "skip", "none")], "2026-11-21")
-    kept = load_kept(profile)
-    assert kept.checks == (KeptCheck("clipboard", "skip", "none", ""),)
+    save_findings(profile, [font, found("cross-check")], [Check(CheckName.CLIPBOARD, "skip", "none")], "2026-11-21")
+    kept = load_findings(profile)
+    assert kept.checks == (CheckFinding("clipboard", "skip", "none", ""),)
     assert kept.checked == "2026-11-21"
     assert [(step.step, step.date, step.lines, step.samples) for step in kept.steps] == [
         ("font", "2026-11-21", ("scale 2",), 1),
@@ -39,32 +46,34 @@ def test_what_is_kept_comes_back(tmp_path: Path) -> None:
 def test_a_repeated_step_replaces_the_old_one_and_its_pictures(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
     two = (ReportPicture("one", GREY), ReportPicture("two", GREY))
-    keep(profile, [found("font", "old", pictures=two), found("walk", "slow", pictures=two[:1])], today="2026-11-20")
-    keep(profile, [found("font", "new", pictures=(ReportPicture("red", RED),))], today="2026-11-21")
-    font, walk = load_kept(profile).steps
+    save_findings(
+        profile, [found("font", "old", pictures=two), found("walk", "slow", pictures=two[:1])], today="2026-11-20"
+    )
+    save_findings(profile, [found("font", "new", pictures=(ReportPicture("red", RED),))], today="2026-11-21")
+    font, walk = load_findings(profile).steps
     assert (font.lines, font.date, walk.lines, walk.date) == (("new",), "2026-11-21", ("slow",), "2026-11-20")
     assert np.array_equal(font.pictures[0].frame, RED)
-    left = {file.name for file in kept_folder(profile).iterdir()}
+    left = {file.name for file in findings_folder(profile).iterdir()}
     assert left == {"found.json", "font-1.png", "walk-1.png"}
 
 
 def test_the_doctors_table_stays_until_there_is_a_new_one(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
-    keep(profile, [], [Check(CheckName.WINDOW, "fail", "none", "start the game")], "2026-11-20")
-    keep(profile, [found("font")], today="2026-11-21")
-    kept = load_kept(profile)
+    save_findings(profile, [], [Check(CheckName.WINDOW, "fail", "none", "start the game")], "2026-11-20")
+    save_findings(profile, [found("font")], today="2026-11-21")
+    kept = load_findings(profile)
     assert (kept.checked, [check.status for check in kept.checks]) == ("2026-11-20", ["fail"])
 
 
 def test_beside_a_profile_that_was_never_calibrated_lies_nothing(tmp_path: Path) -> None:
-    assert load_kept(tmp_path / "mine.toml") == Kept()
+    assert load_findings(tmp_path / "mine.toml") == Findings()
 
 
 def test_a_picture_that_is_gone_is_left_out(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
-    keep(profile, [found("font", "a line", pictures=(ReportPicture("grey", GREY),))], today="2026-11-21")
-    (kept_folder(profile) / "font-1.png").unlink()
-    assert load_kept(profile).steps == (KeptStep("font", "2026-11-21", ("a line",), 1, ()),)
+    save_findings(profile, [found("font", "a line", pictures=(ReportPicture("grey", GREY),))], today="2026-11-21")
+    (findings_folder(profile) / "font-1.png").unlink()
+    assert load_findings(profile).steps == (StepFindings("font", "2026-11-21", ("a line",), 1, ()),)
 
 
 @pytest.mark.parametrize(
@@ -72,22 +81,22 @@ def test_a_picture_that_is_gone_is_left_out(tmp_path: Path) -> None:
 )
 def test_a_damaged_list_is_one_line_that_says_what_to_do(tmp_path: Path, text: str) -> None:
     profile = tmp_path / "mine.toml"
-    keep(profile, [], today="2026-11-21")
-    (kept_folder(profile) / "found.json").write_text(text)
+    save_findings(profile, [], today="2026-11-21")
+    (findings_folder(profile) / "found.json").write_text(text)
     with pytest.raises(ProfileError, match="remove that folder, and calibrate again"):
-        load_kept(profile)
+        load_findings(profile)
 
 
 def test_a_list_never_names_a_file_outside_its_folder(tmp_path: Path) -> None:
     profile = tmp_path / "mine.toml"
-    keep(profile, [found("font", pictures=(ReportPicture("grey", GREY),))], today="2026-11-21")
-    path = kept_folder(profile) / "found.json"
+    save_findings(profile, [found("font", pictures=(ReportPicture("grey", GREY),))], today="2026-11-21")
+    path = findings_folder(profile) / "found.json"
     path.write_text(path.read_text().replace("font-1.png", "../font-1.png"))
     with pytest.raises(ProfileError):
-        load_kept(profile)
+        load_findings(profile)
 
 
 def test_a_folder_that_cant_be_made_is_one_line(tmp_path: Path) -> None:
     (tmp_path / "mine-calibration").write_text("a file")
     with pytest.raises(ProfileError):
-        keep(tmp_path / "mine.toml", [found("font")])
+        save_findings(tmp_path / "mine.toml", [found("font")])
