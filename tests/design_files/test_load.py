@@ -195,4 +195,4 @@ def test_without_pynbt_a_schematic_is_refused_in_one_line_that_names_the_extra(
     assert str(refused.value).endswith(
         "hut.schem: reading schematics needs pynbt: pip install -c constraints.txt -e '.[schematics]'"
     )
-    assert load_any_scenario(write("hut.png", picture(HUT))).scenario.blocks
+    assert load_any_scenario(write("hut.png", picture(HUT[0]))).scenario.blocks

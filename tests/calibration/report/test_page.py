@@ -101,7 +101,7 @@ def test_it_shows_the_fingerprint_the_checks_and_the_steps_in_the_order_of_the_r
 
 def test_a_fix_is_shown_only_where_something_has_to_be_done() -> None:
     done = CheckFinding("game", "pass", "found", "not needed")
-    assert "not needed" not in page(dataclasses.replace(MADE, kept=Findings((), (done,)))).texts
+    assert "not needed" not in page(dataclasses.replace(MADE, findings=Findings((), (done,)))).texts
 
 
 def test_its_list_of_contents_is_on_top_of_it_word_for_word() -> None:
@@ -115,7 +115,7 @@ def test_its_list_of_contents_is_on_top_of_it_word_for_word() -> None:
 def test_each_picture_comes_back_as_it_was_kept() -> None:
     noise = np.random.default_rng(0).integers(0, 256, (20, 30, 3), np.uint8)
     step = dataclasses.replace(FONT, pictures=(ReportPicture("noise", noise),))
-    (image,) = page(dataclasses.replace(MADE, kept=Findings((step,)))).of("img")
+    (image,) = page(dataclasses.replace(MADE, findings=Findings((step,)))).of("img")
     kind, data = (image["src"] or "").split(",")
     assert kind == "data:image/png;base64"
     decoded = cv2.imdecode(np.frombuffer(base64.b64decode(data), np.uint8), cv2.IMREAD_COLOR)
@@ -139,7 +139,7 @@ def test_without_pictures_it_has_none_and_says_so() -> None:
 
 
 def test_a_profile_that_was_never_calibrated_has_a_report_that_says_so() -> None:
-    bare = dataclasses.replace(MADE, profile=Profile(), kept=Findings())
+    bare = dataclasses.replace(MADE, profile=Profile(), findings=Findings())
     assert {"not as a whole", "no doctor's table: none was kept", "no findings: none were kept"} <= set(
         page(bare).texts
     )
