@@ -2,8 +2,8 @@
 
 Of the window: found, in front, its size, and how many pixels there are to a point of the desktop. Of the debug screen:
 on and readable, not reduced, with position and looked-at lines. A picture in which nothing of the game can be read may
-be black, or have colours that aren't the game's. How such pictures look is known from reports alone (FACTS: Input and
-windows).
+be black, or have colours that aren't the game's. How such pictures look is known from reports alone
+(FACTS: Input and windows).
 """
 
 from collections.abc import Mapping

@@ -9,7 +9,7 @@ from contextlib import AbstractContextManager, contextmanager, suppress
 from typing import Protocol
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.desktop.window import LOST, raise_when_display_lost
+from mc_nested.live.desktop.lost_display import LOST, raise_when_display_lost
 from mc_nested.live.model.keys import PLACES, SHIFT, KeyPlace, Layout, missing_keys, place_of, stroke_for
 
 

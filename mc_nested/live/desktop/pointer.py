@@ -10,7 +10,8 @@ from contextlib import suppress
 from typing import Any
 
 from mc_nested.errors import LiveError
-from mc_nested.live.desktop.window import LOST, GameWindow, raise_when_display_lost
+from mc_nested.live.desktop.lost_display import LOST, raise_when_display_lost
+from mc_nested.live.desktop.window import GameWindow
 from mc_nested.live.devices import Button
 
 

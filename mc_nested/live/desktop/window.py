@@ -1,9 +1,7 @@
-"""The game's window as the operating system describes it, which of all it is, and what happens when it is gone."""
+"""The game's window as the operating system describes it, and which of all windows it is."""
 
 import re
-import sys
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
 from mc_nested.errors import DesktopError, NoWindowError, SeveralWindowsError
@@ -107,22 +105,3 @@ def _listed(titles: Sequence[str]) -> str:
     shown = sorted(set(titles))
     more = f" and {len(shown) - SHOWN_TITLES} more" if len(shown) > SHOWN_TITLES else ""
     return ", ".join(shown[:SHOWN_TITLES]) + more
-
-
-LOST: tuple[type[Exception], ...] = ()
-"""What pynput and pyautogui raise once the desktop is gone. A press is then an error. A release is not: the server that
-held the key no longer exists."""
-
-if sys.platform.startswith("linux"):
-    from Xlib.error import ConnectionClosedError
-
-    LOST = (ConnectionClosedError,)
-
-
-@contextmanager
-def raise_when_display_lost() -> Iterator[None]:
-    """Raise DesktopError, in one line, where the desktop is gone."""
-    try:
-        yield
-    except LOST as error:
-        raise DesktopError("the display has closed: start the desktop and the game again") from error

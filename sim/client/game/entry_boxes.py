@@ -2,8 +2,8 @@
 
 A box holds facts, a name and a value each, and below them plain lines. What is a value is white, what stands between
 values is darker. A box stays in the column of the frame before. One that comes goes into the column that it prefers, or
-into the shorter one, below those that are there. A column as high as the window takes no more (FACTS: The F3 debug
-screen).
+into the shorter one, below those that are there. A column as high as the window takes no more
+(FACTS: The F3 debug screen).
 """
 
 from collections.abc import Callable, Iterable

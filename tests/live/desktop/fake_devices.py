@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 import pytest
 
-from mc_nested.live.desktop.window import LOST
+from mc_nested.live.desktop.lost_display import LOST
 
 
 class KeyCode:

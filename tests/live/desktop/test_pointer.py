@@ -5,8 +5,8 @@ import sys
 import pytest
 
 from mc_nested.errors import DesktopError, LiveError
+from mc_nested.live.desktop.lost_display import LOST
 from mc_nested.live.desktop.pointer import DesktopPointer, load_pyautogui
-from mc_nested.live.desktop.window import LOST
 from mc_nested.live.devices import DesktopArea
 from tests.live.desktop.fake_devices import Buttons, Mouse, install_mouse, install_pynput
 from tests.live.desktop.moving_window import MovingWindow
