@@ -15,7 +15,7 @@ game/        the game, a tick at a time; it knows no pixels
     view.py                                         what is seen at one moment, before it is drawn
 drawing/     from a view to pixels: only what changed, only what is grabbed
     painter.py  layers.py                           a view as layers, and layers as a picture
-    f3_layers.py  hud_layers.py  menu_layers.py     what lies over the world
+    f3_layers.py  gui_layers.py                     what lies over the world
     block_faces.py  world_shapes.py  world_layer.py the world behind
     letters.py                                      texts in any font, and a font drawn for this project
     f3_cases.py                                     random debug screens, to test a reader on

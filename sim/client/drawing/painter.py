@@ -14,10 +14,9 @@ from mc_nested.live.model.reading import Block
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.layout import Scales
 from sim.client.drawing.f3_layers import F3Layers
-from sim.client.drawing.hud_layers import HudLayers, NoticeLayers
+from sim.client.drawing.gui_layers import HudLayers, MenuLayers, NoticeLayers
 from sim.client.drawing.layers import Layer, LayeredPicture
 from sim.client.drawing.letters import Letters
-from sim.client.drawing.menu_layers import MenuLayers
 from sim.client.drawing.world_layer import WorldLayers
 from sim.client.game.edition import Edition
 from sim.client.game.screens import IN_WORLD

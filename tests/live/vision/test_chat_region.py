@@ -30,7 +30,7 @@ from mc_nested.live.vision.chat_region import (
 from mc_nested.live.vision.game_screen import WindowScreen
 from scripts.benches.live import connection_to
 from sim.client.client import VirtualClient
-from sim.client.drawing.hud_layers import HudLayers
+from sim.client.drawing.gui_layers import HudLayers
 from sim.client.drawing.layers import draw_all
 from sim.client.drawing.letters import Letters
 from sim.client.game.chat import ChatLine, TypedLine

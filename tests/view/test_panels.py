@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.view.side_panel import WIDEST, curve_panel, side_panel
+from mc_nested.view.panels import WIDEST, curve_panel, side_panel
 from mc_nested.view.status import ReadingSeen
 from tests.view.shown import LIVE
 
