@@ -104,13 +104,13 @@ app = typer.Typer(help="Train and report on one of several studies; Ctrl+C saves
 
 
 def declared(name: str) -> Study:
-    """The shipped study of that name."""
+    """Return the shipped study of that name."""
     found: Study = importlib.import_module(f"mc_nested.studies.{name}").STUDY
     return found
 
 
 def command_of(study: Study, instead: Mapping[str, str] | None = None) -> Callable[..., None]:
-    """The command that runs the study; ``instead``: flags that run another study, by its name, with their help."""
+    """Return the command that runs the study; ``instead`` has flags that run another by its name, and their help."""
     others = instead or {}
 
     def command(context: typer.Context, **values: Any) -> None:
@@ -143,7 +143,7 @@ def command_of(study: Study, instead: Mapping[str, str] | None = None) -> Callab
 
 
 def _check_given(given: Iterable[str], beside: Sequence[str], why: str) -> None:
-    """UserError, which says why, if an option was given that isn't one of those."""
+    """Raise UserError, which says why, if an option was given that isn't one of those."""
     for name in sorted(set(given) - set(beside)):
         raise UserError(f"{why}: leave out --{name.replace('_', '-')}")
 
@@ -179,7 +179,7 @@ def _begin(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> 
 
 
 def _asked(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> Asked:
-    """What was asked for, with the designs and the names of lists loaded and taken apart."""
+    """Return what was asked for, with the designs and the names of lists loaded and taken apart."""
     own = {name: values[name] for name in study.options if name not in ("scenario", "layer")}
     if "scenario" in study.options:
         own["scenarios"] = named_scenarios(values["scenario"] or paper_scenarios(), values["layer"])
@@ -191,7 +191,7 @@ def _asked(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> 
 
 
 def _listed(options: Sequence[str] | None) -> list[str]:
-    """The names of an option that can be repeated, each with commas between names; each name once."""
+    """Return the names of an option that can be repeated, each with commas between names; each name once."""
     return list(dict.fromkeys(name.strip() for option in options or () for name in option.split(",")))
 
 

@@ -22,13 +22,13 @@ MOST_JOBS = 256
 
 
 def cores() -> int:
-    """Cores that this process may use."""
+    """Count the cores that this process may use."""
     usable = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return min(usable, MOST_JOBS)
 
 
 def jobs_at_once(cluster: SchedulerAddress | None, output: Output) -> int:
-    """Into how many jobs the work is cut, about, unless asked for: as many as are trained at a time."""
+    """Return into how many jobs the work is cut, about, unless asked for: as many as train at a time."""
     return min(workers_of(cluster, output), MOST_JOBS) if cluster else cores()
 
 

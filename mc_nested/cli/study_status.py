@@ -66,17 +66,17 @@ class StudyStatus:
         self._take(job, heard.scores)
 
     def score(self, group: str, scenario: str) -> float | None:
-        """The mean of the last greedy scores of the runs that were evaluated."""
+        """Return the mean of the last greedy scores of the runs that were evaluated."""
         scores = self._scores.get((group, scenario), {})
         return sum(scores.values()) / len(scores) if scores else None
 
     def ended(self, group: str) -> tuple[int, int]:
-        """Of a group's runs, how many have ended, and how many there are."""
+        """Return how many of a group's runs have ended, and how many there are."""
         of_group = [(name, job.groups.count(group)) for name, job in self._jobs.items()]
         return sum(runs for name, runs in of_group if name in self._ended), sum(runs for _, runs in of_group)
 
     def at_optimum(self, group: str) -> int:
-        """How many of a group's runs were at their scenario's optimum in their last greedy episode."""
+        """Return how many of a group's runs were at their scenario's optimum in their last greedy episode."""
         return sum(
             score >= self.optimum[scenario]
             for (own, scenario), scores in self._scores.items()

@@ -47,7 +47,7 @@ class AblatedPart(BaseModel):
     without: list[str] = Field(default_factory=list)
 
     def whole_preset(self) -> Preset:
-        """The preset that it comes to."""
+        """Return the preset that it comes to."""
         base = load_preset(self.base).model_dump(exclude_none=True)
         kept = {key: value for key, value in base.items() if key not in self.without}
         return parse_preset(tomlkit.dumps(changed_tables(kept, self.preset)), f"{FILE}, {self.name}")
@@ -63,7 +63,7 @@ class AblationFile(BaseModel):
 
 
 def arms(asked: Asked) -> list[Arm]:
-    """The shipped parts. A trial of what practises trains alone, since nothing is quicker in a batch."""
+    """Return the shipped parts. A trial of what practises trains alone, since nothing is quicker in a batch."""
     text = (resources.files("mc_nested.studies") / FILE).read_text("utf-8")
     shipped = parse_toml(AblationFile, text, FILE, PresetError)
     found = []
@@ -100,7 +100,7 @@ class PartMeasures:
 
 
 def measures_on(trials: Sequence[Trial], scenario: str) -> list[PartMeasures]:
-    """What each part comes to on that scenario, in the order of the parts."""
+    """Return what each part comes to on that scenario, in the order of the parts."""
     return [_measures(own) for (_, where), own in on_each(trials).items() if where == scenario]
 
 
@@ -119,7 +119,7 @@ def _measures(trials: Sequence[Trial]) -> PartMeasures:
 
 
 def _interval_of_median(played: Float64s) -> Interval | None:
-    """A percentile bootstrap, always the same for the same trials."""
+    """Take a percentile bootstrap, always the same for the same trials."""
     if len(played) < 2:
         return None
     drawn = np.random.default_rng(0).integers(len(played), size=(RESAMPLES, len(played)))
@@ -150,7 +150,7 @@ of all networks of a trial until it was solved or given up. Given up after: that
 
 
 def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
-    """A table for each scenario, a line for each part that is off."""
+    """Report a table for each scenario, with a line for each part that is off."""
     optimum = optimum_of(trials)
     found = {scenario: measures_on(trials, scenario) for scenario in optimum}
     of_each = f"{number_of_trials(config.trials)} of each line on each design"
@@ -198,7 +198,7 @@ SPREAD = 0.28
 
 
 def _figure(found: dict[str, list[PartMeasures]]) -> Figure:
-    """A panel for each scenario, a line for each part that is off, a mark for each trial and its median."""
+    """Draw a panel for each scenario, a line for each part that is off, a mark for each trial and its median."""
     parts = [part.arm.name for part in next(iter(found.values()))]
     size = (3.0 + 3.2 * len(found), 1.6 + 0.34 * len(parts))
     figure = Figure(figsize=size, dpi=140, layout="constrained")

@@ -63,7 +63,7 @@ class Arm:
         return spec_of("single" if self.agent == SB3 else self.agent, self.sees_choice)
 
     def runs(self) -> list[Run]:
-        """Its trainings, scenario by scenario, trial by trial."""
+        """Return its trainings, scenario by scenario, trial by trial."""
         return [
             Run(
                 group=self.name,
@@ -82,17 +82,17 @@ class Arm:
         ]
 
     def number_of(self, place: int, trial: int) -> int:
-        """What the random numbers of a trial depend on, on the scenario at that place."""
+        """Return what the random numbers of a trial depend on, on the scenario at that place."""
         return trial * MOST_DESIGNS + place if self.differs_by_design else trial
 
     def check(self) -> None:
-        """PresetError, one line, if its agent can't learn with its preset, or not on its scenarios."""
+        """Raise PresetError, one line, if its agent can't learn with its preset, or not on its scenarios."""
         if self.agent != SB3:
             check_exploration(self.spec, self.preset)
         check_parts(self.scenarios, self.preset)
 
 
 def spec_of(agent: str, sees_choice: bool | None = None) -> AgentSpec:
-    """The agent's spec; ``sees_choice`` is the single agent's, where it isn't None."""
+    """Return the agent's spec; ``sees_choice`` is the single agent's, where it isn't None."""
     spec = AGENT_SPECS[agent]
     return spec if sees_choice is None or agent != "single" else replace(spec, sees_choice=sees_choice)

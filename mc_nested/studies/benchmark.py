@@ -53,7 +53,7 @@ COLUMNS = (
 
 
 def arms(asked: Asked) -> list[Arm]:
-    """Every agent with every preset that it can take, on every design; sb3's trials train one by one."""
+    """Return every agent with every preset that it can take, on every design; sb3's trials train one by one."""
     if asked.corpus is not None and "designs" in asked.given:
         raise UserError("--designs is how many are drawn at random: leave it out, or leave out --corpus")
     chosen = [(name, load_preset(name)) for name in asked.presets or DEFAULT_PRESETS]
@@ -80,7 +80,7 @@ def arms(asked: Asked) -> list[Arm]:
 
 
 def _agents(asked: Asked) -> list[str]:
-    """The agents; UserError if one doesn't exist, or can't take part as it was asked for."""
+    """Return the agents; UserError if one doesn't exist, or can't take part as it was asked for."""
     for name in asked.agents:
         if name not in AGENTS:
             raise UserError(f"no agent {name!r}: choose of {', '.join(AGENTS)}")
@@ -97,7 +97,7 @@ def _agents(asked: Asked) -> list[str]:
 
 
 def baseline() -> Preset:
-    """What stands for a preset beside stable-baselines3's DQN."""
+    """Return what stands for a preset beside stable-baselines3's DQN."""
     return parse_preset((resources.files("mc_nested.studies") / BASELINE).read_text("utf-8"), BASELINE)
 
 
@@ -106,7 +106,7 @@ Contestant = tuple[str, str, Preset]
 
 
 def contestants_of(agents: Sequence[str], presets: Sequence[tuple[str, Preset]]) -> tuple[list[Contestant], list[str]]:
-    """Every agent with every preset that it can take, sb3 with its own; and a line for each that it can't take.
+    """Return every agent with every preset that it can take, sb3 with its own; and a line for each that it can't take.
 
     UserError if an agent can take none of them.
     """
@@ -125,7 +125,7 @@ def contestants_of(agents: Sequence[str], presets: Sequence[tuple[str, Preset]])
 
 
 def _reason_against(agent: str, preset: Preset) -> str:
-    """Why the agent can't take the preset; empty if it can."""
+    """Return why the agent can't take the preset; empty if it can."""
     try:
         check_exploration(AGENT_SPECS[agent], preset)
     except PresetError as error:
@@ -162,7 +162,7 @@ episodes."""
 
 
 def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
-    """A table over all designs, and one for each kind; the line of seconds alone differs if it is repeated."""
+    """Report a table over all designs, and one for each kind; repeated, the line of seconds alone differs."""
     contestants: dict[str, list[Trial]] = {}
     for trial in trials:
         contestants.setdefault(trial.arm.name, []).append(trial)
@@ -240,7 +240,7 @@ NEVER = 1.6
 
 
 def _figure(contestants: Mapping[str, Sequence[Trial]]) -> Figure:
-    """The performance profiles, and beside them the episodes on each kind of designs."""
+    """Draw the performance profiles, and beside them the episodes on each kind of designs."""
     styles = {
         name: {"color": COLOURS[place % len(COLOURS)], "linestyle": LINES[place // len(COLOURS) % len(LINES)]}
         for place, name in enumerate(contestants)
@@ -310,7 +310,7 @@ def _draw_kinds(
 
 
 def _quartiles(played: Float64s) -> Float64s:
-    """The first quartile, the median and the third quartile; an infinite one if its trial is."""
+    """Return the first quartile, the median and the third quartile; an infinite one if its trial is."""
     ordered = np.sort(played, axis=None)
     low, high = (ordered[round(share * (len(ordered) - 1))] for share in (0.25, 0.75))
     return np.array([low, np.median(ordered), high])

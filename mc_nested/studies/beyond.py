@@ -56,12 +56,12 @@ TUNED = "nested, tuned"
 
 
 def team_name(builders: int, networks: Kind) -> str:
-    """The name of a team's arm."""
+    """Return the name of a team's arm."""
     return "1 builder" if builders == 1 else f"{builders} builders, {networks}"
 
 
 def arms(asked: Asked) -> list[Arm]:
-    """All arms; of images on the zigzag and the diamond only a few trials, unless so many were asked for.
+    """Return all arms; of images on the zigzag and the diamond only a few trials, unless so many were asked for.
 
     No training has more episodes than were asked for, and some have fewer. PresetError if the device isn't there.
     """
@@ -85,7 +85,7 @@ def _arm(topic: str, name: str, preset: Preset, scenarios: Sequence[Scenario], t
 
 
 def _images(image: Preset, paper: Preset, trials: int, few: int) -> list[Arm]:
-    """Images, and beside them numbered states: the preset paper, which explores as the preset image here."""
+    """Return images, and beside them numbered states: the preset paper, exploring as the preset image here."""
     numbers = paper.model_copy(update={"explore_main": image.explore_main, "explore_nested": image.explore_nested})
     return [
         _arm("images", name, preset, [load_scenario(design)], own, preset_name=preset_name, stop_at_optimum=True)
@@ -96,7 +96,7 @@ def _images(image: Preset, paper: Preset, trials: int, few: int) -> list[Arm]:
 
 
 def _parts(paper: Preset, tuned: Preset, trials: int) -> list[Arm]:
-    """The paper's agents on the flag, and the nested one with settings that solve it."""
+    """Return the paper's agents on the flag, and the nested one with settings that solve it."""
     flag = [load_scenario("flag")]
     solved = _arm("parts", TUNED, tuned, flag, trials, preset_name="tuned", stop_at_optimum=True)
     return [solved, *(_arm("parts", agent, paper, flag, trials, agent=agent) for agent in AGENT_SPECS)]
@@ -112,7 +112,7 @@ def _materials(paper: Preset, trials: int) -> list[Arm]:
 
 
 def _cooperation(paper: Preset, trials: int) -> list[Arm]:
-    """Builders on the line: one alone, and two to four, learning in each way."""
+    """Return builders on the line: one alone, and two to four, learning in each way."""
     line, preset = [load_scenario("line")], with_episodes(paper, TEAM_EPISODES)
     return [
         _arm("cooperation", team_name(count, kind), preset, line, trials, builders=Builders(count, kind))
@@ -121,7 +121,7 @@ def _cooperation(paper: Preset, trials: int) -> list[Arm]:
 
 
 def with_materials(scenario: Scenario, count: int) -> Scenario:
-    """The scenario with so many materials, 2 to 8, whose p are evenly spaced between its own lowest and highest.
+    """Return the scenario with 2 to 8 materials, whose p are evenly spaced between its own lowest and highest.
 
     The worst comes first and the best last, as in the paper's: its optimum is the same, whatever their number.
     """
@@ -183,12 +183,12 @@ COLUMNS = (
 
 
 def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
-    """What was trained, the claims with their verdicts, and how many trials would decide each."""
+    """Report what was trained, the claims with their verdicts, and how many trials would decide each."""
     return report_on(arm_results(trials), config.trials, config.seed)
 
 
 def report_on(arms: Arms, trials: int, seed: int) -> Report:
-    """The report on these arms. The same results give the same report, but for the column of seconds."""
+    """Return the report on these arms. The same results give the same report, but for the column of seconds."""
     claims = judge_beyond(arms)
     text = [
         "# Beyond the paper: what it says it could do, tried",
@@ -213,12 +213,12 @@ def report_on(arms: Arms, trials: int, seed: int) -> Report:
 
 
 def trials_to_decide(judged: JudgedClaim) -> int | None:
-    """How many trials of each agent would decide the claim; None where more than MOST_TRIALS, or it is counted."""
+    """Return how many trials of each agent would decide it; None if more than MOST_TRIALS, or it is counted."""
     return deciding_trials([line.effect for line in judged.claim.evidence if line.effect])
 
 
 def in_words(judged: JudgedClaim) -> str:
-    """The same for a reader."""
+    """Say the same to a reader."""
     if not any(line.tails for line in judged.claim.evidence):
         return NONE
     found = trials_to_decide(judged)
@@ -226,7 +226,7 @@ def in_words(judged: JudgedClaim) -> str:
 
 
 def _too_few(arms: Sequence[ArmResults]) -> list[str]:
-    """What so few trials can't show, where an arm has fewer than the binomial test needs."""
+    """Return what so few trials can't show, where an arm has fewer than the binomial test needs."""
     few = min(len(arm.trials) for arm in arms)
     if few == max(len(arm.trials) for arm in arms) or 0.5**few < ALPHA:
         return []
@@ -284,7 +284,7 @@ def _reached(arm: ArmResults) -> tuple[str, str, str]:
 
 
 def _more(arms: Arms, topic: str) -> list[str]:
-    """A topic's further tables: of many main actions, the scores at equal steps and updates, and what each took."""
+    """Return a topic's further tables: of many main actions, scores at equal steps and updates, and costs."""
     if topic != "materials":
         return []
     own = of_topic(arms, topic)

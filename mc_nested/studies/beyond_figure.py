@@ -32,7 +32,7 @@ LOOKS: Mapping[str, Mapping[str, Any]] = {
 
 
 def beyond_figure(arms: Arms) -> Figure:
-    """The figure; the same results give the same bytes."""
+    """Draw it; the same results give the same bytes."""
     images = of_topic(arms, "images")
     figure = Figure(figsize=(13.0, 8.2), dpi=140, layout="constrained")
     panels = list(figure.subplots(2, COLUMNS).flat)

@@ -42,14 +42,14 @@ class Change(BaseModel):
         return f"{self.choice}: {self.value}" if self.choice else "base"
 
     def preset_from(self, base: Preset) -> Preset:
-        """The preset with its changes; PresetError if they don't fit."""
+        """Return the preset with its changes; PresetError if they don't fit."""
         if not self.preset:
             return base
         changed = changed_tables(base.model_dump(exclude_none=True), self.preset)
         return parse_preset(tomlkit.dumps(changed), f"variant {self.name}")
 
     def scenario_from(self, base: Scenario) -> Scenario:
-        """The scenario with its changes; ScenarioError if it can't be built."""
+        """Return the scenario with its changes; ScenarioError if it can't be built."""
         table = table_of(base)
         changed = {
             "start": self.start or table.start,
@@ -59,7 +59,7 @@ class Change(BaseModel):
         return scenario_of(table.model_copy(update=changed), f"variant {self.name}, scenario {base.name}")
 
     def differs(self, agents: Sequence[str], preset: Preset, scenarios: Sequence[Scenario]) -> bool:
-        """Whether it changes anything, and is possible, for these agents with this preset on these designs."""
+        """Return whether it changes anything, and is possible, for these agents with this preset on these designs."""
         if self.needs and getattr(preset, self.needs, None) is None:
             return False
         specs = [spec_of(agent, self.sees_choice) for agent in agents]
@@ -73,7 +73,7 @@ class Change(BaseModel):
         return is_other or is_elsewhere or specs != [AGENT_SPECS[agent] for agent in agents]
 
     def arm(self, name: str, agent: str, asked: Asked, preset: Preset) -> Arm:
-        """The arm of that name and agent: what was asked for, with this change."""
+        """Return the arm of that name and agent: what was asked for, with this change."""
         return Arm(
             name=name,
             agent=agent,
@@ -92,13 +92,13 @@ class _Changes(BaseModel):
 
 
 def shipped_changes(file: str) -> list[Change]:
-    """The changes of a file of this package."""
+    """Return the changes of a file of this package."""
     text = (resources.files("mc_nested.studies") / file).read_text("utf-8")
     return parse_toml(_Changes, text, file, PresetError).changes
 
 
 def changed_tables(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """The nested tables with some values changed."""
+    """Return the nested tables with some values changed."""
     both = dict(base)
     for key, value in changes.items():
         both[key] = changed_tables(base.get(key) or {}, value) if isinstance(value, Mapping) else value

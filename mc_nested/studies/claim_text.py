@@ -49,13 +49,13 @@ TOO_FEW_AGAINST = """
 
 
 def claims_table(claims: Sequence[JudgedClaim]) -> str:
-    """A line for each claim."""
+    """Return the table of the claims, a line for each."""
     rows = [(f"({judged.claim.letter})", judged.claim.title, f"**{judged.verdict.value}**") for judged in claims]
     return markdown(("claim", "", "verdict"), rows)
 
 
 def claim_section(judged: JudgedClaim) -> str:
-    """What the paper says, what was measured, and the verdict."""
+    """Return what the paper says, what was measured, and the verdict."""
     claim = judged.claim
     rows = [
         (
@@ -76,7 +76,7 @@ def claim_section(judged: JudgedClaim) -> str:
 
 
 def method(claims: Sequence[JudgedClaim], trials: int, keeps_best: bool) -> str:
-    """How the claims were judged, and what so many trials can't show."""
+    """Return how the claims were judged, and what so many trials can't show."""
     text = METHOD.format(
         alpha=ALPHA,
         splits=RESAMPLES + 1,
@@ -100,7 +100,7 @@ def _tested(judged: JudgedClaim) -> int:
 
 
 def _smallest_p(trials: int) -> float:
-    """The p-value of a permutation test that finds no other split of the trials as extreme."""
+    """Return the p-value of a permutation test that finds no other split of the trials as extreme."""
     return max(1 / comb(2 * trials, trials), 1 / (RESAMPLES + 1))
 
 

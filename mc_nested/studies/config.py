@@ -63,7 +63,7 @@ class StudyConfig(BaseModel):
     arms: Annotated[list[ArmTable], Field(min_length=1)]
 
     def loaded_arms(self) -> list[Arm]:
-        """The arms; ScenarioError or RunError if one can't be trained, or is there twice."""
+        """Return the arms; ScenarioError or RunError if one can't be trained, or is there twice."""
         scenarios = {name: scenario_of(table, name) for name, table in self.scenarios.items()}
         arms = []
         for table in self.arms:
@@ -78,7 +78,7 @@ class StudyConfig(BaseModel):
         return arms
 
     def cut(self) -> list[Job]:
-        """The jobs, in the order in which processes take them; errors as ``loaded_arms``'s."""
+        """Return the jobs, in the order in which processes take them; errors as ``loaded_arms``'s."""
         runs = [run for arm in self.loaded_arms() for run in arm.runs()]
         return cut_into_jobs(side_by_side(runs), self.jobs, self.seed)
 
@@ -89,7 +89,7 @@ Table = TypeVar("Table", Preset, ScenarioTable)
 def config_of(
     study: str, arms: Sequence[Arm], *, trials: int, seed: int, jobs: int, notes: dict[str, str] | None = None
 ) -> StudyConfig:
-    """The config of a study with these arms; RunError if two of them are the same."""
+    """Return the config of a study with these arms; RunError if two of them are the same."""
     _check_different(arms)
     presets: dict[str, Preset] = {}
     scenarios: dict[str, ScenarioTable] = {}
@@ -135,7 +135,7 @@ def _keyed(tables: dict[str, Table], name: str, table: Table) -> str:
 
 
 def _check_different(arms: Sequence[Arm]) -> None:
-    """RunError if two scenarios of an arm have one name, or two arms on a scenario."""
+    """Raise RunError if two scenarios of an arm have one name, or two arms on a scenario."""
     seen: set[tuple[str, str]] = set()
     for arm in arms:
         names = [scenario.name for scenario in arm.scenarios]

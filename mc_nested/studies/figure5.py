@@ -31,7 +31,7 @@ COLUMNS = 3
 
 
 def figure5(results: Results) -> Figure:
-    """The figure; the same results give the same bytes with the same matplotlib."""
+    """Draw it; the same results give the same bytes with the same matplotlib."""
     curves = curves_of(results)
     columns = min(COLUMNS, len(results.scenarios))
     rows = -(-len(results.scenarios) // columns)

@@ -33,13 +33,13 @@ class StudyFolder:
 
     @classmethod
     def new(cls, path: Path, config: StudyConfig) -> "StudyFolder":
-        """A folder for a new study; RunError if the path holds anything already. Nothing is written yet."""
+        """Return a folder for a new study; RunError if the path holds anything already. Nothing is written yet."""
         check_free(path)
         return cls(path, config)
 
     @classmethod
     def open(cls, path: Path, verbs: Sequence[str] = ()) -> "StudyFolder":
-        """The folder of an earlier study, of one of those verbs if any is named.
+        """Return the folder of an earlier study, of one of those verbs if any is named.
 
         RunError if it isn't one, or its config was changed since.
         """
@@ -78,16 +78,16 @@ class StudyFolder:
             raise RunError(f"{self.path}: can't be written, {error.strerror}: name another folder") from error
 
     def folder_of(self, job: Job) -> Path:
-        """The job's own folder."""
+        """Return the job's own folder."""
         return self.path / JOBS_FOLDER / job.name
 
     def outcomes(self) -> list[tuple[Job, JobOutcome | None]]:
-        """Every job with its outcome, None if it isn't finished; RunError if a file can't be used."""
+        """Return every job with its outcome, None if it isn't finished; RunError if a file can't be used."""
         return [(job, outcome_of(job, self.folder_of(job))) for job in self.jobs]
 
     @contextmanager
     def writing(self) -> Iterator[None]:
-        """Around writing here: RunError, one line that says how to resume, if the disk refuses."""
+        """Raise RunError, one line that says how to resume, if the disk refuses what the block writes here."""
         try:
             yield
         except OSError as error:

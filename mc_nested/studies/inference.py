@@ -40,7 +40,7 @@ class Tails(NamedTuple):
 
 
 def exceeds(left: Float64s, right: Float64s) -> float:
-    """One-sided p of a permutation test that the mean of ``left`` is above that of ``right``; at least two of both.
+    """Return the one-sided p of a permutation test that the mean of ``left``, of two or more, is above ``right``'s.
 
     Exact where all splits are gone through, and the two agents differ in nothing. Trials that are all the same give 1.
     """
@@ -57,7 +57,7 @@ def exceeds(left: Float64s, right: Float64s) -> float:
 
 
 def studentised(left: Float64s, right: Float64s, axis: int = -1) -> Float64s:
-    """Welch's t of the difference of the means as a number in [-1, 1], t / sqrt(1 + t²): in t's order, never infinite.
+    """Return Welch's t of the difference of the means as t / sqrt(1 + t²), in [-1, 1]: in t's order, never infinite.
 
     1 or -1 where no trial differs from its agent's others, and 0 where the means are the same, too. For trials of the
     order of 1.
@@ -71,7 +71,7 @@ def studentised(left: Float64s, right: Float64s, axis: int = -1) -> Float64s:
 
 
 def ahead(left: Float64s, right: Float64s, margin: float) -> Tails:
-    """Whether ``left`` is ahead. For: the difference is above 0. Against: it is below ``margin``.
+    """Test whether ``left`` is ahead. For: the difference is above 0. Against: it is below ``margin``.
 
     Both can hold, for a lead smaller than the margin: then it is ahead.
     """
@@ -79,26 +79,26 @@ def ahead(left: Float64s, right: Float64s, margin: float) -> Tails:
 
 
 def alike(left: Float64s, right: Float64s, margin: float) -> Tails:
-    """Whether the means differ by less than ``margin``. For: two one-sided tests. Against: they differ by more."""
+    """Test whether the means differ by less than ``margin``: for it by two one-sided tests, against that it is more."""
     within = max(exceeds(left + margin, right), exceeds(right + margin, left))
     beyond = min(exceeds(left - margin, right), exceeds(right - margin, left))
     return Tails(within, min(1.0, 2 * beyond))
 
 
 def mostly(successes: int, trials: int) -> Tails:
-    """Whether a trial is more likely than not to succeed: exact binomial tests, above one half and below."""
+    """Test whether a trial is more likely than not to succeed: exact binomial tests, above one half and below."""
     above = stats.binomtest(successes, trials, 0.5, alternative="greater").pvalue
     below = stats.binomtest(successes, trials, 0.5, alternative="less").pvalue
     return Tails(float(above), float(below))
 
 
 def no_worse(left: Float64s, right: Float64s, margin: float) -> Tails:
-    """Whether ``left`` is behind by less than ``margin``. For: the difference is above -margin. Against: below."""
+    """Test whether ``left`` is behind by less than ``margin``: for it above -margin, against it below."""
     return Tails(exceeds(left + margin, right), exceeds(right, left + margin))
 
 
 def contrast(groups: Sequence[Float64s], weights: Sequence[float]) -> tuple[Tails, Interval]:
-    """Whether a weighted sum of the groups' means is above 0, or below; and its 95 % interval.
+    """Test whether a weighted sum of the groups' means is above 0, or below; and its 95 % interval.
 
     Welch and Satterthwaite's t, since no permutation leaves a difference of differences as it was. At least two
     trials of each. Trials that are all the same give 1.
@@ -116,12 +116,12 @@ def contrast(groups: Sequence[Float64s], weights: Sequence[float]) -> tuple[Tail
 
 
 def _freedom(parts: Sequence[float], groups: Sequence[Float64s]) -> float:
-    """Satterthwaite's degrees of freedom of a sum whose squared standard error has these parts, one of each group."""
+    """Return Satterthwaite's degrees of freedom of a sum whose squared standard error has a part of each group."""
     return sum(parts) ** 2 / sum(part**2 / (len(group) - 1) for part, group in zip(parts, groups, strict=True))
 
 
 def difference_interval(left: Float64s, right: Float64s) -> Interval:
-    """Welch's t interval of the difference of the means; at least two trials of both.
+    """Return Welch's t interval of the difference of the means; at least two trials of both.
 
     Without width where no trial differs from its agent's others.
     """
@@ -134,7 +134,7 @@ def difference_interval(left: Float64s, right: Float64s) -> Interval:
 
 
 def mean_interval(trials: Float64s, highest: float = np.inf) -> Interval | None:
-    """Student's t interval of the mean over trials (trials,), cut at ``highest``; None for fewer than two.
+    """Return Student's t interval of the mean over trials (trials,), cut at ``highest``; None for fewer than two.
 
     Without width where no trial differs from the others.
     """
@@ -145,20 +145,20 @@ def mean_interval(trials: Float64s, highest: float = np.inf) -> Interval | None:
 
 
 def share_interval(successes: int, trials: int) -> Interval:
-    """Clopper and Pearson's exact interval of a share."""
+    """Return Clopper and Pearson's exact interval of a share."""
     interval = stats.binomtest(successes, trials).proportion_ci(method="exact")
     return Interval(float(interval.low), float(interval.high))
 
 
 def percentiles(resampled: Sequence[float] | Float64s) -> Interval:
-    """The middle 95 % of a bootstrap's resamples, which may be infinite."""
+    """Return the middle 95 % of a bootstrap's resamples, which may be infinite."""
     # No interpolation: there is nothing between a number and infinity.
     low, high = np.percentile(resampled, [2.5, 97.5], method="inverted_cdf")
     return Interval(float(low), float(high))
 
 
 def holm(p_values: Sequence[float]) -> list[float]:
-    """Holm's adjusted p-values: compared with α, they keep the chance of any false rejection among all below α."""
+    """Return Holm's adjusted p-values: compared with α, they keep the chance of any false rejection below α."""
     adjusted = [0.0] * len(p_values)
     largest = 0.0
     for rank, index in enumerate(sorted(range(len(p_values)), key=lambda index: p_values[index])):

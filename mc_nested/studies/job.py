@@ -93,7 +93,7 @@ class Job:
         return self.preset.episodes * len(self.trials)
 
     def identity(self) -> dict[str, Any]:
-        """What is trained; a checkpoint fits only the same identity."""
+        """Return what is trained; a checkpoint fits only the same identity."""
         return {
             "spec": asdict(self.spec),
             "preset": self.preset.model_dump(exclude={"device"}),
@@ -108,7 +108,7 @@ class Job:
 
 
 def side_by_side(runs: Sequence[Run]) -> list[Run]:
-    """The runs in their order, but those of one agent and preset adjacent."""
+    """Return the runs in their order, but those of one agent and preset adjacent."""
     kinds: list[tuple[AgentSpec, Preset]] = []
     for run in runs:
         if (run.spec, run.preset) not in kinds:
@@ -131,7 +131,7 @@ def cut_into_jobs(runs: Sequence[Run], parts: int, seed: int) -> list[Job]:
 
 
 def _of_few_trials(runs: Sequence[Run]) -> list[list[Run]]:
-    """Jobs of one group and scenario each, of as many trials as train together."""
+    """Return jobs of one group and scenario each, of as many trials as train together."""
     jobs = []
     for _, alike in groupby(runs, lambda run: (run.group, run.scenario.name)):
         own = list(alike)
@@ -141,7 +141,7 @@ def _of_few_trials(runs: Sequence[Run]) -> list[list[Run]]:
 
 
 def _in_parts(runs: Sequence[Run], parts: int) -> list[list[Run]]:
-    """Each run is in the part that contains the middle of its work."""
+    """Put each run into the part that contains the middle of its work."""
     work = [run.work for run in runs]
     ends = list(accumulate(work))
     shared: list[list[Run]] = [[] for _ in range(parts)]
@@ -156,7 +156,7 @@ def _batches(runs: Iterable[Run]) -> list[list[Run]]:
 
 
 def _kind(run: Run) -> tuple[object, ...]:
-    """What runs must have in common to be one batch: their networks have one shape, the same as in a batch of one.
+    """Return what runs must have in common to be one batch: their networks have one shape, as in a batch of one.
 
     There is an output for each material of a choice; with one-hot, an input for each number of blocks left; an image is
     as large as its arena.

@@ -18,14 +18,14 @@ TeamArenas = Callable[[Team, Kind, int], Sequence[TeamArena]]
 
 
 def agents_trainer(job: Job, env: VectorEnv[Int64s, Int64s, Any]) -> Trainer:
-    """The trainer of a job of agents; ``env`` has an arena for each of its runs, as the simulator makes them."""
+    """Return the trainer of a job of agents; ``env`` has an arena for each of its runs, as the simulator makes them."""
     agent = Agent(job.spec, job.scenarios, job.preset, job.seed, job.trials)
     view = agent.view_of(env, job.scenarios)
     return Trainer(view, job.scenarios, agent, job.preset, job.seed, job.stop_at_optimum)
 
 
 def team_trainer(job: Job, arenas: TeamArenas) -> TeamTrainer:
-    """The trainer of a job of builders, who share an arena in each of its runs; all runs have one scenario.
+    """Return the trainer of a job of builders, who share an arena in each of its runs; all runs have one scenario.
 
     ValueError if it is no such job.
     """

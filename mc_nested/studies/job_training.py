@@ -43,7 +43,7 @@ class TrainedJob(Protocol):
         ...
 
     def tick(self) -> None:
-        """A little of the training."""
+        """Train a little."""
         ...
 
     def save(self) -> None:
@@ -129,7 +129,7 @@ class SpendingCount:
                 self.at.append((int(self._steps[row.trial]), int(updates[row.trial])))
 
     def state(self) -> Arrays:
-        """For a checkpoint."""
+        """Return what a checkpoint keeps."""
         return {"at": np.array(self.at, dtype=np.int64).reshape(-1, 2)}
 
     def load(self, state: Mapping[str, NDArray[Any]], trainer: LoggedTrainer) -> None:
@@ -178,7 +178,7 @@ class JobTraining:
         return self.trainer.agent.updates
 
     def tick(self) -> None:
-        """One step of every run; saved if a run has trained for an evaluation interval since the last save.
+        """Take a step of every run, and save if a run has trained for an evaluation interval since the last save.
 
         RunError if the disk refuses; the last save is intact then.
         """
@@ -203,7 +203,7 @@ class JobTraining:
         shutil.rmtree(self._folder / "checkpoint", ignore_errors=True)
 
     def state(self) -> Arrays:
-        """For the checkpoint: the trainer's, and the seconds so far."""
+        """Return what the checkpoint keeps: the trainer's, and the seconds so far."""
         spent = named_for("spent", self._spent.state())
         return {**self.trainer.state(), "unit.seconds": np.array([self._seconds()]), **spent}
 

@@ -18,7 +18,7 @@ LAST = 10
 
 
 def early_limit(episodes: int) -> int:
-    """The last episode that counts as early in a training of that many."""
+    """Return the last episode that counts as early in a training of that many."""
     return min(EARLY_EPISODES, episodes // 3)
 
 
@@ -73,7 +73,7 @@ class Curve:
 
 
 def curves_of(results: Results) -> Mapping[tuple[str, str], Curve]:
-    """The curve of every agent and scenario that was trained."""
+    """Return the curve of every agent and scenario that was trained."""
     rows: dict[tuple[str, str], list[tuple[int, int, float]]] = {
         (agent, scenario): [] for agent in results.agents for scenario in results.scenarios
     }

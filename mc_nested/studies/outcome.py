@@ -34,7 +34,7 @@ class Evaluated(BaseModel):
 
 
 def evaluated(row: EvaluationRow, scenario: Scenario, spent: tuple[int, int] | None = None) -> Evaluated:
-    """What an outcome says about a greedy episode on that scenario, and the (steps, updates) spent by then."""
+    """Return what an outcome says about a greedy episode on that scenario, and the (steps, updates) spent by then."""
     material = GreedyEpisode([row.material]).material_name(scenario)
     steps, updates = spent or (None, None)
     return Evaluated(
@@ -74,14 +74,14 @@ class JobOutcome(BaseModel):
     runs: list[RunOutcome]
 
     def seconds_of(self, run: RunOutcome) -> float:
-        """One run's share of the seconds, by its updates."""
+        """Return one run's share of the seconds, by its updates."""
         updates = sum(each.updates for each in self.runs)
         return self.seconds * run.updates / updates if updates else 0.0
 
 
 @contextmanager
 def writing(folder: Path) -> Iterator[None]:
-    """While something is written in a job's folder: RunError, one line if the disk refuses."""
+    """Raise RunError, one line, if the disk refuses what the block writes in a job's folder."""
     try:
         yield
     except OSError as error:
@@ -96,7 +96,7 @@ def write_outcome(folder: Path, outcome: JobOutcome) -> None:
 
 
 def outcome_of(job: Job, folder: Path) -> JobOutcome | None:
-    """The outcome of the job in that folder; None if it isn't finished.
+    """Return the outcome of the job in that folder; None if it isn't finished.
 
     RunError if the file can't be read, or is another job's.
     """

@@ -24,10 +24,10 @@ class TestedEffect(Protocol):
     """How large is what a line of a claim says, and how often so many trials would show it."""
 
     def power_for(self, trials: Int64s, alpha: float) -> Float64s:
-        """The chance that a test at that level shows it, for each number of trials (n,)."""
+        """Return the chance that a test at that level shows it, for each number of trials (n,)."""
 
     def power_against(self, trials: Int64s, alpha: float) -> Float64s:
-        """The chance that a test at that level shows its opposite, for each number of trials (n,)."""
+        """Return the chance that a test at that level shows its opposite, for each number of trials (n,)."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class ShareEffect:
 
 
 def deciding_trials(effects: Sequence[TestedEffect]) -> int | None:
-    """From how many trials of each agent on a claim of these lines would be decided; None if more than MOST_TRIALS.
+    """Return from how many trials of each agent on a claim of these lines is decided; None if more than MOST_TRIALS.
 
     It is decided where all lines are shown, or the opposite of any is, at the level that is left to each by
     Bonferroni's correction. The lines are taken to be independent. None, too, of no line.
@@ -101,6 +101,6 @@ def deciding_trials(effects: Sequence[TestedEffect]) -> int | None:
 
 
 def _shown(share: float, trials: Int64s, alpha: float) -> Float64s:
-    """The chance that so many trials, each a success with that probability, show that it is above one half."""
+    """Return the chance that so many trials, each a success with that probability, show that it is above one half."""
     least = stats.binom.isf(alpha, trials, 0.5) + 1  # successes: with fewer, p is alpha or more
     return np.asarray(stats.binom.sf(least - 1, trials, share), dtype=np.float64)

@@ -55,7 +55,7 @@ class Measures:
     without_a_prior: float
 
     def in_words(self) -> tuple[str, ...]:
-        """As cells of a table: solved, median, interquartile mean, worst, without a prior, within twice that."""
+        """Return table cells: solved, median, interquartile mean, worst, without a prior, within twice that."""
         ends = self.interval if self.interval and np.isfinite(self.interval.low) else None
         interval = f" ({episodes(ends.low)} to {episodes(ends.high)})" if ends else ""
         return (
@@ -69,7 +69,7 @@ class Measures:
 
 
 def played_designs(trials: Sequence[Trial], kind: str | None = None) -> PlayedDesigns:
-    """A contestant's trials, on all designs or on those of a kind."""
+    """Return a contestant's trials, on all designs or on those of a kind."""
     by_design: dict[str, list[Trial]] = {}
     for trial in trials:
         if kind in (None, kind_of_design(trial.scenario.design)):
@@ -83,12 +83,12 @@ def played_designs(trials: Sequence[Trial], kind: str | None = None) -> PlayedDe
 
 
 def played_by(trials: Sequence[Trial]) -> Float64s:
-    """Episodes that each trial played to the optimum, (trials,); infinite where it was never there."""
+    """Return the episodes that each trial played to the optimum, (trials,); infinite where it was never there."""
     return np.array([np.inf if trial.played_to_optimum is None else trial.played_to_optimum for trial in trials])
 
 
 def measures_of(trials: PlayedDesigns) -> Measures:
-    """The figures of one design or more."""
+    """Return the figures of one design or more."""
     played = trials.played
     return Measures(
         trials=played.size,
@@ -103,21 +103,21 @@ def measures_of(trials: PlayedDesigns) -> Measures:
 
 
 def interquartile_mean(played: Float64s) -> float:
-    """The mean of the middle half of all trials; infinite if one of those is."""
+    """Return the mean of the middle half of all trials; infinite if one of those is."""
     ordered = np.sort(played, axis=None)
     cut = int(TRIMMED * len(ordered))
     return float(ordered[cut : len(ordered) - cut].mean())
 
 
 def profile(played: Float64s, episodes: Int64s) -> Float64s:
-    """The share of all trials that were at the optimum within each of those numbers of episodes."""
+    """Return the share of all trials that were at the optimum within each of those numbers of episodes."""
     ordered = np.sort(played, axis=None)
     shares: Float64s = np.searchsorted(ordered, episodes, side="right") / len(ordered)
     return shares
 
 
 def profile_band(trials: PlayedDesigns, episodes: Int64s) -> tuple[Float64s, Float64s] | None:
-    """The profile's 95 % interval at each of those numbers; None for fewer than two designs."""
+    """Return the profile's 95 % interval at each of those numbers; None for fewer than two designs."""
     drawn = [profile(trials.played[indices], episodes) for indices in resamples(trials)]
     if not drawn:
         return None
@@ -126,7 +126,7 @@ def profile_band(trials: PlayedDesigns, episodes: Int64s) -> tuple[Float64s, Flo
 
 
 def resamples(trials: PlayedDesigns) -> Iterator[tuple[Int64s, Int64s]]:
-    """Indices of ``played`` for each resample, always the same; none for fewer than two designs.
+    """Return indices of ``played`` for each resample, always the same; none for fewer than two designs.
 
     Designs are drawn with replacement within their kind, and for each of those as many trials as it has.
     """

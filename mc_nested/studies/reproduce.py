@@ -31,7 +31,7 @@ LONGER = "-longer"
 
 
 def arms(asked: Asked) -> list[Arm]:
-    """An arm of each agent, and of some that are trained for longer."""
+    """Return an arm of each agent, and of some that are trained for longer."""
     for name in asked.agent:
         if name not in AGENT_SPECS:
             raise UserError(f"no agent {name!r}: choose one of {', '.join(AGENT_SPECS)}")
@@ -55,7 +55,7 @@ COLUMNS = ("agent", "scenario", "trial", "episode", "score", "material", "steps"
 
 
 def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
-    """The paper's Figure 5, and each of its claims with its verdict; the longer trainings decide claim (f)."""
+    """Report the paper's Figure 5, and each of its claims with its verdict; the longer trainings decide claim (f)."""
     usual = [trial for trial in trials if not trial.arm.name.endswith(LONGER)]
     for_longer = [trial for trial in trials if trial.arm.name.endswith(LONGER)]
     results = results_of(usual, config.seed)
@@ -67,7 +67,7 @@ def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
 
 
 def report_on(results: Results, longer: Results | None, tables: dict[str, Table]) -> Report:
-    """The report of these results, and of those with ten times the episodes.
+    """Return the report of these results, and of those with ten times the episodes.
 
     The same results give the same report. Seconds are only in lines that name seconds: the only lines that differ if
     the same experiment is repeated.
@@ -98,7 +98,7 @@ def report_on(results: Results, longer: Results | None, tables: dict[str, Table]
 
 
 def found_of(judged: JudgedClaim) -> dict[str, str]:
-    """A claim and its verdict, for a program."""
+    """Return a claim and its verdict, for a program."""
     return {"letter": judged.claim.letter, "claim": judged.claim.title, "verdict": judged.verdict.value}
 
 

@@ -78,7 +78,7 @@ class Results:
 
 
 def results_of(trials: Sequence[Trial], seed: int) -> Results:
-    """The results of some arms, one of each agent, that are trained in the same way on the same scenarios."""
+    """Return the results of some arms, one of each agent, that are trained in the same way on the same scenarios."""
     arm = trials[0].arm
     scenarios = {trial.scenario.name: trial.scenario for trial in trials}
     return Results(
@@ -118,7 +118,7 @@ def _cost(trials: Sequence[Trial]) -> Cost:
 
 
 def builders_score(scenario: Scenario) -> float:
-    """The scripted builder's score within the step limit, with the best material of each part, by the rules alone."""
+    """Return the scripted builder's score within the step limit, of the best material of each part, by the rules."""
     tally = Tally([scenario])
     cell, placed = scenario.start, set[Cell]()
     steps = build_with_materials(scenario)[: scenario.step_limit]

@@ -28,7 +28,7 @@ LEFT_OUT = ("f", "i1", "i2")
 
 
 def arms(asked: Asked) -> list[Arm]:
-    """All agents under each choice, the base first."""
+    """Return all agents under each choice, the base first."""
     preset = asked.loaded_preset()
     return [
         choice.arm(f"{choice.name}, {agent}", agent, asked, preset)
@@ -38,7 +38,7 @@ def arms(asked: Asked) -> list[Arm]:
 
 
 def open_choices(preset: Preset, scenarios: Sequence[Scenario]) -> list[Change]:
-    """The base, and the shipped choices that change anything with this preset and these designs."""
+    """Return the base, and the shipped choices that change anything with this preset and these designs."""
     shipped = shipped_changes("robustness.toml")
     return [Change(), *(choice for choice in shipped if choice.differs(list(AGENT_SPECS), preset, scenarios))]
 
@@ -64,13 +64,13 @@ class JudgedChoice:
 
 
 def judged_under(choice: str, value: str, results: Results) -> JudgedChoice:
-    """The results under a choice, judged."""
+    """Judge the results under a choice."""
     claims = tuple(judged for judged in judge(results) if judged.claim.letter not in LEFT_OUT)
     return JudgedChoice(choice, value, results, claims)
 
 
 def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
-    """The verdicts under each choice."""
+    """Report the verdicts under each choice."""
     by_choice: dict[tuple[str, str], list[Trial]] = {}
     for trial in trials:
         by_choice.setdefault((trial.arm.labels["choice"], trial.arm.labels["value"]), []).append(trial)
@@ -90,7 +90,7 @@ EACH = "for each choice, agent and scenario"
 
 
 def report_on(choices: Sequence[JudgedChoice]) -> Report:
-    """The report of the judged choices, the base first."""
+    """Return the report of the judged choices, the base first."""
     results = choices[0].results
     trials = number_of_trials(results.trials)
     return Report(
@@ -124,7 +124,7 @@ def report_on(choices: Sequence[JudgedChoice]) -> Report:
 
 
 def _findings(choices: Sequence[JudgedChoice]) -> Table:
-    """Every line of every claim under every choice."""
+    """Return the table of every line of every claim under every choice."""
     header = ("choice", "value", "claim", "line", "measured", "p", "p_opposite", "p_opposite_holm", "verdict")
     rows = []
     for each in choices:
@@ -192,7 +192,7 @@ LOOKS = {
 
 
 def _figure(choices: Sequence[JudgedChoice]) -> Figure:
-    """A grid of verdicts, a line for each choice and a column for each claim; the base is the line on top."""
+    """Draw a grid of verdicts, a line for each choice and a column for each claim; the base is the line on top."""
     letters = list(choices[0].verdicts)
     size = (3.6 + 0.5 * len(letters), 1.6 + 0.3 * len(choices))
     figure = Figure(figsize=size, dpi=140, layout="constrained")

@@ -70,7 +70,7 @@ class _Summary(BaseModel):
 
 
 def runs_in(folder: Path) -> list[RunFacts]:
-    """The runs in a folder by name, or the folder itself if it is one; RunError if it can't be listed."""
+    """Return the runs in a folder by name, or the folder itself if it is one; RunError if it can't be listed."""
     if own := facts_of(folder):
         return [own]
     try:
@@ -81,7 +81,7 @@ def runs_in(folder: Path) -> list[RunFacts]:
 
 
 def facts_of(folder: Path) -> RunFacts | None:
-    """The facts of a run's folder, a damaged one's too; None if it is none."""
+    """Return the facts of a run's folder, a damaged one's too; None if it is none."""
     file = folder / CONFIG
     if not file.is_file():
         return None
@@ -140,7 +140,7 @@ def _cooperation(path: Path) -> RunFacts:
 
 
 def _as_far_as_trained(facts: RunFacts, read_checkpoint: Callable[[], object], trials: int) -> RunFacts:
-    """The facts of a training that was saved: how far it is, or what is damaged."""
+    """Return the facts of a training that was saved: how far it is, or what is damaged."""
     try:
         read_checkpoint()  # it may be gone, or damaged
         summary = _summary(facts.folder / SUMMARY, facts.verb)
@@ -181,5 +181,5 @@ def _each_once(names: Iterable[str]) -> list[str]:
 
 
 def _size(folder: Path) -> int:
-    """Bytes of all files in a folder; links aren't followed."""
+    """Count the bytes of all files in a folder; links aren't followed."""
     return sum(Path(inside, name).lstat().st_size for inside, _, names in os.walk(folder) for name in names)

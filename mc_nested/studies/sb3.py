@@ -31,7 +31,7 @@ HOW_TO_INSTALL = "pip install -c constraints.txt -e '.[bench]'"
 
 
 def is_installed() -> bool:
-    """Whether the library is installed."""
+    """Return whether the library is installed."""
     return importlib.util.find_spec("stable_baselines3") is not None
 
 
@@ -65,7 +65,7 @@ class Sb3Env(gymnasium.Env[Int64s, np.int64]):
         return observations[0], {}
 
     def step(self, action: np.int64 | int) -> tuple[Int64s, float, bool, bool, dict[str, Any]]:
-        """One of the ten actions; the last step's ``info["score"]`` is r_M."""
+        """Take one of the ten actions; the last step's ``info["score"]`` is r_M."""
         observations, rewards, terminated, truncated, info = self._view.step(np.array([action], dtype=np.int64))
         self.steps += 1
         ended = bool(info["_score"][0])
@@ -125,13 +125,13 @@ class Sb3Dqn:
         return sum(parameter.numel() for parameter in self._model.q_net.parameters())
 
     def learn_a_step(self, epsilon: float) -> None:
-        """One ε-greedy step in its Env, and one update; a new episode begins by itself after one has ended."""
+        """Take one ε-greedy step in its Env, and one update; a new episode begins by itself after one has ended."""
         self._model.exploration_rate = epsilon
         self._model.exploration_schedule = lambda _: epsilon  # its own falls with steps, of which none knows the total
         self._model.learn(1, reset_num_timesteps=False)
 
     def greedy(self, observation: Int64s) -> int:
-        """The greedy action."""
+        """Return the greedy action."""
         action, _ = self._model.predict(observation, deterministic=True)
         return int(action)
 
@@ -204,7 +204,7 @@ class Sb3Training:
         return self._model.updates
 
     def tick(self) -> None:
-        """One training episode, and a greedy one if it is due."""
+        """Play one training episode, and a greedy one if it is due."""
         done, preset = self._env.episodes, self.job.preset
         epsilon = float(self._decay.epsilon(np.array([done]), preset.episodes)[0])
         while self._env.episodes == done:
@@ -214,7 +214,7 @@ class Sb3Training:
             self._evaluate()
 
     def save(self) -> None:
-        """Nothing: a run takes less than a few minutes, and starts over."""
+        """Save nothing: a run takes less than a few minutes, and starts over."""
 
     def finish(self) -> None:
         outcome = JobOutcome(

@@ -62,7 +62,7 @@ class Asked:
     say: Callable[[str], None] = print
 
     def loaded_preset(self) -> Preset:
-        """The preset, with the episodes, the engine and the device that were asked for; PresetError if it is none."""
+        """Return the preset with the episodes, the engine and the device asked for; PresetError if it is none."""
         loaded = load_preset(self.preset).changed(engine=self.engine, device=self.device)
         return with_episodes(loaded, self.episodes)
 
@@ -113,7 +113,7 @@ class Study:
     folder: str = ""
 
     def report_on(self, config: StudyConfig, outcomes: Outcomes) -> Report:
-        """The report on the outcomes of all jobs."""
+        """Return the report on the outcomes of all jobs."""
         return self.report(config, trials_of(config.loaded_arms(), outcomes))
 
 
@@ -136,5 +136,5 @@ METADATA: Mapping[str, dict[str, None]] = {".png": {"Software": None}, ".svg": {
 
 
 def with_episodes(preset: Preset, episodes: int | None) -> Preset:
-    """The preset with so many episodes; as it is where that is None."""
+    """Return the preset with so many episodes; as it is where that is None."""
     return preset if episodes is None else preset.model_copy(update={"episodes": episodes})

@@ -33,14 +33,14 @@ COLUMNS = (
 
 
 def arms(asked: Asked) -> list[Arm]:
-    """The base of each agent, and the changes."""
+    """Return the base of each agent, and the changes."""
     preset = asked.loaded_preset()
     found = varied(preset, asked.scenarios)
     return [each.arm(each.name if each.choice else f"base, {each.agent}", each.agent, asked, preset) for each in found]
 
 
 def varied(preset: Preset, scenarios: Sequence[Scenario]) -> list[Change]:
-    """The shipped changes that change anything here; the base of each agent comes first."""
+    """Return the shipped changes that change anything here; the base of each agent comes first."""
     changes = [each for each in shipped_changes("sweep.toml") if each.differs([each.agent], preset, scenarios)]
     agents = list(dict.fromkeys(["nested", *(each.agent for each in changes)]))
     return [*(Change(agent=agent) for agent in agents), *changes]
@@ -69,7 +69,7 @@ class Effect:
 
 
 def effects_on(trials: Sequence[Trial], scenario: str) -> list[Effect]:
-    """Every arm's effect on that scenario, in the order of the arms."""
+    """Return every arm's effect on that scenario, in the order of the arms."""
     found = {name: own for (name, where), own in on_each(trials).items() if where == scenario}
     effects = []
     for own in found.values():
@@ -117,7 +117,7 @@ optimum: trials that ever reached it. Episodes to it: the median over those."""
 
 
 def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
-    """A table for each scenario with the effect of each change."""
+    """Report a table for each scenario with the effect of each change."""
     optimum = optimum_of(trials)
     effects = {scenario: effects_on(trials, scenario) for scenario in optimum}
     many = 2 * sum(effect.final_interval is not None for own in effects.values() for effect in own)
@@ -176,7 +176,7 @@ APART = 0.17
 
 
 def _figure(effects: dict[str, list[Effect]], optimum: dict[str, float]) -> Figure:
-    """A panel for each scenario, a line for each change: how far its scores are from the base's."""
+    """Draw a panel for each scenario, a line for each change: how far its scores are from the base's."""
     changed = {scenario: [effect for effect in own if effect.choice] for scenario, own in effects.items()}
     lines = max(map(len, changed.values()), default=0)
     figure = Figure(figsize=(3.4 + 3.2 * len(effects), 1.6 + 0.3 * lines), dpi=140, layout="constrained")
@@ -208,7 +208,7 @@ def _draw(axes: Axes, effects: Sequence[Effect]) -> None:
 
 
 def _mark(axes: Axes, line: float, difference: float, interval: Interval | None, color: str, marker: str) -> None:
-    """A mark with its interval, filled where that leaves out 0."""
+    """Draw a mark with its interval, filled where that leaves out 0."""
     if interval:
         axes.plot([interval.low, interval.high], [line, line], color=color, linewidth=1.4, zorder=2)
     is_clear = interval is not None and (interval.low > 0 or interval.high < 0)

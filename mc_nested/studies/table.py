@@ -31,29 +31,29 @@ class Table:
 
 
 def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """The table as Markdown; a cell can't break it."""
+    """Return the table as Markdown; a cell can't break it."""
     lines = [header, ["---"] * len(header), *rows]
     # Users name scenarios, so bars may appear.
     return "\n".join(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in line)} |" for line in lines)
 
 
 def two(value: float) -> str:
-    """With two decimals."""
+    """Write it with two decimals."""
     return f"{round(value, 2) + 0.0:.2f}"  # + 0.0: no minus before a zero
 
 
 def mean(trials: Float64s) -> str:
-    """The mean over the trials, if there is any."""
+    """Return the mean over the trials, if there is any."""
     return two(float(trials.mean())) if len(trials) else NONE
 
 
 def interval(ends: Interval | None) -> str:
-    """From where to where."""
+    """Write from where to where it goes."""
     return f"{two(ends.low)} to {two(ends.high)}" if ends else NONE
 
 
 def probability(p: float | None) -> str:
-    """A p-value, if there is one."""
+    """Return a p-value, if there is one."""
     if p is None:
         return NONE
     if p < 0.00005:
@@ -62,12 +62,12 @@ def probability(p: float | None) -> str:
 
 
 def number_of_trials(trials: int) -> str:
-    """``one trial``, ``2 trials``."""
+    """Return ``one trial``, ``2 trials``."""
     return f"{trials} trials" if trials > 1 else "one trial"
 
 
 def episodes(number: float) -> str:
-    """To a tenth, or to a whole number from 100 on; ∞ for never."""
+    """Write them to a tenth, or to a whole number from 100 on; ∞ for never."""
     if not np.isfinite(number):
         return "∞"
     return f"{number:,.0f}" if number >= 100 or number == int(number) else f"{number:.1f}"

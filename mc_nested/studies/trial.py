@@ -57,7 +57,7 @@ class Trial:
 
 
 def trials_of(arms: Iterable[Arm], outcomes: Outcomes) -> list[Trial]:
-    """The trials, arm by arm, scenario by scenario: in an order that doesn't depend on how they were cut into jobs."""
+    """Return the trials, arm by arm, scenario by scenario, however they were cut into jobs."""
     found: dict[tuple[str, str, int], tuple[RunOutcome, JobOutcome]] = {}
     for job, outcome in outcomes:
         for group, scenario, number, run in zip(job.groups, job.scenarios, job.trials, outcome.runs, strict=True):
@@ -73,7 +73,7 @@ def trials_of(arms: Iterable[Arm], outcomes: Outcomes) -> list[Trial]:
 
 
 def on_each(trials: Iterable[Trial]) -> dict[tuple[str, str], list[Trial]]:
-    """The trials by arm and scenario, in their order."""
+    """Return the trials by arm and scenario, in their order."""
     found: dict[tuple[str, str], list[Trial]] = {}
     for trial in trials:
         found.setdefault((trial.arm.name, trial.scenario.name), []).append(trial)
@@ -81,7 +81,7 @@ def on_each(trials: Iterable[Trial]) -> dict[tuple[str, str], list[Trial]]:
 
 
 def optimum_of(trials: Iterable[Trial]) -> dict[str, float]:
-    """Each scenario's highest score, in the order of the scenarios."""
+    """Return each scenario's highest score, in the order of the scenarios."""
     return {trial.scenario.name: trial.scenario.optimum for trial in trials}
 
 
@@ -109,12 +109,12 @@ OF_A_GREEDY_EPISODE = tuple(Evaluated.model_fields)
 
 
 def trial_table(trials: Iterable[Trial], columns: Sequence[str]) -> Table:
-    """A row for each trial."""
+    """Return a row for each trial."""
     return Table(columns, [[_cell(trial, column) for column in columns] for trial in trials])
 
 
 def greedy_table(trials: Iterable[Trial], columns: Sequence[str]) -> Table:
-    """A row for each greedy episode of each trial."""
+    """Return a row for each greedy episode of each trial."""
     return Table(
         columns,
         [
@@ -126,7 +126,7 @@ def greedy_table(trials: Iterable[Trial], columns: Sequence[str]) -> Table:
 
 
 def without_a_prior(scenario: Scenario) -> float:
-    """How many episodes the scenario should take if no cell were likelier than another."""
+    """Return how many episodes the scenario should take if no cell were likelier than another."""
     return round(episodes_without_a_prior(scenario.blocks, scenario.size), 2)
 
 

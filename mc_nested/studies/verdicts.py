@@ -79,7 +79,7 @@ class JudgedClaim:
 
 
 def judged(claim: Claim) -> JudgedClaim:
-    """The claim with its verdict."""
+    """Judge the claim."""
     opposites = iter(holm([evidence.tails.against for evidence in claim.evidence if evidence.tails]))
     findings = []
     for evidence in claim.evidence:
@@ -89,7 +89,7 @@ def judged(claim: Claim) -> JudgedClaim:
 
 
 def verdict_of(evidence: Evidence, against: float | None) -> Verdict:
-    """A claim's evidence holds if its own test says so; otherwise it fails if its opposite's corrected p does."""
+    """Judge one line: it holds if its own test says so, else it fails if its opposite's corrected p does."""
     if evidence.counted:
         return evidence.counted
     if evidence.tails is None or against is None:
@@ -100,7 +100,7 @@ def verdict_of(evidence: Evidence, against: float | None) -> Verdict:
 
 
 def verdict_on_all(verdicts: Sequence[Verdict]) -> Verdict:
-    """A claim holds if all its evidence does, and does not hold if any of it doesn't."""
+    """Judge a claim: it holds if all its evidence does, and does not hold if any of it doesn't."""
     if Verdict.FAILS in verdicts:
         return Verdict.FAILS
     if all(verdict is Verdict.NOT_RUN for verdict in verdicts):

@@ -90,15 +90,15 @@ class ArmResults:
         return np.array([trial.scores[-1] for trial in self.trials])
 
     def spent(self, of: Budget) -> int:
-        """The least that a trial had spent at its last evaluation."""
+        """Return the least that a trial had spent at its last evaluation."""
         return min(_spent(trial.outcome.evaluations[-1], of) for trial in self.trials)
 
     def within(self, budget: int, of: Budget) -> Float64s:
-        """As last_ten, of the evaluations until which no more was spent, (trials,); the first counts in any case."""
+        """Return last_ten of the evaluations until which no more was spent, (trials,); the first always counts."""
         return np.array([np.mean(self._until(trial, budget, of)[-LAST:]) for trial in self.trials])
 
     def early(self, budget: int, of: Budget) -> Float64s:
-        """Each trial's mean greedy score until a third of the budget, (trials,); the first counts in any case."""
+        """Return each trial's mean score until a third of the budget, (trials,); the first counts in any case."""
         return np.array([np.mean(self._until(trial, budget // 3, of)) for trial in self.trials])
 
     @staticmethod
@@ -112,7 +112,7 @@ Arms = dict[tuple[str, str, str], ArmResults]
 
 
 def arm_results(trials: Iterable[Trial]) -> Arms:
-    """The results of every arm on each of its designs."""
+    """Return the results of every arm on each of its designs."""
     return {each.key: each for each in map(ArmResults, on_each(trials).values())}
 
 

@@ -57,34 +57,34 @@ LAST = ": those whose last greedy episode scores the optimum"
 
 
 def judge_beyond(arms: Arms) -> tuple[JudgedClaim, ...]:
-    """Every claim with its verdict."""
+    """Judge every claim."""
     claims = (*_of_images(arms), *_of_parts(arms), *_of_materials(arms), *_of_teams(arms))
     return tuple(judged(claim) for claim in claims)
 
 
 def of_topic(arms: Arms, topic: str) -> list[ArmResults]:
-    """The arms that are about it, in their order."""
+    """Return the arms that are about it, in their order."""
     return [arm for arm in arms.values() if arm.topic == topic]
 
 
 def teams_of(arms: Sequence[ArmResults], networks: Kind) -> dict[int, ArmResults]:
-    """The teams whose builders learn in that way, by how many they are: two or more."""
+    """Return the teams whose builders learn in that way, by how many they are: two or more."""
     teams = {arm.team.count: arm for arm in arms if arm.team and arm.team.networks == networks}
     return {count: arm for count, arm in teams.items() if count > 1}
 
 
 def alone_among(arms: Sequence[ArmResults]) -> ArmResults:
-    """The arm of one builder."""
+    """Return the arm of one builder."""
     return next(arm for arm in arms if arm.team and arm.team.count == 1)
 
 
 def designs_of(arms: Sequence[ArmResults]) -> list[str]:
-    """The names of their designs, each once."""
+    """Return the names of their designs, each once."""
     return list(dict.fromkeys(arm.scenario for arm in arms))
 
 
 def equal_budget(arms: Sequence[ArmResults], of: Budget) -> int:
-    """What every trial of these had spent in the end."""
+    """Return what every trial of these had spent in the end."""
     return min(arm.spent(of) for arm in arms)
 
 

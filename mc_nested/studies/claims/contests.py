@@ -43,22 +43,22 @@ Contest = Callable[[Float64s, Float64s], Tails]
 
 
 def ahead_by_score(left: Float64s, right: Float64s) -> Tails:
-    """Whether the first's score is above the second's."""
+    """Return whether the first's score is above the second's."""
     return ahead(left, right, MARGIN)
 
 
 def alike_in_score(left: Float64s, right: Float64s) -> Tails:
-    """Whether the scores differ by less than a block."""
+    """Return whether the scores differ by less than a block."""
     return alike(left, right, MARGIN)
 
 
 def less(left: Float64s, right: Float64s) -> Tails:
-    """Whether the first has less of it. Without a margin: nothing is to it what a block is to a score."""
+    """Return whether the first has less of it. Without a margin: nothing is to it what a block is to a score."""
     return ahead(right, left, 0.0)
 
 
 def contest_of(curves: Curves, scenario: str, measure: str, agents: tuple[str, str], contest: Contest) -> Evidence:
-    """What that measure of the two agents says there."""
+    """Return what that measure of the two agents says there."""
     what = f"{scenario}, {measure}"
     absent = [agent for agent in agents if (agent, scenario) not in curves]
     if absent:
@@ -76,7 +76,7 @@ def compared(
     contest: Contest,
     effect: Callable[[tuple[float, ...]], TestedEffect] | None = None,
 ) -> Evidence:
-    """What the trials of both say, (trials,) each; at least one of each.
+    """Return what the trials of both say, (trials,) each; at least one of each.
 
     ``effect``: from their spreads, the effect that says how many trials would decide it.
     """

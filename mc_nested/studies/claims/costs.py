@@ -55,7 +55,7 @@ Costs = Mapping[tuple[str, str], Cost]
 
 
 def fewer_parts(costs: Costs, scenarios: Sequence[str]) -> list[Claim]:
-    """Claims (e1) and (e2), against one of the other agents each: networks and parameters of a trial."""
+    """Return claims (e1) and (e2), against one of the other agents each: networks and parameters of a trial."""
     return [
         Claim(
             f"e{number}",
@@ -70,7 +70,7 @@ def fewer_parts(costs: Costs, scenarios: Sequence[str]) -> list[Claim]:
 
 
 def smaller_replays(costs: Costs, scenarios: Sequence[str]) -> Claim:
-    """Claim (h)."""
+    """Return claim (h)."""
     return Claim(
         "h",
         "nested holds less in its replays than hierarchical on every scenario",
@@ -82,7 +82,7 @@ def smaller_replays(costs: Costs, scenarios: Sequence[str]) -> Claim:
 
 
 def quicker(costs: Costs, scenarios: Sequence[str]) -> list[Claim]:
-    """Claims (i1) and (i2), against one of the other agents each: seconds of training."""
+    """Return claims (i1) and (i2), against one of the other agents each: seconds of training."""
     return [
         Claim(
             f"i{number}",

@@ -15,7 +15,7 @@ from mc_nested.studies.verdicts import JudgedClaim, judged
 
 
 def judge(results: Results, longer: Results | None = None) -> tuple[JudgedClaim, ...]:
-    """Every claim with its verdict; ``longer``: the same experiment with ten times the episodes, for claim (f)."""
+    """Judge every claim; ``longer`` is the same experiment with ten times the episodes, for claim (f)."""
     curves = curves_of(results)
     costs = {(cost.agent, cost.scenario): cost for cost in results.costs}
     claims = (

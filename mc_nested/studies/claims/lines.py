@@ -11,20 +11,20 @@ from mc_nested.studies.verdicts import Evidence
 
 
 def above(what: str, names: tuple[str, str], pair: Pair) -> Evidence:
-    """Whether the first scores above the second; the opposite is that it is less than a block above."""
+    """Return whether the first scores above the second; the opposite is that it is less than a block above."""
     lead = _difference(pair)
     return compared(what, names, pair, ahead_by_score, partial(MeanEffect, lead, MARGIN - lead))
 
 
 def not_behind(what: str, names: tuple[str, str], pair: Pair) -> Evidence:
-    """Whether the first scores less than a block below the second; the opposite is that it is further below."""
+    """Return whether the first scores less than a block below the second; the opposite is that it is further below."""
     lead = _difference(pair)
     effect = partial(MeanEffect, lead + MARGIN, -lead - MARGIN)
     return compared(what, names, pair, lambda left, right: no_worse(left, right, MARGIN), effect)
 
 
 def mostly_at_the_optimum(what: str, optimum: float, scores: Float64s) -> Evidence:
-    """Whether a trial is more likely than not to score the optimum."""
+    """Return whether a trial is more likely than not to score the optimum."""
     reached, trials = int((scores >= optimum).sum()), len(scores)
     figures = (("trials", trials), ("share at the optimum", reached / trials))
     return Evidence(
@@ -33,7 +33,7 @@ def mostly_at_the_optimum(what: str, optimum: float, scores: Float64s) -> Eviden
 
 
 def lead_grows(what: str, leads: Mapping[int, Pair]) -> Evidence:
-    """Whether the first's lead on the second is larger at the highest of these numbers than at the lowest."""
+    """Return whether the first's lead on the second is larger at the highest of these numbers than at the lowest."""
     low, high = min(leads), max(leads)
     figures = tuple((f"lead with {number}", _difference(pair)) for number, pair in leads.items())
     change = _difference(leads[high]) - _difference(leads[low])

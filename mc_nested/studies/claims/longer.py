@@ -18,7 +18,7 @@ SOLVED = (
 
 
 def solved_in_the_end(results: Results, longer: Results | None) -> Claim:
-    """Claim (f), decided by ``longer``; the shares of ``results`` are shown beside it."""
+    """Return claim (f), decided by ``longer``; the shares of ``results`` are shown beside it."""
     runs = [(run, curves_of(run)) for run in (results, longer) if run]
     return Claim(
         "f",
@@ -32,7 +32,7 @@ def solved_in_the_end(results: Results, longer: Results | None) -> Claim:
 
 
 def trials_solved(final: Float64s, optimum: float) -> int:
-    """How many of the final scores (trials,) are the optimum."""
+    """Return how many of the final scores (trials,) are the optimum."""
     return int(np.count_nonzero(final >= optimum))
 
 

@@ -35,7 +35,7 @@ MEASURED = {
 
 
 def ahead_on_the_line(curves: Curves) -> list[Claim]:
-    """Claims (a1) to (a3), a measure each."""
+    """Return claims (a1) to (a3), a measure each."""
     converged = "was ultimately able to achieve a greater converged score"
     papers = {EARLY: "much better performance early on", FINAL: converged, LAST_TEN: converged}
     return [
@@ -52,7 +52,7 @@ def ahead_on_the_line(curves: Curves) -> list[Claim]:
 
 
 def alike_on_the_unsolved(curves: Curves) -> Claim:
-    """Claim (b)."""
+    """Return claim (b)."""
     return Claim(
         "b",
         "nested and hierarchical are alike on the zigzag and the diamond",
@@ -68,7 +68,7 @@ def alike_on_the_unsolved(curves: Curves) -> Claim:
 
 
 def above_single(curves: Curves, scenarios: Sequence[str]) -> list[Claim]:
-    """Claims (c1) to (c4): an agent and a measure each."""
+    """Return claims (c1) to (c4): an agent and a measure each."""
     contests = [(agent, measure) for measure in (FINAL, LAST_TEN) for agent in (NESTED, HIERARCHICAL)]
     return [
         Claim(
@@ -84,7 +84,7 @@ def above_single(curves: Curves, scenarios: Sequence[str]) -> list[Claim]:
 
 
 def ahead_of_single_early(curves: Curves, scenarios: Sequence[str]) -> Claim:
-    """Claim (g)."""
+    """Return claim (g)."""
     return Claim(
         "g",
         "nested is ahead of single early on every scenario",

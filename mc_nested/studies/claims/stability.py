@@ -21,7 +21,7 @@ STEADIER = (
 
 
 def steadier(curves: Curves, scenarios: Sequence[str]) -> list[Claim]:
-    """Claims (d1) and (d2), against one of the other agents each."""
+    """Return claims (d1) and (d2), against one of the other agents each."""
     return [
         Claim(
             f"d{number}",
