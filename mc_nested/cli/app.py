@@ -23,8 +23,7 @@ VERBS = (
     "train",
     "cooperate",
     "reproduce",
-    "sweep",
-    "benchmark",
+    "study",
     "play",
     "build",
     "scenarios",
@@ -47,6 +46,8 @@ MOVED = {
     "serve-game": "train serve",
     "cluster-keys": "train keys",
     "bug-report": "doctor bug-report",
+    "sweep": "study sweep, or study ablation for sweep --ablation",
+    "benchmark": "study benchmark",
 }
 """What a verb of an earlier version is called now."""
 

@@ -13,9 +13,9 @@ from calibration.arena.build import calibrate_built_arena
 from calibration.arena.mark import mark_arena
 from calibration.arena.undo import undo_built_arena
 from calibration.clicks.find import calibrate_clicks
-from calibration.clicks.show import show_clicks, try_clicks
+from calibration.clicks.points import show_clicks, try_clicks
+from calibration.context import OpenContext, context_opener
 from calibration.font.find import calibrate_font
-from calibration.open_context import OpenContext, context_opener
 from calibration.report.page import TITLES
 from calibration.walk.measure import calibrate_walk
 from mc_nested.cli.options import (

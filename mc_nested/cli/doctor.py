@@ -25,7 +25,7 @@ from mc_nested.live.desktop import open_clipboard
 from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, switch_on
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.store import load_profile, profile_path
-from mc_nested.live.recording.opened import kept_recordings
+from mc_nested.live.recording.run_recorder import kept_recordings
 from mc_nested.live.vision.font import load_font
 from mc_nested.live.vision.read_pictures import PictureReading, read_picture
 

@@ -14,7 +14,7 @@ from mc_nested.cli.completion import complete_of, complete_profiles, complete_ru
 from mc_nested.design_files.load import Loaded, load_any_scenario
 from mc_nested.errors import UserError
 from mc_nested.learn.preset import shipped_presets
-from mc_nested.live.failure_budget import FailureBudget
+from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.opening import Opening
 from mc_nested.live.profile.arena import size_for
 from sim.worlds import Backend
@@ -121,8 +121,13 @@ StandingOption = Annotated[
 
 def given(context: typer.Context) -> list[str]:
     """The options that were given, as ``--out``."""
-    sources = {each.opts[0]: context.get_parameter_source(each.name or "") for each in context.command.params}
-    return [option for option, source in sources.items() if source is not None and source.name == "COMMANDLINE"]
+    return [each.opts[0] for each in context.command.params if each.name and is_given(context, each.name)]
+
+
+def is_given(context: typer.Context, name: str) -> bool:
+    """Whether the parameter of that name was given, and doesn't have its default."""
+    source = context.get_parameter_source(name)
+    return source is not None and source.name == "COMMANDLINE"
 
 
 def check_nothing_before(context: typer.Context) -> None:

@@ -8,9 +8,10 @@ from typing import Annotated
 import typer
 from rich.text import Text
 
-from calibration.profile_facts import ProfileFacts, facts_of
-from calibration.profile_files import (
+from calibration.profiles import (
+    ProfileFacts,
     delete_profile,
+    facts_of,
     files_of,
     holds_a_copy,
     named_profile,
@@ -24,9 +25,9 @@ from mc_nested.cli.output import FittingTable, JsonOption, Output, facts_table, 
 from mc_nested.errors import DesktopError
 from mc_nested.live.desktop.display import WindowDisplay
 from mc_nested.live.desktop.system import open_camera, this_system
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.folder import profile_folder
+from mc_nested.live.vision.layout import Scales
 
 app = typer.Typer()
 

@@ -14,8 +14,8 @@ from mc_nested.cli.options import check_nothing_before
 from mc_nested.cli.output import JsonOption, Output, prints
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.cut import cut, trim
-from mc_nested.live.recording.opened import is_recording, kept_recordings, recordings_folder
-from mc_nested.live.recording.overview import Overview, overview_of
+from mc_nested.live.recording.recording_file import Overview, overview_of
+from mc_nested.live.recording.run_recorder import is_recording, kept_recordings, recordings_folder
 
 app = typer.Typer()
 

@@ -20,7 +20,7 @@ from mc_nested.learn.runs.earlier_run import EarlierRun, earlier_run
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.learn.training import Training
-from mc_nested.live.failure_budget import FailureBudget
+from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.opening import Opening
 from mc_nested.report.arena_map import draw_map
 from mc_nested.report.curve import align_trials, draw_curve

@@ -11,9 +11,9 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
+from mc_nested.arena.drawing import Picture
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
-from mc_nested.arena.picture import Picture
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.view import Viewed
 from mc_nested.errors import FilmError, LiveError, NotInFrontError, StoppedError

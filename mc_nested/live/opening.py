@@ -14,13 +14,12 @@ from mc_nested.live.connection import GameConnection, prepare_keyboard
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.input.panic import Stop
-from mc_nested.live.input.watchdog import watched
+from mc_nested.live.input.stops import Stop, watched
 from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.model.versions import later_version_line
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.recording.opened import OpenRecorder, no_recorder, recorder_opener
+from mc_nested.live.recording.run_recorder import OpenRecorder, no_recorder, recorder_opener
 
 OFF = "off"
 """Instead of a folder for the recording: nothing is recorded."""

@@ -6,13 +6,13 @@ from contextlib import contextmanager
 from mc_nested.arena.scenario import Scenario
 from mc_nested.live.devices import SWITCH_KEYS, Display
 from mc_nested.live.live_game import LiveGame, check_fits
-from mc_nested.live.menus.point_pictures import load_click_points
+from mc_nested.live.menus.click_points import load_click_points
 from mc_nested.live.menus.wait_for_player import check_block_is_named, check_hotbar, wait_until_standing_still
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.opening import Opening
 from mc_nested.live.profile.fingerprint import Fingerprint, check_fit, game_in
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.live.vision.font import load_font
+from mc_nested.live.vision.layout import Scales
 
 
 @contextmanager

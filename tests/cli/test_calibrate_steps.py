@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 import pytest
 
-from calibration.context import CalibrationContext, StepResult
-from calibration.open_context import OpenContext
+from calibration.context import CalibrationContext, OpenContext, StepResult
 from mc_nested.cli import calibrate, calibrate_steps
 from mc_nested.cli.view import Viewed
 from mc_nested.errors import UserError

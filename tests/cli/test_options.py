@@ -10,7 +10,7 @@ from mc_nested.arena.scenario_file import draw_grid
 from mc_nested.cli.options import arena_size, named_scenarios, played_live
 from mc_nested.errors import ScenarioError, UserError
 from mc_nested.learn.runs.run_folder import RunFolder
-from mc_nested.live.failure_budget import FailureBudget
+from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from mc_nested.arena.action import Action
+from mc_nested.arena.drawing import Picture
 from mc_nested.arena.game import Game
-from mc_nested.arena.picture import Picture
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.cli.watching import filmed
 from mc_nested.errors import LiveError, StoppedError
-from mc_nested.live.recording.replay import replay
+from mc_nested.live.recording.replayed_run import replay
 from mc_nested.live.session import open_live_game
 from mc_nested.live.vision.chat_region import BLANK
 from mc_nested.report.arena_picture import CAPTION, MARGIN, SMALL_ARENA_PX
