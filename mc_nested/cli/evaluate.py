@@ -5,6 +5,7 @@ from rich.text import Text
 
 from mc_nested.cli.options import RunArgument
 from mc_nested.cli.output import JsonOption, Output
+from mc_nested.cli.own_player import simulated_team
 from mc_nested.cli.screen_states import check_window
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
@@ -45,5 +46,6 @@ def load_agent(folder: RunFolder) -> Agent:
 def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:
     """One greedy episode of every trial in the simulator; UserError if it sees what the simulator can't show."""
     check_window(folder.config.preset.states, has_window=False)
-    env = agent.view_of(GridVectorEnv(folder.scenarios), folder.scenarios)
+    arenas = simulated_team(folder, folder.config.trials) or GridVectorEnv(folder.scenarios)
+    env = agent.view_of(arenas, folder.scenarios)
     return play_greedily(env, folder.scenarios, agent)

@@ -55,6 +55,8 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         check_film(video)
     folder = RunFolder.open(run)
     scenario = folder.scenario
+    if folder.team:
+        raise UserError(f"several builders play in the simulator alone: mc-nested evaluate {run} has them build")
     if screenshots and backend is Backend.SIM:
         raise UserError("the simulator has no window to picture: leave out --screenshots, or play --backend live")
     states = folder.config.preset.states

@@ -5,9 +5,12 @@ from typing import Annotated, Any
 
 import typer
 
+from mc_nested.arena.action import Cell
+from mc_nested.arena.cooperative.team import MOST_BUILDERS, Team, spread_starts
+from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.cli.cluster_options import InsecureOption, KeysOption
-from mc_nested.cli.games_training import games_of, run_games_training
+from mc_nested.cli.games_at_play import games_of
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
     Backend,
@@ -26,9 +29,10 @@ from mc_nested.cli.training import HowToRun, run_training
 from mc_nested.cli.viewing import ViewOption
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS
+from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
-from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
+from mc_nested.learn.runs.run_folder import RunConfig, RunFolder, TeamTable
 
 MOST_TRIALS = 1000
 """More at once would only run out of memory."""
@@ -48,6 +52,9 @@ BESIDE_RESUME = (
 )
 """The options that a run can be resumed with; all others are in its config.toml."""
 
+BUILDERS = 2
+"""Builders in one arena, unless their number is given."""
+
 DEFAULTS: dict[str, Any] = {
     "scenario": "line",
     "agent": "nested",
@@ -65,6 +72,20 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     ] = None,
     layer: LayerOption = None,
     agent: Annotated[str | None, typer.Option(help=f"the agent: {', '.join(AGENT_SPECS)} [nested]")] = None,
+    builders: Annotated[
+        int | None, typer.Option(help=f"let 1 to {MOST_BUILDERS} build in one simulated arena, not one agent alone")
+    ] = None,
+    start: Annotated[
+        list[str] | None,
+        typer.Option(metavar="X,Y", help="a builder's start cell, once for each [spread along the scenario's start]"),
+    ] = None,
+    networks: Annotated[
+        str | None,
+        typer.Option(
+            help="of several builders; shared: one nested agent plays every builder; own: each has one of its own; "
+            "single: independent single agents [shared]"
+        ),
+    ] = None,
     backend: Annotated[Backend | None, typer.Option(help="where [sim]")] = None,
     preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="hyper-parameters [paper]")] = None,
     engine: EngineOption = None,
@@ -105,7 +126,7 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     served = games_of(games, keys, insecure, context.params)
     how = HowToRun(Output(quiet, as_json), server_allowed, record, view, served)
     if resume is not None:
-        given = [name for name, value in context.params.items() if value is not None and value is not False]
+        given = [name for name, value in context.params.items() if value not in (None, (), []) and value is not False]
         beside = [name for name in given if name not in BESIDE_RESUME]
         if beside:
             option = "--from" if beside[0] == "begin_from" else "--" + beside[0].replace("_", "-")
@@ -115,7 +136,7 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             folder = RunFolder(resume, folder.config.on_device(device))
         where_played = profile or folder.config.profile
         with folder_lock(resume):
-            train_run(folder, where_played, not folder.only_begun, how)
+            run_training(folder, where_played, not folder.only_begun, how)
         return
     if agent not in (None, *AGENT_SPECS):
         raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENT_SPECS)}")
@@ -123,8 +144,13 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     chosen = chosen.changed(engine=engine, device=device, states=states)
     where = backend or DEFAULTS["backend"]
     check_window(chosen.states, where is not Backend.SIM)
+    design = named_scenario(DEFAULTS["scenario"] if scenario is None else scenario, layer)
+    team = _team(design, builders, start, networks)
+    if team and (agent or where is not Backend.SIM):
+        wrong = "--agent: --networks says who they are" if agent else "--backend: they train in the simulator"
+        raise UserError(f"several builders don't go with {wrong}: leave it out")
     config = RunConfig(
-        agent=agent or DEFAULTS["agent"],
+        agent=team.builders.agent if team else agent or DEFAULTS["agent"],
         backend=where.value,
         profile=(DEFAULT_PROFILE if profile is None else profile) if where is Backend.LIVE and not games else None,
         trials=trials or DEFAULTS["trials"],
@@ -132,18 +158,38 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         stop_at_optimum=stop_at_optimum,
         preset_name=DEFAULTS["preset"] if preset is None else preset,
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
-        scenario=table_of(named_scenario(DEFAULTS["scenario"] if scenario is None else scenario, layer)),
+        scenario=table_of(design),
+        team=team,
     )
-    with output_folder(out, f"{config.scenario.name}-{config.agent}") as path:
-        folder = RunFolder.new(path, config)
-        train_run(folder, config.profile, False, how, begin_from)
+    who = f"{len(team.starts)}-builders" if team else config.agent
+    with output_folder(out, f"{design.name}-{who}") as path:
+        run_training(RunFolder.new(path, config), config.profile, False, how, begin_from)
 
 
-def train_run(
-    folder: RunFolder, profile: str | None, resumed: bool, how: HowToRun, begin_from: Path | None = None
-) -> None:
-    """Train in this computer's game, in the simulator, or with the games of a scheduler."""
-    if how.games:
-        run_games_training(folder, how.games, resumed, how, begin_from)
+def _team(scenario: Scenario, builders: int | None, starts: list[str] | None, networks: str | None) -> TeamTable | None:
+    """The builders that were asked for, None for one agent; UserError or ScenarioError if there can't be such."""
+    if builders is None and not starts and networks is None:
+        return None
+    if not starts:
+        cells = spread_starts(scenario, BUILDERS if builders is None else builders)
+    elif builders in (None, len(starts)):
+        cells = tuple(_cell(text) for text in starts)
     else:
-        run_training(folder, profile, resumed, how, begin_from)
+        raise UserError(f"--builders {builders} and {len(starts)} times --start: give each builder one start, or none")
+    team = Team(scenario, cells)
+    return TeamTable(networks=_networks(networks), starts=[list(cell) for cell in team.starts])
+
+
+def _cell(text: str) -> Cell:
+    x, _, y = text.partition(",")
+    try:
+        return int(x), int(y)
+    except ValueError:
+        raise UserError(f"--start {text!r} is no cell: name it as X,Y, like 7,14") from None
+
+
+def _networks(name: str | None) -> Networks:
+    for networks in NETWORKS:
+        if name in (networks, None):
+            return networks
+    raise UserError(f"no networks {name!r}: choose one of {', '.join(NETWORKS)}")

@@ -25,11 +25,11 @@ LOOK_EVERY_S = 2.0
 
 
 class Arenas(Protocol):
-    """What a view sees of the arenas, by trial."""
+    """What a view sees of the arenas, by trial; where several builders share one, by trial and builder."""
 
-    def cell(self, run: int) -> Cell: ...
+    def cell(self, place: int) -> Cell: ...
 
-    def placed(self, run: int) -> frozenset[Cell]: ...
+    def placed(self, place: int) -> frozenset[Cell]: ...
 
 
 class TrainingView:
@@ -89,11 +89,12 @@ class TrainingView:
             self._board.show(detail=self._pace())
 
     def _arena(self) -> ArenaSeen:
-        trials = range(self._trials)
+        builders = self._trainer.agent.builders
+        places = range(self._trials * builders)
         return ArenaSeen.of(self._scenario).model_copy(
             update={
-                "stands": _counted(cell for trial in trials for cell in self._arenas.placed(trial)),
-                "agents": _counted(self._arenas.cell(trial) for trial in trials),
+                "stands": _counted(cell for first in places[::builders] for cell in self._arenas.placed(first)),
+                "agents": _counted(self._arenas.cell(place) for place in places),
                 "beliefs": self._beliefs,
             }
         )

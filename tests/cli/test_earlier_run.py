@@ -106,7 +106,7 @@ def test_a_training_without_an_imagination_gives_its_policy_as_before(trained: P
 
 
 def forget(state: Arrays) -> None:
-    for name in [name for name in state if name.startswith("imagination.")]:
+    for name in [name for name in state if name.startswith("practice.")]:
         del state[name]
 
 

@@ -1,8 +1,11 @@
-"""Team: one scenario, built by k builders at once, each from a start cell of its own."""
+"""Team: one scenario, built by k builders at once, each from a start cell of its own; and the game they do it in."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
-from mc_nested.arena.action import Cell
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.game import Outcome, Resumable
 from mc_nested.arena.rules import is_inside
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import ScenarioError
@@ -43,6 +46,23 @@ class Team:
     def scenario_of(self, builder: int) -> Scenario:
         """The scenario with that builder's start cell."""
         return replace(self.scenario, start=self.starts[builder])
+
+
+class TeamGame(Protocol):
+    """An arena that k builders build in. A game is made for one Team.
+
+    A live game raises LiveError when a builder can't do what was asked; the arena has to be reset then.
+    """
+
+    @property
+    def resumable(self) -> Resumable | None:
+        """The game, if its episode can be saved half-way; None if not."""
+
+    def reset(self, material: int) -> tuple[Cell, ...]:
+        """Clear the arena, put each builder on its start cell with the material in hand; return those cells."""
+
+    def act(self, actions: Sequence[Action | None]) -> tuple[Outcome, ...]:
+        """Do one tick, an action or None for each builder (team_rules.py), and say what happened, by number."""
 
 
 def team_of(scenario: Scenario, builders: int) -> Team:

@@ -10,7 +10,7 @@ from mc_nested.arena.cooperative.team import MOST_BUILDERS
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import ScenarioTable, load_scenario, paper_scenarios, scenario_of, table_of
 from mc_nested.learn.agents import AGENT_SPECS, AgentName
-from mc_nested.learn.cooperation.team_agent import KINDS, Kind
+from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.learn.experiments.experiment_folder import ExperimentConfig
 from mc_nested.learn.experiments.jobs import Builders, Job
 from mc_nested.learn.preset import Preset, load_preset
@@ -34,9 +34,9 @@ BLOCKS = ("oak_planks", "dirt", "clay", "glass", "sandstone", "cobblestone", "br
 """The most materials of the family; wood and stone are the paper's."""
 
 
-TEAMS: list[tuple[int, Kind]] = [
+TEAMS: list[tuple[int, Networks]] = [
     (1, "shared"),
-    *((count, kind) for count in range(2, MOST_BUILDERS + 1) for kind in KINDS),
+    *((count, kind) for count in range(2, MOST_BUILDERS + 1) for kind in NETWORKS),
 ]
 """Numbers of builders, and how they learn."""
 
@@ -44,7 +44,7 @@ TUNED = "nested, tuned"
 """The nested agent with settings that solve the flag."""
 
 
-def team_name(builders: int, networks: Kind) -> str:
+def team_name(builders: int, networks: Networks) -> str:
     """The name of a team's arm."""
     return "1 builder" if builders == 1 else f"{builders} builders, {networks}"
 
@@ -71,7 +71,7 @@ class Arm(BaseModel):
     name: str
     agent: AgentName = "nested"
     builders: Annotated[int, Field(ge=1, le=MOST_BUILDERS)] | None = None
-    networks: Kind = "shared"
+    networks: Networks = "shared"
     preset_name: str
     preset: Preset
     scenario: ScenarioTable

@@ -12,15 +12,16 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arrays import Arrays, Float64s, Int64s
+from mc_nested.arrays import Arrays, Int64s
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError
-from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.evaluation import GreedyEpisode
 from mc_nested.learn.experiments.jobs import Job
-from mc_nested.learn.experiments.spent import SpentSoFar, Updated
+from mc_nested.learn.experiments.spent import SpentSoFar
 from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
 from mc_nested.learn.state_dict import named_for, part_of
+from mc_nested.learn.trainer import Trainer
 
 OUTCOME = "outcome.json"
 
@@ -125,41 +126,6 @@ class TrainedJob(Protocol):
         ...
 
 
-class Counted(Updated, Protocol):
-    """The agents of some runs, and what they take."""
-
-    @property
-    def networks(self) -> int: ...
-    @property
-    def parameters(self) -> int: ...
-    @property
-    def updates(self) -> int: ...
-    @property
-    def replay_bytes(self) -> Int64s: ...
-
-
-class Trains(Protocol):
-    """A trainer of this project's: of agents (trainer.py), or of teams (cooperation/team_trainer.py)."""
-
-    @property
-    def agent(self) -> Counted: ...
-    @property
-    def episode_rows(self) -> Sequence[EpisodeRow]: ...
-    @property
-    def evaluation_rows(self) -> Sequence[EvaluationRow]: ...
-    @property
-    def finished(self) -> bool: ...
-    @property
-    def episodes_done(self) -> Int64s: ...
-    @property
-    def kept_scores(self) -> Float64s: ...
-    def tick(self) -> None: ...
-    def state(self) -> Arrays: ...
-    def marks(self) -> Arrays: ...
-    def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays: ...
-    def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None: ...
-
-
 class JobTraining:
     """Trains a job in its folder, from where it was last saved.
 
@@ -169,7 +135,7 @@ class JobTraining:
         trainer: an untrained one for the job's runs (job_trainers.py).
     """
 
-    def __init__(self, job: Job, folder: Path, trainer: Trains) -> None:
+    def __init__(self, job: Job, folder: Path, trainer: Trainer) -> None:
         self.job = job
         self.trainer = trainer
         self._spent = SpentSoFar(len(job.trials))

@@ -11,7 +11,6 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from mc_nested.errors import McNestedError, RunError
 from mc_nested.learn.agents import AGENT_SPECS
-from mc_nested.learn.cooperation.team_run import TeamRun
 from mc_nested.learn.experiments.ablation import AblationConfig
 from mc_nested.learn.experiments.benchmark import BenchmarkConfig
 from mc_nested.learn.experiments.beyond import BeyondConfig
@@ -124,9 +123,7 @@ def _key_in(file: Path) -> str | None:
 
 
 def _facts_by_key(path: Path, key: str) -> RunFacts:
-    if key == "agent":
-        return _training(path)
-    return _cooperation(path) if key == "builders" else _experiment(path, key)
+    return _training(path) if key == "agent" else _experiment(path, key)
 
 
 def _training(path: Path) -> RunFacts:
@@ -137,7 +134,7 @@ def _training(path: Path) -> RunFacts:
         "train",
         "can be resumed",
         designs=[config.scenario.name],
-        agents=[config.agent],
+        agents=[f"{len(config.team.starts)} {config.team.networks}" if config.team else config.agent],
         presets=[Path(config.preset_name).stem],
         trials=config.trials,
         episodes_done=0,
@@ -147,24 +144,6 @@ def _training(path: Path) -> RunFacts:
     if folder.only_begun:
         return facts
     return _as_far_as_trained(facts, folder.kept, config.trials)
-
-
-def _cooperation(path: Path) -> RunFacts:
-    run = TeamRun.open(path)
-    config = run.config
-    facts = RunFacts(
-        path,
-        "cooperate",
-        "can be resumed",
-        designs=[config.scenario.name],
-        agents=[f"{config.builders} {config.networks}"],
-        presets=[Path(config.preset_name).stem],
-        trials=config.trials,
-        episodes_done=0,
-        episodes=config.preset.episodes * config.trials,
-        optimum=run.team.scenario.optimum,
-    )
-    return facts if run.only_begun else _as_far_as_trained(facts, run.checkpoint.state, config.trials)
 
 
 def _as_far_as_trained(facts: RunFacts, read_checkpoint: Callable[[], object], trials: int) -> RunFacts:

@@ -15,7 +15,7 @@ class EpisodePlan:
 
     Args:
         number: counts the learner's plans, from 0.
-        sitting: names the learner's process: one that resumes its training may give a number again.
+        process: names the learner's process: one that resumes its training may give a number again.
         material: the main agent's choice; 0 where there is no main agent.
         greedy: whether it is an evaluation.
         online: the online network of the agent that builds, (parameters,).
@@ -26,7 +26,7 @@ class EpisodePlan:
     """
 
     number: int
-    sitting: int
+    process: int
     material: int
     greedy: bool
     online: Float32s
@@ -41,7 +41,7 @@ class PlayedEpisode:
 
     Args:
         number: its plan's.
-        sitting: its plan's.
+        process: its plan's.
         observations: what the agent saw, from the reset on, (steps + 1, …).
         actions: what it did, of its own set of actions, (steps,).
         rewards: r_N of each step, (steps,).
@@ -50,7 +50,7 @@ class PlayedEpisode:
     """
 
     number: int
-    sitting: int
+    process: int
     observations: NDArray[Any]
     actions: Int64s
     rewards: Float64s

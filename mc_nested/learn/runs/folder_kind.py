@@ -15,7 +15,6 @@ VERB_OF_KEY = {
     "parts": "sweep",
     "contestants": "benchmark",
     "arms": "reproduce",
-    "builders": "cooperate",
 }
 
 

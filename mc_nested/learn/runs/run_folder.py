@@ -9,11 +9,13 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
+from mc_nested.arena.cooperative.team import Team
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
 from mc_nested.arrays import Arrays
 from mc_nested.errors import RunError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentName
+from mc_nested.learn.builders import Builders, Networks
 from mc_nested.learn.imagination.imagination import learnt_game
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.checkpoint import Checkpoint
@@ -21,6 +23,22 @@ from mc_nested.learn.runs.folder_kind import FORMAT, check_free
 from mc_nested.learn.runs.run_files import begin_folder, read_config, wall_s_so_far, write_results, writing_in
 from mc_nested.learn.state_dict import part_of
 from mc_nested.learn.training import Training
+
+Coordinate = Annotated[int, Field(ge=0)]
+
+
+class TeamTable(BaseModel):
+    """Several builders in one arena: the start cell of each, in the order of their numbers, and how they learn."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    networks: Networks
+    starts: Annotated[list[Annotated[list[Coordinate], Field(min_length=2, max_length=2)]], Field(min_length=1)]
+
+    @property
+    def builders(self) -> Builders:
+        """The builders that it describes."""
+        return Builders(tuple((x, y) for x, y in self.starts), self.networks)
 
 
 class RunConfig(BaseModel):
@@ -38,6 +56,17 @@ class RunConfig(BaseModel):
     preset_name: str
     preset: Preset
     scenario: ScenarioTable
+    team: TeamTable | None = None
+
+    @property
+    def title(self) -> str:
+        """What is built, who learns it, and with which preset, in a line."""
+        who = f"{self.agent} agent"
+        if self.team:
+            count = len(self.team.starts)
+            who = f"{count} builders" if count > 1 else "one builder"
+            who += f", networks {self.team.networks}"
+        return f"{self.scenario.name}, {who}, preset {Path(self.preset_name).stem}"
 
     def identity(self) -> dict[str, Any]:
         """What is trained: a checkpoint fits only the same.
@@ -57,12 +86,16 @@ class RunFolder:
     Args:
         path: its path.
         config: what is trained there.
+
+    Raises:
+        ScenarioError: the scenario can't be built, or not by these builders.
     """
 
     def __init__(self, path: Path, config: RunConfig) -> None:
         self.path = path
         self.config = config
         self.scenario: Scenario = scenario_of(config.scenario, str(path / "config.toml"))
+        self.team = Team(self.scenario, config.team.builders.starts) if config.team else None
         self.checkpoint = Checkpoint(path / "checkpoint", config.identity())
 
     @classmethod
@@ -82,8 +115,10 @@ class RunFolder:
 
     def new_agent(self, runs: int, device: str = "cpu") -> Agent:
         """An untrained agent as this training's, with that many runs, on the processor or another device."""
-        preset = self.config.preset.model_copy(update={"device": device})
-        return Agent(AGENT_SPECS[self.config.agent], [self.scenario] * runs, preset, self.config.seed)
+        config = self.config
+        preset = config.preset.model_copy(update={"device": device})
+        builders = config.team.builders if config.team else None
+        return Agent(AGENT_SPECS[config.agent], [self.scenario] * runs, preset, config.seed, team=builders)
 
     @property
     def scenarios(self) -> list[Scenario]:
@@ -133,6 +168,11 @@ class RunFolder:
             raise RunError(f"{self.checkpoint.file}: {misfit}: bring back a whole copy, or train the run again")
         return kept
 
+    def policy_of(self, trial: int) -> Arrays:
+        """The networks of the policy that one trial keeps, by role, for ``Agent.load_online``; RunError as ``kept``."""
+        kept, rows = self.kept(), self.new_agent(self.config.trials).rows_of(trial)
+        return {role: networks[rows[role]] for role, networks in kept.items() if role in rows}
+
     def learnt_game(self, trial: int) -> Arrays | None:
         """What that trial has learnt of its game, for ``Imagination.begin_from``; None if its preset imagines nothing.
 
@@ -140,7 +180,7 @@ class RunFolder:
         """
         if self.config.preset.imagination is None:
             return None
-        imagination = part_of(self.checkpoint.state(), "imagination")
+        imagination = part_of(self.checkpoint.state(), "practice")
         try:
             return learnt_game(imagination, trial)
         except (KeyError, IndexError) as error:
@@ -183,6 +223,7 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Training, wall_s: 
         "agent": config.agent,
         "preset": config.preset_name,
         "backend": config.backend,
+        **_team_of(config),
         "trials": config.trials,
         "seed": config.seed,
         "episodes": config.preset.episodes,
@@ -200,6 +241,17 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Training, wall_s: 
         "wall_s": round(wall_s, 3),
         "networks": trainer.agent.networks,
         "parameters": trainer.agent.parameters,
+    }
+
+
+def _team_of(config: RunConfig) -> dict[str, Any]:
+    """What a summary says of several builders; nothing of one agent alone."""
+    if config.team is None:
+        return {}
+    return {
+        "builders": len(config.team.starts),
+        "networks_kind": config.team.networks,
+        "starts": config.team.starts,
     }
 
 

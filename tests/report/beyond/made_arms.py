@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
-from mc_nested.learn.cooperation.team_agent import KINDS
+from mc_nested.learn.builders import NETWORKS
 from mc_nested.learn.experiments.job_training import Evaluated
 from mc_nested.learn.experiments.jobs import Builders
 from mc_nested.report.beyond.arms import ArmResults, Arms
@@ -90,7 +90,7 @@ def whole(means: Callable[[str, str, int], float] = lambda *_: 15.0, trials: int
     alone = around(means("cooperation", "alone", 1), trials)
     arms.append(arm("cooperation", "1 builder", alone, team=Builders(1, "shared")))
     for count in (2, 3, 4):
-        for kind in KINDS:
+        for kind in NETWORKS:
             scores = around(means("cooperation", kind, count), trials)
             arms.append(arm("cooperation", f"{count} builders, {kind}", scores, team=Builders(count, kind)))
     return {each.key: each for each in arms}

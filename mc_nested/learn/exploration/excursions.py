@@ -1,4 +1,7 @@
-"""ReturnThenExplore for every run of an agent; the best episodes are handed to the low-level learners to imitate."""
+"""The practice of a preset with [excursions]: every run returns along its best episode, then explores.
+
+The best episodes are handed to the low-level learners to imitate.
+"""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -8,29 +11,34 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.env import BLOCKS_LEFT, X, Y
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
+from mc_nested.arrays import Arrays, Float64s, Int64s
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.replay import Transitions
 from mc_nested.learn.dqn.self_imitation import BestEpisodes
 from mc_nested.learn.dqn.state_space import numbered
 from mc_nested.learn.exploration.return_then_explore import PLAN_NUMBERS, STEP_NUMBERS, EpisodeStep, ReturnThenExplore
-from mc_nested.learn.preset import ExcursionRule
+from mc_nested.learn.practice import Practice, Step
+from mc_nested.learn.preset import ExcursionRule, Preset
 from mc_nested.learn.state_dict import named_for, part_of
 
-NUMBERS = PLAN_NUMBERS + STEP_NUMBERS
-"""Random numbers that a run needs per tick."""
 
+class Excursions(Practice):
+    """The paper's practice, and excursions in the place of ε, in all of an agent's runs.
 
-class BatchedReturnThenExplore:
-    """The exploration of all of an agent's runs.
+    A greedy episode is learned from in another way: what its actions did is remembered, and if it is the best episode
+    so far, excursions follow it and updates imitate it.
 
     Args:
-        rule: how often and how far excursions leave the best episode.
         agent: the agent whose low-level agents act.
+        preset: the hyper-parameters.
+        rule: how often and how far excursions leave the best episode.
         scenarios: each run's scenario.
     """
 
-    def __init__(self, rule: ExcursionRule, agent: Agent, scenarios: Sequence[Scenario]) -> None:
+    numbers = PLAN_NUMBERS + STEP_NUMBERS
+
+    def __init__(self, agent: Agent, preset: Preset, rule: ExcursionRule, scenarios: Sequence[Scenario]) -> None:
+        super().__init__(agent, preset)
         self._low_level, self._space = agent.low_level, numbered(agent.low_level.states)
         self._explorers = [
             ReturnThenExplore(rule, self._space.actions, agent.size, len(scenario.in_order)) for scenario in scenarios
@@ -38,37 +46,24 @@ class BatchedReturnThenExplore:
         self._part_at = [[scenario.part_at(left) for left in range(scenario.blocks + 1)] for scenario in scenarios]
 
     def begin(self, runs: Int64s, numbers: Float64s) -> None:
-        """Begin an episode in each of the named runs; ``numbers`` (all runs, NUMBERS) plan the excursions.
-
-        A greedy episode doesn't follow its plan, it is only observed: it may become the best.
-        """
+        """Plan an excursion in each of the named runs; a greedy episode doesn't follow it, and is only observed."""
         for run in runs:
             self._explorers[run].begin(numbers[run, :PLAN_NUMBERS])
 
-    def act(self, runs: Int64s, observations: Int64s, numbers: Float64s) -> Int64s:
-        """The next actions of the named runs (k,), for the observations and numbers of all runs."""
-        chosen = []
-        for run in runs:
+    def act(self, runs: Int64s, observations: NDArray[Any], actions: Int64s, numbers: Float64s) -> Int64s:
+        """All runs' actions; those of the named runs are the next ones of their excursions."""
+        for run in runs.tolist():
             x, y, left = observations[run, [X, Y, BLOCKS_LEFT]].tolist()
             part = self._part_at[run][left]
-            chosen.append(self._explorers[run].next_action(x, y, numbers[run, PLAN_NUMBERS:], part))
-        return np.array(chosen, dtype=np.int64)
+            actions[run] = self._explorers[run].next_action(x, y, numbers[run, PLAN_NUMBERS:], part)
+        return actions
 
-    def observe(
-        self,
-        runs: Int64s,
-        before: Int64s,
-        states: Int64s,
-        actions: Int64s,
-        rewards: Float64s,
-        next_states: Int64s,
-        terminated: Bools,
-        rows: Int64s,
-    ) -> None:
-        """Record what the actions did; every array is of the named runs (k, …).
-
-        ``before`` is what was acted on, ``rows`` are the low-level learners' rows that acted.
-        """
+    def observe(self, step: Step, next_states: NDArray[Any]) -> None:
+        """Record what the actions of all running runs did, in greedy episodes, too."""
+        runs = np.flatnonzero(step.running)
+        before, states, next_states = step.observations[runs], step.states[runs], next_states[runs]
+        actions, rewards, terminated = step.actions[runs], step.rewards[runs], step.terminated[runs]
+        rows = self._agent.low_level_rows(runs, step.materials)
         indices, next_indices = self._space.index(states), self._space.index(next_states)
         used = before[:, BLOCKS_LEFT] > next_states[:, BLOCKS_LEFT]
         parts = np.array([self._part_at[run][left] for run, left in zip(runs, before[:, BLOCKS_LEFT], strict=True)])
@@ -76,7 +71,7 @@ class BatchedReturnThenExplore:
         for run, *values in zip(runs.tolist(), *(column.tolist() for column in columns), strict=True):
             self._explorers[run].observe(EpisodeStep(*values))
 
-    def end(self, runs: Int64s) -> None:
+    def end(self, runs: Int64s, materials: Int64s, scores: Float64s) -> None:  # noqa: ARG002 - the best is known by its steps
         """End the episodes of the named runs (k,)."""
         for run in runs.tolist():
             last = {step.row for step in self._explorers[run].best}
