@@ -32,7 +32,8 @@ from mc_nested.learn.agents import AGENT_SPECS
 from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
-from mc_nested.learn.runs.run_folder import RunConfig, RunFolder, TeamTable
+from mc_nested.learn.runs.run_config import RunConfig, TeamTable
+from mc_nested.learn.runs.run_folder import RunFolder
 
 MOST_TRIALS = 1000
 """More at once would only run out of memory."""

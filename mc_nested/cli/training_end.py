@@ -18,7 +18,8 @@ from mc_nested.cli.own_player import simulated_team
 from mc_nested.learn.engine_fit import SCREEN
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.preset import MOST, load_preset, shipped_presets
-from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
+from mc_nested.learn.runs.run_config import RunConfig
+from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.training import Training
 from mc_nested.report.arena_map import draw_map
 from mc_nested.report.curve import align_trials, draw_curve

@@ -11,7 +11,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.options import Backend, where_words
 from mc_nested.learn.episode_log import EpisodeRow
-from mc_nested.learn.runs.run_folder import RunConfig
+from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.training import Training
 from mc_nested.report.game_time import expected
 from mc_nested.report.terminal_map import belief_rows

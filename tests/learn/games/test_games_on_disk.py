@@ -9,7 +9,8 @@ from mc_nested.arena.scenario_file import table_of
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
+from mc_nested.learn.runs.run_config import RunConfig
+from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridGame
 from tests.learn.games.lockstep import finish, game_of

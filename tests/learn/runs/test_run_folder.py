@@ -13,7 +13,9 @@ from mc_nested.arena.scenario_file import table_of
 from mc_nested.arrays import Arrays
 from mc_nested.errors import PresetError, RunError
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
-from mc_nested.learn.runs.run_folder import RunConfig, RunFolder, summarise
+from mc_nested.learn.runs.run_config import RunConfig
+from mc_nested.learn.runs.run_folder import RunFolder
+from mc_nested.learn.runs.summary import summarise
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 from tests.learn.made_experiments import DOT, small_preset
