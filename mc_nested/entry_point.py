@@ -17,11 +17,10 @@ from typing import Any
 
 from gymnasium.vector import AutoresetMode, VectorEnv
 
-from mc_nested.arena.autoreset import NextStepAutoreset
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.arena.vector import ArenaVectorEnv, NextStepAutoreset
 from mc_nested.arrays import Int64s
 from mc_nested.design_files.load import load_any_scenario
 from mc_nested.errors import ScenarioError, UserError

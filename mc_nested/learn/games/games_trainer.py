@@ -24,8 +24,7 @@ from mc_nested.errors import PresetError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.choices import ChoiceStep
 from mc_nested.learn.episode_log import EvaluationRow
-from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
-from mc_nested.learn.games.episodes_out import EpisodeOut, EpisodesOut
+from mc_nested.learn.games.episode import EpisodeOut, EpisodePlan, EpisodesOut, PlayedEpisode
 from mc_nested.learn.learner import CHOICE_NUMBERS
 from mc_nested.learn.practice import Step
 from mc_nested.learn.preset import Preset

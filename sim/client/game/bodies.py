@@ -1,7 +1,7 @@
 """Other players of the same world: they are in each other's way, and in the way of blocks.
 
 Here a player stops at another one. In the game players push each other apart. The live path never walks into one, since
-the rules void that (arena/cooperative/team_rules.py). A reset may put one into another, which is not as in the game.
+the rules void that (arena/cooperative/team.py). A reset may put one into another, which is not as in the game.
 """
 
 from collections.abc import Collection

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from mc_nested.learn.games.episode import EpisodePlan
-from mc_nested.learn.games.episodes_out import EpisodeOut, EpisodesOut
+from mc_nested.learn.games.episode import EpisodeOut, EpisodePlan, EpisodesOut
 
 
 def an_episode(number: int, *, greedy: bool = False, probes: frozenset[tuple[int, int]] = frozenset()) -> EpisodeOut:

@@ -1,11 +1,12 @@
-"""The slopes by hand, against autograd's: of torch's own Huber loss, and of the large margin as it is written."""
+"""The slopes by hand, against autograd's; Adam against torch's own, each row at a step of its own."""
 
+import numpy as np
 import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.learn.dqn.engine import UpdateRule
-from mc_nested.learn.dqn.torch_engine.value_slopes import huber_slopes, margin_slopes
+from mc_nested.learn.dqn.torch_engine.update import adam_step, huber_slopes, margin_slopes
 
 RULE = UpdateRule(batch=4, learning_rate=1e-3, target_period=10, huber_delta=0.5, margin=0.8)
 
@@ -42,3 +43,23 @@ def test_an_action_a_margin_ahead_of_all_others_has_no_slope() -> None:
     values = torch.tensor([[[2.0, 0.0, 1.0]] * 4])
     taken = torch.zeros(1, 4, 1, dtype=torch.int64)
     assert margin_slopes(values, taken, torch.ones(1, 4, dtype=torch.bool), RULE).abs().max() == 0.0
+
+
+def test_rows_at_other_steps_are_each_as_torchs_adam() -> None:
+    random = torch.Generator().manual_seed(0)
+    first = torch.rand(2, 5, generator=random)
+    ours, moments = first.clone(), (torch.zeros(2, 5), torch.zeros(2, 5))
+    theirs = [torch.nn.Parameter(row.clone()) for row in first]
+    optimisers = [torch.optim.Adam([row], lr=1e-2) for row in theirs]
+    for step in range(1, 6):
+        gradient = torch.randn(2, 5, generator=random)
+        named = [0, 1] if step > 2 else [1]  # row 0 begins two steps later
+        steps = np.array([step - 2, step])[named]
+        own = ours[named], moments[0][named], moments[1][named]
+        adam_step(*own, gradient[named], steps, 1e-2)
+        for whole, part in zip((ours, *moments), own, strict=True):
+            whole[named] = part
+        for row in named:
+            theirs[row].grad = gradient[row]
+            optimisers[row].step()
+    torch.testing.assert_close(ours, torch.stack([row.detach() for row in theirs]))
