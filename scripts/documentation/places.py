@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import PurePosixPath
 
 PAGES = {
-    "README.md": "index.md",
+    "README.md": "project/readme.md",
     "ARCHITECTURE.md": "explanation/architecture.md",
     "mc_nested/live/FACTS.md": "explanation/facts.md",
     "CONTRIBUTING.md": "project/contributing.md",

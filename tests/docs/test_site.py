@@ -123,7 +123,7 @@ def test_every_option_of_every_verb_is_in_the_reference(site: Path) -> None:
 
 def test_readme_is_one_page_that_says_how_to_stop() -> None:
     readme = (ROOT / "README.md").read_text("utf-8")
-    assert len(readme.splitlines()) <= 140
+    assert len(readme.splitlines()) <= 90
     assert "**To stop it: press F12" in readme
 
 
