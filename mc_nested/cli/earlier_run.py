@@ -42,7 +42,7 @@ def earlier_run(run: Path, wanted: RunFolder) -> EarlierRun:
             f"{run}: its networks don't fit this training: take its agent ({folder.config.agent}), its preset, and a "
             f"design of {folder.scenario.blocks} blocks in an arena of {folder.scenario.size} x {folder.scenario.size}"
         )
-    best = int(folder.kept()["scores"].argmax())
+    best = int(folder.policies()["scores"].argmax())
     return EarlierRun(
         online=folder.policy_of(best),
         game=folder.learnt_game(best),

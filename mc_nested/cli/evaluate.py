@@ -38,8 +38,8 @@ def evaluate(run: RunArgument, as_json: JsonOption = False) -> None:
 def load_agent(folder: RunFolder) -> Agent:
     """The agent of a training's last checkpoint, every trial, able to act."""
     agent = folder.new_agent(folder.config.trials)
-    kept = folder.kept()
-    agent.load_every_online(kept)
+    kept = folder.policies()
+    agent.load_online(kept)
     return agent
 
 

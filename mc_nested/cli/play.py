@@ -132,14 +132,14 @@ def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
     agent = load_agent(folder)
     if trial is None:
         if folder.config.preset.states == SCREEN:
-            scores = folder.kept()["scores"].tolist()
+            scores = folder.policies()["scores"].tolist()
         else:
             scores = [episode.score for episode in greedy_episodes(folder, agent)]
         trial = scores.index(max(scores))
     if trial >= folder.config.trials:
         raise RunError(f"{folder.path}: has no trial {trial}: choose 0 to {folder.config.trials - 1}")
     alone = folder.new_agent(1)
-    alone.load_networks(agent.networks_of(trial))
+    alone.load_online(folder.policy_of(trial))
     return alone, trial
 
 

@@ -47,9 +47,9 @@ def draw_results(folder: RunFolder, training: Training) -> None:
     if training.imagination:
         which = f", the first of {config.trials} trials" if config.trials > 1 else ""
         with folder.writing(), atomic_write(folder.path / MAP) as path:
-            draw_map(path, config.title + which, training.imagination.seen(0))
+            draw_map(path, config.title + which, training.imagination.known_arena(0))
     if training.finished:
-        _draw_team(folder, int(training.kept_scores.argmax()))
+        _draw_team(folder, int(training.policy_scores.argmax()))
 
 
 def _draw_team(folder: RunFolder, trial: int) -> None:

@@ -111,7 +111,7 @@ class TrainingView:
             score=float(np.mean([row.score for row in last])) if last else None,
             best=self._best.after(trainer),
             optimum=self._scenario.optimum,
-            at_optimum=int((trainer.kept_scores >= self._scenario.optimum).sum()),
+            at_optimum=int((trainer.policy_scores >= self._scenario.optimum).sum()),
             scores=scores,
             exploring=self._exploring,
             game_minutes_left=self._minutes_left(),
@@ -135,7 +135,7 @@ class TrainingView:
             self._exploring = f"ε {main:.2f}, {nested:.2f} (main agent, nested agent)"
         elif now >= self._next_look:
             self._next_look = now + LOOK_EVERY_S
-            seen = trainer.imagination.seen(0)
+            seen = trainer.imagination.known_arena(0)
             doing = "probing" if seen.explores else "building"
             of_several = "trial 0: " if self._trials > 1 else ""
             self._exploring = f"{of_several}{doing}, {seen.known_to_pay} of {self._scenario.blocks} cells known"

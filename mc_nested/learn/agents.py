@@ -8,7 +8,7 @@ single        one agent sees (x, y, b, m) and does all of it, in ten actions (ar
 Where several builders share an arena (builders.py), each has a row beside the others of its run.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -270,39 +270,22 @@ class Agent:
 
     def state(self) -> Arrays:
         """What later choices and updates depend on, by name; without the transitions."""
-        return {k: v for role, learner in self._learners().items() for k, v in named_for(role, learner.state()).items()}
+        return self._named(lambda _, learner: learner.state())
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if the shape differs."""
         for role, learner in self._learners().items():
             learner.load(part_of(state, role))
 
-    def networks_state(self) -> Arrays:
-        """The networks and their optimisers, by name: enough to act with."""
-        return {
-            k: v
-            for role, learner in self._learners().items()
-            for k, v in named_for(role, learner.engine.state()).items()
-        }
-
-    def load_networks(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Load the networks; KeyError or ValueError if their shape differs."""
-        for role, learner in self._learners().items():
-            learner.engine.load(part_of(state, role))
-
     def online(self) -> Arrays:
         """The online networks' parameters, by role: what acting needs."""
         return {role: learner.engine.online for role, learner in self._learners().items()}
 
     def load_online(self, online: Mapping[str, NDArray[Any]]) -> None:
-        """Load one run's online networks, by role, into every run; ValueError if their shape differs."""
+        """Load the online networks of every run, by role, or one run's into each; ValueError if their shape differs."""
         for role, learner in self._learners().items():
-            learner.engine.load_online(np.tile(online[role], (len(self.runs), 1)))
-
-    def load_every_online(self, online: Mapping[str, NDArray[Any]]) -> None:
-        """Load every run's online networks, by role; ValueError if their shape differs."""
-        for role, learner in self._learners().items():
-            learner.engine.load_online(online[role])
+            times = len(learner.engine.online) // max(len(online[role]), 1)
+            learner.engine.load_online(np.tile(online[role], (times, 1)))
 
     def rows_of(self, run: int) -> dict[str, slice]:
         """A run's rows, by role."""
@@ -310,19 +293,11 @@ class Agent:
 
     def marks(self) -> Arrays:
         """Where a journal of the transitions ends now, for ``transitions_since``."""
-        return {
-            k: v
-            for role, learner in self._learners().items()
-            for k, v in named_for(role, learner.replay.marks()).items()
-        }
+        return self._named(lambda _, learner: learner.replay.marks())
 
     def transitions_since(self, marks: Mapping[str, NDArray[Any]] | None) -> Arrays:
         """What ``store_again`` needs to know since those marks; everything if there are none."""
-        return {
-            k: v
-            for role, learner in self._learners().items()
-            for k, v in named_for(role, learner.replay.added_since(part_of(marks, role) if marks else None)).items()
-        }
+        return self._named(lambda role, learner: learner.replay.added_since(part_of(marks, role) if marks else None))
 
     def store_again(self, transitions: Mapping[str, NDArray[Any]]) -> None:
         """Store what ``transitions_since`` returned; KeyError or ValueError if the shape differs."""
@@ -338,10 +313,10 @@ class Agent:
         for role, learner in self._learners().items():
             learner.replay.take_back(marks[role])
 
-    def networks_of(self, run: int) -> Arrays:
-        """One run's networks, for ``load_networks`` of an agent in that run alone."""
-        rows = self.rows_of(run)
-        return {name: kept[rows[name.split(".")[0]]] for name, kept in self.networks_state().items()}
+    def _named(self, of_learner: Callable[[str, Learner], Arrays]) -> Arrays:
+        """The arrays that each learner gives, under names that begin with its role."""
+        each = (named_for(role, of_learner(role, learner)) for role, learner in self._learners().items())
+        return {name: array for of_role in each for name, array in of_role.items()}
 
     def _learners(self) -> dict[str, Learner]:
         return {"main": self.main, "low": self.low_level} if self.main else {"low": self.low_level}

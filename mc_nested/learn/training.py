@@ -29,7 +29,7 @@ class Training:
 
     ``env_steps`` and ``evaluation_steps`` count the steps of training episodes and of greedy evaluations, of all runs;
     ``episode_rows`` and ``evaluation_rows`` have a row for each. ``episodes_done`` are training episodes, (runs,), and
-    ``runs_finished`` says which runs are finished. ``kept`` are the networks of the policies that the runs keep, by
+    ``runs_finished`` says which runs are finished. ``policies`` are the networks that the runs keep, by
     role: what plays afterwards; and their ``scores``, (runs,), at the greedy evaluations that they are from, -inf
     before the first one.
 
@@ -59,7 +59,7 @@ class Training:
         self.evaluation_rows: list[EvaluationRow] = []
         self.episodes_done = np.zeros(runs, dtype=np.int64)
         self.runs_finished = np.zeros(runs, dtype=np.bool_)
-        self.kept: Arrays = {**_copied(agent.online()), "scores": np.full(runs, -np.inf)}
+        self.policies: Arrays = {**_copied(agent.online()), "scores": np.full(runs, -np.inf)}
         self.practice = practice_of(agent, scenarios, preset, seed, background)
         self._choices = choices_of(agent, scenarios, preset, seed)
         self._decays = decays_of(preset)
@@ -74,9 +74,9 @@ class Training:
         return bool(self.runs_finished.all())
 
     @property
-    def kept_scores(self) -> Float64s:
+    def policy_scores(self) -> Float64s:
         """The greedy score of the policy that each run keeps, (runs,)."""
-        scores: Float64s = self.kept["scores"]
+        scores: Float64s = self.policies["scores"]
         return scores
 
     @property
@@ -96,7 +96,7 @@ class Training:
         that is known (``Imagination.begin_from``).
         """
         self.agent.load_online(online)
-        self.kept |= _copied(self.agent.online())
+        self.policies |= _copied(self.agent.online())
         self._evaluated_at[:] = -1 if evaluated_first else 0
 
     def state(self) -> Arrays:
@@ -106,7 +106,7 @@ class Training:
             "counts": np.array([self.ticks, self.env_steps, self.evaluation_steps]),
             **named_for("runs", runs),
             **named_for("agent", self.agent.state()),
-            **named_for("kept", self.kept),
+            **named_for("policies", self.policies),
             **named_for("choices", self._choices.state()),
             **named_for("practice", self.practice.state()),
         }
@@ -134,8 +134,8 @@ class Training:
         self.runs_finished[:] = state["runs.finished"]
         self._epsilon = self._epsilon_now()
         self.agent.load(part_of(state, "agent"))
-        for name, kept in self.kept.items():
-            kept[:] = state[f"kept.{name}"]
+        for name, array in self.policies.items():
+            array[:] = state[f"policies.{name}"]
         self._choices.load(part_of(state, "choices"))
         self.practice.load(part_of(state, "practice"))
         for journal in journals:
@@ -157,11 +157,11 @@ class Training:
         run = row.trial
         self.evaluation_rows.append(row)
         self._evaluated_at[run] = row.episode
-        if self.preset.keep == "last" or row.score > self.kept_scores[run]:
-            self.kept_scores[run] = row.score
+        if self.preset.keep == "last" or row.score > self.policy_scores[run]:
+            self.policy_scores[run] = row.score
             of_run = self.agent.rows_of(run)
             for role, networks in online.items():
-                self.kept[role][of_run[role]] = networks[of_run[role]]
+                self.policies[role][of_run[role]] = networks[of_run[role]]
         reached = self._stop_at_optimum and row.score >= self._optimum[run]
         self.runs_finished[run] = row.episode >= self.preset.episodes or reached
 

@@ -76,7 +76,8 @@ def test_a_single_agent_can_not_practise_in_a_learnt_game() -> None:
 
 def test_one_runs_networks_play_alone_as_they_do_beside_others() -> None:
     agent, alone = Agent(HIERARCHICAL, [DOT, DOT], PRESET, 0), Agent(HIERARCHICAL, [DOT], PRESET, 9)
-    alone.load_networks(agent.networks_of(1))
+    rows = agent.rows_of(1)
+    alone.load_online({role: online[rows[role]] for role, online in agent.online().items()})
     np.testing.assert_array_equal(alone.low_level.engine.online, agent.low_level.engine.online[2:4])
     other = Agent(HIERARCHICAL, [DOT, DOT], PRESET, 5)
     other.load_online(alone.online())

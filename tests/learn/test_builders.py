@@ -105,10 +105,10 @@ def test_a_greedy_episode_is_the_trainings_last_evaluation(networks: Networks) -
     for last in [row for row in trainer.evaluation_rows if row.episode == SHORT.episodes]:
         rows = trainer.agent.rows_of(last.trial)
         agent = agent_of(networks, 2, [last.trial], SHORT)
-        agent.load_online({role: trainer.kept[role][rows[role]] for role in agent.online()})
+        agent.load_online({role: trainer.policies[role][rows[role]] for role in agent.online()})
         (episode,) = play_greedily(agent.view_of(arenas_of(2, 1), [LINE]), [LINE], agent)
         assert (episode.material, len(episode.actions), episode.score) == (last.material, last.steps, last.score)
-        assert trainer.kept_scores[last.trial] == last.score
+        assert trainer.policy_scores[last.trial] == last.score
 
 
 def test_networks_of_another_shape_are_refused() -> None:
@@ -149,7 +149,7 @@ def test_a_builder_alone_learns_what_the_papers_agent_learns_to_the_bit(
     assert ours.episode_rows == theirs.episode_rows
     assert ours.evaluation_rows == theirs.evaluation_rows
     np.testing.assert_array_equal(ours.agent.low_level.engine.online, theirs.agent.low_level.engine.online)
-    np.testing.assert_array_equal(ours.kept_scores, theirs.kept_scores)
+    np.testing.assert_array_equal(ours.policy_scores, theirs.policy_scores)
     assert ours.env_steps == theirs.env_steps
 
 

@@ -160,7 +160,7 @@ def test_a_run_learns_the_same_alone_in_a_batch_and_resumed(agent: str) -> None:
 def test_excursions_and_imitation_go_part_by_part(agent: str) -> None:
     tuned = load_preset("tuned").model_copy(update={"episodes": 250, "hidden": [16, 16]})
     trainer = finished(trainer_of([STRIPES], agent, tuned))
-    assert trainer.kept_scores.tolist() == [STRIPES.optimum]
+    assert trainer.policy_scores.tolist() == [STRIPES.optimum]
 
 
 def test_the_policy_that_was_evaluated_plays_the_same_choices_afterwards() -> None:

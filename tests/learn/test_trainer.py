@@ -366,10 +366,10 @@ def test_where_actions_slip_the_best_episode_is_followed_only_from_its_own_state
 
 def test_a_run_keeps_its_best_policy_where_the_preset_says_so(exploring: Trainer) -> None:
     scores = [max(row.score for row in exploring.evaluation_rows if row.trial == run) for run in (0, 1)]
-    assert exploring.kept_scores.tolist() == scores
+    assert exploring.policy_scores.tolist() == scores
     agent = Agent(NESTED, [LINE, DIAMOND], SCOUTING, seed=0)
     for role, online in agent.online().items():
-        online[:] = exploring.state()[f"kept.{role}"]
+        online[:] = exploring.state()[f"policies.{role}"]
     played = play_greedily(GridVectorEnv([LINE, DIAMOND]), [LINE, DIAMOND], agent)
     assert [episode.score for episode in played] == scores
 
@@ -379,7 +379,7 @@ def test_a_training_begun_from_a_policy_keeps_it_until_it_has_one_of_its_own(exp
     trainer = trainer_of([LINE, DIAMOND], SCOUTING)
     trainer.begin_from(online)
     for role, taken in online.items():
-        np.testing.assert_array_equal(trainer.state()[f"kept.{role}"], np.concatenate([taken, taken]))
+        np.testing.assert_array_equal(trainer.state()[f"policies.{role}"], np.concatenate([taken, taken]))
     while not trainer.evaluation_rows:
         trainer.tick()
     assert trainer.evaluation_rows[0].episode == 0

@@ -228,7 +228,7 @@ class JobTraining:
             runs=[
                 RunOutcome(
                     evaluations=evaluations[run],
-                    score=float(self.trainer.kept_scores[run]),
+                    score=float(self.trainer.policy_scores[run]),
                     updates=int(updates[run]),
                     env_steps=int(steps[run]),
                     replay_bytes=None if held is None else int(held[run]),

@@ -143,7 +143,7 @@ def _training(path: Path) -> RunFacts:
     )
     if folder.only_begun:
         return facts
-    return _as_far_as_trained(facts, folder.kept, config.trials)
+    return _as_far_as_trained(facts, folder.policies, config.trials)
 
 
 def _as_far_as_trained(facts: RunFacts, read_checkpoint: Callable[[], object], trials: int) -> RunFacts:

@@ -124,22 +124,22 @@ class RunFolder:
             _write_text(self.path / SUMMARY, json.dumps(summary, indent=2) + "\n")
         return summary
 
-    def kept(self) -> Arrays:
+    def policies(self) -> Arrays:
         """The networks of the policies that the trials keep, by role, and their ``scores``, as last saved.
 
         RunError if nothing was saved yet, or it is damaged, of other shapes or another training's.
         """
         if self.only_begun:
             raise RunError(f"{self.path}: nothing is trained yet: go on with mc-nested train --resume {self.path}")
-        kept = part_of(self.checkpoint.state(), "kept")
+        kept = part_of(self.checkpoint.state(), "policies")
         if misfit := _misfit_of(kept, self._shapes_kept()):
             raise RunError(f"{self.checkpoint.file}: {misfit}: bring back a whole copy, or train the run again")
         return kept
 
     def policy_of(self, trial: int) -> Arrays:
-        """The networks of the policy that one trial keeps, by role, for ``Agent.load_online``; RunError as ``kept``."""
-        kept, rows = self.kept(), self.new_agent(self.config.trials).rows_of(trial)
-        return {role: networks[rows[role]] for role, networks in kept.items() if role in rows}
+        """The networks of one trial's policy, by role, for ``Agent.load_online``; RunError as for ``policies``."""
+        policies, rows = self.policies(), self.new_agent(self.config.trials).rows_of(trial)
+        return {role: networks[rows[role]] for role, networks in policies.items() if role in rows}
 
     def learnt_game(self, trial: int) -> Arrays | None:
         """What that trial has learnt of its game, for ``Imagination.begin_from``; None if its preset imagines nothing.

@@ -27,7 +27,7 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Training, wall_s: 
         "optimum": scenario.optimum,
         "final_scores": [
             float(score) if finished else None
-            for score, finished in zip(trainer.kept_scores, trainer.runs_finished, strict=True)
+            for score, finished in zip(trainer.policy_scores, trainer.runs_finished, strict=True)
         ],
         "episodes_to_optimum": firsts,
         "played_to_optimum": [_played_until(trainer, trial, first) for trial, first in enumerate(firsts)],

@@ -167,9 +167,9 @@ def test_an_evaluation_keeps_the_networks_that_played_it() -> None:
     learner.plan("game 2")
     learner.agent.low_level.engine.load_online(learner.agent.low_level.engine.online + 1)
     assert learner.take(play(plan))
-    assert learner.kept_scores.tolist() == [BENT.optimum]
+    assert learner.policy_scores.tolist() == [BENT.optimum]
     for role, online in played_by.items():
-        np.testing.assert_array_equal(learner.kept[role], online)
+        np.testing.assert_array_equal(learner.policies[role], online)
 
 
 def test_after_the_same_episodes_one_game_evaluates_and_no_other() -> None:

@@ -1,4 +1,4 @@
-"""Practice reaches its aim in the learnt game, in the named row alone, repeatably, and ends where it has to."""
+"""A practice reaches its aim in the learnt game, in the named row alone, repeatably, and ends where it has to."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,14 @@ import pytest
 from mc_nested.arena.action import Action
 from mc_nested.errors import DivergedError
 from mc_nested.learn.imagination.arena_step import NOWHERE, index_of, step
-from mc_nested.learn.imagination.practice import CAPACITY, Goal, Practice, Practised, RealTransitions, landed_cells
+from mc_nested.learn.imagination.practice_session import (
+    CAPACITY,
+    Goal,
+    NetworkPractice,
+    Practised,
+    RealTransitions,
+    landed_cells,
+)
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import Preset
 from tests.learn.imagination.made_games import BENT, RULE, SMALL, with_update
@@ -22,8 +29,8 @@ def practised(
     real: RealTransitions | None = None,
     preset: Preset = SMALL,
     seed: int = 5,
-) -> tuple[Practised, Practice]:
-    practice = Practice(learner, preset, RULE)
+) -> tuple[Practised, NetworkPractice]:
+    practice = NetworkPractice(learner, preset, RULE)
     real = real_of(learner) if real is None else real
     session = practice.session(row, arena_of(), goal, MATERIAL, real, np.random.default_rng(seed))
     session.run()
@@ -125,7 +132,7 @@ def test_it_ends_when_it_is_told_to() -> None:
     answers = iter([True, True, False])
     learner = learner_of()
     goal = UNREACHABLE._replace(most_updates=10**9)
-    practice, random = Practice(learner, SMALL, RULE), np.random.default_rng(0)
+    practice, random = NetworkPractice(learner, SMALL, RULE), np.random.default_rng(0)
     session = practice.session(0, arena_of(), goal, MATERIAL, real_of(learner), random)
     session.run(lambda: next(answers))
     assert not session.practised.reached
@@ -135,7 +142,7 @@ def test_it_ends_when_it_is_told_to() -> None:
 
 def test_a_practice_that_is_told_to_end_at_once_changes_nothing() -> None:
     learner = learner_of()
-    practice, random = Practice(learner, SMALL, RULE), np.random.default_rng(0)
+    practice, random = NetworkPractice(learner, SMALL, RULE), np.random.default_rng(0)
     session = practice.session(0, arena_of(), GOAL, MATERIAL, real_of(learner), random)
     session.run(lambda: False)
     assert session.practised == Practised(0, 0, 0.0, False)
@@ -174,7 +181,7 @@ def test_the_real_transitions_are_in_its_replay_and_the_imagined_ones_follow() -
 
 def test_the_next_practice_begins_with_its_own_real_transitions_alone() -> None:
     learner = learner_of()
-    practice, random = Practice(learner, SMALL, RULE), np.random.default_rng(0)
+    practice, random = NetworkPractice(learner, SMALL, RULE), np.random.default_rng(0)
     real = real_of(learner, ([2, 1, 3, 1], int(Action.B), [2, 0, 3, 1], NOWHERE))
     practice.session(0, arena_of(), UNREACHABLE, MATERIAL, real, random).run()
     assert practice._replay.added[0] > 1

@@ -148,7 +148,7 @@ class PracticeSession:
         return int(self._parts.updates[0]) - self._first
 
 
-class Practice:
+class NetworkPractice:
     """Practises the rows of one learner, one at a time.
 
     Args:

@@ -4,7 +4,7 @@ import numpy as np
 
 from mc_nested.learn.imagination.beliefs import Belief, believe
 from mc_nested.learn.imagination.experience import Experience, RealStep
-from mc_nested.learn.imagination.seen import Seen, Spent, seen_by
+from mc_nested.learn.imagination.known_arena import KnownArena, Spent, known_arena
 
 AHEAD = (0, 1)
 
@@ -17,8 +17,8 @@ def episode(experience: Experience, *blocks: tuple[int, int, int]) -> None:
     experience.end(0, 0.0)
 
 
-def seen_in(experience: Experience, blocks: int) -> Seen:
-    return seen_by(experience, AHEAD, believe(experience.steps, AHEAD, 5, blocks))
+def seen_in(experience: Experience, blocks: int) -> KnownArena:
+    return known_arena(experience, AHEAD, believe(experience.steps, AHEAD, 5, blocks))
 
 
 def test_a_new_cell_is_new_once_and_then_built_or_wasted() -> None:

@@ -29,7 +29,7 @@ class Spent(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Seen:
+class KnownArena:
     """What one run knows of its arena.
 
     ``cells`` (size, size) holds a Belief for each; ``built_last`` are the cells built in its last real episode,
@@ -47,7 +47,7 @@ class Seen:
         return int((self.cells == Belief.PAYS).sum())
 
 
-def seen_by(experience: Experience, lands: Cell, beliefs: Beliefs) -> Seen:
+def known_arena(experience: Experience, lands: Cell, beliefs: Beliefs) -> KnownArena:
     """What that experience shows, if blocks land at ``lands`` from the agent, with the beliefs that follow from it."""
     episodes = _by_episode(experience.steps, experience.first_of_episode)
     own = min(experience.episodes, len(episodes))
@@ -58,7 +58,7 @@ def seen_by(experience: Experience, lands: Cell, beliefs: Beliefs) -> Seen:
     first = experience.episodes - own + 1
     spent = tuple(_spend(first + at, steps, lands, tried) for at, steps in enumerate(remembered))
     last = frozenset(cell for cell, _ in _landings(remembered[-1], lands)) if remembered else frozenset[Cell]()
-    return Seen(beliefs.cells, last, spent, beliefs.explores)
+    return KnownArena(beliefs.cells, last, spent, beliefs.explores)
 
 
 def _by_episode(steps: Int64s, first_of_episode: Int64s) -> list[Int64s]:
