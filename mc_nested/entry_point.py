@@ -145,7 +145,7 @@ def _live(
     scenario: Scenario, profile: str, record: str | Path | None, *, server_allowed: bool, open_live: OpenLive | None
 ) -> AbstractContextManager[tuple[Game, Any]]:
     # Imported here: who learns in the simulator needs nothing that reads a screen.
-    from mc_nested.live.recording.opened import run_recorder
+    from mc_nested.live.recording.run_recorder import run_recorder
     from mc_nested.live.session import open_live_game
 
     recorder = run_recorder(record, f"env-{scenario.name}", _say, scenario, server_allowed=server_allowed)

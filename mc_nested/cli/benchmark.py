@@ -10,7 +10,7 @@ from rich.table import Column, Table
 from rich.text import Text
 
 from mc_nested.arena.corpus_file import MOST_DESIGNS, load_corpus
-from mc_nested.arena.design_kind import kind_of_design
+from mc_nested.arena.design import kind_of_design
 from mc_nested.arena.random_designs import random_scenario
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario, table_of

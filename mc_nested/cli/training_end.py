@@ -9,7 +9,7 @@ from typing import Any
 
 import cv2
 
-from mc_nested.arena.cooperative.team_picture import draw_team_picture
+from mc_nested.arena.cooperative.team_env import draw_team_picture
 from mc_nested.arena.scenario_file import ScenarioTable, load_scenario, shipped_scenarios, table_of
 from mc_nested.atomic_file import atomic_write
 from mc_nested.cli.options import DEFAULT_PROFILE

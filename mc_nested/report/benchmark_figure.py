@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import PercentFormatter, StrMethodFormatter
 
-from mc_nested.arena.design_kind import KINDS
+from mc_nested.arena.design import KINDS
 from mc_nested.arrays import Float64s, Int64s
 from mc_nested.atomic_file import atomic_write
 from mc_nested.report.benchmark_measures import profile, profile_band, trials_of

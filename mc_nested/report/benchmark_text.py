@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from statistics import median
 
-from mc_nested.arena.design_kind import CORNER, EDGE, KINDS, SCATTERED
+from mc_nested.arena.design import CORNER, EDGE, KINDS, SCATTERED
 from mc_nested.report.benchmark_measures import Measures, measures_of, trials_of
 from mc_nested.report.benchmark_results import Benchmark
 

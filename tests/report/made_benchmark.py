@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mc_nested.arena.design_kind import KINDS
+from mc_nested.arena.design import KINDS
 from mc_nested.report.benchmark_results import Benchmark, BenchmarkRow
 
 

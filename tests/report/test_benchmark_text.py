@@ -2,7 +2,7 @@
 
 import pytest
 
-from mc_nested.arena.design_kind import KINDS
+from mc_nested.arena.design import KINDS
 from mc_nested.report.benchmark_measures import measures_of, trials_of
 from mc_nested.report.benchmark_text import benchmark_text
 from tests.report.made_benchmark import made_benchmark

@@ -11,8 +11,7 @@ from gymnasium.spaces import Discrete, Space
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.cooperative.team import Team, TeamGame
-from mc_nested.arena.cooperative.team_env import TeamVectorEnv
-from mc_nested.arena.cooperative.team_picture import rendered_team
+from mc_nested.arena.cooperative.team_env import TeamVectorEnv, rendered_team
 from mc_nested.arena.env import RENDERING, highest_observation, space_up_to
 from mc_nested.arrays import Int64s
 from mc_nested.errors import UserError
