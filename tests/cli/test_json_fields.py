@@ -57,6 +57,9 @@ def test_of_a_run(verb: str, trained: Path, capsys: pytest.CaptureFixture[str]) 
 
 def test_of_a_training(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     found = printed(capsys, "train", "--episodes", "2", "--out", tmp_path / "run")
+    of_several = {"builders", "networks_kind", "starts"}
+    assert found.keys() == JSON_FIELDS["train"].keys() - {"live"} - of_several
+    found = printed(capsys, "train", "--builders", "2", "--episodes", "2", "--out", tmp_path / "team")
     assert found.keys() == JSON_FIELDS["train"].keys() - {"live"}
 
 
