@@ -25,8 +25,7 @@ COMPLETION_OPTIONS = ("--install-completion", "--show-completion")
 VERBS = (
     "train",
     "reproduce",
-    "sweep",
-    "benchmark",
+    "study",
     "evaluate",
     "play",
     "build",
@@ -46,18 +45,23 @@ VERBS = (
 )
 """Each is a module of this package; in the order of the help."""
 
-MOVED = {"cooperate": "train --builders"}
-"""Verbs of earlier versions, and where they are now."""
+
+MOVED = {
+    "sweep": "study sweep, or study ablation for sweep --ablation",
+    "benchmark": "study benchmark",
+    "cooperate": "train --builders",
+}
+"""Verbs that have another name now."""
 
 
 def app_for(words: Sequence[str]) -> typer.Typer:
     """The command with the verb that the words begin with, or with all verbs if they begin with none.
 
     A verb's module is loaded only if it is needed: together they take seconds and hundreds of megabytes. To complete a
-    command line none is. UserError, one line, if that verb has moved.
+    command line none is.
     """
     if words and words[0] in MOVED:
-        raise UserError(f"{words[0]} has moved: write mc-nested {MOVED[words[0]]}")
+        raise UserError(f"{words[0]} is now mc-nested {MOVED[words[0]]}")
     if COMPLETES in os.environ or (words and words[0] in COMPLETION_OPTIONS):
         return _completing_app()
     app = typer.Typer(name=NAME, rich_markup_mode=None, pretty_exceptions_enable=False)
