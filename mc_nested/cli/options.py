@@ -57,13 +57,8 @@ RecordOption = Annotated[
 ]
 
 PresetOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar=NAME_OR_FILE,
-        help="hyper-parameters",
-        show_default="paper",
-        autocompletion=complete_of(shipped_presets),
-    ),
+    str,
+    typer.Option(metavar=NAME_OR_FILE, help="hyper-parameters", autocompletion=complete_of(shipped_presets)),
 ]
 EngineOption = Annotated[
     str | None,

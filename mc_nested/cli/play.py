@@ -70,6 +70,8 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         check_film(video)
     folder = RunFolder.open(run)
     scenario = folder.scenario
+    if folder.team:
+        raise UserError(f"several builders play in the simulator alone: mc-nested runs evaluate {run} has them build")
     if screenshots and backend is Backend.SIM:
         raise UserError("the simulator has no window to picture: leave out --screenshots, or play --backend live")
     states = folder.config.preset.states
@@ -142,14 +144,14 @@ def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
     agent = folder.trained_agent()
     if trial is None:
         if folder.config.preset.states == SCREEN:
-            scores = folder.kept()["scores"].tolist()
+            scores = folder.policies()["scores"].tolist()
         else:
             scores = [episode.score for episode in greedy_episodes(folder, agent)]
         trial = scores.index(max(scores))
     if trial >= folder.config.trials:
         raise RunError(f"{folder.path}: has no trial {trial}: choose 0 to {folder.config.trials - 1}")
     alone = folder.new_agent(1)
-    alone.load_networks(agent.networks_of(trial))
+    alone.load_online(folder.policy_of(trial))
     return alone, trial
 
 

@@ -13,6 +13,7 @@ from rich.text import Text
 from mc_nested.cli.completion import RUNS, complete_runs
 from mc_nested.cli.options import RunArgument, check_nothing_before
 from mc_nested.cli.output import FittingTable, JsonOption, Output, facts_table, prints
+from mc_nested.cli.own_player import simulated_team
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
@@ -118,7 +119,8 @@ def evaluate(run: RunArgument, as_json: JsonOption = False) -> None:
 def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:
     """One greedy episode of every trial in the simulator; UserError if it sees what the simulator can't show."""
     check_window(folder.config.preset.states, has_window=False)
-    env = agent.view_of(GridVectorEnv(folder.scenarios), folder.scenarios)
+    arenas = simulated_team(folder, folder.config.trials) or GridVectorEnv(folder.scenarios)
+    env = agent.view_of(arenas, folder.scenarios)
     return play_greedily(env, folder.scenarios, agent)
 
 

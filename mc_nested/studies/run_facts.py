@@ -10,7 +10,6 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from mc_nested.errors import McNestedError, RunError
-from mc_nested.learn.cooperation.team_run import TeamRun
 from mc_nested.learn.runs.folder_kind import verb_in, verb_of_study
 from mc_nested.learn.runs.folder_lock import holder_of
 from mc_nested.learn.runs.run_folder import RunFolder
@@ -74,7 +73,7 @@ def facts_of(folder: Path) -> RunFacts | None:
         if found is None:
             return None
         verb = found
-        facts = {"train": _training, "cooperate": _cooperation}.get(verb, _study)(folder)
+        facts = _training(folder) if verb == "train" else _study(folder)
     except McNestedError as error:
         if not verb and not any((folder / name).exists() for name in OUR_OWN):
             return None
@@ -92,7 +91,7 @@ def _training(path: Path) -> RunFacts:
         "train",
         "can be resumed",
         designs=[config.scenario.name],
-        agents=[config.agent],
+        agents=[f"{len(config.team.starts)} {config.team.networks}" if config.team else config.agent],
         presets=[Path(config.preset_name).stem],
         trials=config.trials,
         episodes_done=0,
@@ -101,25 +100,7 @@ def _training(path: Path) -> RunFacts:
     )
     if folder.only_begun:
         return facts
-    return _as_far_as_trained(facts, folder.kept, config.trials)
-
-
-def _cooperation(path: Path) -> RunFacts:
-    run = TeamRun.open(path)
-    config = run.config
-    facts = RunFacts(
-        path,
-        "cooperate",
-        "can be resumed",
-        designs=[config.scenario.name],
-        agents=[f"{config.builders} {config.networks}"],
-        presets=[Path(config.preset_name).stem],
-        trials=config.trials,
-        episodes_done=0,
-        episodes=config.preset.episodes * config.trials,
-        optimum=run.team.scenario.optimum,
-    )
-    return facts if run.only_begun else _as_far_as_trained(facts, run.checkpoint.state, config.trials)
+    return _as_far_as_trained(facts, folder.policies, config.trials)
 
 
 def _as_far_as_trained(facts: RunFacts, read_checkpoint: Callable[[], object], trials: int) -> RunFacts:

@@ -53,7 +53,7 @@ def test_policies_that_do_not_fit_the_run_are_one_line(
     copy, new = tmp_path / "copy", tmp_path / "new"
     shutil.copytree(trained, copy)
     file = copy / "checkpoint" / FILE
-    change_arrays(file, lambda state: state.pop("kept.low"))
+    change_arrays(file, lambda state: state.pop("policies.low"))
     assert run(*(word.replace("RUN", str(copy)).replace("NEW", str(new)) for word in words)) == 2
     printed = capsys.readouterr()
     assert printed.out == ""

@@ -176,7 +176,7 @@ def test_one_game_in_lockstep_learns_what_train_learns_by_itself(
         np.load(alone / "checkpoint" / FILE) as ours,
         np.load(together / "checkpoint" / FILE) as its,
     ):
-        assert all((ours[name] == its[name]).all() for name in ours.files if name.startswith("kept."))
+        assert all((ours[name] == its[name]).all() for name in ours.files if name.startswith("policies."))
     game.send_signal(signal.SIGINT)
     assert game.wait(20) == 130
     assert served.said("one").splitlines()[-1].endswith("no key is held, and the learner goes on without this game")

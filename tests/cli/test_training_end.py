@@ -9,7 +9,7 @@ import pytest
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.cli.training_end import next_steps
 from mc_nested.learn.preset import load_preset
-from mc_nested.learn.runs.run_folder import RunConfig
+from mc_nested.learn.runs.run_config import RunConfig
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows quotes words otherwise")
 

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from tests.design_files import written
 
 SIZES = {
-    "mc-nested cooperate": "--trials 1 --episodes 20",
     "mc-nested reproduce": "--trials 1 --episodes 4 --scenario line",
     "mc-nested reproduce --robustness": "--trials 1 --episodes 1 --scenario line",
     "mc-nested reproduce --beyond": "--trials 1 --episodes 4",
@@ -24,6 +23,7 @@ SIZES = {
     "mc-nested train --scenario flag --preset tuned": "--trials 1 --episodes 20",
     "mc-nested train --trials 10": "--trials 1 --episodes 30",
     "mc-nested train --scenario line --trials 10": "--episodes 1000",
+    "mc-nested train --scenario line --builders 2": "--trials 1 --episodes 20",
     "python scripts/examples/sb3_dqn.py": "--steps 100",
     "python scripts/examples/cleanrl_dqn.py": "--steps 300",
     "python scripts/bench.py calibration": "--clients 1 --actions 2",
@@ -86,7 +86,10 @@ FILES: dict[str, Callable[[], bytes]] = {
 
 BEFORE = {
     "mc-nested calibrate arena": (CALIBRATE, "mc-nested calibrate arena --undo"),
-    "mc-nested cooperate --resume runs/two": ("mc-nested cooperate --builders 2 --out runs/two",),
+    **dict.fromkeys(
+        ("mc-nested train --resume runs/two", "mc-nested evaluate runs/two"),
+        ("mc-nested train --builders 2 --episodes 20 --out runs/two",),
+    ),
 }
 """What comes before a command that stands in a text."""
 

@@ -41,11 +41,11 @@ def _made_torch_engine(
     states: States, choice: EngineChoice, rule: UpdateRule, streams: Sequence[np.random.Generator]
 ) -> Engine:
     try:  # it takes 200 MB, which the compiled engine doesn't need
-        from mc_nested.learn.dqn.torch_engine import engine, inputs, networks
+        from mc_nested.learn.dqn.torch_engine import engine, networks
     except ImportError as error:
         raise PresetError('engine "torch": torch is missing: install torch, or take --engine compiled') from error
     device = engine.device_named(choice.device)
-    shape = inputs.input_shape(states)
+    shape = networks.input_shape(states)
     form = networks.form_of(choice.network, shape, choice.hidden, states.actions)
     make = networks.network_maker(choice.network, choice.hidden)
     online = networks.initial_rows(form, lambda: make(shape, states.actions), streams)

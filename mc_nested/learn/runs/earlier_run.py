@@ -37,16 +37,14 @@ def earlier_run(run: Path, wanted: RunFolder) -> EarlierRun:
     """The best trial of that training, for the wanted one; RunError if its networks don't fit."""
     folder = RunFolder.open(run)
     theirs, ours = folder.new_agent(1), wanted.new_agent(1)
-    if (theirs.spec, theirs.forms) != (ours.spec, ours.forms):
+    if (theirs.spec, theirs.forms, theirs.networks) != (ours.spec, ours.forms, ours.networks):
         raise RunError(
             f"{run}: its networks don't fit this training: take its agent ({folder.config.agent}), its preset, and a "
             f"design of {folder.scenario.blocks} blocks in an arena of {folder.scenario.size} x {folder.scenario.size}"
         )
-    kept = folder.kept()
-    best = int(kept["scores"].argmax())
-    rows = folder.new_agent(folder.config.trials).rows_of(best)
+    best = int(folder.policies()["scores"].argmax())
     return EarlierRun(
-        online={role: kept[role][rows[role]] for role in theirs.online()},
+        online=folder.policy_of(best),
         game=folder.learnt_game(best),
         same_design=folder.scenario.design == wanted.scenario.design,
         same_materials=folder.scenario.materials == wanted.scenario.materials,

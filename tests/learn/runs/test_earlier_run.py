@@ -55,7 +55,7 @@ def test_the_same_design_is_known_from_the_beginning(files: Path, tmp_path: Path
     assert summary["played_to_optimum"][0]["episodes"] == 1
     trainer = begun(files, "small", tmp_path / "begun")
     assert trainer.imagination is not None
-    assert trainer.imagination.seen(0).known_to_pay == SMALL.blocks
+    assert trainer.imagination.known_arena(0).known_to_pay == SMALL.blocks
     assert trainer.imagination.episodes(0) == 0
 
 
@@ -67,7 +67,7 @@ def test_of_another_design_moves_and_materials_are_known_and_no_cell(files: Path
     untried = trainer.imagination.state()["untried"][0]
     assert untried.tolist() == earlier.game["untried"].tolist()
     assert untried.sum() <= 1, "no first tries of what was tried"
-    rules, seen = trainer.imagination.rules(0), trainer.imagination.seen(0)
+    rules, seen = trainer.imagination.rules(0), trainer.imagination.known_arena(0)
     assert rules.known.tolist() == (~untried).tolist()
     steps, first_of_episode = earlier.game["seen.steps"], earlier.game["seen.first_of_episode"]
     learnt = learn_rules(steps, first_of_episode, len(untried), BESIDE.size)
@@ -96,7 +96,7 @@ def test_other_materials_are_tried_anew(files: Path, tmp_path: Path) -> None:
     trainer = begun(files, "poorer", tmp_path / "begun")
     assert trainer.imagination is not None
     assert len(trainer.imagination.state()["0.extras"]) == 0
-    assert trainer.imagination.seen(0).known_to_pay == SMALL.blocks
+    assert trainer.imagination.known_arena(0).known_to_pay == SMALL.blocks
 
 
 @pytest.fixture
@@ -113,7 +113,7 @@ def test_a_training_without_an_imagination_gives_its_policy_as_before(trained: P
 
 
 def forget(state: Arrays) -> None:
-    for name in [name for name in state if name.startswith("imagination.")]:
+    for name in [name for name in state if name.startswith("practice.")]:
         del state[name]
 
 

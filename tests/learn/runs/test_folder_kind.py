@@ -9,11 +9,12 @@ from mc_nested.learn.runs.folder_kind import FORMAT, VIEW, VIEW_FILES, check_con
 
 
 @pytest.mark.parametrize(
-    ("text", "verb"), [('agent = "nested"', "train"), ('agents = ["nested"]', "reproduce"), ("[[variants]]", "sweep")]
+    ("text", "verb"),
+    [('agent = "nested"', "train"), ('study = "reproduce"', "reproduce"), ('study = "sweep"', "study sweep")],
 )
 def test_a_folder_is_opened_by_the_command_that_made_it_alone(text: str, verb: str) -> None:
     check_config(text, Path("runs/x"), verb)
-    other = "sweep" if verb == "train" else "train"
+    other = "study sweep" if verb == "train" else "train"
     with pytest.raises(RunError, match=f"the folder of mc-nested {verb}, not of {other}: .* --resume runs/x"):
         check_config(text, Path("runs/x"), other)
 
