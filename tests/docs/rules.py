@@ -87,7 +87,7 @@ FILES: dict[str, Callable[[], bytes]] = {
 BEFORE = {
     "mc-nested calibrate arena": (CALIBRATE, "mc-nested calibrate arena --undo"),
     **dict.fromkeys(
-        ("mc-nested train --resume runs/two", "mc-nested evaluate runs/two"),
+        ("mc-nested train --resume runs/two", "mc-nested runs evaluate runs/two"),
         ("mc-nested train --builders 2 --episodes 20 --out runs/two",),
     ),
 }
