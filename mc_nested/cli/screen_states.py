@@ -2,7 +2,7 @@
 
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.errors import UserError
-from mc_nested.learn.engine_fit import SCREEN
+from mc_nested.learn.dqn.engines import SCREEN
 from mc_nested.live.screen_arenas import NEEDS_A_WINDOW, ScreenArenas
 from sim.grid import GridVectorEnv
 

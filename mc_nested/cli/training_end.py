@@ -15,7 +15,7 @@ from mc_nested.atomic_file import atomic_write
 from mc_nested.cli.options import DEFAULT_PROFILE
 from mc_nested.cli.output import Output
 from mc_nested.cli.own_player import simulated_team
-from mc_nested.learn.engine_fit import SCREEN
+from mc_nested.learn.dqn.engines import SCREEN
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.preset import MOST, load_preset, shipped_presets
 from mc_nested.learn.runs.run_config import RunConfig

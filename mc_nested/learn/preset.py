@@ -16,8 +16,7 @@ from pydantic import (
 )
 
 from mc_nested.errors import PresetError
-from mc_nested.learn.dqn.engines import EngineChoice
-from mc_nested.learn.engine_fit import Computing, misfit
+from mc_nested.learn.dqn.engines import Computing, EngineChoice, misfit
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
 
 MOST = 1_000_000_000
