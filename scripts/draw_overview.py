@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mc_nested.arena.drawing import draw_picture
-from mc_nested.cli.evaluate import greedy_episodes, load_agent
+from mc_nested.cli.runs import greedy_episodes
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.debug_screen import read_debug_screen
@@ -57,7 +57,7 @@ def draw_built(axes: Axes, folder: RunFolder) -> None:
     """What the first trial's policy builds, the far edge on top."""
     env = arena_env(folder.scenario)
     env.reset()
-    for action in greedy_episodes(folder, load_agent(folder))[0].actions:
+    for action in greedy_episodes(folder, folder.trained_agent())[0].actions:
         env.step(action)
     axes.imshow(draw_picture(folder.scenario, env.cell, env.placed), interpolation="nearest")
     axes.set(title=f"what it builds: the {folder.scenario.name}", xticks=[], yticks=[])

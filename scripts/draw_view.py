@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 from PIL import Image
 
-from mc_nested.cli.calibrate_report import report_path
+from calibration.report.write import report_path
 from mc_nested.errors import UserError
 from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.view.app import ViewApp

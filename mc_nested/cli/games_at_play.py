@@ -14,7 +14,6 @@ from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.rules import landing
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.interrupt import Interrupt, Stopped
-from mc_nested.cli.options import Backend
 from mc_nested.errors import ClusterError, UserError
 from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.games_trainer import GamesTrainer
@@ -24,6 +23,7 @@ from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.workers_seen import counted
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, NameTaken, Unreachable
 from mc_nested.workers.games.order import GameAnswer, GameOrder
+from sim.worlds import Backend
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Client
@@ -102,7 +102,7 @@ class GamesAtPlay:
         """How many games there are, and what is lost."""
         records = self._records.values()
         here, playing = sum(each.is_here for each in records), sum(each.playing is not None for each in records)
-        words = f"{counted(here, 'game')}, {playing} playing" if here else "waiting for a game (mc-nested serve-game)"
+        words = f"{counted(here, 'game')}, {playing} playing" if here else "waiting for a game (mc-nested train serve)"
         return words + (f", {counted(self._lost, 'episode')} lost" if self._lost else "")
 
     def summary(self) -> dict[str, Any]:

@@ -8,16 +8,16 @@ from typing import Any
 from mc_nested.arena.cooperative.team_env import TeamVectorEnv
 from mc_nested.arena.game import PlayLog
 from mc_nested.arena.vector import ArenaVectorEnv
-from mc_nested.cli.options import Backend, open_arenas, played_live
-from mc_nested.cli.recording_options import live_recorder
-from mc_nested.cli.screen_states import as_shown
+from mc_nested.cli.options import played_live
 from mc_nested.errors import DesktopError, LiveError, NotInFrontError
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.live.action_log import FailureBudget
+from mc_nested.live.opening import Opening
 from mc_nested.view.publisher import Publisher
 from sim.grid import GridVectorEnv
-from sim.team_grid import TeamGrid
+from sim.team_grid import team_arenas
+from sim.worlds import Backend, as_shown, open_arenas
 
 
 @dataclass(frozen=True)
@@ -59,35 +59,16 @@ class OwnPlayer:
 
 
 @contextmanager
-def own_player(
-    folder: RunFolder, profile: str | None, publisher: Publisher, *, server_allowed: bool, record: str | None
-) -> Iterator[OwnPlayer]:
+def own_player(folder: RunFolder, opening: Opening, publisher: Publisher) -> Iterator[OwnPlayer]:
     """An untrained trainer for that folder's training, in arenas that are open for the block.
 
     Errors as ``open_arenas`` raises them.
     """
     config = folder.config
-    with open_arenas(
-        Backend(config.backend),
-        profile,
-        folder.scenarios,
-        server_allowed=server_allowed,
-        evidence=folder.path / "evidence",
-        open_recorder=live_recorder(
-            record, f"train-{folder.scenario.name}", folder.scenario, server_allowed=server_allowed
-        ),
-        journal=publisher.board,
-        seed=config.seed,
-    ) as (opened, log):
-        env = simulated_team(folder, config.trials) or opened
+    with open_arenas(Backend(config.backend), folder.scenarios, opening, config.seed) as (opened, log):
+        env = team_arenas(folder.team, config.trials) if folder.team else opened
         agent = folder.new_agent(config.trials, config.preset.device)
         shown = env if isinstance(env, TeamVectorEnv) else as_shown(env, config.preset.states)
         view = agent.view_of(shown, folder.scenarios)
         trainer = Trainer(view, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
         yield OwnPlayer(trainer, env, log, lambda: publisher.was_paused_lately)
-
-
-def simulated_team(folder: RunFolder, trials: int) -> TeamVectorEnv | None:
-    """So many simulated arenas for the folder's builders; None where one builds alone."""
-    team = folder.team
-    return TeamVectorEnv([TeamGrid(team) for _ in range(trials)], team) if team else None

@@ -16,7 +16,7 @@ from rich.table import Column
 from rich.text import Text
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.cli.progress_line import print_line
+from mc_nested.cli.output import print_line
 from mc_nested.learn.imagination.imagination import Imagination
 from mc_nested.learn.training import Training
 from mc_nested.report.terminal_map import map_view

@@ -3,50 +3,57 @@
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from mc_nested.cli.earlier_run import EarlierRun, earlier_run
 from mc_nested.cli.games_at_play import games_at_play
 from mc_nested.cli.interrupt import Stopped, catch_interrupts
-from mc_nested.cli.options import Backend, where_words
 from mc_nested.cli.output import Output
 from mc_nested.cli.own_player import own_player
 from mc_nested.cli.training_end import draw_results, say_end
 from mc_nested.cli.training_loop import TrainingLoop
-from mc_nested.cli.viewing import Viewed, viewed
+from mc_nested.cli.view import Viewed, viewed
 from mc_nested.errors import ClusterError, DesktopError, LiveError
+from mc_nested.learn.runs.earlier_run import EarlierRun, earlier_run
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.training import Training
+from mc_nested.live.opening import Opening
 from mc_nested.report.game_time import expected
 from mc_nested.view.status_files import remove_status
 from mc_nested.workers.cluster.address import SchedulerAddress
+from sim.worlds import Backend, where_words
 
 
 @dataclass(frozen=True)
 class HowToRun:
-    """What a run is asked for that its config.toml doesn't say; ``games`` have joined that scheduler."""
+    """What a run is asked for that its config.toml doesn't say.
+
+    ``opening`` is how a live game is opened; ``games`` have joined that scheduler.
+    """
 
     output: Output
-    server_allowed: bool = False
-    record: str | None = None
+    opening: Opening
     is_viewed: bool = False
     games: SchedulerAddress | None = None
 
 
-def run_training(
-    folder: RunFolder, profile: str | None, resumed: bool, how: HowToRun, begin_from: Path | None = None
-) -> None:
+def run_training(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Path | None = None) -> None:
     """Train until the run is finished or somebody stops it; saved on the way and at the end."""
     config, output, path = folder.config, how.output, folder.path
     earlier = earlier_run(begin_from, folder) if begin_from else None
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
     with catch_interrupts() as interrupt, published(folder, how) as view:
         publisher = view.publisher
+        opening = replace(
+            how.opening,
+            what=f"train-{folder.scenario.name}",
+            evidence=path / "evidence",
+            journal=publisher.board,
+        )
         opened = (
             games_at_play(folder, how.games, interrupt, output.note)
             if how.games
-            else own_player(folder, profile, publisher, server_allowed=how.server_allowed, record=how.record)
+            else own_player(folder, opening, publisher)
         )
         with opened as player:
             begin_or_resume(folder, player.training, earlier, resumed)

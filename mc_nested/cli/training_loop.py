@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from mc_nested.cli.interrupt import Interrupt
-from mc_nested.cli.options import Backend
 from mc_nested.cli.output import Output
 from mc_nested.cli.progress import STOPPING, TrainingProgress
 from mc_nested.cli.training_view import Arenas, TrainingView
@@ -13,6 +12,7 @@ from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.training import Training
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from mc_nested.view.publisher import Publisher
+from sim.worlds import Backend
 
 SAVE_EVERY_S = {Backend.SIM: 60.0, Backend.VIRTUAL: 60.0, Backend.LIVE: 15.0}
 """Seconds between checkpoints, which is what a kill can cost: in the simulator, or in a game of a block per second."""

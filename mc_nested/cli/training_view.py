@@ -9,7 +9,6 @@ import numpy as np
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
-from mc_nested.cli.options import Backend, where_words
 from mc_nested.learn.episode_log import EpisodeRow
 from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.training import Training
@@ -17,6 +16,7 @@ from mc_nested.report.game_time import expected
 from mc_nested.report.terminal_map import belief_rows
 from mc_nested.view.board import Board
 from mc_nested.view.status import MOST_SCORES, ArenaSeen, Learning, Standing
+from sim.worlds import Backend, where_words
 
 SHOW_EVERY_S = 0.3
 

@@ -17,6 +17,7 @@ from rich.console import Console
 from rich.progress import track
 
 from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.live.opening import Opening
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.session import open_live_game
 from scripts.benches.played import figures_of, play_in
@@ -34,7 +35,7 @@ def main() -> int:
     scenario = load_scenario("diamond")
     arena = load_profile(options.profile).marked_arena()
     truth = RehearsalTruth(options.truth, arena)
-    with open_live_game(scenario, options.profile, lambda line: print(line, file=sys.stderr)) as (game, _):
+    with open_live_game(scenario, Opening(options.profile, lambda line: print(line, file=sys.stderr))) as (game, _):
         steps = track(range(options.actions), "actions", console=Console(stderr=True))
         played = play_in(game, truth, scenario, steps, np.random.default_rng(options.seed))
     print(json.dumps(figures_of(played)))

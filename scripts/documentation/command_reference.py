@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Any, get_args
 
 from typer.core import TyperArgument, TyperCommand, TyperGroup, TyperOption
-from typer.main import get_command
 
 from mc_nested.cli.app import VERBS, app_for
-from mc_nested.cli.json_fields import JSON_FIELDS
+from mc_nested.cli.output import json_fields
 from scripts.documentation.markdown_text import code, number, sentence, table
 
 VALUES: dict[Any, str] = {int: "NUMBER", float: "NUMBER", str: "TEXT", Path: "FILE"}
@@ -23,7 +22,7 @@ def markdown() -> str:
 
 def verbs() -> Iterator[tuple[str, TyperCommand | TyperGroup]]:
     """Each verb's words and its command, the bare command first; ``calibrate all`` and its like are verbs, too."""
-    return _below("mc-nested", get_command(app_for(())))
+    return _below("mc-nested", app_for(()))
 
 
 def options_of(command: TyperCommand | TyperGroup) -> list[TyperOption]:
@@ -39,7 +38,8 @@ def _below(words: str, command: Any) -> Iterator[tuple[str, TyperCommand | Typer
     yield words, command
     if isinstance(command, TyperGroup):
         for name in sorted(command.commands, key=lambda name: VERBS.index(name) if name in VERBS else len(VERBS)):
-            yield from _below(f"{words} {name}", command.commands[name])
+            if not command.commands[name].hidden:
+                yield from _below(f"{words} {name}", command.commands[name])
 
 
 def _section(words: str, command: TyperCommand | TyperGroup) -> str:
@@ -47,7 +47,7 @@ def _section(words: str, command: TyperCommand | TyperGroup) -> str:
     below = ["VERB"] if isinstance(command, TyperGroup) else []
     usage = [words, *arguments, *(["[OPTIONS]"] if options_of(command) else []), *below]
     parts = [f"## {words}", sentence(" ".join((command.help or "").split())), f"```text\n{' '.join(usage)}\n```"]
-    return "\n\n".join([*parts, *_tables(command), *_json_fields(words)]) + "\n"
+    return "\n\n".join([*parts, *_tables(command), *_json_fields(command)]) + "\n"
 
 
 def _tables(command: TyperCommand | TyperGroup) -> list[str]:
@@ -57,10 +57,10 @@ def _tables(command: TyperCommand | TyperGroup) -> list[str]:
     return [table(["name", "what it is"], rows)] if rows else []
 
 
-def _json_fields(words: str) -> list[str]:
+def _json_fields(command: TyperCommand | TyperGroup) -> list[str]:
     """What the verb prints with --json, if it does."""
-    fields = JSON_FIELDS.get(words.partition(" ")[2])
-    if fields is None:
+    fields = json_fields(command.callback)
+    if not fields:
         return []
     return ["With `--json` it prints an object:", table(["field", "what it is"], _rows(fields))]
 
@@ -90,8 +90,10 @@ def _value(option: TyperOption) -> str:
 
 def _meaning(parameter: TyperArgument | TyperOption) -> str:
     default = parameter.default
-    has_default = isinstance(default, str | int | float) and not isinstance(default, bool)
+    has_default = isinstance(default, str | int | float) and not isinstance(default, bool) and parameter.show_default
     shown = default.value if isinstance(default, Enum) else default
+    if isinstance(parameter.show_default, str):
+        has_default, shown = True, parameter.show_default
     text = sentence((parameter.help or "") + (f" [{shown}]" if has_default else ""))
     low, high = parameter.min, parameter.max
     if low is None:

@@ -30,7 +30,7 @@ def test_its_checkpoint_still_fits_its_config(former: Path) -> None:
 
 def test_it_goes_on_and_is_evaluated_and_played(former: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert len(table(former / "episodes.csv")) == 20
-    for verb in (("train", "--resume"), ("evaluate",), ("play",)):
+    for verb in (("train", "--resume"), ("runs", "evaluate"), ("play",)):
         assert run(*verb, former) == 0
     assert not (former / "map.png").exists()
     capsys.readouterr()

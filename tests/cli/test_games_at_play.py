@@ -179,7 +179,7 @@ def test_a_game_that_leaves_is_not_asked_again(play: Play) -> None:
 
 def test_without_a_game_it_waits_and_says_so(play: Play) -> None:
     assert play.happens() == []
-    assert play.at_play.in_words() == "waiting for a game (mc-nested serve-game)"
+    assert play.at_play.in_words() == "waiting for a game (mc-nested train serve)"
 
 
 def test_a_second_game_of_a_name_is_said(play: Play) -> None:

@@ -262,7 +262,7 @@ def test_for_a_program_it_prints_its_summary_and_its_folder(tmp_path: Path, caps
     assert run(*TRAIN, "--json", "--quiet", "--out", tmp_path / "run") == 0
     printed = capsys.readouterr()
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
-    assert json.loads(printed.out) == {"folder": str(tmp_path / "run"), **summary}
+    assert json.loads(printed.out) == {"folder": str(tmp_path / "run"), **summary, "live": None}
     assert printed.err == ""
 
 

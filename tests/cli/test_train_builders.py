@@ -79,7 +79,8 @@ def test_for_a_program_it_prints_its_summary_and_its_folder(tmp_path: Path, caps
     said = json.loads(capsys.readouterr().out)
     assert said["folder"] == str(out)
     assert said["starts"] == [[7, 14], [0, 0]]
-    assert said == {"folder": str(out), **json.loads((out / "summary.json").read_text())}
+    summary = json.loads((out / "summary.json").read_text())
+    assert said == {"folder": str(out), **summary, "live": None}
 
 
 def test_it_is_among_the_runs(team_run: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -107,10 +108,10 @@ def test_every_trial_is_evaluated_and_what_shows_one_alone_says_so(
     team_run: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     summary = json.loads((team_run / "summary.json").read_text())
-    assert run("evaluate", team_run, "--json") == 0
+    assert run("runs", "evaluate", team_run, "--json") == 0
     assert json.loads(capsys.readouterr().out)["scores"] == summary["final_scores"]
     assert run("play", team_run) == 2
-    assert f"mc-nested evaluate {team_run}" in capsys.readouterr().err
+    assert f"mc-nested runs evaluate {team_run}" in capsys.readouterr().err
 
 
 def test_another_training_begins_from_it(
@@ -127,7 +128,7 @@ def test_another_training_begins_from_it(
 
 def test_the_former_verb_says_where_it_is_now(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("cooperate", "--builders", "2") == 2
-    assert capsys.readouterr().err == "mc-nested: cooperate is now mc-nested train --builders\n"
+    assert capsys.readouterr().err == "mc-nested: mc-nested cooperate is now: mc-nested train --builders\n"
 
 
 @pytest.mark.parametrize(

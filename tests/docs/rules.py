@@ -46,8 +46,8 @@ BY_THE_SUITE = {
     "dask scheduler": "tests/workers/cluster, which start one, with keys and without",
     "dask worker": "tests/workers/cluster",
     "mc-nested reproduce --cluster": "tests/cli/test_cluster.py",
+    "mc-nested train serve": "tests/cli/test_games_training.py",
     "mc-nested study sweep --cluster": "tests/cli/test_cluster.py",
-    "mc-nested serve-game": "tests/cli/test_games_training.py",
     **dict.fromkeys(
         (
             "mc-nested train --backend live --preset live --scenario diamond --stop-at-optimum --games",
@@ -87,7 +87,7 @@ FILES: dict[str, Callable[[], bytes]] = {
 BEFORE = {
     "mc-nested calibrate arena": (CALIBRATE, "mc-nested calibrate arena --undo"),
     **dict.fromkeys(
-        ("mc-nested train --resume runs/two", "mc-nested evaluate runs/two"),
+        ("mc-nested train --resume runs/two", "mc-nested runs evaluate runs/two"),
         ("mc-nested train --builders 2 --episodes 20 --out runs/two",),
     ),
 }
@@ -98,7 +98,7 @@ _OF_NO_MATTER = re.compile(r"--(?:trials|episodes|designs|seed) \d+|--out|runs/\
 STANDS_FOR = {"--scenario …": "--scenario line"}
 """What a reader puts in place of an ellipsis."""
 
-LIVE = ("bug-report", "calibrate", "doctor", "read", "recordings", "replay")
+LIVE = ("calibrate", "doctor", "read", "recordings", "replay")
 """Verbs that look at the game's window, or at what was written there."""
 
 LIVE_SNIPPET = 'backend="live"'

@@ -75,6 +75,12 @@ class RunFolder:
         builders = config.team.builders if config.team else None
         return Agent(AGENT_SPECS[config.agent], [self.scenario] * runs, preset, config.seed, team=builders)
 
+    def trained_agent(self) -> Agent:
+        """The agent of the last checkpoint, every trial, able to act."""
+        agent = self.new_agent(self.config.trials)
+        agent.load_online(self.policies())
+        return agent
+
     @property
     def scenarios(self) -> list[Scenario]:
         """Each trial's scenario."""

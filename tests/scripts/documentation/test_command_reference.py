@@ -22,7 +22,7 @@ def test_an_option_has_its_value_its_meaning_its_default_and_its_limits() -> Non
     page = section("mc-nested rehearse")
     assert "```text\nmc-nested rehearse [OPTIONS]\n```" in page
     assert "| `--size WxH` | Width and height in pixels [854x480]. |" in page
-    scale = "The GUI scale, if it fits; 0 is auto (default: what guiScale says). From 0 to 100."
+    scale = "The GUI scale, if it fits; 0 is auto [what guiScale says]. From 0 to 100."
     assert f"| `--gui-scale NUMBER` | {scale} |" in page
     assert "| `--lag NUMBER` | Milliseconds that keys, and pictures, come late [0.0]. From 0 to 500. |" in page
 

@@ -1,31 +1,16 @@
-"""``mc-nested calibrate report``: what a calibration found, as one HTML file to look at or attach to a bug report."""
+"""Writes a calibration's report: one HTML file beside the profile, to look at or attach to a bug report."""
 
 import importlib.metadata
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from calibration.report.findings import load_findings
 from calibration.report.page import CalibrationReport, contents, report_html
 from calibration.report.privacy import names_here
 from mc_nested.atomic_file import atomic_write
-from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption
 from mc_nested.errors import ProfileError
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.toml_file import read_toml_text
-
-
-def report(
-    profile: ProfileOption = None,
-    out: Annotated[Path | None, typer.Option(metavar="FILE", help="the HTML file [beside the profile]")] = None,
-    no_images: Annotated[bool, typer.Option("--no-images", help="leave the pictures out")] = False,
-) -> None:
-    """Make one HTML file of a profile and of what its calibration saw; the file lists what is in it."""
-    name = DEFAULT_PROFILE if profile is None else profile
-    path = profile_path(name)
-    write_report(name, out or report_path(path), with_pictures=not no_images)
 
 
 def report_path(profile: Path) -> Path:
@@ -33,17 +18,24 @@ def report_path(profile: Path) -> Path:
     return profile.with_name(f"{profile.stem}-calibration.html")
 
 
-def write_report(name: str, out: Path, *, with_pictures: bool = True, say: Callable[[str], None] = typer.echo) -> None:
+def write_report(name: str, out: Path | None, say: Callable[[str], None], *, with_pictures: bool = True) -> None:
     """Write the report of a profile whole or not at all, and say what is in it.
 
-    ProfileError if the profile, or what lies beside it, can't be read, or the file can't be written.
+    Args:
+        name: the profile's name or file.
+        out: the HTML file; None for the one beside the profile.
+        say: shows one line.
+        with_pictures: whether the pictures are in it.
+
+    Raises:
+        ProfileError: the profile, or what lies beside it, can't be read, or the file can't be written.
     """
     profile, path = load_profile(name), profile_path(name)
     text = read_toml_text(path, ProfileError)
     version = importlib.metadata.version("mc-nested")
     made = CalibrationReport(path.stem, profile, text, load_findings(path), version, with_pictures)
     names = names_here()
-    out = out.expanduser()
+    out = (out or report_path(path)).expanduser()
     try:
         out.parent.mkdir(parents=True, exist_ok=True)
         with atomic_write(out) as unfinished:

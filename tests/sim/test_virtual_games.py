@@ -12,10 +12,11 @@ from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.cli.interrupt import INTERRUPTED
-from mc_nested.cli.options import Backend, open_arenas, open_game, where_words
-from mc_nested.cli.virtual_games import VirtualPlay, built_arena, open_virtual_games
 from mc_nested.learn.trainer import Trainer
+from mc_nested.live.opening import Opening
 from sim.client.client import VirtualClient
+from sim.virtual_games import VirtualPlay, built_arena, open_virtual_games
+from sim.worlds import Backend, open_arenas, open_game, where_words
 from tests.cli.running import run
 
 LINE = load_scenario("line")
@@ -23,7 +24,7 @@ SMALL = Scenario("small", frozenset({(2, 2)}), (2, 0), 5, (Material("stone", 1.0
 
 
 def test_a_scenario_is_built_on_it_from_what_the_window_shows() -> None:
-    with open_game(Backend.VIRTUAL, None, LINE) as (game, display):
+    with open_game(Backend.VIRTUAL, LINE, Opening("none", print)) as (game, display):
         assert display is not None
         assert display.size() == (854, 480)
         env = ArenaEnv(game, LINE)
@@ -34,7 +35,7 @@ def test_a_scenario_is_built_on_it_from_what_the_window_shows() -> None:
 
 
 def test_arenas_are_games_of_their_own_whose_log_says_the_game_time() -> None:
-    with open_arenas(Backend.VIRTUAL, None, [SMALL, SMALL], seed=1) as (env, log):
+    with open_arenas(Backend.VIRTUAL, [SMALL, SMALL], Opening("none", print), seed=1) as (env, log):
         assert env.num_envs == 2
         assert isinstance(log, VirtualPlay)
         env.reset(options={"reset_mask": np.array([True, False])})

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from calibration.arena.plan import FLOOR, Box, border_block, border_of, floor_of
 from mc_nested.arena.scenario import Scenario
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.journal import Journal
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.arena import Arena, size_for
+from mc_nested.live.profile.built_arena import FLOOR, Box, border_block, border_of, floor_of
 from mc_nested.live.profile.tables import BodyTable, GameVersion, Profile
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.game_screen import WindowScreen

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 
 from mc_nested.arrays import Arrays
-from mc_nested.cli.earlier_run import earlier_run
 from mc_nested.errors import RunError
 from mc_nested.learn.imagination.beliefs import Belief
 from mc_nested.learn.imagination.learnt_rules import learn_rules
 from mc_nested.learn.runs.checkpoint import FILE
+from mc_nested.learn.runs.earlier_run import earlier_run
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 from tests.cli.made_imagination import BESIDE, SMALL, write_preset, write_scenario
-from tests.cli.running import run, table
+from tests.cli.running import TRAIN, run, table
 from tests.learn.runs.changed_arrays import change_arrays
 
 
@@ -97,6 +97,13 @@ def test_other_materials_are_tried_anew(files: Path, tmp_path: Path) -> None:
     assert trainer.imagination is not None
     assert len(trainer.imagination.state()["0.extras"]) == 0
     assert trainer.imagination.known_arena(0).known_to_pay == SMALL.blocks
+
+
+@pytest.fixture
+def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    out = tmp_path_factory.mktemp("runs") / "run"
+    assert run(*TRAIN, "--out", out) == 0
+    return out
 
 
 def test_a_training_without_an_imagination_gives_its_policy_as_before(trained: Path, tmp_path: Path) -> None:

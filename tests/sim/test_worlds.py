@@ -1,11 +1,18 @@
-"""States that are the game's window: trained and played on the virtual client, refused where there is no window."""
+"""Opening a world: the simulator at once; a live game is one arena; what sees a window needs one."""
 
 import json
 from pathlib import Path
 
 import pytest
 
+from mc_nested.errors import RunError
+from mc_nested.live.opening import Opening
+from sim.grid import GridVectorEnv
+from sim.worlds import Backend, open_arenas, open_game
 from tests.cli.running import run
+from tests.learn.made_experiments import BAR, DOT
+
+NOBODY = Opening("nobody", print)
 
 SMALL = """
 name = "small"
@@ -25,6 +32,19 @@ block = "stone"
 """
 
 TRAIN = ["train", "--preset", "image", "--states", "screen", "--scenario", "small.toml", "--episodes", "2"]
+
+
+def test_the_simulator_has_no_window_and_no_log() -> None:
+    with open_game(Backend.SIM, DOT, NOBODY) as (game, display):
+        assert (game.reset(0), display) == ((7, 13), None)
+    with open_arenas(Backend.SIM, [DOT, BAR], NOBODY) as (env, log):
+        assert isinstance(env, GridVectorEnv)
+        assert (env.num_envs, log) == (2, None)
+
+
+def test_a_live_game_is_one_arena() -> None:
+    with pytest.raises(RunError, match="one arena, not 2"), open_arenas(Backend.LIVE, [DOT, BAR], NOBODY):
+        pass
 
 
 def test_a_training_sees_the_window_and_is_played_there(

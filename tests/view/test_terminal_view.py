@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, cast
 
 import pytest
 
-from mc_nested.cli.viewing import Viewed, viewed
+from mc_nested.cli.view import Viewed, viewed
 from mc_nested.view.board import Board
 from mc_nested.view.publisher import Publisher
 from mc_nested.view.status_files import status_now
@@ -23,7 +23,7 @@ if not sys.platform.startswith("linux"):
 from tests.cli.terminal import Terminal
 
 if TYPE_CHECKING:
-    from mc_nested.cli.terminal_view import TerminalView
+    from mc_nested.view.terminal_view import TerminalView
 
 LONG = ("train", "--preset", "live", "--scenario", "zigzag", "--out", "run")
 SHORT = (*LONG, "--episodes", "3")
@@ -232,8 +232,8 @@ def test_a_view_that_can_not_be_opened_leaves_the_terminal_as_it_was(
     def refuse(*_: object, **__: object) -> None:
         raise OSError(11, "Resource temporarily unavailable")
 
-    monkeypatch.setattr("mc_nested.cli.terminal_view._terminal_restorer", lambda: lambda: None)
-    monkeypatch.setattr("mc_nested.cli.viewing.can_draw", lambda: True)
+    monkeypatch.setattr("mc_nested.view.terminal_view._terminal_restorer", lambda: lambda: None)
+    monkeypatch.setattr("mc_nested.cli.view.can_draw", lambda: True)
     monkeypatch.setattr("subprocess.Popen", refuse)
     streams = sys.stdout, sys.stderr
 

@@ -1,6 +1,7 @@
 """``--video``: a film of an episode, in the simulator, in a window, and of an episode that ends early."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,17 +11,17 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.drawing import Picture
 from mc_nested.arena.game import Game
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.cli.video import filmed
+from mc_nested.cli.watching import filmed
 from mc_nested.errors import LiveError, StoppedError
 from mc_nested.live.recording.replayed_run import replay
-from mc_nested.live.recording.run_recorder import run_recorder
+from mc_nested.live.session import open_live_game
 from mc_nested.live.vision.chat_region import BLANK
 from mc_nested.report.arena_picture import CAPTION, MARGIN, SMALL_ARENA_PX
 from sim.client.client import VirtualClient
 from sim.grid import GridGame
 from tests.cli.fragile_game import open_live
 from tests.cli.running import check_mistake, run
-from tests.live.virtual_session import live_on, profile_in
+from tests.live.virtual_session import opening_on, profile_in
 from tests.report.films import pictures_of
 
 LINE = load_scenario("line")
@@ -110,9 +111,8 @@ def window_of(picture: Picture) -> Picture:
 def film_of(client: VirtualClient, folder: Path, play: Callable[[Game], None]) -> list[Picture]:
     """The pictures of a film of what is played on that client, and recorded."""
     film = folder / "film.gif"
-    recorder = run_recorder(folder / "recording", "film", print, LINE)
-    opened = live_on(client)(LINE, profile_in(folder), print, open_recorder=recorder)
-    with opened as (game, display), filmed(game, display, LINE, film) as own:
+    opening = replace(opening_on(client, profile_in(folder)), record=folder / "recording")
+    with open_live_game(LINE, opening) as (game, display), filmed(game, display, LINE, film) as own:
         play(own)
     return [picture for picture, _ in pictures_of(film)]
 
