@@ -1,21 +1,18 @@
 """The libraries of the game's windows beside GLFW, fetched once: SDL 3 (26.3 on) with pip, LWJGL 2 (to 1.12) with apt.
 
-Standard library only, and Linux only. What pip fetches is pinned with its sha256, and only unpacked; apt's versions
-are the distribution's.
+Linux only. What pip fetches is pinned with its sha256, and only unpacked; apt's versions are the distribution's.
 """
 
 import os
 import subprocess
-import sys
 import tempfile
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from scripts.cache_lock import alone
-from scripts.standin_parts import MissingError, Program, Say, apt_install, is_installed, run_logged
+from scripts.programs import ROOT, MissingError, Program, Say, alone, fetch_wheels, install
 
-CACHE = Path(__file__).resolve().parent.parent / ".game-windows"
+CACHE = ROOT / ".game-windows"
 JAVA = Program(("java",), "default-jre")
 JAVAC = Program(("javac",), "default-jdk-headless")
 LWJGL_2 = ("liblwjgl-java", "liblwjgl-java-jni", "default-jre")
@@ -63,45 +60,29 @@ SDL_3_4_WINDOWS = Sdl(
 
 
 def fetch_sdl(sdl: Sdl, say: Say) -> Path:
-    """The library, fetched unless it is there; MissingError where that is impossible."""
+    """Return the library, fetched unless it is there; MissingError where that is impossible."""
     CACHE.mkdir(exist_ok=True)
     with alone(CACHE, say, "fetching of a window's library"):
         if not sdl.library.exists():
             say(f"fetching SDL {sdl.release} with pip")
             with tempfile.TemporaryDirectory(dir=CACHE, prefix="fetching-") as scratch:
-                _unpack(sdl, _download(sdl, Path(scratch)), Path(scratch))
+                pins, part = Path(scratch, f"{sdl.wheel}.txt"), Path(scratch, "library")
+                pins.write_text(f"{sdl.wheel} --hash=sha256:{sdl.sha256}\n", encoding="utf-8")
+                (wheel,) = fetch_wheels(pins, sdl.platform, Path(scratch), CACHE / "pip.log")
+                with zipfile.ZipFile(wheel) as members:
+                    part.write_bytes(members.read(sdl.member))
+                sdl.library.parent.mkdir(exist_ok=True)
+                part.replace(sdl.library)
     return sdl.library
-
-
-def _download(sdl: Sdl, scratch: Path) -> Path:
-    log, wanted = CACHE / "pip.log", scratch / "wanted.txt"
-    wanted.write_text(f"{sdl.wheel} --hash=sha256:{sdl.sha256}\n", encoding="utf-8")
-    kind = ["--platform", sdl.platform, "--python-version", "3.12", "--only-binary", ":all:", "--no-deps"]
-    command = [sys.executable, "-m", "pip", "download", *kind, "--require-hashes", "-r", str(wanted)]
-    if not run_logged([*command, "--dest", str(scratch)], log):
-        raise MissingError(f"pip could not fetch {sdl.wheel} (see {log}): can the package index be reached?")
-    return next(scratch.glob("*.whl"))
-
-
-def _unpack(sdl: Sdl, wheel: Path, scratch: Path) -> None:
-    """Into its place in one step, so that half a library is never taken for one."""
-    part = scratch / "library"
-    with zipfile.ZipFile(wheel) as members:
-        part.write_bytes(members.read(sdl.member))
-    sdl.library.parent.mkdir(exist_ok=True)
-    part.replace(sdl.library)
 
 
 def install_lwjgl_2(say: Say, log: Path) -> None:
     """Install LWJGL 2 and what compiles a program for it; MissingError where that is impossible."""
-    packages = {package for package in LWJGL_2 if not is_installed(package)}
-    packages |= {JAVAC.package} if JAVAC.path() is None else set()
-    if packages:
-        apt_install("a window of LWJGL 2", sorted(packages), say, log)
+    install("a window of LWJGL 2", [JAVAC], LWJGL_2, say, log)
 
 
 def compiled(source: Path, folder: Path) -> list[str]:
-    """Compile a program for LWJGL 2 into a folder; the command that starts it, without its arguments."""
+    """Compile a program for LWJGL 2 into a folder; return the command that starts it, without its arguments."""
     command = [JAVAC.required(), "-cp", LWJGL_2_JAR, "-d", str(folder), str(source)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)  # noqa: S603 - fixed
     if done.returncode != 0:

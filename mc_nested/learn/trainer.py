@@ -114,7 +114,7 @@ class Trainer:
     @property
     def _recorders(self) -> dict[str, EpisodeMemory]:
         """What remembers past episodes beside the replays, by its name in a checkpoint."""
-        parts = {"scouts": self._explorer, "imagination": self._imagination}
+        parts = {"explorer": self._explorer, "imagination": self._imagination}
         return {name: part for name, part in parts.items() if part is not None}
 
     @property

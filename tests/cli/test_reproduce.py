@@ -74,7 +74,7 @@ def test_other_verbs_say_whose_folder_it_is(
 
 
 def test_it_leaves_the_results_and_what_made_them(done: Path) -> None:
-    assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "units", "tensorboard"}
+    assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "jobs", "tensorboard"}
     runs = {f"{a}-{s}-{t}" for a in ("nested", "hierarchical", "single") for s in ("dot", "bar") for t in (0, 1)}
     assert {path.name for path in (done / "tensorboard").iterdir()} == runs
     rows = read_evaluations(done / "results.csv")
@@ -85,7 +85,7 @@ def test_it_leaves_the_results_and_what_made_them(done: Path) -> None:
         20,
     ]
     assert len(rows) == 3 * 2 * 2 * 4
-    assert [path.name for path in sorted((done / "units").rglob("*")) if path.is_file()] == [
+    assert [path.name for path in sorted((done / "jobs").rglob("*")) if path.is_file()] == [
         *["outcome.json"] * 3,
         "config.sha256",
     ]
@@ -165,7 +165,7 @@ def long_one(words: list[str], out: Path, episodes: int) -> Iterator[subprocess.
     command = [sys.executable, "-m", "mc_nested.cli", *words, "--episodes", f"{episodes}", "--jobs", "2"]
     process = subprocess.Popen([*command, "--out", str(out)], stderr=subprocess.PIPE, text=True, start_new_session=True)
     try:
-        wait_until(lambda: len(list(out.glob(f"units/*/checkpoint/{FILE}"))) >= 2)
+        wait_until(lambda: len(list(out.glob(f"jobs/*/checkpoint/{FILE}"))) >= 2)
         yield process
     finally:
         with contextlib.suppress(ProcessLookupError):

@@ -30,12 +30,12 @@ def test_what_an_episode_taught_is_undone() -> None:
     agent = Agent(AGENT_SPECS["nested"], [DOT], small_preset(), 0)
     explorer = BatchedReturnThenExplore(RULE, agent, [DOT])
     play(agent, explorer, 5)
-    before = EpisodeRollback.of(agent, {"scouts": explorer})
+    before = EpisodeRollback.of(agent, {"explorer": explorer})
     kept = {name: array.copy() for name, array in {**agent.state(), **explorer.state()}.items()}
     play(agent, explorer, 3)
     assert agent.low_level.replay.added.tolist() == [8]
     assert not np.array_equal(agent.low_level.engine.online, kept["low.online"])
-    before.restore(agent, {"scouts": explorer})
+    before.restore(agent, {"explorer": explorer})
     assert agent.low_level.replay.added.tolist() == [5]
     for name, array in {**agent.state(), **explorer.state()}.items():
         np.testing.assert_array_equal(array, kept[name], err_msg=name)

@@ -5,10 +5,9 @@ from pathlib import Path
 import pytest
 
 from scripts.test import cases_in
-from scripts.windows import PYTEST, SUITE
+from scripts.windows import PYTEST, SUITE, WHERE_WINDOWS_DIFFERS
 from scripts.windows_parts import windows_path
 from scripts.windows_session import Session
-from scripts.windows_suite import WHERE_WINDOWS_DIFFERS
 
 pytestmark = pytest.mark.wine
 

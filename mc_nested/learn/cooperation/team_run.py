@@ -26,7 +26,7 @@ class TeamConfig(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
-    format: Annotated[int, Field(ge=1)] = FORMAT
+    format: int = FORMAT
     builders: Annotated[int, Field(ge=1, le=MOST_BUILDERS)]
     networks: Kind
     starts: list[Annotated[list[Coordinate], Field(min_length=2, max_length=2)]]

@@ -1,4 +1,4 @@
-"""The folder of an experiment of many runs: config.toml, and units/ with each job's checkpoint or outcome."""
+"""The folder of an experiment of many runs: config.toml, and jobs/ with each job's checkpoint or outcome."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
@@ -20,7 +20,7 @@ from mc_nested.learn.runs.checkpoint import fingerprint
 from mc_nested.learn.runs.folder_kind import FORMAT, check_config, check_free
 from mc_nested.toml_file import parse_toml, read_toml_text
 
-CONFIG, JOBS_FOLDER, STAMP = "config.toml", "units", "config.sha256"
+CONFIG, JOBS_FOLDER, STAMP = "config.toml", "jobs", "config.sha256"
 
 
 class ExperimentConfig(BaseModel, ABC):
@@ -31,7 +31,7 @@ class ExperimentConfig(BaseModel, ABC):
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
-    format: Annotated[int, Field(ge=1)] = FORMAT
+    format: int = FORMAT
     trials: Annotated[int, Field(ge=1)]
     seed: Annotated[int, Field(ge=0)]
     jobs: Annotated[int, Field(ge=1)]

@@ -80,27 +80,16 @@ class Job:
     def identity(self) -> dict[str, Any]:
         """What is trained; a checkpoint fits only the same identity."""
         return {
-            "form": _spec_on_disk(self.spec),
+            "spec": asdict(self.spec),
             "preset": self.preset.model_dump(exclude={"device"}),
             "groups": list(self.groups),
             "scenarios": [table_of(scenario).model_dump() for scenario in self.scenarios],
             "trials": list(self.trials),
             "seed": self.seed,
-            # Left out where they are as they always were, so that earlier folders still fit.
-            **({"stop_at_optimum": True} if self.stop_at_optimum else {}),
-            **({"library": self.library} if self.library else {}),
-            **({"builders": asdict(self.builders)} if self.builders else {}),
+            "stop_at_optimum": self.stop_at_optimum,
+            "library": self.library,
+            "builders": self.builders and asdict(self.builders),
         }
-
-
-def _spec_on_disk(spec: AgentSpec) -> dict[str, bool]:
-    """The spec under the keys that identities have always used."""
-    return {
-        "has_main": spec.has_main,
-        "appends_material": spec.appends_material,
-        "one_low_a_material": spec.low_level_per_material,
-        "sees_choice": spec.sees_choice,
-    }
 
 
 def work_of(spec: AgentSpec, preset: Preset, scenario: Scenario) -> int:

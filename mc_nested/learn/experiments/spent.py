@@ -9,9 +9,6 @@ from numpy.typing import NDArray
 from mc_nested.arrays import Arrays, Int64s
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 
-UNKNOWN = (-1, -1)
-"""What stands for None in a checkpoint."""
-
 
 class Updated(Protocol):
     """The agents of some runs."""
@@ -35,11 +32,11 @@ class Logged(Protocol):
 class SpentSoFar:
     """Counts beside a trainer of so many runs.
 
-    ``at``: (steps, updates) of each evaluation, in their order; None for those of a version that didn't count them.
+    ``at``: (steps, updates) of each evaluation, in their order.
     """
 
     def __init__(self, runs: int) -> None:
-        self.at: list[tuple[int, int] | None] = []
+        self.at: list[tuple[int, int]] = []
         self._steps = np.zeros(runs, dtype=np.int64)
         self._episodes = 0
 
@@ -58,12 +55,11 @@ class SpentSoFar:
 
     def state(self) -> Arrays:
         """For a checkpoint."""
-        return {"at": np.array([spent or UNKNOWN for spent in self.at], dtype=np.int64).reshape(-1, 2)}
+        return {"at": np.array(self.at, dtype=np.int64).reshape(-1, 2)}
 
     def load(self, state: Mapping[str, NDArray[Any]], trainer: Logged) -> None:
-        """Go on from what ``state`` returned, beside the trainer as it was then; from nothing if it was never saved."""
-        known = state.get("at", np.full((len(trainer.evaluation_rows), 2), UNKNOWN))
-        self.at = [None if (steps, updates) == UNKNOWN else (int(steps), int(updates)) for steps, updates in known]
+        """Go on from what ``state`` returned, beside the trainer as it was then."""
+        self.at = [(int(steps), int(updates)) for steps, updates in state["at"]]
         self._steps[:] = 0
         self._episodes = 0
         self.count(trainer)

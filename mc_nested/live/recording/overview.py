@@ -28,7 +28,7 @@ class Overview:
 
 
 def overview_of(path: Path) -> Overview:
-    """Read a recording as a whole, its checksums too; RecordingError if it is foreign, newer, or nothing is left."""
+    """Read a recording as a whole, its checksums too; RecordingError as for ``facts_of``."""
     facts = facts_of(path)
     began = ended = None
     calls = actions = pictures = 0

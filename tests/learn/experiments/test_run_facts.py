@@ -20,6 +20,7 @@ from mc_nested.learn.experiments.run_facts import facts_of, runs_in
 from mc_nested.learn.experiments.sweep import SweepConfig, Variant
 from mc_nested.learn.runs.checkpoint import FILE as STATE
 from mc_nested.learn.runs.checkpoint import fingerprint
+from mc_nested.learn.runs.folder_kind import FORMAT
 from mc_nested.learn.runs.folder_lock import folder_lock
 from tests.learn.made_experiments import BAR, DOT, small_preset
 from tests.learn.runs.test_run_folder import begun, trainer_in
@@ -105,8 +106,8 @@ def test_one_where_a_process_writes_is_in_use(trained: Path) -> None:
     ("file", "content", "why"),
     [
         ("config.toml", "agent = [", "not TOML"),
-        ("config.toml", 'agent = "nested"', "missing: add it"),
-        ("config.toml", 'format = 9\nagent = "nested"', "written by a newer mc-nested"),
+        ("config.toml", f'format = {FORMAT}\nagent = "nested"', "missing: add it"),
+        ("config.toml", 'agent = "nested"', "written by another version of mc-nested"),
         ("config.toml", "\0", "not TOML"),
         ("summary.json", "{", "summary.json: can't be read: mc-nested train --resume"),
         ("summary.json", None, "summary.json: can't be read"),
@@ -158,7 +159,7 @@ def test_an_experiment_counts_the_episodes_of_finished_jobs(
     assert part is not None
     assert part.state == "can be resumed"
     assert part.episodes_done == episodes - config.cut()[-1].episodes
-    (outcome, *_) = (tmp_path / "whole" / "units").glob("*/outcome.json")
+    (outcome, *_) = (tmp_path / "whole" / "jobs").glob("*/outcome.json")
     outcome.write_text("{")
     broken = facts_of(tmp_path / "whole")
     assert broken is not None

@@ -62,20 +62,6 @@ def test_it_goes_on_from_what_was_saved() -> None:
     assert again.at == [(10, 7), (14, 11)]
 
 
-def test_what_an_earlier_version_did_not_count_is_unknown_and_what_follows_is_counted() -> None:
-    trainer, spent = FakeTrainer(), SpentSoFar(2)
-    trainer.train(1, steps=10, updates=7)
-    trainer.evaluate(1)
-    spent.load({}, trainer)
-    assert spent.at == [None]
-    again = SpentSoFar(2)
-    again.load(spent.state(), trainer)
-    assert again.at == [None]
-    trainer.evaluate(1)
-    again.count(trainer)
-    assert again.at == [None, (10, 7)]
-
-
 @pytest.mark.parametrize("agent", ["nested", "hierarchical", "single"])
 def test_at_its_last_evaluation_a_run_had_spent_all_that_its_outcome_says(agent: str, tmp_path: Path) -> None:
     job = one_job(agent, [DOT, BAR], 2)

@@ -90,8 +90,8 @@ def test_in_a_larger_arena_it_remembers_what_happened_beyond_15_cells() -> None:
     only, start, after = np.array([0]), np.array([[19, 19, 1]]), np.array([[19, 18, 0]])
     explorer.begin(only, np.zeros((1, NUMBERS)))
     explorer.observe(only, start, start, np.array([int(Action.BD)]), np.ones(1), after, np.array([True]), only)
-    assert explorer.state()["0.came_to"].shape == (20, 20, 8)
-    assert explorer.state()["0.came_to"][19, 19].any()
+    assert explorer.state()["0.effects"].shape == (1, 20, 20, 8)
+    assert explorer.state()["0.effects"][0, 19, 19].any()
     explorer.end(only)
     explorer.begin(only, np.zeros((1, NUMBERS)))
     assert explorer.act(only, start, np.zeros((1, NUMBERS))).tolist() == [Action.BD]

@@ -1,34 +1,17 @@
-"""The windows of the game's other libraries as fixtures: their programs, fetched and compiled if they are missing.
+"""The windows of the game's other libraries as fixtures: their programs, fetched and compiled if they are missing."""
 
-A machine where that is impossible skips the test and says how to get them; with CI set, that is a failure.
-"""
-
-import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TypeVar
 
 import pytest
 
 from scripts.game_windows import SDL_3_2, SDL_3_4, Sdl, compiled, fetch_sdl, install_lwjgl_2
-from scripts.standin_parts import MissingError
 from scripts.window_display import open_display
+from tests.found_or_skipped import found_or_skipped
 
 SDL_WINDOW = Path(__file__).with_name("sdl3_window.py")
 LWJGL_WINDOW = Path(__file__).with_name("Lwjgl2Window.java")
-
-Found = TypeVar("Found")
-
-
-def found_or_skipped(find: Callable[[], Found]) -> Found:
-    """What was found."""
-    try:
-        return find()
-    except MissingError as error:
-        if os.environ.get("CI"):
-            pytest.fail(str(error))
-        pytest.skip(str(error))
 
 
 @pytest.fixture(scope="module", params=[SDL_3_4, SDL_3_2], ids=lambda sdl: sdl.release)
