@@ -81,7 +81,7 @@ def test_without_imitation_no_best_episode_is_kept_for_it() -> None:
     explorer.observe(np.array([0]), START[:1], played_states, *seen, np.array([0]))
     explorer.end(np.array([0]))
     assert agent.low_level.best is None
-    assert explorer.state()["0.best"].shape == (1, 8)
+    assert explorer.state()["0.best"].shape == (1, 10)
 
 
 def test_in_a_larger_arena_it_remembers_what_happened_beyond_15_cells() -> None:

@@ -193,12 +193,12 @@ def test_a_plan_leaves_the_best_episode_at_a_step_and_wanders_a_part_of_the_most
     explorer = ReturnThenExplore(rule, actions=8)
     explorer.begin(np.array([0.9, 0.0, 0.5]))
     # Nothing to return along: it leaves at step 0 and wanders 12 / 2 steps after the first.
-    assert explorer.state()["plan"][2:4].tolist() == [0, 0 + 1 + 6]
+    assert explorer.state()["plan"][1:3].tolist() == [0, 0 + 1 + 6]
     explorer.best = [EpisodeStep(7, 14 - i, i, 1, 0.0, i + 1, False, False) for i in range(3)]
     explorer.begin(np.array([0.9, 0.6, 0.25]))
-    assert explorer.state()["plan"][2:4].tolist() == [int(0.6 * 4), 2 + 1 + 3]
+    assert explorer.state()["plan"][1:3].tolist() == [int(0.6 * 4), 2 + 1 + 3]
     explorer.begin(np.array([0.05, 0.0, 0.0]))
-    assert explorer.state()["plan"][2:4].tolist() == [3, 3 + 1]
+    assert explorer.state()["plan"][1:3].tolist() == [3, 3 + 1]
 
 
 @pytest.mark.parametrize(("which", "action"), [(0.0, 3), (0.6, 4)])
