@@ -35,7 +35,7 @@ from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from mc_nested.arena.picture import draw_picture
+from mc_nested.arena.drawing import draw_picture
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.cli.calibrate_report import report_path
 from mc_nested.cli.evaluate import greedy_episodes, load_agent
@@ -54,12 +54,12 @@ from scripts.rehearsal_window import mc_nested, open_rehearsal
 from scripts.window_display import open_display, running
 from sim.client.client import VirtualClient
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import F3Screen
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.game.f3_screen import F3Screen
 from sim.client.game.realm import Stack
 from sim.grid import arena_env
 from sim.window.glfw_window import open_glfw_window
-from sim.window.picture import WindowPicture
+from sim.window.window_picture import WindowPicture
 
 SIZE, BUILT, PITCH = (854, 480), 13, 27.0
 """Of the rehearsal's picture: its size, how many blocks are built, and how far down the player looks."""

@@ -28,7 +28,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 LOG = get_plugin_logger("documentation")
 
 PAGES = {
-    "README.md": "index.md",
+    "README.md": "project/readme.md",
     "ARCHITECTURE.md": "explanation/architecture.md",
     "mc_nested/live/FACTS.md": "explanation/facts.md",
     "CONTRIBUTING.md": "project/contributing.md",

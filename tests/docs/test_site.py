@@ -138,7 +138,7 @@ def verbs_below(words: str, command: Any) -> Iterator[tuple[str, TyperCommand | 
 
 def test_readme_is_one_page_that_says_how_to_stop() -> None:
     readme = (ROOT / "README.md").read_text("utf-8")
-    assert len(readme.splitlines()) <= 140
+    assert len(readme.splitlines()) <= 90
     assert "**To stop it: press F12" in readme
 
 

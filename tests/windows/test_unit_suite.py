@@ -1,4 +1,4 @@
-"""The unit tests of what differs on Windows (scripts/windows_suite.py), by a Windows Python under Wine."""
+"""The unit tests of what differs on Windows (scripts/windows.py), by a Windows Python under Wine."""
 
 from pathlib import Path
 
