@@ -1,19 +1,17 @@
-"""Draws README's pictures and its film.
+"""Draws the pictures of the rehearsal window, and README's film.
 
-    python scripts/draw.py overview RUN [OUT.png]    what a training learned, what it builds, what it reads on a screen
-    python scripts/draw.py rehearsal [OUT.png]       the rehearsal window: the diamond, half built
+    python scripts/draw.py rehearsal [OUT.png]                           the rehearsal window: the diamond, half built
     python scripts/draw.py film [OUT.gif|OUT.mp4] [--scenario zigzag]    a policy builds in the rehearsal window
     python scripts/draw.py view [FOLDER] [--seconds 45]                  the live view, and the calibration report
 
-RUN is the folder of a training. On Linux the rehearsal needs a display with OpenGL; Xvfb's will do (xvfb-run -a). Film
+On Linux the rehearsal needs a display with OpenGL; Xvfb's will do (xvfb-run -a). Film
 and view calibrate from nothing, which takes two minutes, on a display of their own. The view is looked at after so many
 seconds of a training: view.svg is what Textual drew, and report.png what Chromium shows of the report, where there is
-one. Without OUT or FOLDER, the picture is README's, in scripts/.
+one. Without OUT or FOLDER, the picture is the documentation's, in scripts/.
 """
 
 import argparse
 import asyncio
-import csv
 import os
 import re
 import shutil
@@ -29,35 +27,22 @@ from pathlib import Path
 import cv2
 import moderngl
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from mc_nested.arena.drawing import draw_picture
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.cli.calibrate_report import report_path
-from mc_nested.cli.evaluate import greedy_episodes, load_agent
 from mc_nested.errors import UserError
-from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.input.signals import signals_as_exit
-from mc_nested.live.model.reading import Target
 from mc_nested.live.profile.arena import Arena
-from mc_nested.live.vision.debug_screen import read_debug_screen
-from mc_nested.live.vision.font import font_of
-from mc_nested.report.curve import MEAN, OPTIMUM, align_trials, t_interval
 from mc_nested.view.app import ViewApp
 from scripts.benches.rehearsal import prepare
 from scripts.programs import ROOT
 from scripts.rehearsal_window import mc_nested, open_rehearsal
 from scripts.window_display import open_display, running
 from sim.client.client import VirtualClient
-from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.letters import drawn_atlas
-from sim.client.game.f3_screen import F3Screen
 from sim.client.game.realm import Stack
-from sim.grid import arena_env
 from sim.window.glfw_window import open_glfw_window
 from sim.window.window_picture import WindowPicture
 
@@ -79,17 +64,14 @@ def main() -> int:
     """Draw what is asked for; return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     names = parser.add_subparsers(dest="name", required=True)
-    overview, rehearsal, film, view = (names.add_parser(each) for each in ("overview", "rehearsal", "film", "view"))
-    overview.add_argument("run", type=Path)
-    for each, picture in ((overview, "overview.png"), (rehearsal, "rehearsal.png"), (film, "build.gif"), (view, "")):
+    rehearsal, film, view = (names.add_parser(each) for each in ("rehearsal", "film", "view"))
+    for each, picture in ((rehearsal, "rehearsal.png"), (film, "build.gif"), (view, "")):
         each.add_argument("out", nargs="?", type=Path, default=ROOT / "scripts" / picture)
     film.add_argument("--scenario", default="zigzag")
     view.add_argument("--seconds", type=float, default=45.0)
     options = parser.parse_args()
     try:
-        if options.name == "overview":
-            draw_overview(RunFolder.open(options.run), options.out)
-        elif options.name == "rehearsal":
+        if options.name == "rehearsal":
             draw_rehearsal(options.out)
         elif options.name == "film":
             draw_film(options.scenario, options.out)
@@ -98,58 +80,6 @@ def main() -> int:
     except UserError as error:
         parser.error(str(error))
     return 0
-
-
-def draw_overview(folder: RunFolder, out: Path) -> None:
-    """Draw three panels side by side: what was learnt, what is built, what is read."""
-    figure = Figure(figsize=(13, 4), dpi=130, layout="constrained")
-    learnt, built, read = figure.subplots(1, 3, width_ratios=[1.25, 0.9, 1.35])
-    _draw_learnt(learnt, folder)
-    _draw_built(built, folder)
-    _draw_read(read)
-    figure.savefig(out, metadata={"Software": None})
-
-
-def _draw_learnt(axes: Axes, folder: RunFolder) -> None:
-    with (folder.path / "evaluations.csv").open(newline="") as file:
-        rows = [(int(row["trial"]), int(row["episode"]), float(row["score"])) for row in csv.DictReader(file)]
-    episodes, scores = align_trials(rows, folder.config.trials)
-    low, high = t_interval(scores, folder.scenario.optimum)
-    axes.axhline(folder.scenario.optimum, color=OPTIMUM, linestyle="--", linewidth=1.2, label="optimum")
-    axes.fill_between(episodes, low, high, color=MEAN, alpha=0.2, linewidth=0, label="95 % interval")
-    axes.plot(episodes, scores.mean(axis=0), color=MEAN, label=f"mean of {folder.config.trials} trials")
-    axes.set(title="learnt in the simulator", xlabel="training episodes", ylabel="score of a greedy episode")
-    axes.grid(alpha=0.25)
-    axes.legend(loc="lower right", frameon=False)
-
-
-def _draw_built(axes: Axes, folder: RunFolder) -> None:
-    """Draw what the first trial's policy builds, the far edge on top."""
-    env = arena_env(folder.scenario)
-    env.reset()
-    for action in greedy_episodes(folder, load_agent(folder))[0].actions:
-        env.step(action)
-    axes.imshow(draw_picture(folder.scenario, env.cell, env.placed), interpolation="nearest")
-    axes.set(title=f"what it builds: the {folder.scenario.name}", xticks=[], yticks=[])
-
-
-def _draw_read(axes: Axes) -> None:
-    """Draw a debug screen, in the font that was drawn for this project, and what is read on it."""
-    random = np.random.default_rng(2)
-    sky = np.linspace((235, 190, 140), (250, 225, 200), 300)[:, None] + np.zeros((1, 854, 1))
-    grass = random.normal((70, 130, 85), 12, (180, 854, 3))
-    world = np.concatenate((sky, grass)).clip(0, 255).astype(np.uint8)
-    target = Target((8, 64, 13), "minecraft:stone")
-    screen = F3Screen("1.19.3-1.21.8", gui_scale=2, xyz=(8.487, 64.0, 12.514), yaw=0.0, pitch=65.0, target=target)
-    font = font_of(drawn_atlas())
-    frame = paint(world, screen, font)
-    reading = read_debug_screen(frame, font)
-    axes.imshow(frame[:, :, ::-1])
-    axes.set(title="what it reads on a game's screen", xticks=[], yticks=[])
-    axes.set_xlabel(
-        f"xyz {reading.xyz}, yaw {reading.yaw}, pitch {reading.pitch}\nlooks at {reading.target and reading.target.id}"
-        f" {reading.target and reading.target.pos}"
-    )
 
 
 def draw_rehearsal(out: Path) -> None:

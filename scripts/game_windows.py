@@ -1,23 +1,13 @@
-"""The libraries of the game's windows beside GLFW, fetched once: SDL 3 (26.3 on) with pip, LWJGL 2 (to 1.12) with apt.
+"""SDL 3, the library of the game's window from 26.3 on, fetched once with pip, pinned with its sha256. Linux only."""
 
-Linux only. What pip fetches is pinned with its sha256, and only unpacked; apt's versions are the distribution's.
-"""
-
-import os
-import subprocess
 import tempfile
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 
-from scripts.programs import ROOT, MissingError, Program, Say, alone, fetch_wheels, install
+from scripts.programs import ROOT, Say, alone, fetch_wheels
 
 CACHE = ROOT / ".game-windows"
-JAVA = Program(("java",), "default-jre")
-JAVAC = Program(("javac",), "default-jdk-headless")
-LWJGL_2 = ("liblwjgl-java", "liblwjgl-java-jni", "default-jre")
-"""Debian's packages; LWJGL 2 needs AWT with its windows, which a headless JRE lacks."""
-LWJGL_2_JAR, NATIVES = "/usr/share/java/lwjgl.jar", "/usr/lib/jni"
 
 
 @dataclass(frozen=True)
@@ -74,18 +64,3 @@ def fetch_sdl(sdl: Sdl, say: Say) -> Path:
                 sdl.library.parent.mkdir(exist_ok=True)
                 part.replace(sdl.library)
     return sdl.library
-
-
-def install_lwjgl_2(say: Say, log: Path) -> None:
-    """Install LWJGL 2 and what compiles a program for it; MissingError where that is impossible."""
-    install("a window of LWJGL 2", [JAVAC], LWJGL_2, say, log)
-
-
-def compiled(source: Path, folder: Path) -> list[str]:
-    """Compile a program for LWJGL 2 into a folder; return the command that starts it, without its arguments."""
-    command = [JAVAC.required(), "-cp", LWJGL_2_JAR, "-d", str(folder), str(source)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)  # noqa: S603 - fixed
-    if done.returncode != 0:
-        raise MissingError(f"{source.name} can't be compiled: {done.stderr}")
-    classes = os.pathsep.join((LWJGL_2_JAR, str(folder)))
-    return [JAVA.required(), f"-Djava.library.path={NATIVES}", "-cp", classes, source.stem]

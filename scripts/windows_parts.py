@@ -52,7 +52,7 @@ def install_python(cache: Path, say: Say, log: Path) -> Path:
 
 
 def _fingerprint() -> str:
-    made_of = [*sorted(PINS.glob("*.txt")), Path(__file__), ROOT / "pyproject.toml"]
+    made_of = [PINS / "sources.txt", PINS / "wheels.txt", Path(__file__), ROOT / "pyproject.toml"]
     return hashlib.sha256(b"".join(path.read_bytes() for path in made_of) + stub_dll()).hexdigest() + f" {ROOT}"
 
 

@@ -71,7 +71,6 @@ MAKERS: dict[str, Callable[[], str]] = {
     "shipped designs": lambda: shipped_files("mc_nested/arena/designs", shipped_scenarios()),
     "stable baselines example": lambda: program("scripts/examples/sb3_dqn.py"),
     "single file example": lambda: program("scripts/examples/cleanrl_dqn.py"),
-    "env": reference.env,
     "errors": reference.error_tree,
 }
 """What makes each part of the reference."""
