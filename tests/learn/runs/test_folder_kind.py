@@ -9,12 +9,12 @@ from mc_nested.learn.runs.folder_kind import FORMAT, VIEW, VIEW_FILES, check_con
 
 
 @pytest.mark.parametrize(
-    ("key", "verb"), [('agent = "nested"', "train"), ('agents = ["nested"]', "reproduce"), ("[[variants]]", "sweep")]
+    ("key", "verb"), [('agent = "nested"', "train"), ("builders = 2", "cooperate"), ('study = "sweep"', "study sweep")]
 )
 def test_a_folder_is_opened_by_the_command_that_made_it_alone(key: str, verb: str) -> None:
     text = f"format = {FORMAT}\n{key}"
     check_config(text, Path("runs/x"), verb)
-    other = "sweep" if verb == "train" else "train"
+    other = "cooperate" if verb == "train" else "train"
     with pytest.raises(RunError, match=f"the folder of mc-nested {verb}, not of {other}: .* --resume runs/x"):
         check_config(text, Path("runs/x"), other)
 
