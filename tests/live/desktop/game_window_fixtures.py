@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from scripts.game_windows import SDL_3_2, SDL_3_4, Sdl, fetch_sdl
 from scripts.programs import Program, install
 from scripts.window_display import open_display
 from tests.found_or_skipped import found_or_skipped
+from tests.live.desktop.sdl_releases import SDL_3_2, SDL_3_4, Sdl, fetch_sdl
 
 SDL_WINDOW = Path(__file__).with_name("sdl3_window.py")
 LWJGL_WINDOW = Path(__file__).with_name("Lwjgl2Window.java")

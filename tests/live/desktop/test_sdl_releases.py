@@ -8,9 +8,10 @@ from typing import Any
 
 import pytest
 
-from scripts import game_windows, programs
-from scripts.game_windows import SDL_3_2, SDL_3_4, SDL_3_4_WINDOWS, Sdl, fetch_sdl
+from scripts import programs
 from scripts.programs import MissingError
+from tests.live.desktop import sdl_releases
+from tests.live.desktop.sdl_releases import SDL_3_2, SDL_3_4, SDL_3_4_WINDOWS, Sdl, fetch_sdl
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="fetched on Linux alone")
 
@@ -27,7 +28,7 @@ def asked(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Sequence[str]
                 wheel.writestr(sdl.member, sdl.release)
         return True
 
-    monkeypatch.setattr(game_windows, "CACHE", tmp_path / "cache")
+    monkeypatch.setattr(sdl_releases, "CACHE", tmp_path / "cache")
     monkeypatch.setattr(programs, "run_logged", pip)
     return commands
 
