@@ -9,7 +9,7 @@ from mc_nested.arena.game import Game, PlayLog
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.errors import RunError, UserError
-from mc_nested.learn.engine_fit import SCREEN
+from mc_nested.learn.dqn.engines import SCREEN
 from mc_nested.live.devices import Display
 from mc_nested.live.opening import Opening
 from mc_nested.live.screen_arenas import NEEDS_A_WINDOW, ScreenArenas

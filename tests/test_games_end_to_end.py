@@ -23,7 +23,8 @@ from Xlib.display import Display
 from Xlib.ext import xtest
 
 from mc_nested.arena.scenario import Scenario
-from scripts.rehearsal_window import ROOT, RehearsalWindow, mc_nested, open_rehearsal
+from scripts.programs import ROOT
+from scripts.rehearsal_window import RehearsalWindow, mc_nested, open_rehearsal
 from scripts.window_display import WITH_THIS_PROCESS, open_display
 from tests.learn.made_experiments import DOT, MATERIALS, scenario_text
 from tests.workers.cluster.dask_programs import scheduler

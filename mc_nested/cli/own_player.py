@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 from mc_nested.arena.cooperative.team_env import TeamVectorEnv
@@ -16,7 +16,7 @@ from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.opening import Opening
 from mc_nested.view.publisher import Publisher
 from sim.grid import GridVectorEnv
-from sim.team_grid import TeamGrid
+from sim.team_grid import team_arenas
 from sim.worlds import Backend, as_shown, open_arenas
 
 
@@ -65,18 +65,10 @@ def own_player(folder: RunFolder, opening: Opening, publisher: Publisher) -> Ite
     Errors as ``open_arenas`` raises them.
     """
     config = folder.config
-    what, evidence = f"train-{folder.scenario.name}", folder.path / "evidence"
-    opening = replace(opening, what=what, evidence=evidence, journal=publisher.board)
     with open_arenas(Backend(config.backend), folder.scenarios, opening, config.seed) as (opened, log):
-        env = simulated_team(folder, config.trials) or opened
+        env = team_arenas(folder.team, config.trials) if folder.team else opened
         agent = folder.new_agent(config.trials, config.preset.device)
         shown = env if isinstance(env, TeamVectorEnv) else as_shown(env, config.preset.states)
         view = agent.view_of(shown, folder.scenarios)
         trainer = Trainer(view, folder.scenarios, agent, config.preset, config.seed, config.stop_at_optimum)
         yield OwnPlayer(trainer, env, log, lambda: publisher.was_paused_lately)
-
-
-def simulated_team(folder: RunFolder, trials: int) -> TeamVectorEnv | None:
-    """So many simulated arenas for the folder's builders; None where one builds alone."""
-    team = folder.team
-    return TeamVectorEnv([TeamGrid(team) for _ in range(trials)], team) if team else None

@@ -25,7 +25,7 @@ from mc_nested.cli.view import Viewed, ViewOption, viewed
 from mc_nested.cli.watching import VideoOption, filmed, started_over, watched
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import Agent
-from mc_nested.learn.engine_fit import SCREEN
+from mc_nested.learn.dqn.engines import SCREEN
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.devices import Display

@@ -13,7 +13,6 @@ from rich.text import Text
 from mc_nested.cli.completion import RUNS, complete_runs
 from mc_nested.cli.options import RunArgument, check_nothing_before
 from mc_nested.cli.output import FittingTable, JsonOption, Output, facts_table, prints
-from mc_nested.cli.own_player import simulated_team
 from mc_nested.errors import RunError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
@@ -21,6 +20,7 @@ from mc_nested.learn.runs.folder_changes import delete_folder, rename_folder
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.studies.run_facts import RunFacts, facts_of, runs_in
 from sim.grid import GridVectorEnv
+from sim.team_grid import team_arenas
 from sim.worlds import check_window
 
 MOST_NAMED = 3
@@ -119,7 +119,8 @@ def evaluate(run: RunArgument, as_json: JsonOption = False) -> None:
 def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:
     """One greedy episode of every trial in the simulator; UserError if it sees what the simulator can't show."""
     check_window(folder.config.preset.states, has_window=False)
-    arenas = simulated_team(folder, folder.config.trials) or GridVectorEnv(folder.scenarios)
+    trials = folder.config.trials
+    arenas = team_arenas(folder.team, trials) if folder.team else GridVectorEnv(folder.scenarios)
     env = agent.view_of(arenas, folder.scenarios)
     return play_greedily(env, folder.scenarios, agent)
 

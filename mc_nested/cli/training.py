@@ -3,7 +3,7 @@
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mc_nested.cli.games_at_play import games_at_play
@@ -44,10 +44,16 @@ def run_training(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Pa
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
     with catch_interrupts() as interrupt, published(folder, how) as view:
         publisher = view.publisher
+        opening = replace(
+            how.opening,
+            what=f"train-{folder.scenario.name}",
+            evidence=path / "evidence",
+            journal=publisher.board,
+        )
         opened = (
             games_at_play(folder, how.games, interrupt, output.note)
             if how.games
-            else own_player(folder, how.opening, publisher)
+            else own_player(folder, opening, publisher)
         )
         with opened as player:
             begin_or_resume(folder, player.training, earlier, resumed)

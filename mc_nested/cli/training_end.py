@@ -15,8 +15,7 @@ from mc_nested.arena.scenario_file import ScenarioTable, load_scenario, shipped_
 from mc_nested.atomic_file import atomic_write
 from mc_nested.cli.options import DEFAULT_PROFILE
 from mc_nested.cli.output import Output
-from mc_nested.cli.own_player import simulated_team
-from mc_nested.learn.engine_fit import SCREEN
+from mc_nested.learn.dqn.engines import SCREEN
 from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.preset import MOST, load_preset, shipped_presets
 from mc_nested.learn.runs.run_config import RunConfig
@@ -26,6 +25,7 @@ from mc_nested.report.arena_map import draw_map
 from mc_nested.report.curve import align_trials, draw_curve
 from mc_nested.report.played import played_by
 from mc_nested.report.played_curve import draw_played_curve
+from sim.team_grid import team_arenas
 
 CURVE, MAP, PICTURE = "curve.png", "map.png", "team.png"
 """The scores, what was learnt of the arena, and what several builders leave in it, in a run's folder."""
@@ -55,10 +55,9 @@ def draw_results(folder: RunFolder, training: Training) -> None:
 
 def _draw_team(folder: RunFolder, trial: int) -> None:
     """Draw what the policy of that trial leaves behind, if it has several builders: where they end, and the blocks."""
-    arena = simulated_team(folder, 1)
-    if arena is None:
+    if folder.team is None:
         return
-    agent = folder.new_agent(1)
+    arena, agent = team_arenas(folder.team, 1), folder.new_agent(1)
     agent.load_online(folder.policy_of(trial))
     play_greedily(agent.view_of(arena, [folder.scenario]), [folder.scenario], agent)
     cells = [arena.cell(builder) for builder in range(arena.team.builders)]
@@ -90,7 +89,7 @@ class Trained:
     wall_s: Annotated[float, "seconds that it took"]
     networks: Annotated[int, "of a trial"]
     parameters: Annotated[int, "of a trial's networks"]
-    builders: Annotated[int | None, "of several, in one arena"] = None
+    builders: Annotated[int | None, "of several in one arena: how many"] = None
     networks_kind: Annotated[str | None, "of several builders: shared, own or single"] = None
     starts: Annotated[Sequence[object] | None, "of several builders: their cells at the start"] = None
     live: Annotated[Mapping[str, Any] | None, "of a live game, or of virtual ones: what playing took"] = None

@@ -26,10 +26,9 @@ from mc_nested.arrays import Arrays, Bytes, Float64s, Int64s
 from mc_nested.errors import PresetError
 from mc_nested.learn.builders import Builders, check_builders
 from mc_nested.learn.dqn.engine import NetworkForm
+from mc_nested.learn.dqn.engines import NUMBERS, SCREEN
 from mc_nested.learn.dqn.replay import ReplayMark
-from mc_nested.learn.dqn.state_space import StateSpace
-from mc_nested.learn.dqn.states import PlaneStates, States
-from mc_nested.learn.engine_fit import NUMBERS, SCREEN
+from mc_nested.learn.dqn.states import PlaneStates, States, StateSpace
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner, summed_by_run
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.state_dict import named_for, part_of

@@ -15,7 +15,7 @@ from typing import Literal, get_args
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import PresetError
-from mc_nested.learn.engine_fit import NUMBERS
+from mc_nested.learn.dqn.engines import NUMBERS
 from mc_nested.learn.preset import Preset
 
 Networks = Literal["shared", "own", "single"]

@@ -52,7 +52,7 @@ class StudyConfig(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
-    format: Annotated[int, Field(ge=1)] = FORMAT
+    format: int = FORMAT
     study: str
     trials: Annotated[int, Field(ge=1)]
     seed: Annotated[int, Field(ge=0)]

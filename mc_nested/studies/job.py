@@ -12,7 +12,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.learn.agents import AgentSpec
 from mc_nested.learn.builders import Networks
-from mc_nested.learn.engine_fit import NUMBERS
+from mc_nested.learn.dqn.engines import NUMBERS
 from mc_nested.learn.preset import Preset
 
 

@@ -158,7 +158,7 @@ class JobTraining:
     def state(self) -> Arrays:
         """Return what the checkpoint keeps: the trainer's, and the seconds so far."""
         spent = named_for("spent", self._spent.state())
-        return {**self.trainer.state(), "unit.seconds": np.array([self._seconds()]), **spent}
+        return {**self.trainer.state(), "job.seconds": np.array([self._seconds()]), **spent}
 
     def marks(self) -> Arrays:
         """For the checkpoint."""
@@ -171,7 +171,7 @@ class JobTraining:
     def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None:
         """For the checkpoint."""
         self.trainer.load(state, journals)
-        self._seconds_before = float(state["unit.seconds"][0])
+        self._seconds_before = float(state["job.seconds"][0])
         self._spent.load(part_of(state, "spent"), self.trainer)
 
     def _seconds(self) -> float:

@@ -5,7 +5,6 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from mc_nested.arena.cooperative.team_env import TeamVectorEnv
 from mc_nested.errors import UserError
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
@@ -15,7 +14,7 @@ from mc_nested.studies.job_training import JobTraining, TrainedJob
 from mc_nested.studies.outcome import writing
 from mc_nested.workers.messages import JobEnded, JobReport
 from sim.grid import GridVectorEnv
-from sim.team_grid import TeamGrid
+from sim.team_grid import team_arenas
 
 PATIENCE_S = 10.0
 """Seconds that a process whose parent was killed may take to save the job that another goes on with."""
@@ -47,8 +46,7 @@ def train_job(job: Job, folder: Path, report: Report, report_every_s: float) -> 
 
 def _training_of(job: Job, folder: Path) -> TrainedJob:
     if team := team_of_job(job):
-        arena_of_each = TeamVectorEnv([TeamGrid(team) for _ in job.trials], team)
-        return JobTraining(job, folder, agents_trainer(job, arena_of_each))
+        return JobTraining(job, folder, agents_trainer(job, team_arenas(team, len(job.trials))))
     arenas = GridVectorEnv(job.scenarios)
     if job.library is None:
         return JobTraining(job, folder, agents_trainer(job, arenas))

@@ -75,14 +75,14 @@ def test_other_verbs_say_whose_folder_it_is(
 
 
 def test_it_leaves_the_results_and_what_made_them(done: Path) -> None:
-    assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "units", "tensorboard"}
+    assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "jobs", "tensorboard"}
     runs = {f"{a}-{s}-{t}" for a in ("nested", "hierarchical", "single") for s in ("dot", "bar") for t in (0, 1)}
     assert {path.name for path in (done / "tensorboard").iterdir()} == runs
     rows = table(done / "results.csv")
     own = [row for row in rows if (row["agent"], row["scenario"], row["trial"]) == ("single", "bar", "1")]
     assert [row["episode"] for row in own] == ["5", "10", "15", "20"]
     assert len(rows) == 3 * 2 * 2 * 4
-    assert [path.name for path in sorted((done / "units").rglob("*")) if path.is_file()] == [
+    assert [path.name for path in sorted((done / "jobs").rglob("*")) if path.is_file()] == [
         *["outcome.json"] * 3,
         "config.sha256",
     ]
@@ -162,7 +162,7 @@ def long_one(words: list[str], out: Path, episodes: int) -> Iterator[subprocess.
     command = [sys.executable, "-m", "mc_nested.cli", *words, "--episodes", f"{episodes}", "--jobs", "2"]
     process = subprocess.Popen([*command, "--out", str(out)], stderr=subprocess.PIPE, text=True, start_new_session=True)
     try:
-        wait_until(lambda: len(list(out.glob(f"units/*/checkpoint/{FILE}"))) >= 2)
+        wait_until(lambda: len(list(out.glob(f"jobs/*/checkpoint/{FILE}"))) >= 2)
         yield process
     finally:
         with contextlib.suppress(ProcessLookupError):

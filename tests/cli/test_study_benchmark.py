@@ -57,7 +57,7 @@ def test_it_leaves_the_same_files_for_any_number_of_processes_and_after_a_resume
         found.append(written(files / jobs))
         assert "nested, tiny" in capsys.readouterr().out
     assert found[0] == found[1]
-    for unit in list((files / "1" / "units").iterdir())[:3]:
+    for unit in list((files / "1" / "jobs").iterdir())[:3]:
         if unit.is_dir():
             shutil.rmtree(unit)
     assert run("study", "benchmark", "--resume", files / "1") == 0

@@ -34,8 +34,8 @@ SIZES = {
     "python scripts/bench.py live": "--actions 20 --frames 20 --tesseract 0",
     "python scripts/bench.py reader": "--frames 20 --tesseract 0",
     "python scripts/bench.py rehearsal": "--actions 4 --only '60 fps' --json",
-    "python scripts/draw_film.py": "film.gif --scenario line",
-    "python scripts/draw_view.py": "--folder . --seconds 15",
+    "python scripts/draw.py film": "film.gif --scenario line",
+    "python scripts/draw.py view": ". --seconds 15",
 }
 """What is appended to a command that begins so and takes long: its smallest sizes. The longest beginning counts."""
 
@@ -60,7 +60,7 @@ BY_THE_SUITE = {
 }
 """What takes minutes, and what the suite does without it: which test."""
 
-IN_A_WINDOW = tuple(f"python scripts/{words}" for words in ("bench.py rehearsal", "draw_film.py", "draw_view.py"))
+IN_A_WINDOW = tuple(f"python scripts/{words}" for words in ("bench.py rehearsal", "draw.py film", "draw.py view"))
 """Programs that open a rehearsal window on a display of their own."""
 
 MEASURES = "python scripts/bench.py"

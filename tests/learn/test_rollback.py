@@ -27,7 +27,7 @@ def state_of(trainer: Trainer) -> Arrays:
 
 @pytest.mark.parametrize(
     ("preset", "remembers"),
-    [(PAPERS, None), (RETURNS, "0.came_to"), (SMALL, "0.steps")],
+    [(PAPERS, None), (RETURNS, "0.effects"), (SMALL, "0.steps")],
     ids=["none", "returns", "imagines"],
 )
 def test_what_an_episode_taught_is_undone(preset: Preset, remembers: str | None) -> None:

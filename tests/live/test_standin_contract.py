@@ -16,8 +16,8 @@ from mc_nested.errors import NotConfirmedError, WrongScreenError
 from mc_nested.live.opening import Opening
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.session import open_live_game
-from scripts import standin_oracle
-from scripts.standin import ROOT
+from scripts import standin_game
+from scripts.programs import ROOT
 from tests.arena.game_contract import BUMPS, check_game, check_materials
 from tests.standin_fixture import Standin
 
@@ -46,7 +46,7 @@ def play_in_the_window(profile: str, oracle: str) -> None:
     def kinds() -> dict[Cell, str]:
         """The blocks that the server has in the arena."""
         cells = {arena.block_of((x, y)): (x, y) for x in range(flag.size) for y in range(flag.size)}
-        return {cells[block]: name for block, name in standin_oracle.blocks(oracle, *arena.region).items()}
+        return {cells[block]: name for block, name in standin_game.blocks(oracle, *arena.region).items()}
 
     with open_live_game(flag, Opening(profile, print)) as (game, _):
         start_over_after_a_stall(lambda: check_materials(game, flag, build_with_materials(flag), kinds))

@@ -9,6 +9,7 @@ import pytest
 from mc_nested.errors import RunError
 from mc_nested.learn.runs.checkpoint import FILE as STATE
 from mc_nested.learn.runs.checkpoint import fingerprint
+from mc_nested.learn.runs.folder_kind import FORMAT
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.benchmark import baseline
@@ -96,8 +97,8 @@ def test_one_where_a_process_writes_is_in_use(trained: Path) -> None:
     ("file", "content", "why"),
     [
         ("config.toml", "agent = [", "not TOML"),
-        ("config.toml", 'agent = "nested"', "missing: add it"),
-        ("config.toml", 'format = 9\nagent = "nested"', "written by a newer mc-nested"),
+        ("config.toml", f'format = {FORMAT}\nagent = "nested"', "missing: add it"),
+        ("config.toml", 'agent = "nested"', "written by another version of mc-nested"),
         ("config.toml", "\0", "not TOML"),
         ("summary.json", "{", "summary.json: can't be read: mc-nested train --resume"),
         ("summary.json", None, "summary.json: can't be read"),
@@ -146,7 +147,7 @@ def test_a_study_counts_the_episodes_of_finished_jobs(
     assert part is not None
     assert part.episodes_done == episodes - unfinished.jobs[-1].episodes
     assert part.state == "can be resumed"
-    (outcome, *_) = (tmp_path / "whole" / "units").glob("*/outcome.json")
+    (outcome, *_) = (tmp_path / "whole" / "jobs").glob("*/outcome.json")
     outcome.write_text("{")
     broken = facts_of(tmp_path / "whole")
     assert broken is not None

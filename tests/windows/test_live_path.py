@@ -17,7 +17,7 @@ from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import parse_profile
 from mc_nested.workers.cluster.keys import make_keys
 from scripts.rehearsal_window import TruthReader, mc_nested, write_font
-from scripts.standin_processes import wait_until
+from scripts.window_display import wait_until
 from scripts.windows_parts import windows_path
 from scripts.windows_session import Session
 from sim.client.client import VirtualClient

@@ -15,7 +15,7 @@ from mc_nested.arrays import Arrays, Float64s, Int64s
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.dqn.replay import Transitions
 from mc_nested.learn.dqn.self_imitation import BestEpisodes
-from mc_nested.learn.dqn.state_space import numbered
+from mc_nested.learn.dqn.states import numbered
 from mc_nested.learn.exploration.return_then_explore import PLAN_NUMBERS, STEP_NUMBERS, EpisodeStep, ReturnThenExplore
 from mc_nested.learn.practice import Practice, Step
 from mc_nested.learn.preset import ExcursionRule, Preset

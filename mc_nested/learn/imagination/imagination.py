@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
-from mc_nested.learn.dqn.state_space import numbered
+from mc_nested.learn.dqn.states import numbered
 from mc_nested.learn.imagination.arena_step import expected_landings, imagined_arena
 from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe
 from mc_nested.learn.imagination.experience import Experience, RealStep

@@ -11,9 +11,8 @@ from mc_nested.arrays import Bools, Float64s, Int64s
 from mc_nested.learn.dqn.compiled_engine.cell_networks import passes_for
 from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
 from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters, parameter_count
-from mc_nested.learn.dqn.state_space import numbered
-from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, index_of
-from mc_nested.learn.imagination.imagined_task import ImaginedTask
+from mc_nested.learn.dqn.states import numbered
+from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, ImaginedTask, index_of
 from mc_nested.learn.imagination.practice_kernel import (
     PracticeReplay,
     PracticeRule,

@@ -33,7 +33,7 @@ class RunConfig(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
-    format: Annotated[int, Field(ge=1)] = FORMAT
+    format: int = FORMAT
     agent: AgentName
     backend: Literal["sim", "virtual", "live"]
     profile: str | None = None

@@ -131,7 +131,7 @@ def test_without_imitation_no_best_episode_is_kept_for_it() -> None:
     observe(explorer, 0, Done((7, 13, 1, 0), 7, 1.0, (7, 12, 0, 0)))
     end(explorer)
     assert agent.low_level.best is None
-    assert explorer.state()["0.best"].shape == (1, 8)
+    assert explorer.state()["0.best"].shape == (1, 10)
 
 
 def test_in_a_larger_arena_it_remembers_what_happened_beyond_15_cells() -> None:
@@ -140,8 +140,8 @@ def test_in_a_larger_arena_it_remembers_what_happened_beyond_15_cells() -> None:
     only, start = np.array([0]), np.array([[19, 19, 1]])
     explorer.begin(only, np.zeros((1, NUMBERS)))
     observe(explorer, 0, Done((19, 19, 1), Action.BD, 1.0, (19, 18, 0)))
-    assert explorer.state()["0.came_to"].shape == (20, 20, 8)
-    assert explorer.state()["0.came_to"][19, 19].any()
+    assert explorer.state()["0.effects"].shape == (1, 20, 20, 8)
+    assert explorer.state()["0.effects"][0, 19, 19].any()
     end(explorer)
     explorer.begin(only, np.zeros((1, NUMBERS)))
     assert act(explorer, 0, start, np.zeros((1, NUMBERS))) == Action.BD

@@ -6,9 +6,8 @@ import pytest
 from mc_nested.arrays import Float32s, Float64s
 from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
 from mc_nested.learn.dqn.engine import Batch
-from mc_nested.learn.dqn.state_space import numbered
-from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, cell_at, index_of
-from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask
+from mc_nested.learn.dqn.states import numbered
+from mc_nested.learn.imagination.arena_step import GREEDY_EVERY, NOWHERE, ImaginedArena, ImaginedTask, cell_at, index_of
 from mc_nested.learn.imagination.practice_kernel import PracticeReplay, Progress, Row, followed, practise
 from mc_nested.learn.imagination.practice_session import NetworkPractice
 from mc_nested.learn.learner import Learner

@@ -68,15 +68,6 @@ def test_a_folder_is_opened_as_it_was_begun(tmp_path: Path) -> None:
         RunFolder.new(tmp_path / "run", config_of())
 
 
-def test_a_folder_from_before_there_were_versions_opens_and_its_checkpoint_fits(tmp_path: Path) -> None:
-    folder = begun(tmp_path)
-    file = tmp_path / "config.toml"
-    lines = file.read_text("utf-8").splitlines(keepends=True)
-    assert "format = 1\n" in lines
-    file.write_text("".join(line for line in lines if line != "format = 1\n"), "utf-8")
-    assert RunFolder.open(tmp_path).config.identity() == folder.config.identity()
-
-
 def test_the_profile_may_change_and_nothing_else() -> None:
     assert config_of().identity() == config_of(profile="moved").identity()
     assert config_of().identity() != config_of(trials=3).identity()

@@ -21,8 +21,7 @@ from mc_nested.arrays import Float32s, Int64s
 from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, initial_parameters
 from mc_nested.learn.dqn.engine import NetworkForm
-from mc_nested.learn.dqn.state_space import StateSpace
-from mc_nested.learn.dqn.states import States
+from mc_nested.learn.dqn.states import States, StateSpace
 from mc_nested.learn.dqn.torch_engine.layout import flat_of
 
 MLP, CNN = "mlp", "cnn"

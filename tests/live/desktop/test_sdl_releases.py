@@ -8,9 +8,10 @@ from typing import Any
 
 import pytest
 
-from scripts import game_windows
-from scripts.game_windows import SDL_3_2, SDL_3_4, SDL_3_4_WINDOWS, Sdl, fetch_sdl
-from scripts.standin_parts import MissingError
+from scripts import programs
+from scripts.programs import MissingError
+from tests.live.desktop import sdl_releases
+from tests.live.desktop.sdl_releases import SDL_3_2, SDL_3_4, SDL_3_4_WINDOWS, Sdl, fetch_sdl
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="fetched on Linux alone")
 
@@ -27,8 +28,8 @@ def asked(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Sequence[str]
                 wheel.writestr(sdl.member, sdl.release)
         return True
 
-    monkeypatch.setattr(game_windows, "CACHE", tmp_path / "cache")
-    monkeypatch.setattr(game_windows, "run_logged", pip)
+    monkeypatch.setattr(sdl_releases, "CACHE", tmp_path / "cache")
+    monkeypatch.setattr(programs, "run_logged", pip)
     return commands
 
 
@@ -48,7 +49,7 @@ def test_the_libraries_lie_apart(asked: list[Sequence[str]]) -> None:
 
 @pytest.mark.usefixtures("asked")
 def test_without_the_package_index_one_line_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(game_windows, "run_logged", lambda *_, **__: False)
-    with pytest.raises(MissingError, match=r"^pip could not fetch tcod==21\.2\.2 .* be reached\?$"):
+    monkeypatch.setattr(programs, "run_logged", lambda *_, **__: False)
+    with pytest.raises(MissingError, match=r"^pip could not fetch all of tcod==21\.2\.2\.txt .* be reached\?$"):
         fetch_sdl(SDL_3_4, print)
     assert not SDL_3_4.library.exists()

@@ -19,14 +19,6 @@ def test_the_torch_engine_takes_the_presets_of_numbers(name: str) -> None:
     assert preset.changed(engine=None) == preset
 
 
-@pytest.mark.parametrize("name", ["paper", "tuned", "live"])
-def test_what_was_saved_before_there_were_engines_keeps_its_identity(name: str) -> None:
-    dumped = load_preset(name).model_dump()
-    assert not {"engine", "device", "network", "states"} & set(dumped)
-    if name != "live":
-        assert load_preset(name).changed(engine="torch").model_dump() == {**dumped, "engine": "torch"}
-
-
 @pytest.mark.parametrize(
     ("name", "keys", "says"),
     [

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.learn.dqn.state_space import StateSpace, one_hot, scaled
+from mc_nested.learn.dqn.states import StateSpace, one_hot, scaled
 
 
 @given(st.lists(st.integers(0, 9), min_size=1, max_size=4), st.data())
