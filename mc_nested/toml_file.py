@@ -97,7 +97,8 @@ def _in_one_line(model: type[BaseModel], mistake: ErrorDetails) -> str:
 def _remedy_for_unknown(model: type[BaseModel], keys: tuple[int | str, ...]) -> str:
     kind: type[BaseModel] | None = model
     for key in (part for part in keys[:-1] if isinstance(part, str)):
-        kind = table_of_key(kind, key) if kind else None
+        if kind and key in kind.model_fields:  # else it is the name of one of several tables
+            kind = table_of_key(kind, key)
     known = list(kind.model_fields) if kind else []
     near = difflib.get_close_matches(str(keys[-1]), known, n=1)
     return f"did you mean {near[0]}?" if near else f"remove it; known are {', '.join(known)}"

@@ -13,8 +13,8 @@ from mc_nested.arena.scenario_file import shipped_scenarios
 from mc_nested.cli.app import app_for
 from mc_nested.cli.completion import verbs
 from mc_nested.learn.agents import AGENT_SPECS
-from mc_nested.learn.experiments.benchmark import AGENTS
 from mc_nested.learn.preset import shipped_presets
+from mc_nested.studies.arm import AGENTS
 
 
 def written() -> str:

@@ -27,9 +27,9 @@ READS_ALL = """
 from importlib import resources
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
 from mc_nested.cli.completion.verbs import shipped
-from mc_nested.learn.experiments.ablation import shipped_parts
-from mc_nested.learn.experiments.benchmark import baseline
-from mc_nested.learn.experiments.sweep import shipped_variants
+from mc_nested.studies.ablation import shipped_parts
+from mc_nested.studies.benchmark import baseline
+from mc_nested.studies.sweep import shipped_variants
 from mc_nested.learn.preset import load_preset, shipped_presets
 from sim.client.drawing.letters import drawn_atlas
 

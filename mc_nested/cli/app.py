@@ -12,7 +12,7 @@ import typer
 
 from mc_nested.cli.interrupt import INTERRUPTED, Stopped
 from mc_nested.cli.json_fields import epilog_of
-from mc_nested.errors import McNestedError
+from mc_nested.errors import McNestedError, UserError
 from mc_nested.live.input.signals import EndedBySignal
 
 NAME = "mc-nested"
@@ -26,8 +26,7 @@ VERBS = (
     "train",
     "cooperate",
     "reproduce",
-    "sweep",
-    "benchmark",
+    "study",
     "evaluate",
     "play",
     "build",
@@ -48,12 +47,21 @@ VERBS = (
 """Each is a module of this package; in the order of the help."""
 
 
+MOVED = {
+    "sweep": "study sweep, or study ablation for sweep --ablation",
+    "benchmark": "study benchmark",
+}
+"""Verbs that have another name now."""
+
+
 def app_for(words: Sequence[str]) -> typer.Typer:
     """The command with the verb that the words begin with, or with all verbs if they begin with none.
 
     A verb's module is loaded only if it is needed: together they take seconds and hundreds of megabytes. To complete a
     command line none is.
     """
+    if words and words[0] in MOVED:
+        raise UserError(f"{words[0]} is now mc-nested {MOVED[words[0]]}")
     if COMPLETES in os.environ or (words and words[0] in COMPLETION_OPTIONS):
         return _completing_app()
     app = typer.Typer(name=NAME, rich_markup_mode=None, pretty_exceptions_enable=False)

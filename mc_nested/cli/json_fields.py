@@ -36,7 +36,7 @@ _PROFILE = {
     "date": "day of the calibration",
 }
 
-_EXPERIMENT = {"folder": "its folder", "files": "what was written, by what it is"}
+_STUDY = {"folder": "its folder", "files": "what was written, by what it is"}
 
 JSON_FIELDS: Mapping[str, Mapping[str, str]] = {
     "train": {
@@ -83,12 +83,20 @@ JSON_FIELDS: Mapping[str, Mapping[str, str]] = {
         "parameters": "of a trial's networks",
     },
     "reproduce": {
-        **_EXPERIMENT,
+        **_STUDY,
         "claims": "letter, claim and verdict of each; of --robustness also choices, each with its verdict; of --beyond "
         "also trials, that would decide it, null of more than 1,000 or of what is counted",
     },
-    "sweep": _EXPERIMENT,
-    "benchmark": {**_EXPERIMENT, "measures": "of each contestant: trials, solved, and its episodes to the optimum"},
+    "study reproduce": {**_STUDY, "claims": "letter, claim and verdict of each"},
+    "study robustness": {**_STUDY, "claims": "letter, claim, verdict of each, and choices, each with its verdict"},
+    "study beyond": {
+        **_STUDY,
+        "claims": "letter, claim and verdict of each, and trials, that would decide it, null of more than 1,000 or of "
+        "what is counted",
+    },
+    "study sweep": _STUDY,
+    "study ablation": _STUDY,
+    "study benchmark": {**_STUDY, "measures": "of each contestant: trials, solved, and its episodes to the optimum"},
     "evaluate": {
         "folder": "the run's folder",
         "scenario": "the design's name",

@@ -13,8 +13,8 @@ from mc_nested.cli.json_fields import epilog_of
 from mc_nested.cli.output import JsonOption, Output
 from mc_nested.cli.runs_folder import RUNS
 from mc_nested.errors import RunError, UserError
-from mc_nested.learn.experiments.run_facts import RunFacts, facts_of, runs_in
 from mc_nested.learn.runs.folder_changes import delete_folder, rename_folder
+from mc_nested.studies.run_facts import RunFacts, facts_of, runs_in
 
 MOST_NAMED = 3
 """Designs, agents or presets that a row names; of more it says how many."""

@@ -2,8 +2,7 @@
 
 from dataclasses import dataclass
 
-from mc_nested.arena.scenario import Scenario
-from mc_nested.learn.experiments.benchmark import episodes_without_a_prior
+from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 from mc_nested.learn.preset import Preset
 
 ACTION_S = 0.35
@@ -17,6 +16,16 @@ on the line and on the diamond: the time played beside the actions, a reset)."""
 def minutes_of(episodes: int, steps: int) -> float:
     """Minutes of game time of so many episodes with so many actions in all."""
     return (steps * ACTION_S + episodes * RESET_S) / 60
+
+
+def episodes_without_a_prior(blocks: int, size: int = DEFAULT_SIZE) -> float:
+    """How many episodes a design of so many blocks should take if no cell is likelier than another.
+
+    The blocks stand on n of the N = size x (size - 1) cells where one can land. Tested in any order, the last of them
+    is expected at test (N + 1) n / (n + 1). An episode tests n cells, and one more builds them all.
+    """
+    cells = size * (size - 1)
+    return (cells + 1) / (blocks + 1) + 1
 
 
 @dataclass(frozen=True)
@@ -43,7 +52,7 @@ def expected(preset: Preset, scenario: Scenario, *, stop_at_optimum: bool) -> Ex
     """How long a training from scratch should take in a running game, every episode as long as it may be.
 
     All its episodes are played, or with ``stop_at_optimum`` up to all. With [imagination] it ends then by as many as
-    finding a design of so many blocks takes without any prior (experiments/benchmark.py), if the preset has so many.
+    finding a design of so many blocks takes without any prior, if the preset has so many.
     """
     every = preset.episodes
     if preset.imagination is not None:

@@ -8,7 +8,7 @@ from queue import Empty, SimpleQueue
 from typing import Protocol
 
 from mc_nested.errors import RunError
-from mc_nested.learn.experiments.jobs import Job
+from mc_nested.studies.job import Job
 from mc_nested.workers.messages import JobEnded, JobReport
 
 LOOK_EVERY_S = 0.2

@@ -12,7 +12,7 @@ from queue import SimpleQueue
 from threading import Lock
 
 from mc_nested.errors import RunError
-from mc_nested.learn.experiments.jobs import Job
+from mc_nested.studies.job import Job
 from mc_nested.workers.messages import JobEnded, JobReport
 from mc_nested.workers.process import serve_jobs
 

@@ -10,13 +10,13 @@ from mc_nested.arena.cooperative.team_env import TeamEnv
 from mc_nested.errors import UserError
 from mc_nested.learn.cooperation.team_agent import Kind
 from mc_nested.learn.cooperation.team_trainer import TeamArena, arena_of
-from mc_nested.learn.experiments.job_trainers import agents_trainer, team_trainer
-from mc_nested.learn.experiments.job_training import JobTraining, TrainedJob, writing
-from mc_nested.learn.experiments.jobs import PLANNER, Job
-from mc_nested.learn.experiments.planner_training import PlannerTraining
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.learn.trainer import Trainer
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
+from mc_nested.studies.job import Job
+from mc_nested.studies.job_trainers import agents_trainer, team_trainer
+from mc_nested.studies.job_training import JobTraining, TrainedJob
+from mc_nested.studies.outcome import writing
 from mc_nested.workers.messages import JobEnded, JobReport
 from sim.grid import GridVectorEnv
 from sim.team_grid import TeamGrid
@@ -55,9 +55,7 @@ def _training_of(job: Job, folder: Path) -> TrainedJob:
     arenas = GridVectorEnv(job.scenarios)
     if job.library is None:
         return JobTraining(job, folder, agents_trainer(job, arenas))
-    if job.library == PLANNER:
-        return PlannerTraining(job, folder, arenas)
-    from mc_nested.learn.experiments.sb3_training import Sb3Training  # only where the library is asked for
+    from mc_nested.studies.sb3 import Sb3Training  # only where the library is asked for
 
     return Sb3Training(job, folder, arenas, GridVectorEnv(job.scenarios))
 

@@ -93,17 +93,18 @@ def test_a_sweep_and_a_benchmark_write_the_same_bytes_with_a_worker_that_a_nanny
     words: list[str], tmp_path: Path
 ) -> None:
     _, *own, trials, one, quiet = words
-    sweep = ["sweep", *own, trials, one, "--episodes", "2", quiet]
-    benchmark = ["benchmark", "--designs", "1", "--agents", "nested", "--presets", words[4], "--trials", "1", quiet]
+    sweep = ["study", "sweep", *own, trials, one, "--episodes", "2", quiet]
+    benchmark = ["study", "benchmark", "--designs", "1", "--agents", "nested", "--presets", words[4]]
+    benchmark += ["--trials", "1", quiet]
     written = {"sweep": ("sweep.csv", "sweep.md"), "benchmark": ("benchmark.csv",)}
     with scheduler(tmp_path) as url:
         nanny = worker(tmp_path, url, "--nanny")
         try:
             for verb in (sweep, benchmark):
-                here, there = tmp_path / verb[0] / "here", tmp_path / verb[0] / "there"
+                here, there = tmp_path / verb[1] / "here", tmp_path / verb[1] / "there"
                 assert run(*verb, "--jobs", "2", "--out", here) == 0
                 assert run(*verb, "--jobs", "2", "--out", there, "--cluster", url) == 0
-                for name in written[verb[0]]:
+                for name in written[verb[1]]:
                     assert (there / name).read_bytes() == (here / name).read_bytes()
         finally:
             nanny.terminate()

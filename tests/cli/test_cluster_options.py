@@ -35,7 +35,7 @@ def test_a_scheduler_without_a_worker_is_waited_for_and_then_said(
         workers_of(SchedulerAddress(url, None), Output(quiet=True))
 
 
-@pytest.mark.parametrize("verb", ["reproduce", "sweep", "benchmark"])
+@pytest.mark.parametrize("verb", ["reproduce", "study sweep", "study benchmark"])
 @pytest.mark.parametrize(
     ("words", "says"),
     [
@@ -59,7 +59,7 @@ def test_a_mistake_is_one_line_and_writes_nothing(
         free.bind(("127.0.0.1", 0))
         port = str(free.getsockname()[1])
     out = tmp_path / "out"
-    assert run(verb, *(word.replace("PORT", port) for word in words), "--out", out) == 2
+    assert run(*verb.split(), *(word.replace("PORT", port) for word in words), "--out", out) == 2
     said = capsys.readouterr().err
     assert says.replace("PORT", port) in said
     assert said.count("\n") == 1

@@ -13,19 +13,17 @@ from pathlib import Path
 
 import pytest
 
-from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.cli import reproduce
-from mc_nested.cli.experiment_results import builders_score
+from mc_nested.cli import study as study_module
 from mc_nested.cli.json_fields import JSON_FIELDS
-from mc_nested.cli.reproduce import FILES
 from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.learn.runs.folder_lock import folder_lock
-from mc_nested.report.results import read_evaluations
-from tests.cli.running import run
+from mc_nested.studies.reproduce import STUDY
+from tests.cli.running import run, table
 from tests.learn.made_experiments import BAR, DOT, scenario_text, small_preset_text
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals for other processes")
 
+FILES = STUDY.files
 WRITTEN = ("results.csv", "figure5.png", "figure5.svg", "report.md")
 
 
@@ -65,7 +63,7 @@ def test_a_preset_that_an_agent_can_not_use_is_refused_before_anything_is_traine
     assert not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize("verb", [("evaluate",), ("play",), ("train", "--resume"), ("sweep", "--resume")])
+@pytest.mark.parametrize("verb", [("evaluate",), ("play",), ("train", "--resume"), ("study", "sweep", "--resume")])
 def test_other_verbs_say_whose_folder_it_is(
     done: Path, verb: tuple[str, ...], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -77,13 +75,9 @@ def test_it_leaves_the_results_and_what_made_them(done: Path) -> None:
     assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "units", "tensorboard"}
     runs = {f"{a}-{s}-{t}" for a in ("nested", "hierarchical", "single") for s in ("dot", "bar") for t in (0, 1)}
     assert {path.name for path in (done / "tensorboard").iterdir()} == runs
-    rows = read_evaluations(done / "results.csv")
-    assert [row.episode for row in rows if (row.agent, row.scenario, row.trial) == ("single", "bar", 1)] == [
-        5,
-        10,
-        15,
-        20,
-    ]
+    rows = table(done / "results.csv")
+    own = [row for row in rows if (row["agent"], row["scenario"], row["trial"]) == ("single", "bar", "1")]
+    assert [row["episode"] for row in own] == ["5", "10", "15", "20"]
     assert len(rows) == 3 * 2 * 2 * 4
     assert [path.name for path in sorted((done / "units").rglob("*")) if path.is_file()] == [
         *["outcome.json"] * 3,
@@ -106,8 +100,8 @@ def test_the_same_runs_come_out_of_train(done: Path, files: Path, tmp_path: Path
     ]
     assert run(*train, "--trials", "2", "--seed", "5", "--out", tmp_path / "run") == 0
     alone = (tmp_path / "run" / "evaluations.csv").read_text().splitlines()[1:]
-    rows = [row for row in read_evaluations(done / "results.csv") if row[:2] == ("hierarchical", "bar")]
-    assert sorted((row.trial, row.episode, row.score) for row in rows) == sorted(
+    rows = [row for row in table(done / "results.csv") if (row["agent"], row["scenario"]) == ("hierarchical", "bar")]
+    assert sorted((int(row["trial"]), int(row["episode"]), float(row["score"])) for row in rows) == sorted(
         (int(trial), int(episode), float(score)) for trial, episode, score, *_ in (line.split(",") for line in alone)
     )
 
@@ -148,7 +142,7 @@ def test_without_a_name_its_folder_has_the_figures_name_and_the_date(
 ) -> None:
     begun: list[Path] = []
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(reproduce, "_run", lambda folder, *_: begun.append(folder.path))
+    monkeypatch.setattr(study_module, "run_study", lambda _study, folder, *_: begun.append(folder.path))
     assert run(*words) == 0
     assert re.fullmatch(r"figure5-\d{4}-\d\d-\d\d-\d{6}", begun[0].name)
 
@@ -268,11 +262,11 @@ def test_without_the_command_the_processes_save_and_end(words: list[str], tmp_pa
 def test_a_disk_that_fills_up_at_the_end_costs_one_line_and_no_file(
     done: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def full(*_: object) -> None:
+    def full(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
 
     before = written(done)
-    monkeypatch.setattr("mc_nested.report.reproduction.draw_figure5", full)
+    monkeypatch.setattr("matplotlib.figure.Figure.savefig", full)
     assert run("reproduce", "--resume", done) == 2
     said = capsys.readouterr().err
     assert "No space left on device" in said
@@ -297,12 +291,14 @@ def test_a_disk_that_fills_up_at_the_end_costs_one_line_and_no_file(
         (["reproduce", "--out", "NEW", "--scenario", "line", "--longer", "10"], "on zigzag and diamond"),
         (["reproduce", "--out", "NEW", "--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
         (["reproduce", "--out", "NEW", "--preset", "ODD"], "unknown key"),
-        (["reproduce", "--resume", "NEW"], "no config.toml there: name the folder of a reproduce"),
+        (["reproduce", "--resume", "NEW"], "no config.toml there: name a folder of mc-nested reproduce"),
         (["reproduce", "--resume", "DONE", "--seed", "0"], "goes on with its own config.toml: leave out --seed"),
         (["reproduce", "--resume", "DONE", "--agent", "nested"], "leave out --agent"),
         (["reproduce", "--resume", "DONE", "--out", "NEW"], "leave out --out"),
-        (["sweep", "--out", "NEW", "--trials", "0"], "'--trials'"),
-        (["sweep", "--resume", "DONE"], "the folder of mc-nested reproduce, not of sweep"),
+        (["study", "sweep", "--out", "NEW", "--trials", "0"], "'--trials'"),
+        (["study", "sweep", "--resume", "DONE"], "the folder of mc-nested reproduce, not of study sweep"),
+        (["sweep", "--out", "NEW"], "sweep is now mc-nested study sweep, or study ablation for sweep --ablation"),
+        (["benchmark"], "benchmark is now mc-nested study benchmark"),
     ],
 )
 def test_a_mistake_is_one_line_and_exit_code_2(
@@ -319,9 +315,3 @@ def test_a_mistake_is_one_line_and_exit_code_2(
     assert says in printed.err
     assert list(tmp_path.iterdir()) == []
     assert {path: path.read_bytes() for path in done.rglob("*") if path.is_file()} == before
-
-
-def test_the_builder_scores_the_optimum() -> None:
-    for name in ("line", "zigzag", "diamond"):
-        scenario = load_scenario(name)
-        assert builders_score(scenario) == scenario.optimum

@@ -38,7 +38,7 @@ def test_a_layer_beside_resume_is_refused(hut: Path, tmp_path: Path, capsys: pyt
     assert capsys.readouterr().err == "mc-nested: --resume goes on with the run's own config.toml: leave out --layer\n"
 
 
-@pytest.mark.parametrize("verb", ["train", "reproduce", "sweep"])
+@pytest.mark.parametrize("verb", ["train", "reproduce", "study sweep"])
 @pytest.mark.parametrize(
     ("words", "says"),
     [
@@ -51,7 +51,7 @@ def test_a_layer_that_is_not_there_is_one_line_and_nothing_is_written(
     verb: str, words: list[str], says: str, hut: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     named = [word.replace("HUT", str(hut)).replace("NONE", str(tmp_path / "none")) for word in words]
-    assert run(verb, *named, "--out", tmp_path / "new") == 2
+    assert run(*verb.split(), *named, "--out", tmp_path / "new") == 2
     expected = says.replace("HUT", str(hut)).replace("NONE", str(tmp_path / "none"))
     assert capsys.readouterr().err == f"mc-nested: {expected}\n"
     assert not (tmp_path / "new").exists()

@@ -46,10 +46,10 @@ def test_a_training_sees_the_window_and_is_played_there(
     [
         TRAIN,
         ["reproduce", "--preset", "screen.toml", "--trials", "1"],
-        ["sweep", "--preset", "screen.toml", "--trials", "1"],
-        ["benchmark", "--presets", "screen.toml", "--agents", "nested"],
+        ["study", "sweep", "--preset", "screen.toml", "--trials", "1"],
+        ["study", "benchmark", "--presets", "screen.toml", "--agents", "nested"],
     ],
-    ids=lambda words: words[0],
+    ids=" ".join,
 )
 def test_the_simulator_has_no_window_to_see(
     words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -10,8 +10,8 @@ from tests.cli.running import TRAIN, run
 
 
 def test_another_verbs_folder_is_refused_with_its_verb(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    for verb in ("reproduce", "sweep", "benchmark"):
-        assert run(verb, "--resume", trained) == 2
+    for verb in ("reproduce", "study sweep", "study benchmark"):
+        assert run(*verb.split(), "--resume", trained) == 2
         said = capsys.readouterr().err
         assert f"the folder of mc-nested train, not of {verb}" in said
         assert f"mc-nested train --resume {trained}" in said

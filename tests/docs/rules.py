@@ -11,9 +11,9 @@ SIZES = {
     "mc-nested reproduce": "--trials 1 --episodes 4 --scenario line",
     "mc-nested reproduce --robustness": "--trials 1 --episodes 1 --scenario line",
     "mc-nested reproduce --beyond": "--trials 1 --episodes 4",
-    "mc-nested sweep --ablation": "--trials 1 --episodes 1 --scenario line",
-    "mc-nested sweep": "--trials 1 --episodes 2 --scenario line",
-    "mc-nested benchmark": "--designs 1 --agents nested --presets live",
+    "mc-nested study ablation": "--trials 1 --episodes 1 --scenario line",
+    "mc-nested study sweep": "--trials 1 --episodes 2 --scenario line",
+    "mc-nested study benchmark": "--designs 1 --agents nested --presets live",
     "mc-nested train --backend live": "--episodes 1",
     "mc-nested train --backend virtual": "--trials 1 --episodes 1",
     "mc-nested train --preset live --trials": "--trials 1",
@@ -39,14 +39,14 @@ SIZES = {
 }
 """What is appended to a command that begins so and takes long: its smallest sizes. The longest beginning counts."""
 
-AS_THEY_ARE = ("mc-nested benchmark --corpus",)
+AS_THEY_ARE = ("mc-nested study benchmark --corpus",)
 """Commands that begin like a long one, and are short."""
 
 BY_THE_SUITE = {
     "dask scheduler": "tests/workers/cluster, which start one, with keys and without",
     "dask worker": "tests/workers/cluster",
     "mc-nested reproduce --cluster": "tests/cli/test_cluster.py",
-    "mc-nested sweep --cluster": "tests/cli/test_cluster.py",
+    "mc-nested study sweep --cluster": "tests/cli/test_cluster.py",
     "mc-nested serve-game": "tests/cli/test_games_training.py",
     **dict.fromkeys(
         (

@@ -5,8 +5,8 @@ import tomlkit
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import draw_grid
 from mc_nested.learn.agents import AGENT_SPECS
-from mc_nested.learn.experiments.jobs import Job, Run, cut_into_jobs
 from mc_nested.learn.preset import Preset, load_preset
+from mc_nested.studies.job import Job, Run, cut_into_jobs
 
 MATERIALS = Material("wood", -5.0, "oak_planks"), Material("stone", 10.0, "stone")
 

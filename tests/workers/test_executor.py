@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from mc_nested.errors import RunError
-from mc_nested.learn.experiments.jobs import Job
+from mc_nested.studies.job import Job
 from mc_nested.workers.executor import train_jobs
 from mc_nested.workers.messages import JobEnded, JobReport
 from tests.learn.made_experiments import DOT, one_job

@@ -11,8 +11,8 @@ from threading import Thread, Timer
 
 import pytest
 
-from mc_nested.learn.experiments.job_training import OUTCOME, outcome_of
 from mc_nested.learn.runs.folder_lock import folder_lock
+from mc_nested.studies.outcome import OUTCOME, outcome_of
 from mc_nested.workers.messages import JobEnded, JobReport
 from mc_nested.workers.process import serve_jobs
 from tests.learn.made_experiments import DOT, one_job

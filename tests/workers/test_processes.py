@@ -18,7 +18,7 @@ from types import SimpleNamespace
 import pytest
 
 from mc_nested.errors import RunError
-from mc_nested.learn.experiments.jobs import Job
+from mc_nested.studies.job import Job
 from mc_nested.workers import processes as job_processes
 from mc_nested.workers.executor import train_jobs
 from mc_nested.workers.messages import JobEnded, JobReport

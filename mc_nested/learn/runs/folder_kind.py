@@ -1,5 +1,6 @@
 """Which command a folder belongs to, if any; a key of its config.toml that only that command writes says which."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from mc_nested.atomic_file import is_leftover
@@ -7,17 +8,10 @@ from mc_nested.errors import RunError
 from mc_nested.learn.runs.folder_lock import FILE as LOCK
 from mc_nested.toml_file import parse_document
 
-VERB_OF_KEY = {
-    "agent": "train",
-    "agents": "reproduce",
-    "choices": "reproduce",
-    "variants": "sweep",
-    "parts": "sweep",
-    "contestants": "benchmark",
-    "arms": "reproduce",
-    "builders": "cooperate",
-}
+STUDY = "study"
+"""The key of a study's config.toml that names it."""
 
+VERB_OF_KEY = {"agent": "train", "builders": "cooperate", STUDY: STUDY}
 
 VIEW = "view"
 VIEW_FILES = frozenset({"now.json", "history.jsonl", "pause.request", "stop.request", "answer.request", LOCK})
@@ -27,17 +21,28 @@ FORMAT = 1
 """Version of config.toml; a file without one is of this version."""
 
 
-def check_config(text: str, folder: Path, verb: str) -> None:
-    """RunError if the text of config.toml is of a newer version, or that of another command's folder."""
+def verb_of_study(name: str) -> str:
+    """The verb that runs a study: the paper's own experiment has one to itself."""
+    return name if name == "reproduce" else f"study {name}"
+
+
+def verb_in(document: Mapping[str, object]) -> str | None:
+    """The verb that wrote this config.toml; None if it is no run's."""
+    key = next((key for key in VERB_OF_KEY if key in document), None)
+    return verb_of_study(str(document[STUDY])) if key == STUDY else VERB_OF_KEY.get(key or "")
+
+
+def check_config(text: str, folder: Path, *verbs: str) -> None:
+    """RunError if the text of config.toml is of a newer version, or of a folder of other verbs than those named."""
     document = parse_document(text, str(folder / "config.toml"), RunError)
     written = document.get("format")
     if isinstance(written, int) and written > FORMAT:
         raise RunError(f"{folder}: written by a newer mc-nested: update mc-nested to open it")
-    found = [other for key, other in VERB_OF_KEY.items() if key in document]
-    if found and verb not in found:
+    found = verb_in(document)
+    if found and verbs and found not in verbs:
         raise RunError(
-            f"{folder}: the folder of mc-nested {found[0]}, not of {verb}: name another, or go on with it by "
-            f"mc-nested {found[0]} --resume {folder}"
+            f"{folder}: the folder of mc-nested {found}, not of {verbs[0]}: name another, or go on with it by "
+            f"mc-nested {found} --resume {folder}"
         )
 
 

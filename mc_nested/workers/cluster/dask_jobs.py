@@ -15,13 +15,12 @@ from threading import RLock, Thread
 from typing import TYPE_CHECKING, Any
 
 from mc_nested.errors import RunError
-from mc_nested.learn.experiments.jobs import Job
+from mc_nested.studies.job import Job
 from mc_nested.workers.cluster.job_end import cancel, in_words, landed_from, lost
 from mc_nested.workers.cluster.job_task import (
     GAME,
     Reported,
     Trained,
-    library_of,
     packed,
     stop_training,
     train_on_worker,
@@ -131,8 +130,7 @@ class DaskJobs:
             package = packed(job, folder)
             with self._lock:  # until it is known, nothing is heard of it
                 # In their order, the longest first: by itself Dask would go by their names.
-                library = library_of(job)
-                asked = own_versions(library), library, package, self._topic
+                asked = own_versions(job.library), job.library, package, self._topic
                 trained = self._executor.submit(train_on_worker, *asked, key=key, priority=-len(self._futures))
                 self._futures[job.name] = trained
         trained.add_done_callback(lambda done: self._land(job, folder, done, landed, tries - 1))

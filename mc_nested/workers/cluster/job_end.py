@@ -4,8 +4,8 @@ from concurrent.futures import Future
 from pathlib import Path
 
 from mc_nested.errors import RunError, UserError
-from mc_nested.learn.experiments.jobs import Job
 from mc_nested.report.tensorboard import FOLDER
+from mc_nested.studies.job import Job
 from mc_nested.workers.cluster.job_task import Trained
 from mc_nested.workers.cluster.shipped_files import land, write_below
 from mc_nested.workers.messages import JobEnded

@@ -14,8 +14,8 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from mc_nested.errors import ClusterError
-from mc_nested.learn.experiments.jobs import PLANNER, Job
 from mc_nested.report.tensorboard import FOLDER
+from mc_nested.studies.job import Job
 from mc_nested.workers.cluster.shipped_files import Files, files_below, write_below
 from mc_nested.workers.cluster.versions import Versions, differences, own_versions
 from mc_nested.workers.messages import JobEnded, JobReport
@@ -65,11 +65,6 @@ class Reported(NamedTuple):
     worker: str
 
 
-def library_of(job: Job) -> str | None:
-    """The library whose agent the job trains; None for this project's own."""
-    return None if job.library == PLANNER else job.library
-
-
 def packed(job: Job, folder: Path) -> bytes:
     """The job and the files of its folder, for ``train_on_worker``."""
     return pickle.dumps((job, files_below(folder)))
@@ -78,7 +73,7 @@ def packed(job: Job, folder: Path) -> bytes:
 def train_on_worker(versions: Versions, library: str | None, package: bytes, topic: str) -> Trained:
     """Train a packed job until it is finished, or saved because its experiment was stopped or its task cancelled.
 
-    ``library`` is whose agent it is (``library_of``): its version has to be the same, too.
+    ``library`` is whose agent it is: its version has to be the same, too.
 
     ClusterError if this worker's versions aren't those.
     """

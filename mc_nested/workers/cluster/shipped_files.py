@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from mc_nested.atomic_file import atomic_write
-from mc_nested.learn.experiments.job_training import OUTCOME
 from mc_nested.learn.runs.folder_lock import FILE as LOCK
+from mc_nested.studies.outcome import OUTCOME
 
 Files = Mapping[str, bytes]
 """Contents by path, relative to a folder, with slashes."""

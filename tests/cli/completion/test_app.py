@@ -84,7 +84,7 @@ def test_bash_gets_a_word_a_line_of_a_process_of_its_own(folder: Path) -> None:
         ("profiles delete ", ["laptop"]),
         ("calibrate arena --un", ["--undo"]),
         ("scenarios line h", ["house"]),
-        ("benchmark --agents nested,s", ["nested,single", "nested,sb3"]),
+        ("study benchmark --agents nested,s", ["nested,single", "nested,sb3"]),
         ("read ", []),
         ("train --out ", []),
         ("nothing x", []),

@@ -13,8 +13,8 @@ import pytest
 from distributed import Client, KilledWorker
 
 from mc_nested.errors import RunError
-from mc_nested.learn.experiments.job_training import outcome_of
-from mc_nested.learn.experiments.jobs import Job
+from mc_nested.studies.job import Job
+from mc_nested.studies.outcome import outcome_of
 from mc_nested.workers.cluster import connection as connection_module
 from mc_nested.workers.cluster import dask_jobs
 from mc_nested.workers.cluster.address import SchedulerAddress

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from distributed import Client, LocalCluster
 
-from mc_nested.learn.experiments.job_training import OUTCOME
-from mc_nested.learn.experiments.jobs import Job
+from mc_nested.studies.job import Job
+from mc_nested.studies.outcome import OUTCOME
 from mc_nested.workers.cluster.job_task import Trained, packed, stop_training, train_on_worker
 from mc_nested.workers.cluster.versions import own_versions
 from mc_nested.workers.messages import JobEnded

@@ -5,8 +5,8 @@ from pathlib import Path
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.learn.experiments.job_training import OUTCOME
 from mc_nested.learn.runs.folder_lock import FILE as LOCK
+from mc_nested.studies.outcome import OUTCOME
 from mc_nested.workers.cluster.shipped_files import files_below, land, write_below
 
 NAMES = st.sampled_from(["a", "b", "checkpoint/a", "checkpoint/deep/b"])

@@ -1,0 +1,227 @@
+"""``mc-nested study NAME``: the shipped studies, each with the options that it takes.
+
+A study's options and their defaults are its declaration's; what each means stands here once.
+"""
+
+import importlib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from functools import partial
+from inspect import Parameter, Signature
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.table import Column
+from rich.table import Table as RichTable
+from rich.text import Text
+
+from mc_nested.arena.corpus_file import MOST_DESIGNS
+from mc_nested.arena.scenario_file import paper_scenarios
+from mc_nested.cli.cluster_options import ClusterOption, InsecureOption, KeysOption, cluster_of
+from mc_nested.cli.json_fields import epilog_of
+from mc_nested.cli.options import DeviceOption, EngineOption
+from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.output_folder import output_folder
+from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
+from mc_nested.cli.screen_states import check_window
+from mc_nested.cli.study_run import MOST_JOBS, jobs_at_once, train_all
+from mc_nested.errors import UserError
+from mc_nested.learn.agents import AGENT_SPECS
+from mc_nested.learn.preset import MOST
+from mc_nested.learn.runs.folder_kind import verb_of_study
+from mc_nested.learn.runs.folder_lock import folder_lock
+from mc_nested.studies.arm import AGENTS
+from mc_nested.studies.config import config_of
+from mc_nested.studies.folder import StudyFolder
+from mc_nested.studies.study import SHIPPED, Asked, Study, write_report
+from mc_nested.studies.table import Table
+from mc_nested.workers.cluster.address import SchedulerAddress
+
+MOST_TRIALS = 1000
+"""More would only run out of memory."""
+
+OPTIONS: Mapping[str, Any] = {
+    "trials": Annotated[int, typer.Option(min=1, max=MOST_TRIALS, help="of each arm on each design")],
+    "episodes": Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial [the preset's]")],
+    "seed": Annotated[int, typer.Option(min=0, help="the same seed gives the same results")],
+    "scenario": ScenariosOption,
+    "layer": LayerOption,
+    "agent": Annotated[
+        list[str] | None, typer.Option(help=f"an agent, as often as you like [{', '.join(AGENT_SPECS)}]")
+    ],
+    "preset": Annotated[str, typer.Option(metavar="NAME|FILE", help="hyper-parameters")],
+    "engine": EngineOption,
+    "device": DeviceOption,
+    "longer": Annotated[
+        int | None,
+        typer.Option(
+            min=2, max=1000, help="also train nested and hierarchical on zigzag and diamond so many times as long [no]"
+        ),
+    ],
+    "designs": Annotated[int, typer.Option(min=1, max=MOST_DESIGNS, help="random designs, drawn from the seed")],
+    "corpus": Annotated[
+        Path | None, typer.Option(metavar="FILE", help="a TOML file of drawings instead of random designs")
+    ],
+    "agents": Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME,...", help=f"of {', '.join(AGENTS)} [nested, and sb3 where it is installed]"),
+    ],
+    "presets": Annotated[
+        list[str] | None, typer.Option(metavar="NAME|FILE,...", help="of each agent [live,tuned,paper]")
+    ],
+}
+"""What a study's options are, by the names that its declaration gives them."""
+
+EVERY_STUDY: Mapping[str, tuple[Any, Any]] = {
+    "jobs": (
+        Annotated[
+            int | None,
+            typer.Option(min=1, max=MOST_JOBS, help="processes to train in; for a cluster, jobs [its cores]"),
+        ],
+        None,
+    ),
+    "cluster": (ClusterOption, None),
+    "keys": (KeysOption, None),
+    "insecure": (InsecureOption, False),
+    "out": (
+        Annotated[
+            Path | None,
+            typer.Option(metavar="DIR", help="a new or empty folder for all of it [one under runs, with the date]"),
+        ],
+        None,
+    ),
+    "resume": (Annotated[Path | None, typer.Option(metavar="DIR", help="go on where it was stopped or killed")], None),
+    "quiet": (QuietOption, False),
+    "as_json": (JsonOption, False),
+}
+"""The options that every study takes, and their defaults."""
+
+BESIDE_RESUME = ("resume", "cluster", "keys", "insecure", "quiet", "as_json")
+"""The options that a study can be resumed with."""
+
+app = typer.Typer(help="Train and report on one of several studies; Ctrl+C saves, and --resume goes on from there.")
+
+
+def declared(name: str) -> Study:
+    """Return the shipped study of that name."""
+    found: Study = importlib.import_module(f"mc_nested.studies.{name}").STUDY
+    return found
+
+
+def command_of(study: Study, instead: Mapping[str, str] | None = None) -> Callable[..., None]:
+    """Return the command that runs the study; ``instead`` has flags that run another by its name, and their help."""
+    others = instead or {}
+
+    def command(context: typer.Context, **values: Any) -> None:
+        given = {name for name in values if getattr(context.get_parameter_source(name), "name", "") == "COMMANDLINE"}
+        chosen = next((name for name in others if values[name]), None)
+        verbs = [verb_of_study(name) for name in (study.name, *others)]
+        if values["resume"] is not None:
+            _check_given(given, BESIDE_RESUME, "--resume goes on with its own config.toml")
+            _resume(verbs, values)
+        elif chosen is None:
+            _begin(study, values, given)
+        else:
+            other = declared(chosen)
+            _check_given(
+                given, (chosen, *other.options, *EVERY_STUDY), f"--{chosen} takes fewer options than {study.name}"
+            )
+            defaults = {name: default for name, default in other.options.items() if name not in given}
+            _begin(other, {**values, **defaults}, given - {chosen})
+
+    flags = {name: (Annotated[bool, typer.Option(f"--{name}", help=what)], False) for name, what in others.items()}
+    own = {name: (OPTIONS[name], default) for name, default in study.options.items()}
+    parameters = [Parameter("context", Parameter.POSITIONAL_OR_KEYWORD, annotation=typer.Context)]
+    for name, (kind, default) in {**own, **flags, **EVERY_STUDY}.items():
+        parameters.append(Parameter(name, Parameter.KEYWORD_ONLY, default=default, annotation=kind))
+    command.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
+    command.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
+    writes = ", ".join(study.files.values())
+    command.__doc__ = f"{study.what}\n\nCtrl+C saves, and --resume goes on from there. Writes {writes}."
+    return command
+
+
+def _check_given(given: Iterable[str], beside: Sequence[str], why: str) -> None:
+    """Raise UserError, which says why, if an option was given that isn't one of those."""
+    for name in sorted(set(given) - set(beside)):
+        raise UserError(f"{why}: leave out --{name.replace('_', '-')}")
+
+
+def _resume(verbs: Sequence[str], values: Mapping[str, Any]) -> None:
+    path: Path = values["resume"]
+    folder = StudyFolder.open(path, verbs)
+    with folder_lock(path):
+        _run(declared(folder.config.study), folder, values)
+
+
+def _begin(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> None:
+    output, scheduler = Output(values["quiet"], values["as_json"]), _scheduler(values)
+    asked = _asked(study, values, given)
+    arms = study.arms(asked)
+    for arm in arms:
+        check_window(arm.preset.states, has_window=False)
+        arm.check()
+    if asked.device:
+        from mc_nested.learn.dqn.torch_engine.engine import device_named  # torch takes seconds to load
+
+        device_named(asked.device)
+    config = config_of(
+        study.name,
+        arms,
+        trials=asked.trials,
+        seed=asked.seed,
+        jobs=values["jobs"] or jobs_at_once(scheduler, output),
+        notes=study.notes(asked),
+    )
+    with output_folder(values["out"], study.folder or study.name) as path:
+        _run(study, StudyFolder.new(path, config), values)
+
+
+def _asked(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> Asked:
+    """Return what was asked for, with the designs and the names of lists loaded and taken apart."""
+    own = {name: values[name] for name in study.options if name not in ("scenario", "layer")}
+    if "scenario" in study.options:
+        own["scenarios"] = named_scenarios(values["scenario"] or paper_scenarios(), values["layer"])
+    for name in ("agents", "presets"):
+        if name in own:
+            own[name] = _listed(own[name])
+    own = {name: value for name, value in own.items() if value is not None}
+    return Asked(**own, given=frozenset(given), say=partial(typer.echo, err=True))
+
+
+def _listed(options: Sequence[str] | None) -> list[str]:
+    """Return the names of an option that can be repeated, each with commas between names; each name once."""
+    return list(dict.fromkeys(name.strip() for option in options or () for name in option.split(",")))
+
+
+def _scheduler(values: Mapping[str, Any]) -> SchedulerAddress | None:
+    return cluster_of(values["cluster"], values["keys"], values["insecure"])
+
+
+def _run(study: Study, folder: StudyFolder, values: Mapping[str, Any]) -> None:
+    run_study(study, folder, Output(values["quiet"], values["as_json"]), _scheduler(values))
+
+
+def run_study(study: Study, folder: StudyFolder, output: Output, scheduler: SchedulerAddress | None = None) -> None:
+    """Train what is missing, write the report and say where it is; errors as ``train_all``'s."""
+    report = study.report_on(folder.config, train_all(folder, output, scheduler))
+    with folder.writing():
+        write_report(folder.path, study, report)
+    paths = {what: folder.path / name for what, name in study.files.items()}
+    lines = [f"{what + ':':8}{path}" for what, path in paths.items()]
+    shown = [_shown(report.shown)] if report.shown else []
+    output.result({"folder": folder.path, "files": paths, **report.found}, *shown, *lines)
+    output.hint(f"next:   open {next(iter(paths.values()))}")
+
+
+def _shown(table: Table) -> RichTable:
+    columns = (Column(head, overflow="fold") for head in table.header)
+    shown = RichTable(*columns, box=None, padding=(0, 1))
+    for row in table.rows:
+        shown.add_row(*map(Text, row))
+    return shown
+
+
+for _name in SHIPPED:
+    app.command(_name, epilog=epilog_of(f"study {_name}"))(command_of(declared(_name)))

@@ -1,0 +1,124 @@
+"""Progress of a study: a bar over all episodes, and each group's recent greedy scores beside the optimum."""
+
+import time
+from collections.abc import Callable
+from types import TracebackType
+
+from rich.console import Console, Group
+from rich.live import Live
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Column, Table
+from rich.text import Text
+
+from mc_nested.cli.progress_line import print_line
+from mc_nested.cli.study_status import StudyStatus
+from mc_nested.workers.messages import JobEnded, JobReport
+
+REFRESH_S = 0.25
+"""No more often than an eye can follow."""
+
+LINE_EVERY_S = 30.0
+"""Seconds between two lines of text, if there is no terminal to show a bar."""
+
+MOST_ROWS = 10
+"""Groups shown at once."""
+
+MOST_COLUMNS = 8
+"""Scenarios shown side by side; of more, only how many runs have ended, and at the optimum."""
+
+
+class StudyProgress:
+    """Shows a status on standard error.
+
+    Args:
+        what: what is being done, in one word.
+        status: what is shown.
+        console: where to show it; standard error unless given.
+        workers: says how many train, and what was lost; empty where there is nothing to say.
+    """
+
+    def __init__(
+        self,
+        what: str,
+        status: StudyStatus,
+        console: Console | None = None,
+        workers: Callable[[], str] = str,
+    ) -> None:
+        self._what = what
+        self._status = status
+        self._workers = workers
+        self._console = console or Console(stderr=True)
+        self._bar = Progress(
+            TextColumn(what),
+            BarColumn(bar_width=None),
+            TextColumn("{task.percentage:3.0f} %"),
+            TextColumn("{task.fields[figures]}"),
+            TimeRemainingColumn(table_column=Column(no_wrap=True)),
+            console=self._console,
+            expand=True,
+        )
+        self._task = self._bar.add_task(what, total=status.total, completed=status.episodes, figures="")
+        self._live = Live(console=self._console, auto_refresh=False, transient=True)
+        self._began = time.monotonic()
+        self._next = self._began
+
+    def __enter__(self) -> "StudyProgress":
+        if self._console.is_terminal:
+            self._live.start()
+        else:
+            self._next += LINE_EVERY_S
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        if self._console.is_terminal:
+            self._live.stop()
+
+    def watch(self, heard: JobReport | JobEnded | None) -> None:
+        """Record a message of a process, and refresh the view if it is time."""
+        if heard is not None:
+            self._status.hear(heard)
+        now = time.monotonic()
+        if now < self._next:
+            return
+        if self._console.is_terminal:
+            self._next = now + REFRESH_S
+            self._bar.update(self._task, completed=self._status.episodes, figures=self._rate())
+            said = self._workers()
+            view = Group(self._bar, Text(said), self._table()) if said else Group(self._bar, self._table())
+            self._live.update(view, refresh=True)
+        else:
+            self._next = now + LINE_EVERY_S
+            print_line(self._console, self._line(now))
+
+    def _rate(self) -> str:
+        return f"{self._status.updates / max(time.monotonic() - self._began, 1e-9):,.0f} updates/s"
+
+    def _line(self, now: float) -> str:
+        status = self._status
+        done = status.episodes - status.episodes_before
+        left = f"{(now - self._began) / done * (status.total - status.episodes) / 60:.1f} min left" if done else ""
+        share = 100 * status.episodes / status.total
+        parts = (f"{share:.0f} % of {status.total:,} episodes", self._rate(), left, self._workers())
+        return f"{self._what}: " + "  ".join(part for part in parts if part)
+
+    def _table(self) -> Table:
+        status = self._status
+        if len(status.optimum) > MOST_COLUMNS:
+            return self._counts()
+        heads = [Text(f"{name} of {optimum:g}") for name, optimum in status.optimum.items()]
+        table = Table("recent score", *(Column(head, justify="right") for head in heads), box=None, padding=(0, 2))
+        for group in status.groups[-MOST_ROWS:]:
+            scores = [status.score(group, scenario) for scenario in status.optimum]
+            table.add_row(Text(group), *("" if score is None else f"{score:.1f}" for score in scores))
+        return table
+
+    def _counts(self) -> Table:
+        status = self._status
+        heads = (Column(head, justify="right") for head in ("ended", "at the optimum"))
+        table = Table("trials", *heads, box=None, padding=(0, 2))
+        for group in status.groups[-MOST_ROWS:]:
+            ended, runs = status.ended(group)
+            table.add_row(Text(group), f"{ended} of {runs}", str(status.at_optimum(group)))
+        return table

@@ -1,0 +1,262 @@
+"""The ablation: the preset live with each part off in turn, beside the model-free preset tuned (ablation.toml).
+
+The presets aren't chosen: the parts are theirs.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from importlib import resources
+from typing import Any
+
+import numpy as np
+import tomlkit
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import NullFormatter, StrMethodFormatter
+from pydantic import BaseModel, ConfigDict, Field
+
+from mc_nested.arrays import Float64s
+from mc_nested.errors import PresetError
+from mc_nested.learn.preset import Preset, load_preset, parse_preset
+from mc_nested.studies.arm import Arm
+from mc_nested.studies.change import changed_tables
+from mc_nested.studies.config import StudyConfig
+from mc_nested.studies.inference import RESAMPLES, Interval, percentiles
+from mc_nested.studies.profiles import played_by
+from mc_nested.studies.study import Asked, Report, Study, with_episodes
+from mc_nested.studies.table import episodes, markdown, number_of_trials
+from mc_nested.studies.trial import Trial, on_each, optimum_of, trial_table
+from mc_nested.toml_file import parse_toml
+
+FILE = "ablation.toml"
+LIVE = "live"
+
+COLUMNS = ("part", "base", "scenario", "trial", "optimum", "best_score", "played_to_optimum", "updates")
+
+
+class AblatedPart(BaseModel):
+    """What is off: the preset ``base`` with some values changed, or without some of its tables."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    name: str
+    base: str
+    what: str = ""
+    preset: dict[str, Any] = Field(default_factory=dict)
+    without: list[str] = Field(default_factory=list)
+
+    def whole_preset(self) -> Preset:
+        """Return the preset that it comes to."""
+        base = load_preset(self.base).model_dump(exclude_none=True)
+        kept = {key: value for key, value in base.items() if key not in self.without}
+        return parse_preset(tomlkit.dumps(changed_tables(kept, self.preset)), f"{FILE}, {self.name}")
+
+
+class AblationFile(BaseModel):
+    """The shipped parts, and how many episodes those of live have at most."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    live_episodes: int
+    rows: list[AblatedPart]
+
+
+def arms(asked: Asked) -> list[Arm]:
+    """Return the shipped parts. A trial of what practises trains alone, since nothing is quicker in a batch."""
+    text = (resources.files("mc_nested.studies") / FILE).read_text("utf-8")
+    shipped = parse_toml(AblationFile, text, FILE, PresetError)
+    found = []
+    for part in shipped.rows:
+        most = asked.episodes or (shipped.live_episodes if part.base == LIVE else None)
+        preset = with_episodes(part.whole_preset(), most)
+        found.append(
+            Arm(
+                name=part.name,
+                preset=preset,
+                preset_name=part.base,
+                scenarios=asked.scenarios,
+                trials=asked.trials,
+                labels={"part": part.name, "base": part.base, "what": part.what},
+                stop_at_optimum=True,
+                together=1 if preset.imagination else asked.trials,
+            )
+        )
+    return found
+
+
+@dataclass(frozen=True)
+class PartMeasures:
+    """One part on one scenario: episodes (trials,), infinite where never solved; no interval for one trial."""
+
+    arm: Arm
+    played: Float64s
+    solved: int
+    median: float
+    interval: Interval | None
+    worst: float
+    best_score: float
+    updates: float
+
+
+def measures_on(trials: Sequence[Trial], scenario: str) -> list[PartMeasures]:
+    """Return what each part comes to on that scenario, in the order of the parts."""
+    return [_measures(own) for (_, where), own in on_each(trials).items() if where == scenario]
+
+
+def _measures(trials: Sequence[Trial]) -> PartMeasures:
+    played = played_by(trials)
+    return PartMeasures(
+        arm=trials[0].arm,
+        played=played,
+        solved=int(np.isfinite(played).sum()),
+        median=float(np.median(played)),
+        interval=_interval_of_median(played),
+        worst=float(played.max()),
+        best_score=max(trial.best_score for trial in trials),
+        updates=float(np.median([trial.outcome.updates for trial in trials])),
+    )
+
+
+def _interval_of_median(played: Float64s) -> Interval | None:
+    """Take a percentile bootstrap, always the same for the same trials."""
+    if len(played) < 2:
+        return None
+    drawn = np.random.default_rng(0).integers(len(played), size=(RESAMPLES, len(played)))
+    return percentiles(np.median(played[drawn], axis=1))
+
+
+HEADER = (
+    "what is off",
+    "what that means",
+    "solved",
+    "median (95 %)",
+    "worst",
+    "best score",
+    "updates, median",
+    "given up after",
+)
+
+WHAT_LIVE_IS = """\
+The preset `live` is double Q-learning alone: there is no imitation in it, of its own episodes or of anybody's. The
+first line has all of its parts, and each of the next ones is without one, or with another value. `tuned` is the
+model-free preset, which has no learnt game: excursions find the build, and it imitates its best episode."""
+
+LEGEND = """\
+Solved: trials with a greedy episode at the optimum. Median and worst: real episodes played until then, that one and the
+other greedy ones included; a trial that was never there counts as infinite (∞). The interval is a percentile bootstrap
+of the median over the trials; with few trials it is too narrow. Best score: the highest of any greedy episode. Updates:
+of all networks of a trial until it was solved or given up. Given up after: that many training episodes."""
+
+
+def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
+    """Report a table for each scenario, with a line for each part that is off."""
+    optimum = optimum_of(trials)
+    found = {scenario: measures_on(trials, scenario) for scenario in optimum}
+    of_each = f"{number_of_trials(config.trials)} of each line on each design"
+    tables = [
+        f"## {scenario}, optimum {optimum[scenario]:g}\n\n{markdown(HEADER, [_line(part) for part in own])}"
+        for scenario, own in found.items()
+    ]
+    return Report(
+        text=[
+            "# What each part of the learning does",
+            f"Real episodes to the optimum: {of_each}, seed {config.seed}.",
+            WHAT_LIVE_IS.replace("\n", " "),
+            "![Episodes to the optimum, a panel for each design, a line for each part](ablation.png)",
+            *tables,
+            LEGEND.replace("\n", " "),
+        ],
+        figure=_figure(found),
+        tables={"ablation.csv": trial_table(trials, COLUMNS)},
+    )
+
+
+def _line(measures: PartMeasures) -> Sequence[str]:
+    interval = measures.interval if measures.interval and np.isfinite(measures.interval.low) else None
+    ends = f" ({episodes(interval.low)} to {episodes(interval.high)})" if interval else ""
+    return (
+        measures.arm.name,
+        measures.arm.labels["what"],
+        f"{measures.solved} of {len(measures.played)}",
+        f"{episodes(measures.median)}{ends}",
+        episodes(measures.worst),
+        f"{measures.best_score:g}",
+        f"{measures.updates:,.0f}",
+        f"{measures.arm.preset.episodes:,}",
+    )
+
+
+TRIAL, MEDIAN, WITHOUT = "#56B4E9", "#0072B2", "#D55E00"
+"""Okabe and Ito's colours, distinguishable with any colour vision: a trial, a median, and a median of never."""
+
+NEVER = 1.8
+"""How far beyond the longest trial the line stands that says never, as a factor."""
+
+SPREAD = 0.28
+"""How far the trials of a line lie apart from its middle at most, in lines."""
+
+
+def _figure(found: dict[str, list[PartMeasures]]) -> Figure:
+    """Draw a panel for each scenario, a line for each part that is off, a mark for each trial and its median."""
+    parts = [part.arm.name for part in next(iter(found.values()))]
+    size = (3.0 + 3.2 * len(found), 1.6 + 0.34 * len(parts))
+    figure = Figure(figsize=size, dpi=140, layout="constrained")
+    every_axes = figure.subplots(1, len(found), sharey=True, squeeze=False)[0]
+    solved = [float(each) for own in found.values() for part in own for each in part.played[np.isfinite(part.played)]]
+    never = NEVER * max([10.0, *solved])
+    for axes, (scenario, own) in zip(every_axes, found.items(), strict=True):
+        _draw(axes, own, never)
+        axes.set_title(scenario, parse_math=False, fontsize=10)  # users name scenarios: dollar signs may appear
+        axes.set_xlabel("real episodes to the optimum")
+    every_axes[0].set_yticks(range(len(parts)), parts)
+    every_axes[0].set_ylim(len(parts) - 0.5, -0.5)
+    median: dict[str, Any] = {"marker": "|", "markersize": 11, "markeredgewidth": 2.4, "linestyle": ""}
+    legend = [
+        Line2D([], [], color=TRIAL, marker="o", markersize=4, linestyle="", label="a trial"),
+        Line2D([], [], color=MEDIAN, label="the median", **median),
+        Line2D([], [], color=WITHOUT, label="median: never", **median),
+    ]
+    figure.legend(handles=legend, loc="outside lower center", ncols=3, frameon=False)
+    return figure
+
+
+def _draw(axes: Axes, found: Sequence[PartMeasures], never: float) -> None:
+    for line, measures in enumerate(found):
+        if line and measures.arm.preset_name != found[line - 1].arm.preset_name:
+            axes.axhline(line - 0.5, color="black", linewidth=0.6)
+        _draw_line(axes, line, measures, never)
+    axes.axvline(never, color="black", linewidth=0.8, linestyle=(0, (1, 3)))
+    axes.text(never, 1.005, "never", transform=axes.get_xaxis_transform(), ha="right", va="bottom", fontsize=8)
+    axes.set_xscale("log")
+    axes.set_xlim(1, never)
+    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:,.0f}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.grid(axis="x", alpha=0.2)
+    axes.tick_params(left=False)
+    axes.spines[["top", "right", "left"]].set_visible(False)
+
+
+def _draw_line(axes: Axes, line: int, measures: PartMeasures, never: float) -> None:
+    count = len(measures.played)
+    heights = line + (np.linspace(-SPREAD, SPREAD, count) if count > 1 else np.zeros(1))
+    shown = np.minimum(np.sort(measures.played), never)
+    axes.plot(shown, heights, "o", markersize=4, color=TRIAL, markeredgewidth=0, clip_on=False)
+    median = min(measures.median, never)
+    color = MEDIAN if np.isfinite(measures.median) else WITHOUT
+    axes.plot([median] * 2, [line - 0.36, line + 0.36], color=color, linewidth=2.4, clip_on=False)
+    on_the_left = median > never / 3
+    beside: dict[str, Any] = {"xytext": (-5 if on_the_left else 5, 0), "ha": "right" if on_the_left else "left"}
+    label = episodes(measures.median)
+    axes.annotate(label, (median, line), textcoords="offset points", fontsize=8, va="center", **beside)
+
+
+STUDY = Study(
+    name="ablation",
+    what="Turn off each part of the preset live in turn, beside the preset tuned. The defaults take about an hour on "
+    "two cores; a trial of live has 30 episodes at most unless --episodes says otherwise.",
+    options={"trials": 10, "episodes": None, "seed": 0, "scenario": None, "layer": None},
+    arms=arms,
+    report=report,
+    files={"table": "ablation.md", "plot": "ablation.png", "rows": "ablation.csv"},
+)

@@ -1,0 +1,110 @@
+"""beyond.png: a panel for each design seen as an image, and one each for parts, many main actions and cooperation."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from mc_nested.arrays import Float64s
+from mc_nested.learn.cooperation.team_agent import KINDS
+from mc_nested.report.curve import align_trials, t_interval
+from mc_nested.studies.claims.arm_results import ArmResults, Arms
+from mc_nested.studies.claims.beyond import alone_among, designs_of, equal_budget, of_topic, teams_of
+from mc_nested.studies.figure5 import BAND, CURVES, OPTIMUM
+from mc_nested.studies.table import number_of_trials
+
+COLUMNS = 3
+CURVE_PANELS = 4
+"""Panels of scores against episodes: three of images, one of parts. The others are of means."""
+
+LOOKS: Mapping[str, Mapping[str, Any]] = {
+    **CURVES,
+    "nested, tuned": {"color": "#56B4E9", "linestyle": "-."},
+    "images": {"color": "#0072B2", "linestyle": "-"},
+    "numbers": {"color": "#E69F00", "linestyle": (0, (4, 1.2))},
+    "shared": {"color": "#0072B2", "linestyle": "-"},
+    "own": {"color": "#CC79A7", "linestyle": "-"},
+    "alone": {"color": "black", "linestyle": "-"},
+}
+"""Okabe and Ito's colours; the same agent looks the same as in Figure 5."""
+
+
+def beyond_figure(arms: Arms) -> Figure:
+    """Draw it; the same results give the same bytes."""
+    images = of_topic(arms, "images")
+    figure = Figure(figsize=(13.0, 8.2), dpi=140, layout="constrained")
+    panels = list(figure.subplots(2, COLUMNS).flat)
+    for axes, design in zip(panels, designs_of(images), strict=False):
+        _draw_curves(axes, [arm for arm in images if arm.scenario == design], f"{design}: images and numbers")
+    parts = of_topic(arms, "parts")
+    _draw_curves(panels[3], parts, f"{parts[0].scenario}: a material for each part")
+    _draw_materials(panels[4], arms)
+    _draw_teams(panels[5], of_topic(arms, "cooperation"))
+    for at, axes in enumerate(panels):
+        axes.grid(alpha=0.2)
+        axes.spines[["top", "right"]].set_visible(False)
+        corner = "lower right" if at < CURVE_PANELS else "lower left"  # curves rise to the right, means fall
+        axes.legend(frameon=False, fontsize=8, loc=corner)
+    return figure
+
+
+def _draw_curves(axes: Axes, arms: Sequence[ArmResults], title: str) -> None:
+    optimum, lowest = arms[0].optimum, 0.0
+    axes.axhline(optimum, zorder=1, **OPTIMUM)
+    for arm in arms:
+        rows = [(trial.number, each.episode, each.score) for trial in arm.trials for each in trial.outcome.evaluations]
+        episodes, scores = align_trials(rows, len(arm.trials))
+        trials = number_of_trials(len(arm.trials))
+        if len(scores) > 1:
+            low, high = t_interval(scores, arm.optimum)
+            axes.fill_between(episodes, low, high, color=LOOKS[arm.name]["color"], alpha=BAND, linewidth=0)
+        ends = ", each until the optimum" if arm.stops else ""
+        label = f"{arm.name}, {trials}{ends}"
+        marker = "o" if len(episodes) == 1 else ""
+        means = scores.mean(axis=0)
+        lowest = min(lowest, float(means.min()))
+        axes.plot(episodes, means, linewidth=1.5, marker=marker, label=label, **LOOKS[arm.name])
+    axes.set_ylim(1.1 * lowest, 1.1 * optimum)
+    axes.set(title=title, xlabel="training episodes", ylabel="score of a greedy episode")
+
+
+def _draw_materials(axes: Axes, arms: Arms) -> None:
+    own = of_topic(arms, "materials")
+    budget, optimum = equal_budget(own, "steps"), own[0].optimum
+    axes.axhline(own[0].optimum, zorder=1, **OPTIMUM)
+    for number, agent in enumerate(CURVES):
+        of_agent = [arm for arm in own if arm.name == agent]
+        counts = [arm.materials * 1.04 ** (number - 1) for arm in of_agent]
+        _draw_means(axes, counts, [arm.within(budget, "steps") for arm in of_agent], optimum, agent, agent)
+    axes.set_xscale("log", base=2)
+    counts = sorted({arm.materials for arm in own})
+    axes.set_xticks(counts, [str(count) for count in counts])
+    axes.set(title=f"main actions, after {budget:,} steps", xlabel="materials", ylabel="mean of the last ten")
+
+
+def _draw_teams(axes: Axes, own: Sequence[ArmResults]) -> None:
+    axes.axhline(own[0].optimum, zorder=1, **OPTIMUM)
+    alone = alone_among(own)
+    _draw_means(axes, [1.0], [alone.last_ten], alone.optimum, "alone", "1 builder")
+    for number, kind in enumerate(KINDS):
+        teams = teams_of(own, kind)
+        counts = [count + 0.06 * (number - 1) for count in teams]
+        _draw_means(axes, counts, [arm.last_ten for arm in teams.values()], alone.optimum, kind, f"networks: {kind}")
+    axes.set_xticks(sorted({arm.team.count for arm in own if arm.team}))
+    title = f"{alone.scenario}: builders in one arena"
+    axes.set(title=title, xlabel="builders", ylabel="mean of the last ten")
+
+
+def _draw_means(
+    axes: Axes, at: Sequence[float], trials: Sequence[Float64s], optimum: float, look: str, label: str
+) -> None:
+    means = [float(own.mean()) for own in trials]
+    if len(trials[0]) > 1:
+        ends = [t_interval(own[:, None], optimum) for own in trials]
+        below = [mean - float(low[0]) for mean, (low, _) in zip(means, ends, strict=True)]
+        errors = np.array([below, [float(high[0]) - mean for mean, (_, high) in zip(means, ends, strict=True)]])
+    else:
+        errors = np.zeros((2, len(means)))
+    axes.errorbar(at, means, yerr=errors, marker="o", markersize=4, capsize=3, label=label, **LOOKS[look])

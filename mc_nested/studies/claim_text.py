@@ -1,0 +1,121 @@
+"""The part of a report that says what was judged: a table of the claims, each claim's lines, and how it was judged."""
+
+from collections.abc import Sequence
+from math import comb
+
+from mc_nested.studies.inference import ALPHA, RESAMPLES
+from mc_nested.studies.table import interval, markdown, probability, two
+from mc_nested.studies.verdicts import Evidence, Finding, JudgedClaim
+
+METHOD = """\
+- A claim holds if all its lines do: each line's own p is below α = {alpha:g}. To hold wrongly, a line that isn't so
+  would have to pass, which each alone does with a probability below α: no correction is needed (an intersection-union
+  test).
+- A claim does not hold if the opposite of any of its lines is shown. One error among its lines would be enough for
+  that, so the p of the opposites are corrected by Holm's method, within the claim.
+- Each claim is a question of its own, none is an alternative to another: nothing is corrected across claims. Of twenty
+  claims that aren't so, one would be expected to hold by chance.
+- The trials of two agents are independent samples: the seed that they share gives them the same random numbers, but
+  they spend them on other networks and other choices, so nothing pairs them.
+- Permutation tests compare Welch's t, not the difference itself, so that they keep their level where the spreads
+  differ. Where the trials of the one with the wider spread are strongly skewed as well, ten of them are too few for
+  that: in a simulation, α = 0.05 was then 0.14. They go through all splits of the trials where there are at most
+  {splits:,}, else through {resamples:,} drawn with a fixed seed, which makes {smallest} the smallest p.
+- The intervals of means and differences are Student's and Welch's t, those of a score cut at the optimum, which no mean
+  exceeds. In simulations of ten trials they held the mean in 95 % of normal ones, and in 91 % of skewed ones. Those of
+  shares are exact. None is corrected for being one of many: an interval without 0 can occur beside an undecided test.
+  An interval without width says that no trial differed, not that no other would.
+- Greedy episodes don't vary by chance: a final score is one episode. What varies is the training, so the unit is the
+  trial.
+- {kept}
+- A small spread is no merit in an agent that is stuck: read it together with the final score.
+- Undecided means that these trials don't show it, not that there is no difference."""
+
+KEPT = {
+    False: "A final score is that of the last evaluation. One evaluation later it may be another: the mean of the last "
+    "ten varies less.",
+    True: "A final score is that of the policy that is kept, the best at any evaluation. The mean of the last ten is "
+    "over the last evaluations, whichever policy is kept.",
+}
+"""What the final score is, by whether a trial keeps its best policy."""
+
+TOO_FEW_TRIALS = """
+- With {trials} trials no permutation test can come below {smallest}: no claim that rests on one can hold, whatever was
+  measured. Train more trials."""
+
+TOO_FEW_AGAINST = """
+- With {trials} trials no permutation test can come below {smallest}: a claim of {lines} tested lines or more can't be
+  shown not to hold by one of them alone. Train more trials."""
+
+
+def claims_table(claims: Sequence[JudgedClaim]) -> str:
+    """Return the table of the claims, a line for each."""
+    rows = [(f"({judged.claim.letter})", judged.claim.title, f"**{judged.verdict.value}**") for judged in claims]
+    return markdown(("claim", "", "verdict"), rows)
+
+
+def claim_section(judged: JudgedClaim) -> str:
+    """Return what the paper says, what was measured, and the verdict."""
+    claim = judged.claim
+    rows = [
+        (
+            finding.evidence.what,
+            _figures(finding.evidence),
+            interval(finding.evidence.interval),
+            *_p_values(finding),
+            _verdict(finding),
+        )
+        for finding in judged.findings
+    ]
+    header = ("", "measured", "95 % interval", "p", "p of the opposite", "after Holm", "verdict")
+    return (
+        f"### ({claim.letter}) {claim.title}: {judged.verdict.value}\n\n"
+        f'The paper, section {claim.section}: "{claim.paper}".\n\n'
+        f"{markdown(header, rows)}\n\n{claim.rule}"
+    )
+
+
+def method(claims: Sequence[JudgedClaim], trials: int, keeps_best: bool) -> str:
+    """Return how the claims were judged, and what so many trials can't show."""
+    text = METHOD.format(
+        alpha=ALPHA,
+        splits=RESAMPLES + 1,
+        resamples=RESAMPLES,
+        smallest=probability(1 / (RESAMPLES + 1)),
+        kept=KEPT[keeps_best],
+    )
+    smallest = _smallest_p(trials)
+    if trials < 2:
+        return text
+    if smallest >= ALPHA:
+        return text + TOO_FEW_TRIALS.format(trials=trials, smallest=probability(smallest))
+    lines = int(ALPHA / smallest) + 1
+    if lines <= max((_tested(judged) for judged in claims), default=0):
+        return text + TOO_FEW_AGAINST.format(trials=trials, smallest=probability(smallest), lines=lines)
+    return text
+
+
+def _tested(judged: JudgedClaim) -> int:
+    return sum(finding.evidence.tails is not None for finding in judged.findings)
+
+
+def _smallest_p(trials: int) -> float:
+    """Return the p-value of a permutation test that finds no other split of the trials as extreme."""
+    return max(1 / comb(2 * trials, trials), 1 / (RESAMPLES + 1))
+
+
+def _figures(evidence: Evidence) -> str:
+    return ", ".join(
+        f"{name} {value:,}" if isinstance(value, int) else f"{name} {two(value)}" for name, value in evidence.figures
+    )
+
+
+def _p_values(finding: Finding) -> tuple[str, str, str]:
+    tails = finding.evidence.tails
+    own = (tails.claim, tails.against) if tails else (None, None)
+    return probability(own[0]), probability(own[1]), probability(finding.against)
+
+
+def _verdict(finding: Finding) -> str:
+    missing = finding.evidence.missing
+    return f"{finding.verdict.value}: {missing}" if missing else finding.verdict.value

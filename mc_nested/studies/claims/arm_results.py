@@ -1,0 +1,121 @@
+"""The results of an arm of what the paper didn't try: its trials on one design, and what they took."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arrays import Float64s
+from mc_nested.studies.arm import Arm
+from mc_nested.studies.job import Builders
+from mc_nested.studies.measures import LAST
+from mc_nested.studies.outcome import Evaluated
+from mc_nested.studies.trial import Trial, on_each
+
+Budget = Literal["steps", "updates"]
+"""What two agents are given the same of."""
+
+
+@dataclass(frozen=True)
+class ArmResults:
+    """The trials of an arm on a design."""
+
+    trials: Sequence[Trial]
+
+    @property
+    def arm(self) -> Arm:
+        """What they have in common."""
+        return self.trials[0].arm
+
+    @property
+    def design(self) -> Scenario:
+        """What is built."""
+        return self.trials[0].scenario
+
+    @property
+    def topic(self) -> str:
+        """What it is about."""
+        return self.arm.labels["topic"]
+
+    @property
+    def name(self) -> str:
+        """Who learned."""
+        return self.arm.labels["agent"]
+
+    @property
+    def scenario(self) -> str:
+        """The design's name."""
+        return self.design.name
+
+    @property
+    def materials(self) -> int:
+        """How many there are to choose from."""
+        return len(self.design.materials)
+
+    @property
+    def optimum(self) -> float:
+        """The design's highest score."""
+        return self.design.optimum
+
+    @property
+    def stops(self) -> bool:
+        """Whether a trial ends at its first greedy episode at the optimum."""
+        return self.arm.stop_at_optimum
+
+    @property
+    def team(self) -> Builders | None:
+        """Who shares an arena; None where an agent builds alone."""
+        return self.arm.builders
+
+    @property
+    def key(self) -> tuple[str, str, str]:
+        """What no other arm has."""
+        return self.topic, self.scenario, self.name
+
+    @property
+    def last_ten(self) -> Float64s:
+        """Each trial's mean of its last ten greedy scores, (trials,)."""
+        return np.array([np.mean(trial.scores[-LAST:]) for trial in self.trials])
+
+    @property
+    def best(self) -> Float64s:
+        """Each trial's best greedy score, (trials,)."""
+        return np.array([trial.best_score for trial in self.trials])
+
+    @property
+    def final(self) -> Float64s:
+        """Each trial's last greedy score, (trials,)."""
+        return np.array([trial.scores[-1] for trial in self.trials])
+
+    def spent(self, of: Budget) -> int:
+        """Return the least that a trial had spent at its last evaluation."""
+        return min(_spent(trial.outcome.evaluations[-1], of) for trial in self.trials)
+
+    def within(self, budget: int, of: Budget) -> Float64s:
+        """Return last_ten of the evaluations until which no more was spent, (trials,); the first always counts."""
+        return np.array([np.mean(self._until(trial, budget, of)[-LAST:]) for trial in self.trials])
+
+    def early(self, budget: int, of: Budget) -> Float64s:
+        """Return each trial's mean score until a third of the budget, (trials,); the first counts in any case."""
+        return np.array([np.mean(self._until(trial, budget // 3, of)) for trial in self.trials])
+
+    @staticmethod
+    def _until(trial: Trial, budget: int, of: Budget) -> list[float]:
+        first, *others = trial.outcome.evaluations
+        return [first.score, *(each.score for each in others if _spent(each, of) <= budget)]
+
+
+Arms = dict[tuple[str, str, str], ArmResults]
+"""Every arm by its key."""
+
+
+def arm_results(trials: Iterable[Trial]) -> Arms:
+    """Return the results of every arm on each of its designs."""
+    return {each.key: each for each in map(ArmResults, on_each(trials).values())}
+
+
+def _spent(evaluated: Evaluated, of: Budget) -> int:
+    found = evaluated.trained_steps if of == "steps" else evaluated.updates
+    return found or 0

@@ -1,0 +1,230 @@
+"""The claims about what the paper didn't try: (j) images, (k) parts, (l) many main actions, (m) cooperation."""
+
+from collections.abc import Sequence
+from typing import get_args
+
+from mc_nested.arrays import Float64s
+from mc_nested.learn.cooperation.team_agent import KINDS, Kind
+from mc_nested.studies.claims.arm_results import ArmResults, Arms, Budget
+from mc_nested.studies.claims.contests import HIERARCHICAL, NESTED, OUTPERFORMED, SINGLE
+from mc_nested.studies.claims.lines import above, lead_grows, mostly_at_the_optimum, not_behind
+from mc_nested.studies.verdicts import Claim, Evidence, JudgedClaim, Verdict, judged
+
+IMAGES = "This framework is also applicable with inputs of images"
+MORE_THAN_ONE = (
+    "in general, the main agent could take more than one action before passing the information down the "
+    "the nested agent"
+)
+MANY = (
+    "as the number of main agent actions increases, we believe the performance will increase as well, when comparing "
+    "to the deep hierarchical framework and the deep non-hierarchical single agent framework"
+)
+MODELS = (
+    "we only had to train two DDQN models, compared with three for the deep hierarchical framework (this value "
+    "increases for each unique main agent action)"
+)
+IMPROVE = (
+    "We are particularly interested in this problem since the convergence in multi-agent scenarios is not guaranteed "
+    "and we believe the deep nested agent framework will be able to improve the current state-of-the-art results"
+)
+COOPERATING = "multi-agent scenarios where there are many nested agents that are cooperating with each other"
+
+MOSTLY = "Exact binomial tests of the share of trials{of}. Holds: it is above one half. Does not hold: it is below."
+ABOVE = (
+    "Studentised permutation tests of the difference of the means of each trial's last ten evaluations. Holds: it is "
+    "above 0. Does not hold: it is below one block, and not shown to be above 0."
+)
+NOT_BEHIND = (
+    "Studentised permutation tests of the difference of the means of each trial's best greedy score, with a margin of "
+    "one block. Holds: it is above -1. Does not hold: it is below -1. The paper names no measure; this is our reading "
+    "of applicable."
+)
+GROWS = (
+    "Nested's lead: the difference of the means of {measure}. Welch and Satterthwaite's t test of how much larger it "
+    "is with the most main actions than with the fewest. Holds: the change is above 0. Does not hold: it is below."
+)
+LATE = "each trial's last ten evaluations until it had spent as many {of} as every trial of the two had in the end"
+EARLY = "each trial's mean over its evaluations until a third of the {of} that every trial of the two had in the end"
+GROWING = (
+    "Counted, not tested. Holds: the hierarchy's are more with the most main actions than with the fewest, and "
+    "nested's are not. Does not hold: otherwise."
+)
+PARTS_READ = " The paper names no task for it; a material for each part of a design is our reading."
+CONVERGES_READ = " The paper leaves open whether they converge; this share is our reading of it."
+TEAM_READ = " The paper doesn't say what it compares with; this is our reading."
+EVER = ": those that score the optimum in a greedy episode at any time"
+LAST = ": those whose last greedy episode scores the optimum"
+
+
+def judge_beyond(arms: Arms) -> tuple[JudgedClaim, ...]:
+    """Judge every claim."""
+    claims = (*_of_images(arms), *_of_parts(arms), *_of_materials(arms), *_of_teams(arms))
+    return tuple(judged(claim) for claim in claims)
+
+
+def of_topic(arms: Arms, topic: str) -> list[ArmResults]:
+    """Return the arms that are about it, in their order."""
+    return [arm for arm in arms.values() if arm.topic == topic]
+
+
+def teams_of(arms: Sequence[ArmResults], networks: Kind) -> dict[int, ArmResults]:
+    """Return the teams whose builders learn in that way, by how many they are: two or more."""
+    teams = {arm.team.count: arm for arm in arms if arm.team and arm.team.networks == networks}
+    return {count: arm for count, arm in teams.items() if count > 1}
+
+
+def alone_among(arms: Sequence[ArmResults]) -> ArmResults:
+    """Return the arm of one builder."""
+    return next(arm for arm in arms if arm.team and arm.team.count == 1)
+
+
+def designs_of(arms: Sequence[ArmResults]) -> list[str]:
+    """Return the names of their designs, each once."""
+    return list(dict.fromkeys(arm.scenario for arm in arms))
+
+
+def equal_budget(arms: Sequence[ArmResults], of: Budget) -> int:
+    """Return what every trial of these had spent in the end."""
+    return min(arm.spent(of) for arm in arms)
+
+
+def _of_images(arms: Arms) -> list[Claim]:
+    designs = designs_of(of_topic(arms, "images"))
+    images = [arms["images", design, "images"] for design in designs]
+    numbers = [arms["images", design, "numbers"] for design in designs]
+    return [
+        Claim(
+            "j1",
+            "an agent that sees images reaches the optimum",
+            IMAGES,
+            "4.1",
+            MOSTLY.format(of=EVER),
+            tuple(mostly_at_the_optimum(arm.scenario, arm.optimum, arm.best) for arm in images),
+        ),
+        Claim(
+            "j2",
+            "an agent that sees images scores no less than one that sees numbers",
+            IMAGES,
+            "4.1",
+            NOT_BEHIND,
+            tuple(
+                not_behind(f"{seen.scenario}, best score", ("images", "numbers"), (seen.best, counted.best))
+                for seen, counted in zip(images, numbers, strict=True)
+            ),
+        ),
+    ]
+
+
+def _of_parts(arms: Arms) -> list[Claim]:
+    solved = next(arm for arm in of_topic(arms, "parts") if arm.stops)
+    nested = arms["parts", solved.scenario, NESTED]
+    against = [arms["parts", solved.scenario, other] for other in (HIERARCHICAL, SINGLE)]
+    return [
+        Claim(
+            "k1",
+            "a main agent that chooses again for each part reaches the optimum, with the preset tuned",
+            MORE_THAN_ONE,
+            "4.1",
+            MOSTLY.format(of=EVER) + PARTS_READ,
+            (mostly_at_the_optimum(solved.scenario, solved.optimum, solved.best),),
+        ),
+        *(
+            Claim(
+                f"k{number}",
+                f"nested is above {other.name} where the main agent chooses for each part",
+                OUTPERFORMED,
+                "5.2",
+                ABOVE,
+                (_above(nested, other, other.scenario),),
+            )
+            for number, other in enumerate(against, start=2)
+        ),
+    ]
+
+
+def _of_materials(arms: Arms) -> list[Claim]:
+    contests: list[tuple[str, Budget, bool]] = [
+        *((other, of, False) for other in (HIERARCHICAL, SINGLE) for of in get_args(Budget)),
+        *((other, "steps", True) for other in (HIERARCHICAL, SINGLE)),
+    ]
+    grown = [_grows(arms, f"l{number}", *contest) for number, contest in enumerate(contests, start=1)]
+    networks = Claim(
+        f"l{len(grown) + 1}",
+        "the hierarchy's networks grow with the number of main actions, nested's don't",
+        MODELS,
+        "6",
+        GROWING,
+        (_networks(arms),),
+    )
+    return [*grown, networks]
+
+
+def _grows(arms: Arms, letter: str, other: str, of: Budget, is_early: bool) -> Claim:
+    own = [arm for arm in of_topic(arms, "materials") if arm.name in (NESTED, other)]
+    budget = equal_budget(own, of)
+
+    def measure(arm: ArmResults) -> Float64s:
+        return arm.early(budget, of) if is_early else arm.within(budget, of)
+
+    leads = {
+        arm.materials: (measure(arm), measure(arms["materials", arm.scenario, other]))
+        for arm in own
+        if arm.name == NESTED
+    }
+    when = "early" if is_early else "late"
+    title = f"nested's lead on {other} grows with the number of main actions, {when}, at equal {of}"
+    rule = GROWS.format(measure=(EARLY if is_early else LATE).format(of=of))
+    return Claim(letter, title, MANY, "6", rule, (lead_grows(f"{NESTED} and {other}, equal {of}", leads),))
+
+
+def _networks(arms: Arms) -> Evidence:
+    counts = {
+        agent: [arm.trials[0].networks for arm in of_topic(arms, "materials") if arm.name == agent]
+        for agent in (NESTED, HIERARCHICAL)
+    }
+    grows = {agent: counted[-1] > counted[0] for agent, counted in counts.items()}
+    figures = tuple(
+        (f"{agent} with {arm.materials}", arm.trials[0].networks)
+        for agent in counts
+        for arm in of_topic(arms, "materials")
+        if arm.name == agent
+    )
+    holds = grows[HIERARCHICAL] and not grows[NESTED]
+    return Evidence("networks of a trial", figures, counted=Verdict.HOLDS if holds else Verdict.FAILS)
+
+
+def _of_teams(arms: Arms) -> list[Claim]:
+    own = of_topic(arms, "cooperation")
+    alone = alone_among(own)
+    teams = {kind: list(teams_of(own, kind).values()) for kind in KINDS}
+    return [
+        Claim(
+            "m1",
+            f"cooperating nested agents converge to the optimum within {alone.arm.preset.episodes:,} episodes",
+            IMPROVE,
+            "6",
+            MOSTLY.format(of=LAST) + CONVERGES_READ,
+            tuple(mostly_at_the_optimum(arm.name, arm.optimum, arm.final) for arm in teams["shared"]),
+        ),
+        _compared_teams("m2", "cooperating nested agents score above one builder", COOPERATING, teams["shared"], alone),
+        *(
+            _compared_teams(letter, f"nested agents {how} score above independent single agents", IMPROVE, *pair)
+            for letter, how, pair in (
+                ("m3", "that share their networks", (teams["shared"], teams["single"])),
+                ("m4", "with networks of their own", (teams["own"], teams["single"])),
+            )
+        ),
+    ]
+
+
+def _compared_teams(
+    letter: str, title: str, paper: str, teams: Sequence[ArmResults], others: Sequence[ArmResults] | ArmResults
+) -> Claim:
+    beside = [others] * len(teams) if isinstance(others, ArmResults) else others
+    lines = tuple(_above(team, other, "") for team, other in zip(teams, beside, strict=True))
+    return Claim(letter, title, paper, "6", ABOVE + TEAM_READ, lines)
+
+
+def _above(arm: ArmResults, other: ArmResults, where: str) -> Evidence:
+    what = where or f"{arm.name} and {other.name}"
+    return above(what, (arm.name, other.name), (arm.last_ten, other.last_ten))

@@ -1,0 +1,32 @@
+"""Every claim of the paper about its three agents, with its verdict."""
+
+from mc_nested.studies.claims.costs import fewer_parts, quicker, smaller_replays
+from mc_nested.studies.claims.longer import solved_in_the_end
+from mc_nested.studies.claims.scores import (
+    above_single,
+    ahead_of_single_early,
+    ahead_on_the_line,
+    alike_on_the_unsolved,
+)
+from mc_nested.studies.claims.stability import steadier
+from mc_nested.studies.measures import curves_of
+from mc_nested.studies.results import Results
+from mc_nested.studies.verdicts import JudgedClaim, judged
+
+
+def judge(results: Results, longer: Results | None = None) -> tuple[JudgedClaim, ...]:
+    """Judge every claim; ``longer`` is the same experiment with ten times the episodes, for claim (f)."""
+    curves = curves_of(results)
+    costs = {(cost.agent, cost.scenario): cost for cost in results.costs}
+    claims = (
+        *ahead_on_the_line(curves),
+        alike_on_the_unsolved(curves),
+        *above_single(curves, results.scenarios),
+        *steadier(curves, results.scenarios),
+        *fewer_parts(costs, results.scenarios),
+        solved_in_the_end(results, longer),
+        ahead_of_single_early(curves, results.scenarios),
+        smaller_replays(costs, results.scenarios),
+        *quicker(costs, results.scenarios),
+    )
+    return tuple(judged(claim) for claim in claims)

@@ -1,0 +1,35 @@
+"""The claims about training stability: (d)."""
+
+from collections.abc import Sequence
+
+from mc_nested.studies.claims.contests import (
+    HIERARCHICAL,
+    NESTED,
+    OUTPERFORMED,
+    SINGLE,
+    SPREAD,
+    Curves,
+    contest_of,
+    less,
+)
+from mc_nested.studies.verdicts import Claim
+
+STEADIER = (
+    "Studentised permutation tests of the difference of the means of each trial's standard deviation over its "
+    "evaluations in the last third of the training. Holds: it is below 0. Does not hold: it is above 0."
+)
+
+
+def steadier(curves: Curves, scenarios: Sequence[str]) -> list[Claim]:
+    """Return claims (d1) and (d2), against one of the other agents each."""
+    return [
+        Claim(
+            f"d{number}",
+            f"nested trains more stably than {other} on every scenario",
+            f"{OUTPERFORMED} training stability",
+            "5.2",
+            STEADIER,
+            tuple(contest_of(curves, scenario, SPREAD, (NESTED, other), less) for scenario in scenarios),
+        )
+        for number, other in enumerate((HIERARCHICAL, SINGLE), start=1)
+    ]

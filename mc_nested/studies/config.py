@@ -1,0 +1,147 @@
+"""config.toml of a study: all that is needed to repeat it. No other file is; a preset or a design stands there once."""
+
+import itertools
+from collections.abc import Sequence
+from typing import Annotated, TypeVar
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+
+from mc_nested.arena.cooperative.team import MOST_BUILDERS
+from mc_nested.arena.corpus_file import MOST_DESIGNS
+from mc_nested.arena.scenario_file import ScenarioTable, scenario_of, table_of
+from mc_nested.errors import RunError
+from mc_nested.learn.cooperation.team_agent import Kind
+from mc_nested.learn.preset import Preset
+from mc_nested.learn.runs.folder_kind import FORMAT
+from mc_nested.studies.arm import AGENTS, Arm
+from mc_nested.studies.job import Builders, Job, cut_into_jobs, side_by_side
+
+
+def _known(name: str) -> str:
+    if name not in AGENTS:
+        raise ValueError(f"must be one of {', '.join(AGENTS)}")
+    return name
+
+
+class ArmTable(BaseModel):
+    """An arm as config.toml has it, where presets and scenarios are named; arm.py says what each key is."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    name: str
+    agent: Annotated[str, AfterValidator(_known)]
+    preset: str
+    preset_name: str
+    scenarios: Annotated[list[str], Field(min_length=1, max_length=MOST_DESIGNS)]
+    trials: Annotated[int, Field(ge=1)]
+    labels: dict[str, str] = Field(default_factory=dict)
+    sees_choice: bool | None = None
+    builders: Annotated[int, Field(ge=1, le=MOST_BUILDERS)] | None = None
+    networks: Kind = "shared"
+    stop_at_optimum: bool = False
+    differs_by_design: bool = False
+    together: Annotated[int, Field(ge=1)] | None = None
+
+
+class StudyConfig(BaseModel):
+    """A study with its arms in the order of its report.
+
+    ``jobs`` is the number of processes, which may decide what trains as one batch, but not the results. ``notes`` are
+    what its report says of it beside.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    format: Annotated[int, Field(ge=1)] = FORMAT
+    study: str
+    trials: Annotated[int, Field(ge=1)]
+    seed: Annotated[int, Field(ge=0)]
+    jobs: Annotated[int, Field(ge=1)]
+    notes: dict[str, str] = Field(default_factory=dict)
+    presets: dict[str, Preset]
+    scenarios: dict[str, ScenarioTable]
+    arms: Annotated[list[ArmTable], Field(min_length=1)]
+
+    def loaded_arms(self) -> list[Arm]:
+        """Return the arms; ScenarioError or RunError if one can't be trained, or is there twice."""
+        scenarios = {name: scenario_of(table, name) for name, table in self.scenarios.items()}
+        arms = []
+        for table in self.arms:
+            missing = [name for name in table.scenarios if name not in scenarios]
+            if missing or table.preset not in self.presets:
+                raise RunError(f"arm {table.name!r}: names what isn't there: put config.toml back as it was")
+            fields = table.model_dump(exclude={"preset", "scenarios", "builders", "networks"})
+            builders = Builders(table.builders, table.networks) if table.builders else None
+            own = tuple(scenarios[name] for name in table.scenarios)
+            arms.append(Arm(preset=self.presets[table.preset], scenarios=own, builders=builders, **fields))
+        _check_different(arms)
+        return arms
+
+    def cut(self) -> list[Job]:
+        """Return the jobs, in the order in which processes take them; errors as ``loaded_arms``'s."""
+        runs = [run for arm in self.loaded_arms() for run in arm.runs()]
+        return cut_into_jobs(side_by_side(runs), self.jobs, self.seed)
+
+
+Table = TypeVar("Table", Preset, ScenarioTable)
+
+
+def config_of(
+    study: str, arms: Sequence[Arm], *, trials: int, seed: int, jobs: int, notes: dict[str, str] | None = None
+) -> StudyConfig:
+    """Return the config of a study with these arms; RunError if two of them are the same."""
+    _check_different(arms)
+    presets: dict[str, Preset] = {}
+    scenarios: dict[str, ScenarioTable] = {}
+    tables = []
+    for arm in arms:
+        names = [_keyed(scenarios, table.name, table) for table in map(table_of, arm.scenarios)]
+        tables.append(
+            ArmTable(
+                name=arm.name,
+                agent=arm.agent,
+                preset=_keyed(presets, arm.short_preset, arm.preset),
+                preset_name=arm.preset_name,
+                scenarios=names,
+                trials=arm.trials,
+                labels=dict(arm.labels),
+                sees_choice=arm.sees_choice,
+                builders=arm.builders.count if arm.builders else None,
+                networks=arm.builders.networks if arm.builders else "shared",
+                stop_at_optimum=arm.stop_at_optimum,
+                differs_by_design=arm.differs_by_design,
+                together=arm.together,
+            )
+        )
+    return StudyConfig(
+        study=study,
+        trials=trials,
+        seed=seed,
+        jobs=jobs,
+        notes=notes or {},
+        presets=presets,
+        scenarios=scenarios,
+        arms=tables,
+    )
+
+
+def _keyed(tables: dict[str, Table], name: str, table: Table) -> str:
+    """Put the table among the others, unless it is there, and return its key: its name, or nearly."""
+    for number in itertools.count(1):
+        key = name if number == 1 else f"{name}, {number}"
+        if tables.setdefault(key, table) == table:
+            return key
+    raise AssertionError("there is always another number")
+
+
+def _check_different(arms: Sequence[Arm]) -> None:
+    """Raise RunError if two scenarios of an arm have one name, or two arms on a scenario."""
+    seen: set[tuple[str, str]] = set()
+    for arm in arms:
+        names = [scenario.name for scenario in arm.scenarios]
+        for name in names:
+            if names.count(name) > 1:
+                raise RunError(f"two scenarios are named {name!r}: name it once, or rename one in its file")
+            if (arm.name, name) in seen:
+                raise RunError(f"two arms are named {arm.name!r}: name it once, or rename a file")
+            seen.add((arm.name, name))

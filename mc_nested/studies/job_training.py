@@ -1,0 +1,252 @@
+"""Training one job: tick by tick, saved once every evaluation interval; at the end its outcome is written."""
+
+import shutil
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mc_nested.arrays import Arrays, Float64s, Int64s
+from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
+from mc_nested.learn.state_dict import named_for, part_of
+from mc_nested.studies.job import Job
+from mc_nested.studies.outcome import Evaluated, JobOutcome, RunOutcome, evaluated, write_outcome, writing
+
+
+class TrainedJob(Protocol):
+    """A job that is trained in its folder, by whatever algorithm; each method raises RunError if the disk refuses."""
+
+    job: Job
+
+    @property
+    def finished(self) -> bool:
+        """Whether every run has ended: then ``finish`` is next."""
+        ...
+
+    @property
+    def episodes_done(self) -> Int64s:
+        """Training episodes completed, (runs,)."""
+        ...
+
+    @property
+    def evaluation_rows(self) -> Sequence[EvaluationRow]:
+        """The greedy episodes so far, of all runs."""
+        ...
+
+    @property
+    def updates(self) -> int:
+        """Updates of all networks so far."""
+        ...
+
+    def tick(self) -> None:
+        """Train a little."""
+        ...
+
+    def save(self) -> None:
+        """Save what the rest of the training needs: after it, a new one of the same job and folder goes on."""
+        ...
+
+    def finish(self) -> None:
+        """Write the outcome, and leave nothing else."""
+        ...
+
+
+class UpdatedAgents(Protocol):
+    """The agents of some runs, as they are updated."""
+
+    @property
+    def updates_by_run(self) -> Int64s: ...
+
+
+class CountedAgents(UpdatedAgents, Protocol):
+    """The agents of some runs, and what they take."""
+
+    @property
+    def networks(self) -> int: ...
+    @property
+    def parameters(self) -> int: ...
+    @property
+    def updates(self) -> int: ...
+    @property
+    def replay_bytes(self) -> Int64s: ...
+
+
+class LoggedTrainer(Protocol):
+    """A trainer, as far as what it spends is counted."""
+
+    @property
+    def agent(self) -> UpdatedAgents: ...
+    @property
+    def episode_rows(self) -> Sequence[EpisodeRow]: ...
+    @property
+    def evaluation_rows(self) -> Sequence[EvaluationRow]: ...
+
+
+class JobTrainer(LoggedTrainer, Protocol):
+    """A trainer of this project's: of agents (trainer.py), or of teams (cooperation/team_trainer.py)."""
+
+    @property
+    def agent(self) -> CountedAgents: ...
+    @property
+    def finished(self) -> bool: ...
+    @property
+    def episodes_done(self) -> Int64s: ...
+    @property
+    def kept_scores(self) -> Float64s: ...
+    def tick(self) -> None: ...
+    def state(self) -> Arrays: ...
+    def marks(self) -> Arrays: ...
+    def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays: ...
+    def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None: ...
+
+
+class SpendingCount:
+    """Counts what each of so many runs has spent, beside their trainer.
+
+    ``at``: (steps, updates) of each evaluation, in their order.
+    """
+
+    def __init__(self, runs: int) -> None:
+        self.at: list[tuple[int, int]] = []
+        self._steps = np.zeros(runs, dtype=np.int64)
+        self._episodes = 0
+
+    def count(self, trainer: LoggedTrainer) -> None:
+        """Count what the trainer did since the last call; to be called after each of its ticks.
+
+        No run is updated while it is evaluated, and an evaluation takes a tick at least.
+        """
+        for episode in trainer.episode_rows[self._episodes :]:
+            self._steps[episode.trial] += episode.steps
+        self._episodes = len(trainer.episode_rows)
+        if len(trainer.evaluation_rows) > len(self.at):
+            updates = trainer.agent.updates_by_run
+            for row in trainer.evaluation_rows[len(self.at) :]:
+                self.at.append((int(self._steps[row.trial]), int(updates[row.trial])))
+
+    def state(self) -> Arrays:
+        """Return what a checkpoint keeps."""
+        return {"at": np.array(self.at, dtype=np.int64).reshape(-1, 2)}
+
+    def load(self, state: Mapping[str, NDArray[Any]], trainer: LoggedTrainer) -> None:
+        """Go on from what ``state`` returned, beside the trainer as it was then."""
+        self.at = [(steps, updates) for steps, updates in state["at"].tolist()]
+        self._steps[:] = 0
+        self._episodes = 0
+        self.count(trainer)
+
+
+class JobTraining:
+    """Trains a job in its folder, from where it was last saved.
+
+    Args:
+        job: what is trained.
+        folder: the job's own; made at the first save.
+        trainer: an untrained one for the job's runs (job_trainers.py).
+    """
+
+    def __init__(self, job: Job, folder: Path, trainer: JobTrainer) -> None:
+        self.job = job
+        self.trainer = trainer
+        self._spent = SpendingCount(len(job.trials))
+        self._folder = folder
+        self._checkpoint = Checkpoint(folder / "checkpoint", job.identity())
+        self._seconds_before = 0.0
+        self._began = time.thread_time()
+        if self._checkpoint.exists:
+            self._checkpoint.load_into(self)
+        self._saved_at = self.trainer.episodes_done.copy()
+
+    @property
+    def finished(self) -> bool:
+        return self.trainer.finished
+
+    @property
+    def episodes_done(self) -> Int64s:
+        return self.trainer.episodes_done
+
+    @property
+    def evaluation_rows(self) -> Sequence[EvaluationRow]:
+        return self.trainer.evaluation_rows
+
+    @property
+    def updates(self) -> int:
+        return self.trainer.agent.updates
+
+    def tick(self) -> None:
+        """Take a step of every run, and save if a run has trained for an evaluation interval since the last save.
+
+        RunError if the disk refuses; the last save is intact then.
+        """
+        self.trainer.tick()
+        self._spent.count(self.trainer)
+        if (self.trainer.episodes_done - self._saved_at).max() >= self.job.preset.evaluate_every:
+            self.save()
+
+    def save(self) -> None:
+        """Save it as it is now; RunError as for ``tick``."""
+        with writing(self._folder):
+            self._checkpoint.save(self)
+        self._saved_at = self.trainer.episodes_done.copy()
+
+    def finish(self) -> None:
+        """Write the outcome and delete the checkpoint, which is mostly replays that nobody needs any more.
+
+        RunError if the disk refuses.
+        """
+        with writing(self._folder):
+            write_outcome(self._folder, self._outcome())
+        shutil.rmtree(self._folder / "checkpoint", ignore_errors=True)
+
+    def state(self) -> Arrays:
+        """Return what the checkpoint keeps: the trainer's, and the seconds so far."""
+        spent = named_for("spent", self._spent.state())
+        return {**self.trainer.state(), "unit.seconds": np.array([self._seconds()]), **spent}
+
+    def marks(self) -> Arrays:
+        """For the checkpoint."""
+        return self.trainer.marks()
+
+    def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
+        """For the checkpoint."""
+        return self.trainer.journal(since)
+
+    def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None:
+        """For the checkpoint."""
+        self.trainer.load(state, journals)
+        self._seconds_before = float(state["unit.seconds"][0])
+        self._spent.load(part_of(state, "spent"), self.trainer)
+
+    def _seconds(self) -> float:
+        return self._seconds_before + time.thread_time() - self._began
+
+    def _outcome(self) -> JobOutcome:
+        agent, runs = self.trainer.agent, len(self.job.trials)
+        evaluations: list[list[Evaluated]] = [[] for _ in range(runs)]
+        for row, spent in zip(self.trainer.evaluation_rows, self._spent.at, strict=True):
+            evaluations[row.trial].append(evaluated(row, self.job.scenarios[row.trial], spent))
+        steps = np.zeros(runs, dtype=np.int64)
+        for trained in self.trainer.episode_rows:
+            steps[trained.trial] += trained.steps
+        updates = agent.updates_by_run
+        held = None if self.job.preset.imagination else agent.replay_bytes
+        return JobOutcome(
+            identity=fingerprint(self.job.identity()),
+            networks=agent.networks,
+            parameters=agent.parameters,
+            seconds=round(self._seconds(), 3),
+            runs=[
+                RunOutcome(
+                    evaluations=evaluations[run],
+                    score=float(self.trainer.kept_scores[run]),
+                    updates=int(updates[run]),
+                    env_steps=int(steps[run]),
+                    replay_bytes=None if held is None else int(held[run]),
+                )
+                for run in range(runs)
+            ],
+        )

@@ -1,0 +1,112 @@
+"""What came of a job: outcome.json in its folder."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.atomic_file import atomic_write
+from mc_nested.errors import RunError
+from mc_nested.learn.episode_log import EvaluationRow
+from mc_nested.learn.evaluation import GreedyEpisode
+from mc_nested.learn.runs.checkpoint import fingerprint
+from mc_nested.studies.job import Job
+
+OUTCOME = "outcome.json"
+
+
+class Evaluated(BaseModel):
+    """One greedy episode after ``episode`` training episodes; ``score`` is r_M.
+
+    ``trained_steps`` and ``updates`` are what the run had spent by then, None where that wasn't counted.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    episode: int
+    score: float
+    material: str
+    steps: int
+    trained_steps: int | None = None
+    updates: int | None = None
+
+
+def evaluated(row: EvaluationRow, scenario: Scenario, spent: tuple[int, int] | None = None) -> Evaluated:
+    """Return what an outcome says about a greedy episode on that scenario, and the (steps, updates) spent by then."""
+    material = GreedyEpisode([row.material]).material_name(scenario)
+    steps, updates = spent or (None, None)
+    return Evaluated(
+        episode=row.episode,
+        score=row.score,
+        material=material,
+        steps=row.steps,
+        trained_steps=steps,
+        updates=updates,
+    )
+
+
+class RunOutcome(BaseModel):
+    """The outcome of one run: its evaluations in order, the score of the policy it keeps, its updates and steps.
+
+    ``replay_bytes``: of what its replays hold at its end; None where it wasn't measured, or practises in a learnt game.
+    """
+
+    model_config = ConfigDict(frozen=True)
+
+    evaluations: list[Evaluated]
+    score: float
+    updates: int
+    env_steps: int
+    replay_bytes: int | None = None
+
+
+class JobOutcome(BaseModel):
+    """The outcome of a job; ``networks`` and ``parameters`` are per run, ``seconds`` of computing are of all runs."""
+
+    model_config = ConfigDict(frozen=True)
+
+    identity: str
+    networks: int
+    parameters: int
+    seconds: float
+    runs: list[RunOutcome]
+
+    def seconds_of(self, run: RunOutcome) -> float:
+        """Return one run's share of the seconds, by its updates."""
+        updates = sum(each.updates for each in self.runs)
+        return self.seconds * run.updates / updates if updates else 0.0
+
+
+@contextmanager
+def writing(folder: Path) -> Iterator[None]:
+    """Raise RunError, one line, if the disk refuses what the block writes in a job's folder."""
+    try:
+        yield
+    except OSError as error:
+        raise RunError(f"{folder}: can't be written ({error}): make room") from error
+
+
+def write_outcome(folder: Path, outcome: JobOutcome) -> None:
+    """Write a finished job's outcome to its folder, atomically; OSError if the disk refuses."""
+    folder.mkdir(parents=True, exist_ok=True)
+    with atomic_write(folder / OUTCOME) as unfinished:
+        unfinished.write_text(outcome.model_dump_json(), encoding="utf-8")
+
+
+def outcome_of(job: Job, folder: Path) -> JobOutcome | None:
+    """Return the outcome of the job in that folder; None if it isn't finished.
+
+    RunError if the file can't be read, or is another job's.
+    """
+    path = folder / OUTCOME
+    if not path.exists():
+        return None
+    try:
+        outcome = JobOutcome.model_validate_json(path.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError, ValidationError) as error:
+        raise RunError(f"{path}: can't be read as the outcome of a training: remove it to train that again") from error
+    if outcome.identity != fingerprint(job.identity()):
+        raise RunError(f"{path}: belongs to another experiment: put back the file that was there")
+    return outcome

@@ -1,0 +1,106 @@
+"""How many trials would decide a claim, if what was measured were so: with a power of 0.8, at the level of its verdict.
+
+An estimate from few trials is rough, and so is the number that follows from it.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from scipy import stats
+from scipy.special import comb
+
+from mc_nested.arrays import Float64s, Int64s
+from mc_nested.studies.inference import ALPHA
+
+POWER = 0.8
+
+MOST_TRIALS = 1000
+"""Nobody trains more."""
+
+
+class TestedEffect(Protocol):
+    """How large is what a line of a claim says, and how often so many trials would show it."""
+
+    def power_for(self, trials: Int64s, alpha: float) -> Float64s:
+        """Return the chance that a test at that level shows it, for each number of trials (n,)."""
+
+    def power_against(self, trials: Int64s, alpha: float) -> Float64s:
+        """Return the chance that a test at that level shows its opposite, for each number of trials (n,)."""
+
+
+@dataclass(frozen=True)
+class MeanEffect:
+    """A sum of means beside what it is tested against, by Welch's t.
+
+    ``is_permuted``: whether a permutation test decides, which few trials don't allow. Without spread that is sure from
+    enough trials on, while a t test decides nothing.
+
+    Args:
+        above: how far it is above what the claim says, negative if it is below.
+        below: how far it is below what the opposite says, negative if it is above.
+        spreads: the standard deviation of each group's trials, times its weight in the sum.
+    """
+
+    above: float
+    below: float
+    spreads: tuple[float, ...]
+    is_permuted: bool = True
+
+    def power_for(self, trials: Int64s, alpha: float) -> Float64s:
+        return self._power(self.above, trials, alpha)
+
+    def power_against(self, trials: Int64s, alpha: float) -> Float64s:
+        return self._power(self.below, trials, alpha)
+
+    def _power(self, distance: float, trials: Int64s, alpha: float) -> Float64s:
+        # A permutation test can't be below the share of one split among all.
+        is_possible = 1 / comb(2 * trials, trials) < alpha if self.is_permuted else np.full(trials.shape, True)
+        parts = np.array([spread**2 for spread in self.spreads])
+        if not parts.sum():
+            return np.where(is_possible & self.is_permuted, float(distance > 0), 0.0)
+        freedom = parts.sum() ** 2 / (parts**2).sum() * (trials - 1)
+        distances = distance / np.sqrt(parts.sum() / trials)
+        found = stats.nct.sf(stats.t.ppf(1 - alpha, freedom), freedom, distances)
+        # So far out that the power is 0 or 1, scipy's noncentral t isn't finite.
+        power: Float64s = np.where(is_possible, np.where(np.isfinite(found), found, distance > 0), 0.0)
+        return power
+
+
+@dataclass(frozen=True)
+class ShareEffect:
+    """A share of trials beside one half, by the exact binomial test."""
+
+    share: float
+
+    def power_for(self, trials: Int64s, alpha: float) -> Float64s:
+        return _shown(self.share, trials, alpha)
+
+    def power_against(self, trials: Int64s, alpha: float) -> Float64s:
+        return _shown(1 - self.share, trials, alpha)
+
+
+def deciding_trials(effects: Sequence[TestedEffect]) -> int | None:
+    """Return from how many trials of each agent on a claim of these lines is decided; None if more than MOST_TRIALS.
+
+    It is decided where all lines are shown, or the opposite of any is, at the level that is left to each by
+    Bonferroni's correction. The lines are taken to be independent. None, too, of no line.
+    """
+    if not effects:
+        return None
+    trials = np.arange(2, MOST_TRIALS + 1)
+    shown = np.prod([effect.power_for(trials, ALPHA) for effect in effects], axis=0)
+    level = ALPHA / len(effects)
+    opposed = 1 - np.prod([1 - effect.power_against(trials, level) for effect in effects], axis=0)
+    # A share's power rises in a saw-tooth: counted from where it stays.
+    too_few = np.flatnonzero(np.minimum(shown + opposed, 1.0) < POWER)
+    if not len(too_few):
+        return int(trials[0])
+    return int(trials[too_few[-1]]) + 1 if too_few[-1] + 1 < len(trials) else None
+
+
+def _shown(share: float, trials: Int64s, alpha: float) -> Float64s:
+    """Return the chance that so many trials, each a success with that probability, show that it is above one half."""
+    least = stats.binom.isf(alpha, trials, 0.5) + 1  # successes: with fewer, p is alpha or more
+    return np.asarray(stats.binom.sf(least - 1, trials, share), dtype=np.float64)

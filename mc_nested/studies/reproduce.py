@@ -1,0 +1,224 @@
+"""The paper's experiment: agents x scenarios x trials with one preset, some of them for longer; its claims judged."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mc_nested.errors import UserError
+from mc_nested.learn.agents import AGENT_SPECS
+from mc_nested.learn.preset import MOST
+from mc_nested.studies.arm import Arm
+from mc_nested.studies.claim_text import claim_section, claims_table, method
+from mc_nested.studies.claims.contests import HIERARCHICAL, NESTED, UNSOLVED
+from mc_nested.studies.claims.costs import MEGA
+from mc_nested.studies.claims.judge import judge
+from mc_nested.studies.claims.longer import trials_solved
+from mc_nested.studies.config import StudyConfig
+from mc_nested.studies.figure5 import figure5
+from mc_nested.studies.inference import mean_interval, share_interval
+from mc_nested.studies.measures import Curve, curves_of, early_limit
+from mc_nested.studies.results import Cost, Results, results_of
+from mc_nested.studies.study import Asked, Report, Study, with_episodes
+from mc_nested.studies.table import NONE, Table, interval, markdown, mean, number_of_trials
+from mc_nested.studies.trial import Trial, greedy_table
+from mc_nested.studies.verdicts import JudgedClaim
+
+LONGER_AGENTS, LONGER_SCENARIOS = (NESTED, HIERARCHICAL), UNSOLVED
+"""The paper's appendix says that these would reach the optimum with more training."""
+
+LONGER = "-longer"
+"""Ends the names of the longer arms."""
+
+
+def arms(asked: Asked) -> list[Arm]:
+    """Return an arm of each agent, and of some that are trained for longer."""
+    for name in asked.agent:
+        if name not in AGENT_SPECS:
+            raise UserError(f"no agent {name!r}: choose one of {', '.join(AGENT_SPECS)}")
+    preset = asked.loaded_preset()
+    agents = [agent for agent in AGENT_SPECS if agent in (asked.agent or AGENT_SPECS)]
+    usual = [Arm(agent, preset, asked.scenarios, asked.trials, agent, asked.preset) for agent in agents]
+    if not asked.longer:
+        return usual
+    scenarios = [scenario for scenario in asked.scenarios if scenario.name in LONGER_SCENARIOS]
+    whose = [agent for agent in agents if agent in LONGER_AGENTS]
+    if not (whose and scenarios):
+        raise UserError(
+            f"--longer is for {' and '.join(LONGER_AGENTS)} on {' and '.join(LONGER_SCENARIOS)}: "
+            f"leave it out, or name one of each"
+        )
+    longer = with_episodes(preset, min(asked.longer * preset.episodes, MOST))
+    return usual + [Arm(agent + LONGER, longer, scenarios, asked.trials, agent, asked.preset) for agent in whose]
+
+
+COLUMNS = ("agent", "scenario", "trial", "episode", "score", "material", "steps")
+
+
+def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
+    """Report the paper's Figure 5, and each of its claims with its verdict; the longer trainings decide claim (f)."""
+    usual = [trial for trial in trials if not trial.arm.name.endswith(LONGER)]
+    for_longer = [trial for trial in trials if trial.arm.name.endswith(LONGER)]
+    results = results_of(usual, config.seed)
+    longer = results_of(for_longer, config.seed) if for_longer else None
+    tables = {"results.csv": greedy_table(usual, COLUMNS)}
+    if for_longer:
+        tables["results_longer.csv"] = greedy_table(for_longer, COLUMNS)
+    return report_on(results, longer, tables)
+
+
+def report_on(results: Results, longer: Results | None, tables: dict[str, Table]) -> Report:
+    """Return the report of these results, and of those with ten times the episodes.
+
+    The same results give the same report. Seconds are only in lines that name seconds: the only lines that differ if
+    the same experiment is repeated.
+    """
+    claims = judge(results, longer)
+    return Report(
+        text=[
+            "# The paper's experiment, repeated",
+            _what_was_run(results, longer),
+            _scores(results),
+            "![Score of a greedy episode against training episodes, a panel for each scenario](figure5.png)",
+            "## The paper's claims",
+            claims_table(claims),
+            *(claim_section(judged) for judged in claims),
+            "## Costs",
+            _costs(results),
+            "## How it was computed",
+            method(claims, results.trials, results.keeps_best),
+        ],
+        figure=figure5(results),
+        tables=tables,
+        found={"claims": [found_of(each) for each in claims]},
+        shown=Table(
+            ("", "the paper's claim", "verdict"),
+            [(f"({each.claim.letter})", each.claim.title, each.verdict.value) for each in claims],
+        ),
+    )
+
+
+def found_of(judged: JudgedClaim) -> dict[str, str]:
+    """Return a claim and its verdict, for a program."""
+    return {"letter": judged.claim.letter, "claim": judged.claim.title, "verdict": judged.verdict.value}
+
+
+EXPLAINED = """\
+Final: the score of the policy that a trial keeps. Last ten: the mean of a trial's last ten evaluations. Early: the mean
+over the first {early:,} episodes. Spread: a trial's standard deviation over the evaluations of the last third. All are
+means over the trials. At the optimum: trials whose final score is."""
+
+SCORES = (
+    "scenario",
+    "agent",
+    "final score",
+    "95 % interval",
+    "last ten",
+    "95 % interval",
+    "at the optimum",
+    "95 % interval",
+    "early",
+    "spread",
+)
+
+
+def _what_was_run(results: Results, longer: Results | None) -> str:
+    trials = number_of_trials(results.trials)
+    further = f" A second run, of {longer.episodes:,} episodes, is there for claim (f) alone." if longer else ""
+    return (
+        f"Preset `{results.preset}`, seed {results.seed}: {trials} of {results.episodes:,} episodes for each agent and "
+        f"scenario, a greedy evaluation every {results.evaluate_every} episodes.{further}"
+    )
+
+
+def _scores(results: Results) -> str:
+    curves = curves_of(results)
+    rows = []
+    for scenario in results.scenarios:
+        for agent in results.agents:
+            curve, optimum = curves[agent, scenario], results.optimum[scenario]
+            rows.append(
+                (
+                    scenario,
+                    agent,
+                    f"**{mean(curve.final)}** of {optimum:g}",
+                    interval(mean_interval(curve.final, optimum)),
+                    mean(curve.last_ten),
+                    interval(mean_interval(curve.last_ten, optimum)),
+                    *_solved(curve, optimum),
+                    mean(curve.early),
+                    mean(curve.spread),
+                )
+            )
+    return f"{markdown(SCORES, rows)}\n\n{EXPLAINED.format(early=early_limit(results.episodes))}"
+
+
+def _solved(curve: Curve, optimum: float) -> tuple[str, str]:
+    trials = len(curve.final)
+    if not trials:
+        return NONE, NONE
+    count = trials_solved(curve.final, optimum)
+    return f"{count} of {trials}", interval(share_interval(count, trials))
+
+
+def _costs(results: Results) -> str:
+    by_agent = {agent: [cost for cost in results.costs if cost.agent == agent] for agent in results.agents}
+    reference = {cost.scenario: cost for cost in by_agent.get("nested", [])}
+    rows = [
+        (
+            cost.scenario,
+            cost.agent,
+            *(_ratio(cost, reference.get(cost.scenario), of) for of in COUNTS),
+            mean(np.array(cost.replay_bytes) / MEGA),
+        )
+        for scenario in results.scenarios
+        for agent in results.agents
+        for cost in by_agent[agent]
+        if cost.scenario == scenario
+    ]
+    header = (
+        "scenario",
+        "agent",
+        "networks",
+        "parameters",
+        "updates, all trials",
+        "steps, all trials",
+        "replays, MB a trial",
+    )
+    seconds = ", ".join(f"{agent} {sum(cost.seconds for cost in own):.1f}" for agent, own in by_agent.items() if own)
+    return (
+        f"{markdown(header, rows)}\n\nIn brackets: times the nested agent's. Networks and parameters are one trial's, "
+        f"target networks not counted.\n\nSeconds of training, which another run won't repeat: {seconds}."
+    )
+
+
+COUNTS = ("networks", "parameters", "updates", "env_steps")
+
+
+def _ratio(cost: Cost, reference: Cost | None, of: str) -> str:
+    count = getattr(cost, of)
+    if reference is None or reference is cost or not getattr(reference, of):
+        return f"{count:,}"
+    return f"{count:,} ({count / getattr(reference, of):.2f})"
+
+
+STUDY = Study(
+    name="reproduce",
+    what="Repeat the paper's experiment and test its claims. The defaults take some minutes on two cores.",
+    options={
+        "trials": 10,
+        "episodes": None,
+        "seed": 0,
+        "scenario": None,
+        "layer": None,
+        "agent": None,
+        "preset": "paper",
+        "engine": None,
+        "device": None,
+        "longer": None,
+    },
+    arms=arms,
+    report=report,
+    files={"report": "report.md", "figure": "figure5.png", "table": "results.csv"},
+    further_files=("figure5.svg",),
+    folder="figure5",
+)

@@ -1,0 +1,185 @@
+"""What a run's or a study's folder holds, in a few facts: for a list of runs."""
+
+import datetime
+import os
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from mc_nested.errors import McNestedError, RunError
+from mc_nested.learn.cooperation.team_run import TeamRun
+from mc_nested.learn.runs.folder_kind import verb_in, verb_of_study
+from mc_nested.learn.runs.folder_lock import holder_of
+from mc_nested.learn.runs.run_folder import RunFolder
+from mc_nested.studies.folder import CONFIG, JOBS_FOLDER, StudyFolder
+from mc_nested.toml_file import parse_document, read_toml_text
+
+State = Literal["finished", "can be resumed", "in use", "damaged"]
+
+SUMMARY = "summary.json"
+
+OUR_OWN = (JOBS_FOLDER, "checkpoint", "episodes.csv")
+"""Any of these tells a folder of this project's where its config.toml can't be read."""
+
+
+@dataclass(frozen=True)
+class RunFacts:
+    """The facts of one folder; what a damaged one doesn't say is empty or None.
+
+    Args:
+        folder: its path.
+        verb: the command that made it; empty where its config.toml can't be read.
+        state: whether it is finished, or what can be done with it.
+        why: for a damaged one the reason, for one in use the process.
+        designs: the names of what is built.
+        agents: who learns.
+        presets: with which hyper-parameters.
+        trials: independent trainings of each agent on each design.
+        episodes_done: of all trials; a study counts those of finished jobs.
+        episodes: as many there will be at most.
+        score: the mean of a finished training's scores.
+        optimum: the highest score that it could have.
+        begun: when, in local time.
+        size: of all its files, in bytes.
+    """
+
+    folder: Path
+    verb: str
+    state: State
+    why: str = ""
+    designs: Sequence[str] = ()
+    agents: Sequence[str] = ()
+    presets: Sequence[str] = ()
+    trials: int | None = None
+    episodes_done: int | None = None
+    episodes: int | None = None
+    score: float | None = None
+    optimum: float | None = None
+    begun: datetime.datetime | None = None
+    size: int = 0
+
+
+class _Summary(BaseModel):
+    model_config = ConfigDict(extra="ignore", frozen=True)
+
+    final_scores: list[float | None]
+    episodes_done: list[int]
+
+
+def runs_in(folder: Path) -> list[RunFacts]:
+    """Return the runs in a folder by name, or the folder itself if it is one; RunError if it can't be listed."""
+    if own := facts_of(folder):
+        return [own]
+    try:
+        inside = sorted(folder.iterdir()) if folder.exists() else []
+    except OSError as error:
+        raise RunError(f"{folder}: can't be listed, {error.strerror}: name a folder of runs") from error
+    return [facts for facts in map(facts_of, inside) if facts]
+
+
+def facts_of(folder: Path) -> RunFacts | None:
+    """Return the facts of a run's folder, a damaged one's too; None if it is none."""
+    file = folder / CONFIG
+    if not file.is_file():
+        return None
+    verb = ""
+    try:
+        found = verb_in(parse_document(read_toml_text(file, RunError), str(file), RunError))
+        if found is None:
+            return None
+        verb = found
+        facts = {"train": _training, "cooperate": _cooperation}.get(verb, _study)(folder)
+    except McNestedError as error:
+        if not verb and not any((folder / name).exists() for name in OUR_OWN):
+            return None
+        facts = RunFacts(folder, verb, "damaged", str(error))
+    facts = replace(facts, begun=datetime.datetime.fromtimestamp(file.stat().st_mtime), size=_size(folder))
+    holder = holder_of(folder)
+    return replace(facts, state="in use", why=holder) if holder and facts.state != "damaged" else facts
+
+
+def _training(path: Path) -> RunFacts:
+    folder = RunFolder.open(path)
+    config = folder.config
+    facts = RunFacts(
+        path,
+        "train",
+        "can be resumed",
+        designs=[config.scenario.name],
+        agents=[config.agent],
+        presets=[Path(config.preset_name).stem],
+        trials=config.trials,
+        episodes_done=0,
+        episodes=config.preset.episodes * config.trials,
+        optimum=folder.scenario.optimum,
+    )
+    if folder.only_begun:
+        return facts
+    return _as_far_as_trained(facts, folder.kept, config.trials)
+
+
+def _cooperation(path: Path) -> RunFacts:
+    run = TeamRun.open(path)
+    config = run.config
+    facts = RunFacts(
+        path,
+        "cooperate",
+        "can be resumed",
+        designs=[config.scenario.name],
+        agents=[f"{config.builders} {config.networks}"],
+        presets=[Path(config.preset_name).stem],
+        trials=config.trials,
+        episodes_done=0,
+        episodes=config.preset.episodes * config.trials,
+        optimum=run.team.scenario.optimum,
+    )
+    return facts if run.only_begun else _as_far_as_trained(facts, run.checkpoint.state, config.trials)
+
+
+def _as_far_as_trained(facts: RunFacts, read_checkpoint: Callable[[], object], trials: int) -> RunFacts:
+    """Return the facts of a training that was saved: how far it is, or what is damaged."""
+    try:
+        read_checkpoint()  # it may be gone, or damaged
+        summary = _summary(facts.folder / SUMMARY, facts.verb)
+    except RunError as error:
+        return replace(facts, state="damaged", why=str(error), episodes_done=None)
+    facts = replace(facts, episodes_done=sum(summary.episodes_done))
+    scores = [score for score in summary.final_scores if score is not None]
+    if len(scores) < trials:
+        return facts
+    return replace(facts, state="finished", score=sum(scores) / len(scores))
+
+
+def _summary(file: Path, verb: str) -> _Summary:
+    try:
+        return _Summary.model_validate_json(file.read_text("utf-8"))
+    except (OSError, UnicodeDecodeError, ValidationError) as error:
+        raise RunError(f"{file}: can't be read: mc-nested {verb} --resume {file.parent} writes it again") from error
+
+
+def _study(path: Path) -> RunFacts:
+    folder = StudyFolder.open(path)
+    config, outcomes = folder.config, folder.outcomes()
+    return RunFacts(
+        path,
+        verb_of_study(config.study),
+        "finished" if all(outcome for _, outcome in outcomes) else "can be resumed",
+        designs=_each_once(scenario.name for job, _ in outcomes for scenario in job.scenarios),
+        agents=_each_once(arm.labels.get("agent", arm.agent) for arm in config.arms),
+        presets=_each_once(Path(arm.preset_name).stem for arm in config.arms),
+        trials=config.trials,
+        episodes_done=sum(job.episodes for job, outcome in outcomes if outcome),
+        episodes=sum(job.episodes for job, _ in outcomes),
+    )
+
+
+def _each_once(names: Iterable[str]) -> list[str]:
+    return list(dict.fromkeys(names))
+
+
+def _size(folder: Path) -> int:
+    """Count the bytes of all files in a folder; links aren't followed."""
+    return sum(Path(inside, name).lstat().st_size for inside, _, names in os.walk(folder) for name in names)

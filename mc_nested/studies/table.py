@@ -1,0 +1,73 @@
+"""A table of a report: as CSV, as Markdown, and its cells in words."""
+
+import csv
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mc_nested.arrays import Float64s
+from mc_nested.atomic_file import atomic_write
+from mc_nested.studies.inference import Interval
+
+NONE = "-"
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of cells below a header."""
+
+    header: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+
+    def write(self, path: Path) -> None:
+        """Write it as CSV, atomically; OSError if the disk refuses."""
+        with atomic_write(path) as unfinished, unfinished.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(self.header)
+            writer.writerows(self.rows)
+
+
+def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Return the table as Markdown; a cell can't break it."""
+    lines = [header, ["---"] * len(header), *rows]
+    # Users name scenarios, so bars may appear.
+    return "\n".join(f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in line)} |" for line in lines)
+
+
+def two(value: float) -> str:
+    """Write it with two decimals."""
+    return f"{round(value, 2) + 0.0:.2f}"  # + 0.0: no minus before a zero
+
+
+def mean(trials: Float64s) -> str:
+    """Return the mean over the trials, if there is any."""
+    return two(float(trials.mean())) if len(trials) else NONE
+
+
+def interval(ends: Interval | None) -> str:
+    """Write from where to where it goes."""
+    return f"{two(ends.low)} to {two(ends.high)}" if ends else NONE
+
+
+def probability(p: float | None) -> str:
+    """Return a p-value, if there is one."""
+    if p is None:
+        return NONE
+    if p < 0.00005:
+        return "< 0.0001"
+    return f"{p:.4f}" if p < 0.99995 else "1"
+
+
+def number_of_trials(trials: int) -> str:
+    """Return ``one trial``, ``2 trials``."""
+    return f"{trials} trials" if trials > 1 else "one trial"
+
+
+def episodes(number: float) -> str:
+    """Write them to a tenth, or to a whole number from 100 on; ∞ for never."""
+    if not np.isfinite(number):
+        return "∞"
+    return f"{number:,.0f}" if number >= 100 or number == int(number) else f"{number:.1f}"

@@ -1,0 +1,106 @@
+"""``mc-nested reproduce --beyond``: its folder, its files, going on, and what it refuses."""
+
+import csv
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from mc_nested.learn.runs.folder_lock import folder_lock
+from mc_nested.studies.arm import Arm
+from mc_nested.studies.beyond import STUDY, arms
+from mc_nested.studies.config import config_of
+from mc_nested.studies.folder import StudyFolder
+from mc_nested.studies.run_facts import facts_of
+from mc_nested.studies.study import Asked
+from tests.cli.running import run
+from tests.learn.made_experiments import small_preset
+
+FILES = STUDY.files
+
+
+def small_arms() -> list[Arm]:
+    """All arms with small networks over numbers."""
+    return [replace(arm, preset=small_preset(10)) for arm in arms(Asked(trials=2))]
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Begun as by the command, and gone on with by --resume."""
+    out = tmp_path_factory.mktemp("beyond") / "run"
+    StudyFolder.new(out, config_of("beyond", small_arms(), trials=2, seed=0, jobs=1)).begin()
+    assert run("reproduce", "--resume", out, "--quiet") == 0
+    return out
+
+
+def test_it_goes_on_and_leaves_its_files(done: Path) -> None:
+    assert {*FILES.values()} <= {path.name for path in done.iterdir()}
+    with (done / "beyond.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    found = {(row["topic"], row["scenario"], row["agent"]) for row in rows}
+    assert found == {
+        (arm.labels["topic"], scenario.name, arm.labels["agent"]) for arm in small_arms() for scenario in arm.scenarios
+    }
+    assert all(int(row["trained_steps"]) > 0 for row in rows)
+
+
+def test_gone_on_with_when_it_is_finished_it_writes_the_same(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = {name: (done / name).read_bytes() for name in FILES.values()}
+    assert run("reproduce", "--resume", done, "--json") == 0
+    assert {name: (done / name).read_bytes() for name in FILES.values()} == before
+    found = json.loads(capsys.readouterr().out)
+    assert found["files"]["report"] == str(done / "beyond.md")
+    claim = next(each for each in found["claims"] if each["letter"] == "l7")
+    assert (claim["verdict"], claim["trials"]) == ("holds", None)
+    with folder_lock(done):
+        assert run("reproduce", "--resume", done) == 2
+    assert f"{done}: process " in capsys.readouterr().err
+
+
+def test_runs_lists_it(done: Path) -> None:
+    facts = facts_of(done)
+    assert facts
+    assert (facts.verb, facts.state, facts.trials) == ("study beyond", "finished", 2)
+    assert {"line", "flag", "line, 8 materials"} <= set(facts.designs)
+    assert {"images", "single", "2 builders, own"} <= set(facts.agents)
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [
+        ("--scenario", "line"),
+        ("--agent", "nested"),
+        ("--preset", "tuned"),
+        ("--engine", "torch"),
+        ("--longer", "2"),
+        ("--layer", "0"),
+        ("--robustness", None),
+    ],
+)
+def test_what_it_has_of_its_own_is_refused(
+    option: str, value: str | None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "new"
+    assert run("reproduce", "--beyond", "--out", out, option, *([value] if value else [])) == 2
+    message = capsys.readouterr().err
+    assert message.strip().endswith(f"leave out {option}")
+    assert message.count("\n") == 1
+    assert not out.exists()
+
+
+def test_a_device_that_is_not_there_is_refused_before_anything_is_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "new"
+    assert run("reproduce", "--beyond", "--device", "mps", "--out", out) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+    assert not out.exists()
+
+
+def test_a_folder_that_is_none_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("reproduce", "--resume", tmp_path) == 2
+    assert "no config.toml there" in capsys.readouterr().err
+    (tmp_path / "config.toml").write_text("study = [\n", "utf-8")
+    assert run("reproduce", "--resume", tmp_path) == 2
+    assert "not TOML" in capsys.readouterr().err

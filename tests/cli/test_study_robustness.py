@@ -1,0 +1,104 @@
+"""``mc-nested reproduce --robustness``: its folder, its files, going on, and what it refuses."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+from mc_nested.learn.agents import AGENT_SPECS
+from mc_nested.learn.runs.folder_lock import folder_lock
+from mc_nested.studies.change import Change
+from mc_nested.studies.config import StudyConfig, config_of
+from mc_nested.studies.folder import StudyFolder
+from mc_nested.studies.robustness import STUDY, open_choices
+from mc_nested.studies.study import Asked
+from tests.cli.running import run
+from tests.learn.made_experiments import BAR, DOT, scenario_text, small_preset, small_preset_text
+
+FILES = STUDY.files
+GAMMA = Change(choice="γ", value="0.5", preset={"update": {"gamma": 0.5}})
+START = Change(choice="start", value="beside", start=[6, 13])
+
+
+def config(*choices: Change) -> StudyConfig:
+    asked = Asked(trials=2, scenarios=[DOT, BAR])
+    arms = [
+        choice.arm(f"{choice.name}, {agent}", agent, asked, small_preset(20))
+        for choice in (Change(), *choices)
+        for agent in AGENT_SPECS
+    ]
+    return config_of("robustness", arms, trials=2, seed=0, jobs=1)
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Begun as by the command, and gone on with by --resume."""
+    out = tmp_path_factory.mktemp("robust") / "run"
+    StudyFolder.new(out, config(GAMMA, START)).begin()
+    assert run("reproduce", "--resume", out, "--quiet") == 0
+    return out
+
+
+def test_it_goes_on_and_leaves_its_files(done: Path) -> None:
+    assert {*FILES.values()} <= {path.name for path in done.iterdir()}
+    with (done / "robustness.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert list(dict.fromkeys((row["choice"], row["value"]) for row in rows)) == [
+        ("", ""),
+        ("γ", "0.5"),
+        ("start", "beside"),
+    ]
+    assert {row["line"] for row in rows if row["claim"] == "c1"} == {"dot, final score", "bar, final score"}
+    assert "| start: beside |" in (done / "robustness.md").read_text("utf-8")
+
+
+def test_gone_on_with_when_it_is_finished_it_writes_the_same(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    before = {name: (done / name).read_bytes() for name in FILES.values()}
+    assert run("reproduce", "--resume", done, "--json") == 0
+    assert {name: (done / name).read_bytes() for name in FILES.values()} == before
+    found = json.loads(capsys.readouterr().out)
+    assert found["files"]["table"] == str(done / "robustness.md")
+    claim = next(each for each in found["claims"] if each["letter"] == "e1")
+    assert claim["verdict"] == "holds"
+    assert claim["choices"] == {"γ: 0.5": "holds", "start: beside": "holds"}
+    with folder_lock(done):
+        assert run("reproduce", "--resume", done) == 2
+    assert f"{done}: process " in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["--agent", "nested"], "--robustness takes fewer options than reproduce: leave out --agent"),
+        (["--longer", "10"], "--robustness takes fewer options than reproduce: leave out --longer"),
+        (["--preset", "tuned"], "is not for the single agent"),
+        (["--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
+        (["--resume", "OLD"], "leave out --robustness"),
+    ],
+)
+def test_what_can_not_be_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("reproduce", "--robustness", *words) == 2
+    error = capsys.readouterr().err.strip()
+    assert says in error
+    assert "\n" not in error
+
+
+@pytest.mark.slow
+def test_the_command_trains_every_choice_for_every_agent(tmp_path: Path) -> None:
+    (tmp_path / "dot.toml").write_text(scenario_text(DOT), "utf-8")
+    (tmp_path / "small.toml").write_text(small_preset_text(), "utf-8")
+    words: list[str | Path] = [
+        "--scenario",
+        tmp_path / "dot.toml",
+        "--preset",
+        tmp_path / "small.toml",
+        "--trials",
+        "2",
+    ]
+    out = tmp_path / "out"
+    assert run("reproduce", "--robustness", *words, "--episodes", "10", "--out", out) == 0
+    expected = open_choices(small_preset(10), [DOT])
+    with (out / "robustness.csv").open(newline="", encoding="utf-8") as file:
+        found = {(row["choice"], row["value"]) for row in csv.DictReader(file)}
+    assert found == {(choice.choice, choice.value) for choice in expected}

@@ -1,0 +1,62 @@
+"""``mc-nested study sweep``, tiny."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+from mc_nested.cli.app import main
+from mc_nested.cli.json_fields import JSON_FIELDS
+from mc_nested.learn.runs.folder_lock import folder_lock
+from tests.learn.made_experiments import DOT, scenario_text, small_preset_text
+
+
+def run(*arguments: str | Path) -> int:
+    with pytest.raises(SystemExit) as caught:
+        main([str(argument) for argument in arguments])
+    code = caught.value.code
+    return code if isinstance(code, int) else 0
+
+
+@pytest.mark.slow
+def test_a_sweep_leaves_a_row_for_each_trial_a_table_and_a_plot(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "dot.toml").write_text(scenario_text(DOT), "utf-8")
+    (tmp_path / "small.toml").write_text(small_preset_text(), "utf-8")
+    words: list[str | Path] = [
+        "study",
+        "sweep",
+        "--scenario",
+        tmp_path / "dot.toml",
+        "--preset",
+        tmp_path / "small.toml",
+        "--trials",
+        "2",
+    ]
+    found = []
+    for jobs in ("1", "2"):
+        out = tmp_path / jobs
+        assert run(*words, "--episodes", "10", "--jobs", jobs, "--out", out) == 0
+        found.append({name: (out / name).read_bytes() for name in ("sweep.csv", "sweep.md", "sweep.png")})
+        before = found[-1]
+        assert run("study", "sweep", "--resume", out) == 0
+        assert {name: (out / name).read_bytes() for name in before} == before
+    assert found[0] == found[1]
+    capsys.readouterr()
+    assert run("study", "sweep", "--resume", out, "--json") == 0
+    files = {"table": str(out / "sweep.md"), "plot": str(out / "sweep.png"), "rows": str(out / "sweep.csv")}
+    assert set(JSON_FIELDS["study sweep"]) == {"folder", "files"}
+    assert json.loads(capsys.readouterr().out) == {"folder": str(out), "files": files}
+    with folder_lock(out):
+        assert run("study", "sweep", "--resume", out) == 2
+    assert f"{out}: process " in capsys.readouterr().err
+    with (out / "sweep.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    base = [row for row in rows if (row["agent"], row["choice"]) == ("nested", "")]
+    assert [(row["scenario"], row["trial"]) for row in base] == [("dot", "0"), ("dot", "1")]
+    assert len(rows) % 2 == 0
+    assert ("γ", "0.99") in {(row["choice"], row["value"]) for row in rows}
+    for row in rows:
+        assert float(row["mean_score"]) <= float(row["best_score"]) <= DOT.optimum

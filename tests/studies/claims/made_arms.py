@@ -1,0 +1,119 @@
+"""Made-up arms in which every score is known."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.learn.cooperation.team_agent import KINDS
+from mc_nested.learn.preset import load_preset
+from mc_nested.studies.arm import Arm
+from mc_nested.studies.beyond import with_materials
+from mc_nested.studies.claims.arm_results import ArmResults, Arms
+from mc_nested.studies.job import Builders
+from mc_nested.studies.outcome import Evaluated, RunOutcome
+from mc_nested.studies.trial import Trial
+
+LINE = load_scenario("line")
+PAPER = load_preset("paper").model_copy(update={"episodes": 360})
+
+OPTIMUM = 21.0
+
+
+def trial_of(scores: Sequence[float], steps_each: int = 100, updates_each: int = 90) -> list[Evaluated]:
+    """A trial that was evaluated every 30 episodes, and had spent as much before each as before the others."""
+    return [
+        Evaluated(
+            episode=30 * number,
+            score=score,
+            material="stone",
+            steps=20,
+            trained_steps=steps_each * number,
+            updates=updates_each * number,
+        )
+        for number, score in enumerate(scores, 1)
+    ]
+
+
+def arm(
+    topic: str,
+    name: str,
+    trials: Sequence[Sequence[Evaluated]],
+    scenario: str = "line",
+    materials: int = 2,
+    networks: int = 2,
+    stops: bool = False,
+    team: Builders | None = None,
+) -> ArmResults:
+    """The results of an arm on a design of that name, whose optimum is 21."""
+    design = replace(with_materials(LINE, materials), name=scenario)
+    made = Arm(
+        f"{topic}: {name}",
+        PAPER,
+        [design],
+        len(trials),
+        labels={"topic": topic, "agent": name},
+        stop_at_optimum=stops,
+        builders=team,
+    )
+    return ArmResults(
+        [
+            Trial(
+                made,
+                design,
+                number,
+                RunOutcome(
+                    evaluations=list(rows),
+                    score=rows[-1].score,
+                    updates=rows[-1].updates or 0,
+                    env_steps=rows[-1].trained_steps or 0,
+                    replay_bytes=1_000_000,
+                ),
+                networks,
+                1000 * networks,
+                2.5 / len(trials),
+            )
+            for number, rows in enumerate(trials)
+        ]
+    )
+
+
+def around(mean: float, trials: int = 10, spread: float = 0.5) -> list[list[Evaluated]]:
+    """Trials of twelve evaluations, half of them ``spread`` above the mean and half below."""
+    signs = [1 if trial % 2 else -1 for trial in range(trials)]
+    return [trial_of([mean + sign * spread] * 12) for sign in signs]
+
+
+def whole(means: Callable[[str, str, int], float] = lambda *_: 15.0, trials: int = 10, image_trials: int = 3) -> Arms:
+    """Every arm that a run of --beyond has; ``means``: of a topic's agent, with so many materials or builders."""
+    arms = []
+    for design in ("line", "zigzag", "diamond"):
+        own = trials if design == "line" else image_trials
+        arms += [
+            arm("images", name, around(means("images", name, 0), own), design, stops=True)
+            for name in ("images", "numbers")
+        ]
+    arms.append(arm("parts", "nested, tuned", around(means("parts", "tuned", 0), trials), "flag", stops=True))
+    arms += [
+        arm("parts", name, around(means("parts", name, 0), trials), "flag")
+        for name in ("nested", "hierarchical", "single")
+    ]
+    for count in (2, 4, 8):
+        networks = {"nested": 2, "hierarchical": 1 + count, "single": 1}
+        arms += [
+            arm(
+                "materials",
+                name,
+                around(means("materials", name, count), trials),
+                f"line, {count} materials",
+                count,
+                networks[name],
+            )
+            for name in networks
+        ]
+    alone = around(means("cooperation", "alone", 1), trials)
+    arms.append(arm("cooperation", "1 builder", alone, team=Builders(1, "shared")))
+    for count in (2, 3, 4):
+        for kind in KINDS:
+            scores = around(means("cooperation", kind, count), trials)
+            arms.append(arm("cooperation", f"{count} builders, {kind}", scores, team=Builders(count, kind)))
+    return {each.key: each for each in arms}

@@ -1,0 +1,86 @@
+"""Made-up results in which every measure of every trial is known."""
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from mc_nested.studies.results import Cost, Evaluation, Results
+
+OPTIMUM = {"line": 21.0, "zigzag": 21.0, "diamond": 26.0, "hut": 15.0}
+SECONDS = {"nested": 6.6, "hierarchical": 10.0, "single": 4.6}
+REPLAY_BYTES = {"nested": 1_000_000, "hierarchical": 1_300_000, "single": 900_000}
+NETWORKS = {"nested": 2, "hierarchical": 3, "single": 1}
+PARAMETERS = {"nested": 3_000, "hierarchical": 4_500, "single": 1_500}
+EPISODES = 90
+
+
+class Trial(NamedTuple):
+    """A trial's early score, final score and spread."""
+
+    early: float
+    final: float
+    spread: float = 1.0
+
+
+def made(trials: Mapping[tuple[str, str], Sequence[Trial]], episodes: int = EPISODES) -> Results:
+    """Nine evaluations a trial; agents and scenarios in the order of their first appearance."""
+    every = episodes // 9
+    rows = [
+        Evaluation(agent, scenario, trial, every * (index + 1), score, "stone", 13)
+        for (agent, scenario), own in trials.items()
+        for trial, (early, final, spread) in enumerate(own)
+        # The late three lie around the final score, their standard deviation is the spread.
+        for index, score in enumerate([early] * 3 + [final] * 3 + [final + spread, final - spread, final])
+    ]
+    scenarios = list(dict.fromkeys(scenario for _, scenario in trials))
+    return Results(
+        agents=list(dict.fromkeys(agent for agent, _ in trials)),
+        scenarios=scenarios,
+        trials=len(next(iter(trials.values()))),
+        episodes=episodes,
+        evaluate_every=every,
+        seed=0,
+        preset="paper",
+        keeps_best=False,
+        optimum={scenario: OPTIMUM[scenario] for scenario in scenarios},
+        builder={scenario: OPTIMUM[scenario] for scenario in scenarios},
+        evaluations=rows,
+        costs=[
+            Cost(
+                agent,
+                scenario,
+                NETWORKS[agent],
+                PARAMETERS[agent],
+                1200,
+                1000,
+                SECONDS[agent],
+                tuple(REPLAY_BYTES[agent] + 1000 * trial for trial in range(len(own))),
+            )
+            for (agent, scenario), own in trials.items()
+        ],
+    )
+
+
+def level(score: float, trials: int = 6, early: float = 5.0, spread: float = 1.0) -> list[Trial]:
+    """Trials whose final scores are ``score``, and an eighth of a block more or less in turn."""
+    return [Trial(early, score + (0.125, -0.125)[trial % 2], spread) for trial in range(trials)]
+
+
+def scattered(score: float, early: float = 5.0) -> list[Trial]:
+    """Trials from six blocks below ``score`` to six above: they decide little."""
+    return [Trial(early + off, score + off, spread=4 + off / 2) for off in (-6, 6, -3, 3, -1, 1)]
+
+
+def the_papers(*scenarios: str) -> dict[tuple[str, str], list[Trial]]:
+    """Six trials of all three agents on those scenarios, all where none is named, in which the paper's claims hold."""
+    trials = {
+        ("nested", "line"): level(20, early=12, spread=0.5),
+        ("hierarchical", "line"): level(17, early=7, spread=1.5),
+        ("single", "line"): level(13, early=2, spread=2),
+        ("nested", "zigzag"): level(16, spread=0.5),
+        ("hierarchical", "zigzag"): level(16, spread=1.5),
+        ("single", "zigzag"): level(8, early=2, spread=2),
+        ("nested", "diamond"): level(18, spread=0.5),
+        ("hierarchical", "diamond"): level(18, spread=1.5),
+        ("single", "diamond"): level(9, early=2, spread=2),
+    }
+    return {key: own for key, own in trials.items() if not scenarios or key[1] in scenarios}

@@ -1,0 +1,94 @@
+"""An ablation: what its parts are, and what trains together."""
+
+import pytest
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.errors import RunError
+from mc_nested.learn.preset import load_preset
+from mc_nested.studies.ablation import arms
+from mc_nested.studies.arm import Arm
+from mc_nested.studies.config import StudyConfig, config_of
+from mc_nested.studies.study import Asked
+from tests.learn.made_experiments import BAR, DOT
+
+
+def shipped(*scenarios: Scenario, episodes: int | None = None) -> dict[str, Arm]:
+    return {arm.name: arm for arm in arms(Asked(trials=2, episodes=episodes, scenarios=scenarios))}
+
+
+PARTS = shipped(DOT)
+
+LIVE = load_preset("live").model_copy(update={"episodes": 30})
+"""The preset live, for as many episodes as an ablation's trial has."""
+
+
+def config(*scenarios: Scenario) -> StudyConfig:
+    return config_of("ablation", list(shipped(*scenarios).values()), trials=2, seed=0, jobs=2)
+
+
+def test_the_first_part_is_the_preset_live_as_it_is() -> None:
+    first = next(iter(PARTS.values()))
+    assert (first.name, first.preset) == ("live as it is", LIVE)
+
+
+def test_every_part_changes_its_base_and_no_two_are_alike() -> None:
+    for part in PARTS.values():
+        base = LIVE if part.preset_name == "live" else load_preset(part.preset_name)
+        assert (part.preset == base) == part.name.endswith("as it is"), part.name
+    assert len({part.preset.model_dump_json() for part in PARTS.values()}) == len(PARTS)
+
+
+@pytest.mark.parametrize(
+    ("name", "off"),
+    [
+        ("without neighbours", {"neighbours": False}),
+        ("without optimism", {"neighbours": False, "optimism": False}),
+        ("without real transitions", {"real_transitions": False}),
+        ("single Q-learning", {"double": False}),
+        ("narrow exploration", {"highest_epsilon": 0.1, "lowest_epsilon": 0.1}),
+    ],
+)
+def test_one_part_of_the_imagination_is_off(name: str, off: dict[str, object]) -> None:
+    assert LIVE.imagination is not None
+    rule = LIVE.imagination.model_copy(update=off)
+    assert PARTS[name].preset == LIVE.model_copy(update={"imagination": rule})
+
+
+def test_the_model_free_preset_loses_its_imitation_or_its_td_errors() -> None:
+    assert PARTS["tuned without imitation"].preset == load_preset("tuned").model_copy(update={"imitation": None})
+    alone = PARTS["tuned, imitation only"].preset.imitation
+    assert alone is not None
+    assert alone.td_weight == 0.0
+
+
+def test_there_is_no_imitation_in_any_part_of_live() -> None:
+    assert all(part.preset.imitation is None for part in PARTS.values() if part.preset_name == "live")
+
+
+def test_every_trial_of_every_part_on_every_design_is_trained_once() -> None:
+    jobs = config(DOT, BAR).cut()
+    trained = [
+        (group, scenario.name, trial)
+        for job in jobs
+        for group, scenario, trial in zip(job.groups, job.scenarios, job.trials, strict=True)
+    ]
+    assert sorted(trained) == sorted(
+        (name, design, trial) for name in PARTS for design in ("bar", "dot") for trial in (0, 1)
+    )
+    assert all(job.stop_at_optimum for job in jobs)
+    assert not any(job.library for job in jobs)
+
+
+def test_what_practises_trains_one_by_one_and_the_rest_side_by_side() -> None:
+    for job in config(DOT).cut():
+        part = PARTS[job.groups[0]]
+        assert len(job.trials) == (1 if part.preset_name == "live" else 2), part.name
+
+
+def test_the_episodes_that_are_asked_for_are_those_of_every_part() -> None:
+    assert {part.preset.episodes for part in shipped(DOT, episodes=7).values()} == {7}
+
+
+def test_two_designs_of_one_name_are_refused() -> None:
+    with pytest.raises(RunError, match="two scenarios are named 'dot'"):
+        config(DOT, DOT)

@@ -1,0 +1,112 @@
+"""What the trials of an ablation come to: measures, table, figure."""
+
+import csv
+import math
+from dataclasses import replace
+from pathlib import Path
+
+from matplotlib.image import imread
+
+from mc_nested.studies.ablation import COLUMNS, STUDY, measures_on, report
+from mc_nested.studies.study import write_report
+from tests.studies.made_trials import LINE, PAPER, ZIGZAG, made_arm, made_config, made_trial
+
+PLAYED: dict[str, list[int | None]] = {
+    "whole": [5, 7, 6, 9],
+    "no | hope": [None, None, 20, None],
+    "old": [30, 30, 100, 200],
+}
+"""Real episodes until each trial was solved."""
+
+OF = {"whole": ("live", "", 200), "no | hope": ("live", "nothing is imagined to pay", 200), "old": ("tuned", "", 3000)}
+
+ARMS = {
+    name: replace(
+        made_arm(name, trials=4, labels={"part": name, "base": base, "what": what}, preset_name=base),
+        preset=PAPER.model_copy(update={"episodes": most}),
+    )
+    for name, (base, what, most) in OF.items()
+}
+TRIALS = [
+    made_trial(arm, scenario, number, [(played - 1, 21.0)] if played else [(30, 14.0)], updates=1000 * number)
+    for name, arm in ARMS.items()
+    for scenario in (LINE, ZIGZAG)
+    for number, played in enumerate(PLAYED[name])
+]
+FOUND = {measures.arm.name: measures for measures in measures_on(TRIALS, "line")}
+REPORT = report(made_config("ablation", TRIALS), TRIALS)
+TEXT = "\n\n".join(REPORT.text)
+
+
+def cells_of(name: str) -> list[str]:
+    line = next(line for line in TEXT.splitlines() if line.startswith(f"| {name} "))
+    return [cell.strip() for cell in line.replace(r"\|", "/")[1:-1].split("|")]
+
+
+def test_the_parts_are_in_their_order_with_their_own_trials() -> None:
+    assert list(FOUND) == ["whole", "no | hope", "old"]
+    assert FOUND["whole"].played.tolist() == [5, 7, 6, 9]
+    assert (FOUND["whole"].solved, FOUND["whole"].median, FOUND["whole"].worst) == (4, 6.5, 9)
+    assert FOUND["whole"].updates == 1500
+
+
+def test_a_trial_that_was_never_at_the_optimum_counts_as_infinite() -> None:
+    hopeless = FOUND["no | hope"]
+    assert (hopeless.solved, hopeless.median, hopeless.worst) == (1, math.inf, math.inf)
+    assert hopeless.best_score == 21.0
+
+
+def test_the_interval_of_a_median_holds_it_and_lies_within_the_trials() -> None:
+    interval = FOUND["old"].interval
+    assert interval is not None
+    assert 30 <= interval.low <= FOUND["old"].median <= interval.high <= 200
+    hopeless = FOUND["no | hope"].interval
+    assert hopeless is not None
+    assert hopeless.high == math.inf
+
+
+def test_a_line_has_the_figures_of_its_part() -> None:
+    assert cells_of("whole")[:3] == ["whole", "", "4 of 4"]
+    assert cells_of("whole")[3].startswith("6.5 (5 to ")
+    assert cells_of("whole")[4:] == ["9", "21", "1,500", "200"]
+    assert cells_of("old")[-1] == "3,000"
+
+
+def test_never_is_infinite_and_a_name_breaks_no_table() -> None:
+    cells = cells_of(r"no \| hope")
+    assert cells[:3] == ["no / hope", "nothing is imagined to pay", "1 of 4"]
+    assert cells[3].startswith("∞")
+    assert cells[4] == "∞"
+
+
+def test_it_says_that_there_is_no_imitation_in_live() -> None:
+    assert "`live` is double Q-learning alone: there is no imitation in it" in TEXT
+    assert "4 trials of each line on each design, seed 0" in TEXT
+    assert "](ablation.png)" in TEXT
+    assert "## zig|zag, optimum 21" in TEXT
+
+
+def test_the_same_trials_give_the_same_files(tmp_path: Path) -> None:
+    for folder in (tmp_path / "one", tmp_path / "two"):
+        folder.mkdir()
+        write_report(folder, STUDY, report(made_config("ablation", TRIALS), TRIALS))
+    for name in STUDY.files.values():
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+
+
+def test_the_rows_hold_every_trial_and_leave_never_empty(tmp_path: Path) -> None:
+    write_report(tmp_path, STUDY, REPORT)
+    with (tmp_path / "ablation.csv").open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert tuple(rows[0]) == COLUMNS
+    assert len(rows) == 24
+    hopeless = [row for row in rows if (row["part"], row["scenario"]) == ("no | hope", "line")]
+    assert [row["played_to_optimum"] for row in hopeless] == ["", "", "20", ""]
+
+
+def test_the_picture_has_the_colours_of_trials_of_medians_and_of_never(tmp_path: Path) -> None:
+    write_report(tmp_path, STUDY, REPORT)
+    picture = (imread(tmp_path / "ablation.png")[..., :3] * 255).round().astype(int).reshape(-1, 3)
+    for colour in ("56B4E9", "0072B2", "D55E00"):
+        wanted = [int(colour[at : at + 2], 16) for at in (0, 2, 4)]
+        assert (picture == wanted).all(axis=1).sum() > 50, colour

@@ -1,0 +1,132 @@
+"""The cut of an experiment into jobs: every run once, work for every process, only what can train together mixed."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+from hypothesis import given
+from hypothesis import strategies as some
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.learn.agents import AGENT_SPECS
+from mc_nested.learn.preset import load_preset
+from mc_nested.studies.job import Job, Run, cut_into_jobs, side_by_side
+from tests.learn.made_experiments import BAR, DOT, MATERIALS, runs_of, small_preset
+
+PRESETS = [small_preset(10), small_preset(100)]
+SCENARIOS = [DOT, BAR, replace(DOT, name="of one material", materials=MATERIALS[1:])]
+
+SOME_RUNS = some.lists(
+    some.builds(
+        lambda agent, preset, scenario, trial: Run(agent, AGENT_SPECS[agent], preset, scenario, trial),
+        some.sampled_from(list(AGENT_SPECS)),
+        some.sampled_from(PRESETS),
+        some.sampled_from(SCENARIOS),
+        some.integers(0, 5),
+    ),
+    min_size=1,
+    max_size=40,
+)
+
+
+def in_order(jobs: list[Job]) -> list[Run]:
+    return [
+        Run(group, job.spec, job.preset, scenario, trial)
+        for job in sorted(jobs, key=lambda job: job.name)
+        for group, scenario, trial in zip(job.groups, job.scenarios, job.trials, strict=True)
+    ]
+
+
+@given(SOME_RUNS, some.integers(1, 9))
+def test_every_run_is_in_one_job_and_the_longest_job_comes_first(runs: list[Run], parts: int) -> None:
+    jobs = cut_into_jobs(runs, parts, seed=0)
+    assert in_order(jobs) == runs
+    assert [job.work for job in jobs] == sorted((job.work for job in jobs), reverse=True)
+    assert len({job.name for job in jobs}) == len(jobs)
+
+
+@given(SOME_RUNS, some.integers(1, 9))
+def test_a_job_is_of_one_agent_one_preset_and_one_choice_of_materials(runs: list[Run], parts: int) -> None:
+    for job in cut_into_jobs(runs, parts, seed=0):
+        assert len({len(scenario.materials) for scenario in job.scenarios}) == 1
+        assert {AGENT_SPECS[group] for group in job.groups} == {job.spec}
+    kinds = 1 + sum(
+        (one.spec, one.preset, len(one.scenario.materials)) != (two.spec, two.preset, len(two.scenario.materials))
+        for one, two in pairwise(runs)
+    )
+    assert len(cut_into_jobs(runs, parts, seed=0)) <= kinds + parts - 1
+
+
+@given(some.integers(1, 60), some.integers(1, 9))
+def test_alike_runs_are_cut_evenly(trials: int, parts: int) -> None:
+    jobs = cut_into_jobs(runs_of(["nested"], [DOT], trials, small_preset()), parts, seed=0)
+    sizes = [len(job.trials) for job in jobs]
+    assert max(sizes) - min(sizes) <= 1
+    assert len(jobs) == min(parts, trials)
+
+
+def test_the_papers_experiment_on_two_cores() -> None:
+    scenarios = [load_scenario(name) for name in ("line", "zigzag", "diamond")]
+    jobs = cut_into_jobs(runs_of(list(AGENT_SPECS), scenarios, 10, load_preset("paper")), 2, seed=0)
+    assert [(job.groups[0], len(job.trials)) for job in jobs] == [
+        ("nested", 30),
+        ("hierarchical", 19),
+        ("single", 30),
+        ("hierarchical", 11),
+    ]
+
+
+def test_one_hot_only_scenarios_of_as_many_blocks_train_together() -> None:
+    one_hot = small_preset().model_copy(update={"encoding": "one-hot"})
+    scenarios = [load_scenario(name) for name in ("line", "zigzag", "diamond")]
+    jobs = cut_into_jobs(runs_of(["nested"], scenarios, 2, one_hot), 1, seed=0)
+    assert [[scenario.name for scenario in job.scenarios[::2]] for job in jobs] == [["line", "zigzag"], ["diamond"]]
+
+
+def test_a_long_run_weighs_as_much_as_ten_short_ones() -> None:
+    runs = runs_of(["nested"], [DOT], 10, small_preset(10)) + runs_of(["nested"], [DOT], 2, small_preset(100))
+    assert [len(job.trials) for job in cut_into_jobs(runs, 3, seed=0)] == [10, 1, 1]
+
+
+def test_units_of_other_runs_presets_or_seeds_have_other_identities() -> None:
+    runs = runs_of(["nested"], [DOT, BAR], 2, small_preset())
+    shorter = runs_of(["nested"], [DOT, BAR], 2, small_preset(19))
+    jobs = [
+        cut_into_jobs(runs, 1, seed=0),
+        cut_into_jobs(runs, 1, seed=1),
+        cut_into_jobs(runs[1:], 1, seed=0),
+        cut_into_jobs(shorter, 1, seed=0),
+        cut_into_jobs([replace(run, spec=AGENT_SPECS["single"]) for run in runs], 1, seed=0),
+    ]
+    identities = [str(job.identity()) for (job,) in jobs]
+    assert len(set(identities)) == len(identities)
+    assert cut_into_jobs(runs, 1, seed=0)[0].identity() == jobs[0][0].identity()
+
+
+def test_what_ends_a_run_and_who_trains_it_are_part_of_the_identity() -> None:
+    job = cut_into_jobs(runs_of(["nested"], [DOT], 1, small_preset()), 1, seed=0)[0]
+    others = [replace(job, stop_at_optimum=True), replace(job, library="another")]
+    assert len({str(each.identity()) for each in (job, *others)}) == 3
+
+
+def test_runs_that_say_so_train_a_few_trials_at_a_time_on_one_design_each() -> None:
+    runs = [replace(run, together=2) for run in runs_of(["nested"], [DOT, BAR], 5, small_preset())]
+    jobs = cut_into_jobs(runs, 7, seed=0)
+    assert [(job.scenarios[0].name, job.trials) for job in jobs] == [
+        ("dot", (0, 1)),
+        ("dot", (2, 3)),
+        ("bar", (0, 1)),
+        ("bar", (2, 3)),
+        ("dot", (4,)),
+        ("bar", (4,)),
+    ]
+
+
+def test_a_run_waits_for_its_turn_however_long_it_is() -> None:
+    short, long = (runs_of(["nested"], [DOT], 1, small_preset(episodes))[0] for episodes in (10, 100))
+    jobs = cut_into_jobs([replace(long, together=1, turn=1), replace(short, together=1)], 1, seed=0)
+    assert [job.preset.episodes for job in jobs] == [10, 100]
+
+
+def test_runs_of_one_kind_stand_side_by_side() -> None:
+    one, other = (runs_of(["nested"], [DOT], 1, small_preset(episodes)) for episodes in (10, 100))
+    assert side_by_side([*one, *other, *one]) == [*one, *one, *other]

@@ -1,0 +1,218 @@
+"""Jobs that train: the same however they are cut and however often they are stopped, and saved before much is lost."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mc_nested.arrays import Int64s
+from mc_nested.errors import RunError
+from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.studies.job import Job, cut_into_jobs
+from mc_nested.studies.job_trainers import agents_trainer
+from mc_nested.studies.job_training import JobTraining, SpendingCount
+from mc_nested.studies.outcome import OUTCOME, JobOutcome, RunOutcome, outcome_of
+from sim.grid import GridVectorEnv
+from tests.learn.made_experiments import BAR, DOT, one_job, runs_of, small_preset
+
+
+def training(job: Job, folder: Path) -> JobTraining:
+    return JobTraining(job, folder, agents_trainer(job, GridVectorEnv(job.scenarios)))
+
+
+def train(job: Job, folder: Path) -> JobOutcome:
+    own = training(job, folder)
+    while not own.trainer.finished:
+        own.tick()
+    own.finish()
+    outcome = outcome_of(job, folder)
+    assert outcome
+    return outcome
+
+
+@pytest.mark.parametrize(
+    ("agent", "encoding"),
+    [("nested", "scaled"), ("hierarchical", "scaled"), ("single", "scaled"), ("nested", "one-hot")],
+)
+def test_the_outcome_does_not_depend_on_the_division(agent: str, encoding: str, tmp_path: Path) -> None:
+    runs = runs_of([agent], [DOT, BAR], 3, small_preset().model_copy(update={"encoding": encoding}))
+    found: list[dict[tuple[str, int], RunOutcome]] = []
+    for parts in (1, 4):
+        found.append({})
+        for job in cut_into_jobs(runs, parts, seed=3):
+            outcome = train(job, tmp_path / f"{parts}" / job.name)
+            keys = [(scenario.name, trial) for scenario, trial in zip(job.scenarios, job.trials, strict=True)]
+            found[-1].update(zip(keys, outcome.runs, strict=True))
+    assert found[0] == found[1]
+    assert len(found[0]) == 6
+    assert found[0]["bar", 0] != found[0]["bar", 1]
+
+
+def test_an_outcome_says_what_was_evaluated_and_what_it_took(tmp_path: Path) -> None:
+    job = one_job("nested", [DOT, BAR], 2)
+    outcome = train(job, tmp_path)
+    assert [row.episode for row in outcome.runs[0].evaluations] == [5, 10, 15, 20]
+    assert outcome.networks == 2
+    assert outcome.seconds > 0
+    for scenario, run in zip(job.scenarios, outcome.runs, strict=True):
+        # An update a step from the fourth transition on, and one an episode for the main agent, likewise.
+        assert run.updates == (run.env_steps - 3) + (20 - 3)
+        assert 20 <= run.env_steps <= 20 * scenario.step_limit
+        assert {row.material for row in run.evaluations} <= {"wood", "stone"}
+        assert run.score == run.evaluations[-1].score
+        # Of each step, and of the main agent's each episode: two indices of two bytes, action 1, reward 4, discount 4.
+        assert run.replay_bytes == 13 * (run.env_steps + 20)
+
+
+def test_the_single_agent_holds_its_steps_alone(tmp_path: Path) -> None:
+    for run in train(one_job("single", [DOT, BAR], 1), tmp_path).runs:
+        assert run.replay_bytes == 13 * run.env_steps
+
+
+def test_an_outcome_of_an_earlier_version_says_nothing_of_bytes(tmp_path: Path) -> None:
+    job = one_job("nested", [DOT], 1)
+    train(job, tmp_path)
+    written = json.loads((tmp_path / OUTCOME).read_text("utf-8"))
+    for run in written["runs"]:
+        del run["replay_bytes"]
+    (tmp_path / OUTCOME).write_text(json.dumps(written), "utf-8")
+    outcome = outcome_of(job, tmp_path)
+    assert outcome
+    assert outcome.runs[0].replay_bytes is None
+
+
+def test_no_run_loses_more_than_an_evaluation_interval(tmp_path: Path) -> None:
+    job = one_job("nested", [DOT, BAR], 2, episodes=50)
+    own = training(job, tmp_path)
+    for tick in range(200):
+        own.tick()
+        if tick % 20 == 0 and (tmp_path / "checkpoint").exists():
+            lost = own.trainer.episodes_done - training(job, tmp_path).trainer.episodes_done
+            assert lost.min() >= 0
+            assert lost.max() < job.preset.evaluate_every
+    assert own.trainer.episodes_done.max() > 3 * job.preset.evaluate_every
+
+
+def test_a_job_stopped_repeatedly_has_the_same_outcome(tmp_path: Path) -> None:
+    job = one_job("hierarchical", [DOT, BAR], 2)
+    straight = train(job, tmp_path / "straight")
+    own = training(job, tmp_path / "stopped")
+    ticks = 0
+    while not own.trainer.finished:
+        own.tick()
+        ticks += 1
+        if ticks % 37 == 0:
+            own.save()
+            own = training(job, tmp_path / "stopped")
+        elif ticks % 50 == 0:  # a kill: what came after the last save is done again
+            own = training(job, tmp_path / "stopped")
+    assert own.trainer.finished
+    own.finish()
+    stopped = outcome_of(job, tmp_path / "stopped")
+    assert stopped
+    assert stopped.runs == straight.runs
+
+
+def test_a_finished_job_leaves_its_outcome_alone(tmp_path: Path) -> None:
+    job = one_job("nested", [DOT], 1)
+    assert outcome_of(job, tmp_path / "job") is None
+    train(job, tmp_path / "job")
+    assert [path.name for path in (tmp_path / "job").iterdir()] == [OUTCOME]
+
+
+def test_an_outcome_of_another_job_or_half_of_one_is_refused(tmp_path: Path) -> None:
+    job = one_job("nested", [DOT], 1)
+    train(job, tmp_path)
+    with pytest.raises(RunError, match="belongs to another experiment"):
+        outcome_of(one_job("nested", [DOT], 1, episodes=21), tmp_path)
+    whole = (tmp_path / OUTCOME).read_bytes()
+    (tmp_path / OUTCOME).write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(RunError, match="remove it to train that again") as caught:
+        outcome_of(job, tmp_path)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_full_disk_costs_one_line_and_not_the_last_save(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    job = one_job("nested", [DOT], 2, episodes=50)
+    own = training(job, tmp_path)
+
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    while (own.trainer.episodes_done < 14).all():
+        own.tick()
+    saved = training(job, tmp_path).episodes_done.tolist()
+    with monkeypatch.context() as patch:
+        patch.setattr("os.fsync", full)
+        with pytest.raises(RunError, match=r"No space left on device.*: make room"):
+            own.save()
+    assert training(job, tmp_path).episodes_done.tolist() == saved
+    assert min(saved) > 0
+
+
+class FakeTrainer:
+    """Two runs; it is its own agent."""
+
+    updates_by_run: Int64s
+
+    def __init__(self) -> None:
+        self.episode_rows: list[EpisodeRow] = []
+        self.evaluation_rows: list[EvaluationRow] = []
+        self.updates_by_run = np.zeros(2, dtype=np.int64)
+
+    @property
+    def agent(self) -> "FakeTrainer":
+        return self
+
+    def train(self, run: int, steps: int, updates: int) -> None:
+        self.episode_rows.append(EpisodeRow(run, 1, 0.0, 0, steps, 0.1, 0.1))
+        self.updates_by_run[run] += updates
+
+    def evaluate(self, run: int) -> None:
+        self.evaluation_rows.append(EvaluationRow(run, 1, 0.0, 0, 9))
+
+
+def test_each_evaluation_has_its_own_runs_steps_and_updates() -> None:
+    trainer, spent = FakeTrainer(), SpendingCount(2)
+    trainer.train(0, steps=10, updates=7)
+    trainer.train(1, steps=20, updates=17)
+    spent.count(trainer)
+    trainer.train(0, steps=5, updates=5)
+    spent.count(trainer)
+    trainer.evaluate(0)
+    trainer.evaluate(1)
+    spent.count(trainer)
+    assert spent.at == [(15, 12), (20, 17)]
+
+
+def test_it_goes_on_from_what_was_saved() -> None:
+    trainer, spent = FakeTrainer(), SpendingCount(2)
+    trainer.train(0, steps=10, updates=7)
+    trainer.evaluate(0)
+    spent.count(trainer)
+    again = SpendingCount(2)
+    again.load(spent.state(), trainer)
+    trainer.train(0, steps=4, updates=4)
+    trainer.evaluate(0)
+    again.count(trainer)
+    assert again.at == [(10, 7), (14, 11)]
+
+
+@pytest.mark.parametrize("agent", ["nested", "hierarchical", "single"])
+def test_at_its_last_evaluation_a_run_had_spent_all_that_its_outcome_says(agent: str, tmp_path: Path) -> None:
+    job = one_job(agent, [DOT, BAR], 2)
+    training = JobTraining(job, tmp_path, agents_trainer(job, GridVectorEnv(job.scenarios)))
+    while not training.finished:
+        training.tick()
+    training.finish()
+    outcome = outcome_of(job, tmp_path)
+    assert outcome
+    for run in outcome.runs:
+        assert [each.episode for each in run.evaluations] == [5, 10, 15, 20]
+        steps = [each.trained_steps or 0 for each in run.evaluations]
+        updates = [each.updates or 0 for each in run.evaluations]
+        assert (steps[-1], updates[-1]) == (run.env_steps, run.updates)
+        assert steps == sorted(set(steps))
+        assert updates == sorted(set(updates))
+        assert 0 < updates[0] < updates[-1]

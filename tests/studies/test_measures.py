@@ -1,0 +1,61 @@
+"""What is measured of a trial, by hand."""
+
+import numpy as np
+import pytest
+
+from mc_nested.studies.measures import Curve, curves_of, early_limit
+from tests.studies.claims.made_results import Trial, made
+
+
+def curve(episodes: list[int], scores: list[list[float]], trained: int, keeps_best: bool = False) -> Curve:
+    return Curve(np.array(episodes), np.array(scores), trained, keeps_best)
+
+
+@pytest.mark.parametrize(("episodes", "early"), [(30_000, 1000), (3000, 1000), (2999, 999), (90, 30)])
+def test_early_is_the_first_thousand_episodes_or_a_third(episodes: int, early: int) -> None:
+    assert early_limit(episodes) == early
+
+
+def test_the_early_score_is_the_mean_of_the_early_evaluations() -> None:
+    seen = curve([500, 1000, 1500], [[2, 4, 21], [6, 7, 21]], trained=3000)
+    assert seen.early.tolist() == [3.0, 6.5]
+
+
+def test_the_final_score_is_that_of_the_last_evaluation() -> None:
+    assert curve([30, 60], [[21, 3], [5, 20]], trained=60).final.tolist() == [3.0, 20.0]
+
+
+def test_where_the_best_policy_is_kept_the_final_score_is_its() -> None:
+    assert curve([30, 60], [[21, 3], [5, 20]], trained=60, keeps_best=True).final.tolist() == [21.0, 20.0]
+
+
+def test_the_last_ten_are_averaged_whichever_policy_is_kept() -> None:
+    episodes = list(range(30, 3001, 30))
+    scores = [[0.0] * 90 + [20.0] * 9 + [10.0], [0.0] * 89 + [99.0] + [21.0] * 10]
+    for keeps_best in (False, True):
+        assert curve(episodes, scores, 3000, keeps_best).last_ten.tolist() == [19.0, 21.0]
+
+
+def test_where_the_last_third_has_fewer_than_ten_it_is_over_those() -> None:
+    assert curve([10, 20, 21, 30], [[-5, 50, 1, 2]], trained=30).last_ten.tolist() == [1.5]
+
+
+def test_the_spread_is_the_standard_deviation_over_the_last_third() -> None:
+    seen = curve([10, 20, 21, 25, 30], [[-5, 50, 1, 2, 3], [0, 0, 7, 7, 7]], trained=30)
+    assert seen.spread.tolist() == [1.0, 0.0]
+
+
+def test_what_was_not_evaluated_is_not_measured() -> None:
+    nothing = curve([], [[], []], trained=3000)
+    assert [len(measure) for measure in (nothing.early, nothing.final, nothing.last_ten, nothing.spread)] == [0] * 4
+    late = curve([3000], [[21], [20]], trained=3000)
+    assert [len(measure) for measure in (late.early, late.final, late.last_ten, late.spread)] == [0, 2, 2, 0]
+
+
+def test_every_agent_and_scenario_has_its_curve() -> None:
+    results = made({("nested", "line"): [Trial(1, 20), Trial(2, 21)], ("single", "line"): [Trial(3, 7), Trial(4, 8)]})
+    curves = curves_of(results)
+    assert set(curves) == {("nested", "line"), ("single", "line")}
+    assert curves["nested", "line"].final.tolist() == [20.0, 21.0]
+    assert curves["single", "line"].early.tolist() == [3.0, 4.0]
+    assert curves["nested", "line"].spread.tolist() == [1.0, 1.0]

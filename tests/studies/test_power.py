@@ -1,0 +1,110 @@
+"""How many trials would decide a claim: by tables, by hand, and by simulation."""
+
+from math import comb
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import stats
+
+from mc_nested.studies.inference import ALPHA, mostly
+from mc_nested.studies.power import MeanEffect, ShareEffect, deciding_trials
+
+
+def one(effect: MeanEffect | ShareEffect, trials: int, alpha: float = ALPHA) -> float:
+    return float(effect.power_for(np.array([trials]), alpha)[0])
+
+
+@pytest.mark.parametrize(("difference", "trials"), [(0.5, 51), (0.8, 21), (1.0, 14)])
+def test_two_means_take_as_many_trials_as_cohens_tables_say(difference: float, trials: int) -> None:
+    """Cohen (1988): a one-sided t test, α = 0.05, power 0.8, for differences of so many standard deviations."""
+    assert deciding_trials([MeanEffect(difference, -difference, (1.0, 1.0))]) == trials
+
+
+def test_power_is_how_often_welchs_t_is_significant() -> None:
+    random, effect = np.random.default_rng(5), MeanEffect(1.0, -1.0, (1.0, 2.0))
+    left, right = random.normal(1, 1, (20, 20_000)), random.normal(0, 2, (20, 20_000))
+    found = stats.ttest_ind(left, right, equal_var=False, alternative="greater").pvalue < ALPHA
+    assert one(effect, 20) == pytest.approx(found.mean(), abs=0.015)
+
+
+def test_a_difference_without_spread_takes_as_many_trials_as_a_permutation_test_needs() -> None:
+    assert 1 / comb(6, 3) == ALPHA
+    assert deciding_trials([MeanEffect(2.0, -1.0, (0.0, 0.0))]) == 4
+
+
+def test_no_difference_is_never_shown() -> None:
+    assert deciding_trials([MeanEffect(0.0, 0.0, (1.0, 1.0))]) is None
+    assert deciding_trials([MeanEffect(0.0, 0.0, (0.0, 0.0))]) is None
+
+
+@given(st.floats(0.05, 3.0), st.floats(0.1, 5.0), st.floats(0.1, 5.0), st.integers(4, 500))
+def test_more_trials_show_more(above: float, left: float, right: float, trials: int) -> None:
+    effect = MeanEffect(above, -above, (left, right))
+    assert one(effect, trials) <= one(effect, trials + 1) + 1e-9
+
+
+def test_a_share_takes_as_many_trials_as_the_binomial_test() -> None:
+    assert one(ShareEffect(1.0), 4) == 0.0
+    assert one(ShareEffect(1.0), 5) == 1.0
+    assert deciding_trials([ShareEffect(1.0)]) == 5
+    # Of eight trials, seven have to be at the optimum: 0.9 ** 8 + 8 * 0.9 ** 7 * 0.1.
+    assert one(ShareEffect(0.9), 8) == pytest.approx(0.9**8 + 8 * 0.9**7 * 0.1)
+
+
+@pytest.mark.parametrize("trials", [5, 8, 10, 30])
+def test_the_power_of_a_share_sums_what_its_test_finds_significant(trials: int) -> None:
+    shown = sum(
+        stats.binom.pmf(count, trials, 0.7) for count in range(trials + 1) if mostly(count, trials).claim < ALPHA
+    )
+    assert one(ShareEffect(0.7), trials) == pytest.approx(shown)
+
+
+def test_a_share_below_one_half_is_shown_against_the_claim() -> None:
+    assert deciding_trials([ShareEffect(0.0)]) == 5
+    assert deciding_trials([ShareEffect(0.5)]) is None
+
+
+def test_a_share_counts_from_where_its_power_stays() -> None:
+    """The power of 0.7 is above 0.8 at 37 trials, and below again until 42: it rises in a saw-tooth."""
+    power = ShareEffect(0.7).power_for(np.arange(37, 60), ALPHA)
+    assert power[0] >= 0.8 > power[4]
+    assert (power[5:] >= 0.8).all()
+    assert deciding_trials([ShareEffect(0.7)]) == 42
+
+
+def test_a_small_lead_is_decided_as_less_than_a_block() -> None:
+    """With a margin of one block, 0.1 ahead is shown to be below it long before it is shown to be above 0."""
+    ahead_a_little = MeanEffect(0.1, 0.9, (0.3, 0.3))
+    found = deciding_trials([ahead_a_little])
+    assert found == deciding_trials([MeanEffect(-0.9, 0.9, (0.3, 0.3))])
+    assert found
+    assert found < 10 < (deciding_trials([MeanEffect(0.1, -0.1, (0.3, 0.3))]) or 0)
+
+
+def test_a_t_test_takes_fewer_trials_than_a_permutation_test_and_none_without_spread() -> None:
+    assert deciding_trials([MeanEffect(50.0, -50.0, (1.0, 1.0), is_permuted=False)]) == 2
+    assert deciding_trials([MeanEffect(50.0, -50.0, (1.0, 1.0))]) == 4
+    assert deciding_trials([MeanEffect(2.0, -2.0, (0.0, 0.0), is_permuted=False)]) is None
+
+
+def test_all_lines_of_a_claim_have_to_be_shown() -> None:
+    alone, other = MeanEffect(1.0, -1.0, (1.0, 1.0)), MeanEffect(1.1, -1.1, (1.0, 1.0))
+    found, of_one = deciding_trials([alone, other]), deciding_trials([alone])
+    assert found
+    assert of_one
+    assert found > of_one
+    assert one(alone, found) * one(other, found) >= 0.8 > one(alone, found - 1) * one(other, found - 1)
+
+
+def test_one_line_against_it_is_enough_at_its_share_of_alpha() -> None:
+    against, for_it = MeanEffect(-2.0, 2.0, (1.0, 1.0)), MeanEffect(5.0, -4.0, (1.0, 1.0))
+    found = deciding_trials([against, for_it])
+    assert found
+    assert float(against.power_against(np.array([found]), ALPHA / 2)[0]) >= 0.8
+    assert float(against.power_against(np.array([found - 1]), ALPHA / 2)[0]) < 0.8
+
+
+def test_without_a_tested_line_no_number_is_named() -> None:
+    assert deciding_trials([]) is None

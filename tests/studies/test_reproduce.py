@@ -1,0 +1,43 @@
+"""The paper's experiment as arms."""
+
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.studies.arm import Arm
+from mc_nested.studies.job import Run
+from mc_nested.studies.reproduce import LONGER_AGENTS, LONGER_SCENARIOS, arms
+from mc_nested.studies.study import Asked
+
+THREE = ["line", "zigzag", "diamond"]
+
+
+def asked(agents: list[str], scenarios: list[str], longer: int = 0) -> list[Arm]:
+    loaded = [load_scenario(name) for name in scenarios]
+    return arms(Asked(trials=10, episodes=30, scenarios=loaded, agent=agents, longer=longer))
+
+
+def runs_of(found: list[Arm]) -> list[Run]:
+    return [run for arm in found for run in arm.runs()]
+
+
+def test_three_agents_on_three_designs_in_ten_trials_are_ninety_runs() -> None:
+    runs = runs_of(asked([], THREE))
+    assert len(runs) == 90
+    assert len({(run.group, run.scenario.name, run.trial) for run in runs}) == 90
+    assert [run.group for run in runs[::30]] == ["nested", "hierarchical", "single"]
+    assert [run.trial for run in runs[:11]] == [*range(10), 0]
+
+
+def test_what_is_trained_for_longer_is_what_claim_f_is_about() -> None:
+    longer = runs_of(asked([], THREE, longer=10))[90:]
+    assert {(run.group, run.scenario.name, run.preset.episodes) for run in longer} == {
+        (f"{agent}-longer", scenario, 300) for agent in LONGER_AGENTS for scenario in LONGER_SCENARIOS
+    }
+    assert len(longer) == 40
+
+
+def test_only_what_is_trained_at_all_is_trained_for_longer() -> None:
+    few = asked(["single", "hierarchical"], ["diamond", "line"], longer=3)
+    longer = [arm for arm in few if arm.name.endswith("-longer")]
+    assert [(arm.agent, [scenario.name for scenario in arm.scenarios]) for arm in longer] == [
+        ("hierarchical", ["diamond"])
+    ]
+    assert len(runs_of(few)) == 40 + 10
