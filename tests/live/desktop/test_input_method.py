@@ -11,13 +11,13 @@ if not sys.platform.startswith("linux"):
 
 from scripts.rehearsal_window import ROOT, open_rehearsal
 from scripts.window_display import open_display
-from tests.live.desktop.game_window_fixtures import found_or_skipped
-from tests.live.desktop.input_method import input_method, install_input_method
-from tests.live.desktop.probed import glfw_probed
+from tests.live.desktop.real_windows.game_window_fixtures import found_or_skipped
+from tests.live.desktop.real_windows.input_method import input_method, install_input_method
+from tests.live.desktop.real_windows.probed import glfw_probed
 
 pytestmark = [pytest.mark.window, pytest.mark.usefixtures("window_programs")]
 
-PROBE = Path(__file__).with_name("chat_probe.py")
+PROBE = Path(__file__).parent / "real_windows" / "chat_probe.py"
 LINE = "/tp @s 3.5 64 2.5"
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from scripts.standin_parts import MissingError
 from scripts.xwayland_parts import install_programs
-from tests.live.desktop.xwayland_desktop import rootful_desktop, rootless_desktop
+from tests.live.desktop.real_windows.xwayland_desktop import rootful_desktop, rootless_desktop
 
 
 @pytest.fixture(scope="session")
