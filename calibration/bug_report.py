@@ -16,9 +16,8 @@ from calibration.report.privacy import Names
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.cut import cut
-from mc_nested.live.recording.opened import versions_here
-from mc_nested.live.recording.overview import overview_of
-from mc_nested.live.recording.recording_file import facts_of
+from mc_nested.live.recording.recording_file import facts_of, overview_of
+from mc_nested.live.recording.run_recorder import versions_here
 
 DOCTOR, PROFILE, VERSIONS, RECORDING = "doctor.json", "profile.toml", "versions.json", "recording.mcap"
 

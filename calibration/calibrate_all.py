@@ -1,6 +1,9 @@
 """The guided run (``mc-nested calibrate all``): every step in one go, then the profile is written, once.
 
 doctor -> font -> arena -> walk -> clicks -> F3+C -> acceptance test -> profile -> doctor again -> data for the report
+
+Each step works on the profile that the step before left. If a needed step fails, the run ends. Any other failed step is
+skipped with a warning: a missing button costs its click point, but not the arena and the walk.
 """
 
 import dataclasses
@@ -11,22 +14,105 @@ from functools import partial
 from pathlib import Path
 from typing import Protocol
 
-from calibration import runner
-from calibration.arena.copy_note import remove_saved_copy_note, undo_hint_on_error
-from calibration.context import CalibrationContext, StepResult
+from calibration.arena.undo import remove_saved_copy_note, undo_hint_on_error
+from calibration.context import CalibrationContext, OpenContext, StepResult
 from calibration.doctor.check import Check, CheckName
-from calibration.open_context import OpenContext
-from calibration.report.kept import keep_or_warn
-from calibration.runner import CalibrationStep, RunResult
-from calibration.starting_profile import starting_profile
-from calibration.write_result import write_result
-from mc_nested.errors import DesktopError
+from calibration.report.findings import save_findings_or_warn
+from calibration.step_profile import starting_profile, write_result
+from mc_nested.errors import DesktopError, LiveError, McNestedError, NotInFrontError, StoppedError, UserError
 from mc_nested.live.connection import screen_for
 from mc_nested.live.devices import Devices
 from mc_nested.live.menus.recovery import Recovery
+from mc_nested.live.model.versions import version_in
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import CalibratedTable, Profile
-from mc_nested.live.profile.window_title import version_in
+
+StepFunction = Callable[[CalibrationContext, Profile], StepResult]
+
+
+@dataclass(frozen=True)
+class CalibrationStep:
+    """A step of the run: its name, its function, and whether the run ends if it fails."""
+
+    name: str
+    run: StepFunction
+    is_needed: bool = True
+
+
+class StepProgress(Protocol):
+    """Is notified of the progress of the run. Seconds are those of the game window's clock."""
+
+    def begin(self, name: str, number: int, of: int) -> None:
+        """Step ``number`` of ``of`` begins; the first is 1."""
+
+    def end(self, result: StepResult, seconds: float) -> None:
+        """The step succeeded."""
+
+    def skip(self, reason: str, seconds: float) -> None:
+        """The step failed, and the run continues without it."""
+
+
+@dataclass(frozen=True)
+class RunResult:
+    """The profile with everything that was found, the results of the steps, and why steps were skipped, by name."""
+
+    profile: Profile
+    results: tuple[StepResult, ...]
+    skipped: dict[str, str]
+
+
+def run_steps(
+    steps: Sequence[CalibrationStep],
+    context: CalibrationContext,
+    profile: Profile,
+    progress: StepProgress,
+    recover: Callable[[Profile], None],
+) -> RunResult:
+    """Run the steps in order.
+
+    ``recover`` returns to the world, since a skipped step may have left a menu open.
+
+    Raises:
+        McNestedError: a needed step failed; or, in any step, the game lost the front, the person stopped the run, or
+            the window was resized. The message names the step. Every key is released.
+    """
+    results: list[StepResult] = []
+    skipped: dict[str, str] = {}
+    clock, display = context.devices.clock, context.devices.display
+    size = display.size()
+    for number, step in enumerate(steps, 1):
+        progress.begin(step.name, number, len(steps))
+        started_at = clock.now()
+        try:
+            result = step.run(context, profile)
+        except (NotInFrontError, StoppedError) as error:
+            raise _named(step, error) from error
+        except (LiveError, UserError) as error:
+            if step.is_needed:
+                raise _named(step, error) from error
+            skipped[step.name] = str(error)
+            progress.skip(str(error), clock.now() - started_at)
+            recover(profile)
+            continue
+        finally:
+            context.controller.release_all()
+        if (now := display.size()) != size:
+            raise _named(step, _resized(size, now))
+        results.append(result)
+        profile = result.profile
+        progress.end(result, clock.now() - started_at)
+    return RunResult(profile, tuple(results), skipped)
+
+
+def _resized(before: tuple[int, int], now: tuple[int, int]) -> DesktopError:
+    was, is_now = (f"{size[0]} x {size[1]}" for size in (before, now))
+    return DesktopError(f"the window was {was} pixels and is {is_now}: leave it as it is, and start again")
+
+
+def _named(step: CalibrationStep, error: McNestedError) -> McNestedError:
+    """The same error with the step's name, and a note that the profile is unchanged."""
+    return type(error)(f"{step.name}: {error} (the profile is as it was)")
+
 
 GATES = frozenset(
     {
@@ -47,7 +133,7 @@ Examine = Callable[[str], Sequence[Check]]
 """The doctor's checks for the profile of that name."""
 
 
-class CalibrationProgress(runner.StepProgress, Protocol):
+class CalibrationProgress(StepProgress, Protocol):
     """Is notified of the progress of the guided run."""
 
     def doctor_done(self, checks: Sequence[Check]) -> None:
@@ -89,7 +175,7 @@ def calibrate_all(
         display = context.devices.display
         context.connection.check_single_player()
         profile = profile.model_copy(update={"game": game_in(display.title(), profile.game)})
-        run = runner.run_steps(steps, context, profile, progress, partial(_recover, context))
+        run = run_steps(steps, context, profile, progress, partial(_recover, context))
         fingerprint = _fingerprint(run, context.devices, today or datetime.date.today().isoformat())
     run = dataclasses.replace(run, profile=run.profile.model_copy(update={"calibrated": fingerprint}))
     points = tuple(point for result in run.results for point in result.points)
@@ -97,7 +183,7 @@ def calibrate_all(
         write_result(StepResult("all", run.profile, (), 0, points=points), path)
     remove_saved_copy_note(run.profile, path)
     checks = examine(profile_name)
-    keep_or_warn(context.say, path, run.results, checks, fingerprint.date)
+    save_findings_or_warn(context.say, path, run.results, checks, fingerprint.date)
     return CalibrationResult(path, run, checks)
 
 

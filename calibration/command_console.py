@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.deadline import Deadline
+from mc_nested.live.devices import Deadline
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.model.timing import TYPING_LOOK_S

@@ -11,8 +11,7 @@ from contextlib import contextmanager
 from calibration.context import CalibrationContext, StepResult
 from mc_nested.errors import LiveError, NotConfirmedError, UnreadableError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import Clipboard
+from mc_nested.live.devices import Clipboard, Deadline
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.coordinates import turn_between

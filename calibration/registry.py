@@ -7,12 +7,12 @@ from pathlib import Path
 from calibration.acceptance_test import run_acceptance_test
 from calibration.arena.build import build_arena
 from calibration.arena.mark import check_standing
+from calibration.calibrate_all import CalibrationStep
 from calibration.clicks.find import find_clicks_unattended
 from calibration.context import CalibrationContext, StepResult
 from calibration.cross_check import cross_check
 from calibration.font.find import find_font, sources_for, sources_here
 from calibration.font.sources import FontSources
-from calibration.runner import CalibrationStep
 from calibration.walk.measure import walk
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import DEFAULT_SIZE

@@ -17,11 +17,10 @@ from typing import Any
 
 from gymnasium.vector import AutoresetMode, VectorEnv
 
-from mc_nested.arena.autoreset import NextStepAutoreset
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.vector import ArenaVectorEnv
+from mc_nested.arena.vector import ArenaVectorEnv, NextStepAutoreset
 from mc_nested.arrays import Int64s
 from mc_nested.design_files.load import load_any_scenario
 from mc_nested.errors import ScenarioError, UserError
@@ -146,7 +145,7 @@ def _live(
     scenario: Scenario, profile: str, record: str | Path | None, *, server_allowed: bool, open_live: OpenLive | None
 ) -> AbstractContextManager[tuple[Game, Any]]:
     # Imported here: who learns in the simulator needs nothing that reads a screen.
-    from mc_nested.live.recording.opened import run_recorder
+    from mc_nested.live.recording.run_recorder import run_recorder
     from mc_nested.live.session import open_live_game
 
     recorder = run_recorder(record, f"env-{scenario.name}", _say, scenario, server_allowed=server_allowed)

@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from mc_nested.arena.picture import draw_picture
+from mc_nested.arena.drawing import draw_picture
 from mc_nested.cli.evaluate import greedy_episodes, load_agent
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.model.reading import Target
@@ -19,8 +19,8 @@ from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.font import font_of
 from mc_nested.report.curve import MEAN, OPTIMUM, align_trials, t_interval
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import F3Screen
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.game.f3_screen import F3Screen
 from sim.grid import arena_env
 
 DEFAULT_OUT = Path(__file__).with_name("overview.png")

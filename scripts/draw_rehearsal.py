@@ -19,7 +19,7 @@ from mc_nested.live.profile.arena import Arena
 from sim.client.client import VirtualClient
 from sim.client.game.realm import Stack
 from sim.window.glfw_window import open_glfw_window
-from sim.window.picture import WindowPicture
+from sim.window.window_picture import WindowPicture
 
 SIZE = (854, 480)
 BUILT = 13

@@ -124,7 +124,7 @@ def write_font(path: Path) -> None:
     """Write the project's own font as a picture."""
     import cv2
 
-    from sim.client.drawing.font import drawn_atlas
+    from sim.client.drawing.letters import drawn_atlas
 
     cv2.imwrite(str(path), drawn_atlas())
 

@@ -7,8 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.cooperative.team import Team
-from mc_nested.arena.cooperative.team_rules import resolved
+from mc_nested.arena.cooperative.team import Team, resolved
 from mc_nested.arena.game import Outcome, Resumable
 from mc_nested.arena.rules import cells_of, grid_of
 from mc_nested.arrays import Arrays

@@ -20,7 +20,7 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, ProfileError, RecordingError, ScenarioError, UserError
-from mc_nested.live.recording.replay import replay
+from mc_nested.live.recording.replayed_run import replay
 from sim.client.client import VirtualClient
 from sim.grid import GridGame, GridVectorEnv
 from tests.arena.env_contract import check_env_contract

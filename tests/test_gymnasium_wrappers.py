@@ -14,7 +14,7 @@ from gymnasium.wrappers import vector as of_vectors
 import mc_nested  # noqa: F401 - importing it registers the Env
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
-from mc_nested.arena.picture import Picture
+from mc_nested.arena.drawing import Picture
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from tests.report.films import pictures_of

@@ -31,7 +31,7 @@ from mc_nested.studies.ablation import shipped_parts
 from mc_nested.studies.benchmark import baseline
 from mc_nested.studies.sweep import shipped_variants
 from mc_nested.learn.preset import load_preset, shipped_presets
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 
 scenarios = [load_scenario(name) for name in shipped_scenarios()]
 presets = {name: load_preset(name) for name in shipped_presets()}
@@ -44,7 +44,7 @@ print(len(shipped_parts()) > 5, baseline().agent, drawn_atlas().shape, "train" i
 DRAWS = """
 import cv2, sys
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 
 client = VirtualClient(pitch=65.0)
 client.clock.sleep(0.3)

@@ -1,4 +1,4 @@
-"""Builds the arena where the player stands: survey, ask, copy what is there, build, and check what was built.
+"""Build the arena where the player stands: survey, ask, copy what is there, build, and check what was built.
 
 stand and look -> is it loaded, free, flat? -> the question -> a copy -> floor, border, gamerules, materials -> check
 """
@@ -7,28 +7,24 @@ import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
 
-from calibration.arena.block_queries import BlockQueries
-from calibration.arena.copy_note import (
+from calibration.arena.ground_survey import BlockQueries, GroundSurvey, is_copy_gone, survey_ground, teleport_and_look
+from calibration.arena.mark import arena_from_reading, load_profile_with_font
+from calibration.arena.plan import FLOOR, border_block, box_at, box_of, build_commands, copy_command, do_overlap
+from calibration.arena.undo import (
     read_copy_note,
     remove_saved_copy_note,
     undo_command,
     undo_hint_on_error,
     write_copy_note,
 )
-from calibration.arena.ground_survey import is_copy_gone, survey_ground
-from calibration.arena.look_around import teleport_and_look
-from calibration.arena.mark import arena_from_reading, load_profile_with_font
-from calibration.arena.messages import build_question, build_summary, undo_hint
-from calibration.arena.plan import FLOOR, border_block, box_of, build_commands, copy_command, do_overlap
 from calibration.command_console import CommandConsole
-from calibration.context import CalibrationContext, ReportPicture, StepResult
-from calibration.open_context import OpenContext
-from calibration.report.kept import keep_or_warn
+from calibration.context import CalibrationContext, OpenContext, ReportPicture, StepResult
+from calibration.report.findings import save_findings_or_warn
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import DEFAULT_SIZE
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import NotConfirmedError, UserError
-from mc_nested.live.menus.commands import teleport_command
+from mc_nested.live.menus.reset import teleport_command
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.debug_entries import why_none_is_named
 from mc_nested.live.model.reading import Block
@@ -38,6 +34,59 @@ from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.chat_region import without_chat
 from mc_nested.live.vision.game_screen import seen_gui_scale
+
+
+def build_question(arena: Arena, ground: GroundSurvey, old: Arena | None, materials: Sequence[str]) -> str:
+    """The question before anything is changed: what stands there, and what will be done."""
+    low, high = arena.region
+    stands = {True: "There is only air", False: "Something stands there", None: "What stands there is not known"}
+    parts = [
+        f"Build the arena from {low} to {high}, facing {arena.facing}? {stands[ground.is_free]}{_seen_in(ground)}."
+    ]
+    flat = {True: "is flat", False: "is not of one block", None: "may have holes, which is unknown here"}
+    floor = "stays" if ground.keeps_floor else f"is replaced by {FLOOR}"
+    parts.append(f"The floor, {ground.floor}, {flat[ground.is_flat]}: it {floor}.")
+    parts.append(
+        f"Every reset will remove all blocks of these two layers; around them comes a border of "
+        f"{border_block(materials)}. Time, weather and mobs stand still, the game mode is creative, and the first "
+        f"{len(materials)} slots of the hotbar are overwritten."
+    )
+    if ground.copy_to is not None:
+        parts.append(f"What stands there is copied to {ground.copy_to} first, and --undo puts it back.")
+    elif arena.copied_to is None:
+        parts.append("No copy can be kept here: this can't be undone.")
+    if old is not None and old.copied_to is not None and arena.copied_to is None:
+        parts.append(f"The copy at {old.copied_to}, of what stood at the arena before this one, will be forgotten.")
+    return " ".join(parts)
+
+
+def undo_hint(arena: Arena) -> str:
+    """The game's command that restores what stood there before."""
+    if arena.copied_to is None:
+        return "No copy was kept"
+    box = box_of(arena)
+    return f"What stood there comes back with {copy_command(box_at(box, arena.copied_to), box[0])}"
+
+
+def build_summary(arena: Arena, ground: GroundSurvey, undo: str) -> list[str]:
+    """What was built, one line each; ``undo`` is the command that puts back what stood there."""
+    low, high = arena.region
+    floor = f"the floor of {ground.floor} stayed" if ground.keeps_floor else f"the floor is {FLOOR}"
+    lines = [f"Arena from {low} to {high}, facing {arena.facing}; {floor}, the border was seen on all four sides."]
+    if arena.copied_to is not None:
+        lines.append(f"What stood there is copied to {arena.copied_to}: {undo} puts it back.")
+    else:
+        lines.append("No copy was kept: this game can't copy blocks, or can't show that it did.")
+    return lines
+
+
+def _seen_in(ground: GroundSurvey) -> str:
+    if ground.view is None:
+        return ""
+    blocks = [f"{name} at {block}" for block, name in list(ground.view.in_the_way.items())[:6]]
+    looks = f"{ground.view.floor} of {ground.view.looks} looks saw the floor"
+    far = [f"{ground.view.out_of_sight} more cells are out of sight"] if ground.view.out_of_sight else []
+    return f" ({', '.join([*blocks, looks, *far])})"
 
 
 def calibrate_built_arena(
@@ -61,7 +110,7 @@ def calibrate_built_arena(
     with undo_hint_on_error(path):
         save_profile(result.profile, path)
     remove_saved_copy_note(result.profile, path)
-    keep_or_warn(context.say, path, [result])
+    save_findings_or_warn(context.say, path, [result])
     return result, path
 
 

@@ -9,8 +9,8 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
-from calibration.open_context import OpenContext
-from calibration.starting_profile import starting_profile
+from calibration.context import OpenContext
+from calibration.step_profile import starting_profile
 from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import is_inside
 from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE
@@ -19,10 +19,10 @@ from mc_nested.live.devices import SWITCH_KEYS
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.coordinates import block_of, facing_of, turn_between, yaw_of
 from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.versions import version_in
 from mc_nested.live.profile.arena import Arena, near_middle
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import GameVersion, Profile
-from mc_nested.live.profile.window_title import version_in
 from mc_nested.live.vision.font import load_font
 
 TOLERANCE_DEG = 20.0

@@ -7,7 +7,7 @@ border       a ring of blocks on the ground around the arena's cells
 
 from collections.abc import Sequence
 
-from mc_nested.live.menus.commands import clear_command, item_command
+from mc_nested.live.menus.reset import clear_command, item_command
 from mc_nested.live.model.reading import Block
 from mc_nested.live.model.versions import version_numbers
 from mc_nested.live.profile.arena import Arena

@@ -1,26 +1,72 @@
-"""Finds the buttons of the game's menus by their labels on a walk through the menus, and by hand where that fails.
+"""Find the buttons of the game's menus by their labels on a walk through the menus, and by hand where that fails.
 
 world -> Esc -> Game Menu -> the world again -> and, if it is safe and wanted, title -> list of worlds -> the world
+
+By hand, the player hovers over each button and presses a hotkey.
 """
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
 
-from calibration.clicks.by_hand import largest_scale, record_by_hand
 from calibration.clicks.menu_walk import MenuWalk
-from calibration.clicks.point_drawings import picture_of_points
-from calibration.clicks.recorded_point import RecordedPoint
-from calibration.context import CalibrationContext, ReportPicture, StepResult
-from calibration.open_context import OpenContext
-from calibration.report.kept import keep_or_warn
-from calibration.starting_profile import starting_profile
-from calibration.write_result import write_picture, write_result
+from calibration.clicks.points import RecordedPoint, picture_of_points
+from calibration.context import CalibrationContext, OpenContext, ReportPicture, StepResult
+from calibration.report.findings import save_findings_or_warn
+from calibration.step_profile import starting_profile, write_picture, write_result
 from mc_nested.errors import NotConfirmedError, ProfileError, UserError
-from mc_nested.live.desktop.hotkeys import open_hotkeys
+from mc_nested.live.desktop.key_listener import open_hotkeys
+from mc_nested.live.devices import SWITCH_KEYS, Display, Pointer
+from mc_nested.live.menus.click_points import has_pattern
 from mc_nested.live.menus.screens import RESPAWN
+from mc_nested.live.model.versions import version_in
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.profile.window_title import version_in
+
+
+def record_by_hand(
+    wanted: Mapping[str, str],
+    display: Display,
+    pointer: Pointer,
+    next_key: Callable[[], str],
+    *,
+    skip: str,
+    say: Callable[[str], None],
+) -> list[RecordedPoint]:
+    """The wanted points, each recorded at the next hotkey; skipped ones are left out.
+
+    ``wanted`` maps each point's name to a description of where it is. ``next_key`` waits for the hotkey or ``skip``.
+    """
+    points = []
+    for name, where in wanted.items():
+        say(f"{name}: {where}")
+        point = None
+        while point is None and next_key() != skip:
+            point = _under_pointer(name, display, pointer, say)
+        if point is not None:
+            points.append(point)
+    return points
+
+
+def _under_pointer(name: str, display: Display, pointer: Pointer, say: Callable[[str], None]) -> RecordedPoint | None:
+    if not display.is_in_front():
+        say(f"another window is in front: switch to the game with {SWITCH_KEYS}, hover, and press the key again")
+        return None
+    (x, y), frame = pointer.position(), display.grab()
+    height, width = frame.shape[:2]
+    if not (0 <= x < width and 0 <= y < height):
+        say("the mouse is outside the game's window: hover over the button, and press the key again")
+        return None
+    point = RecordedPoint(name, (round(x / width, 4), round(y / height, 4)), frame)
+    if not has_pattern(point.click_point(largest_scale(width, height)).picture):
+        say("nothing is drawn there to recognize it by: hover over its label, and press the key again")
+        return None
+    return point
+
+
+def largest_scale(width: int, height: int) -> int:
+    """The GUI scale, up to 4, that the game picks by default in a window of that size."""
+    return max(1, min(width // 320, height // 240, 4))
+
 
 STEP = "clicks"
 
@@ -93,7 +139,7 @@ def calibrate_clicks(
                 context.say(line)
             return None
     write_result(result, path)
-    keep_or_warn(context.say, path, [result])
+    save_findings_or_warn(context.say, path, [result])
     picture = picture_file(path)
     write_picture(result.pictures[0].frame, picture)
     return result, picture

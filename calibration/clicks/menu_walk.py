@@ -7,25 +7,23 @@ from collections.abc import Callable
 
 import numpy as np
 
-from calibration.clicks.recorded_point import RecordedPoint
+from calibration.clicks.points import RecordedPoint
 from mc_nested.errors import LiveError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import SWITCH_KEYS, Frame, Region
+from mc_nested.live.devices import SWITCH_KEYS, Deadline, Frame, Region
 from mc_nested.live.menus.click_points import record_point
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.screens import BACK, ENTER, LABELS, LEAVE, PLAY, PLAY_IT, QUIT, WORLD
 from mc_nested.live.menus.wait_for_player import wait_for_front, wait_until_standing_still
 from mc_nested.live.model.timing import MENU_LOOK_S
-from mc_nested.live.model.versions import version_numbers
+from mc_nested.live.model.versions import may_be_shared, state_in, version_numbers
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.profile.window_title import may_be_shared, state_in
 from mc_nested.live.vision.chat_region import without_chat
 from mc_nested.live.vision.game_screen import WORLDS_TITLE
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS
+from mc_nested.live.vision.layout import INK_SPREAD
 from mc_nested.live.vision.menu_labels import MenuButton
-from mc_nested.live.vision.text_colours import INK_SPREAD
 
 MENU_S = 5.0
 """How long a menu may take to open after a key or a click, and how long a button is looked for."""

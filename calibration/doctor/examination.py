@@ -7,14 +7,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from calibration.doctor.check import Check, CheckName, check_from_message
-from calibration.doctor.clipboard_row import clipboard_row
 from calibration.doctor.entries_row import entries_row, installed_version, target_row_by_entries
-from calibration.doctor.input_row import input_row
+from calibration.doctor.input_row import clipboard_row, input_row
 from calibration.doctor.options_rows import option_rows, options_row
 from calibration.doctor.profile_rows import fit_row, font_row, profile_row
-from calibration.doctor.screen_rows import reduced_by_options, screen_rows
+from calibration.doctor.screen_rows import reduced_by_options, screen_rows, window_rows
 from calibration.doctor.snapshot import WindowSnapshot, take_snapshot, wait_until_readable
-from calibration.doctor.window_rows import window_rows
 from calibration.installation.debug_profile import DebugProfile, data_version_in
 from calibration.installation.folders import GameFolder, System, client_jars, game_folders, jar_version
 from calibration.installation.options_txt import OptionsTxt
@@ -24,8 +22,8 @@ from mc_nested.live.connection import prepare_keyboard
 from mc_nested.live.desktop import open_desktop, session_kind
 from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.model.versions import version_in
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.profile.window_title import version_in
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,9 @@
-"""The input's check: a step and back, a slot of the hotbar and back, and the debug screen off and on again.
+"""The checks of input: a step and back, a slot of the hotbar and back, the debug screen off and on, and the clipboard.
 
 Each key's effect is looked for on the screen and undone. Keys are pressed only while the world is visible with nothing
 over it. The debug screen's key comes last, and only where the others arrive: without it nothing more could be read. No
-other key is down meanwhile, since F3 with a letter has other effects (FACTS: Keys).
+other key is down meanwhile, since F3 with a letter has other effects (FACTS: Keys). The clipboard's contents are
+restored.
 """
 
 from collections.abc import Callable
@@ -11,7 +12,7 @@ from calibration.doctor.check import Check, CheckName, check_from_message
 from calibration.doctor.snapshot import WindowSnapshot
 from calibration.doctor.tried_keys import SLOT_SHOWN_S, Step, TriedWindow, is_menu, is_slot_seen_to_change, moving_key
 from mc_nested.errors import DesktopError, NotInFrontError, WrongScreenError
-from mc_nested.live.devices import Devices
+from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.profile.tables import KeysTable
 from mc_nested.live.vision.overlay import POSITION, REDUCED
@@ -91,3 +92,29 @@ def _undone(step: Step) -> str:
 def _is_on(snapshot: WindowSnapshot) -> bool:
     """Whether the debug screen is on: an entry set to Always is shown without it, too."""
     return snapshot.contents is not None and snapshot.contents.line in (POSITION, REDUCED)
+
+
+PROBE = "mc-nested doctor"
+
+
+def clipboard_row(clipboard: Clipboard | None) -> Check:
+    """Try the clipboard out; None if there is none."""
+    row = CheckName.CLIPBOARD
+    if clipboard is None:
+        return Check(row, "skip", "not looked at")
+    try:
+        before = clipboard.read()
+        try:
+            clipboard.write(PROBE)
+            read = clipboard.read()
+        finally:
+            clipboard.write(before)
+        after = clipboard.read()
+    except DesktopError as error:
+        # Only the cross-check of the reader needs the clipboard: an agent plays without it.
+        return check_from_message(row, "warn", str(error))
+    if read != PROBE:
+        return Check(row, "warn", "what is written isn't what is read", "close the program that keeps it")
+    if after != before:
+        return Check(row, "warn", "what it held could not be put back", "copy it again")
+    return Check(row, "pass", "read and written; what it held is back")

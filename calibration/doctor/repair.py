@@ -9,9 +9,8 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from calibration.doctor.chat_rows import chat_mends
 from calibration.doctor.examination import Examination
-from calibration.doctor.options_rows import debug_scale_row, gui_scale_row
+from calibration.doctor.options_rows import chat_mends, debug_scale_row, gui_scale_row
 from calibration.installation.options_txt import SAFE, OptionsTxt
 from calibration.installation.processes import may_have_open
 from mc_nested.errors import ProfileError

@@ -3,11 +3,9 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import SWITCH_KEYS, Devices, Display, Frame
+from mc_nested.live.devices import SWITCH_KEYS, Deadline, Devices, Display, Frame
 from mc_nested.live.menus.screens import ScreenName, menu_name
 from mc_nested.live.model.reading import Reading
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.model.timing import PERSON_LOOK_S
 from mc_nested.live.profile.fingerprint import Fingerprint, game_in
 from mc_nested.live.profile.overlay import overlay_of
@@ -15,6 +13,7 @@ from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.debug_screen import nothing_seen, read_found
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.game_screen import WindowScreen
+from mc_nested.live.vision.layout import Scales
 from mc_nested.live.vision.menu_labels import MenuLabels
 from mc_nested.live.vision.overlay import SCALES, find_debug_screen
 

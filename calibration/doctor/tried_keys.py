@@ -13,8 +13,7 @@ import numpy as np
 
 from calibration.doctor.snapshot import WindowSnapshot
 from mc_nested.errors import WrongScreenError
-from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import Devices, Frame, Region
+from mc_nested.live.devices import Deadline, Devices, Frame, Region
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.reading import XYZ
 from mc_nested.live.model.timing import KEY_LOOK_S

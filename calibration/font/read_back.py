@@ -12,9 +12,9 @@ import numpy as np
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.layout import INK_SPREAD
 from mc_nested.live.vision.overlay import POSITION, FoundScreen, find_debug_screen
 from mc_nested.live.vision.screen_lines import ScreenLines
-from mc_nested.live.vision.text_colours import INK_SPREAD
 from mc_nested.live.vision.text_lines import UNKNOWN, Line, is_text, line_from, positions_of
 
 _INK_HEIGHT = 27

@@ -12,7 +12,14 @@ from pathlib import Path
 from typing import Any
 
 from mc_nested.errors import ProfileError
-from mc_nested.live.model.debug_entries import POSITION, target_entry
+from mc_nested.live.model.debug_entries import (
+    ASSUMED_DATA,
+    DATA_OF_1_21_11,
+    DEFAULT_ENTRIES,
+    PERFORMANCE_ENTRIES,
+    POSITION,
+    target_entry,
+)
 from mc_nested.live.model.versions import version_numbers
 
 FILE = "debug-profile.json"
@@ -23,18 +30,8 @@ _SHOWN, _SHOWN_TO_1_21_10 = "inOverlay", "inF3"
 
 _NAMESPACE = "minecraft:"
 
-_DEFAULT = (
-    *("3d_crosshair", "fps", "game_version", "memory", "player_position", "player_section_position"),
-    *("simple_performance_impactors", "system_specs", "tps"),
-)
-_PERFORMANCE = ("gpu_utilization", "memory", "simple_performance_impactors", "tps")
-"""What the profile "performance" shows besides ``fps``, which is always on in it."""
-
-_FIRST_DATA, _DATA_OF_1_21_11, _MOST_DATA = 4554, 4671, 20_000
-"""The data versions of 1.21.9 and 1.21.11; and more than any to come, at a few hundred a year."""
-
-_WITHOUT_DATA = 4649
-"""The data version that the game takes a file to have that doesn't say."""
+_FIRST_DATA, _MOST_DATA = 4554, 20_000
+"""The data version of 1.21.9; and more than any to come, at a few hundred a year."""
 
 _VERSION_JSON, _MOST_BYTES = "version.json", 1 << 16
 
@@ -77,7 +74,7 @@ class DebugProfile:
         """
         written = self.data_version or data_version
         if written is None:
-            written = _DATA_OF_1_21_11 if version_numbers(self.version) >= (1, 21, 11) else _WITHOUT_DATA
+            written = DATA_OF_1_21_11 if version_numbers(self.version) >= (1, 21, 11) else ASSUMED_DATA
         custom = {**self.statuses, **{_NAMESPACE + each: _shown(self.version) for each in self.off}}
         return json.dumps({"DataVersion": written, "custom": custom}, separators=(",", ":")).encode()
 
@@ -104,9 +101,9 @@ def load_debug_profile(folder: Path, version: str) -> DebugProfile:
 
 def version_of_data(data_version: int) -> str:
     """A version with the same ids and words as the one whose options.txt says this data version."""
-    if data_version > _DATA_OF_1_21_11:
+    if data_version > DATA_OF_1_21_11:
         return "26.1"
-    if data_version == _DATA_OF_1_21_11:
+    if data_version == DATA_OF_1_21_11:
         return "1.21.11"
     return "1.21.9" if data_version >= _FIRST_DATA else "1.21.8"
 
@@ -133,7 +130,7 @@ def _statuses(known: Mapping[str, Any], version: str, data_version: int | None) 
     custom = known.get("custom", {})
     if not isinstance(custom, dict):
         raise ValueError("its entries are no JSON object")
-    is_older = (data_version or _WITHOUT_DATA) < _DATA_OF_1_21_11
+    is_older = (data_version or ASSUMED_DATA) < DATA_OF_1_21_11
     shown, statuses = _shown(version), dict[str, str]()
     for name, word in custom.items():
         is_former = word == _SHOWN_TO_1_21_10 and is_older
@@ -142,7 +139,7 @@ def _statuses(known: Mapping[str, Any], version: str, data_version: int | None) 
         statuses[name if ":" in name else _NAMESPACE + name] = shown if is_former else word
     # The game gives the entries of an older file their names of today.
     former, today = (_NAMESPACE + target_entry(each) for each in ("1.21.9", version))
-    if former != today and former in statuses and (data_version or _WITHOUT_DATA) <= _DATA_OF_1_21_11:
+    if former != today and former in statuses and (data_version or ASSUMED_DATA) <= DATA_OF_1_21_11:
         statuses.setdefault(today, statuses.pop(former))
     return statuses
 
@@ -151,9 +148,9 @@ def _of_profile(name: object, version: str) -> dict[str, str]:
     """What one of the game's own profiles means; ValueError if it has none of that name."""
     shown = _shown(version)
     if name == "default":
-        return {_NAMESPACE + each: shown for each in _DEFAULT}
+        return {_NAMESPACE + each: shown for each in DEFAULT_ENTRIES}
     if name == "performance":
-        return {f"{_NAMESPACE}fps": _ALWAYS, **{_NAMESPACE + each: shown for each in _PERFORMANCE}}
+        return {f"{_NAMESPACE}fps": _ALWAYS, **{_NAMESPACE + each: shown for each in PERFORMANCE_ENTRIES}}
     raise ValueError(f"it names a profile {name!r}, which the game hasn't")
 
 

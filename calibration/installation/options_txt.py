@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mc_nested.errors import ProfileError
-from mc_nested.live.model.key_names import canonical, is_key
-from mc_nested.live.model.key_places import EXTENDED, PLACES
+from mc_nested.live.model.keys import EXTENDED, PLACES, canonical, is_key
 
 SAFE: Mapping[str, str] = {
     "pauseOnLostFocus": "false",

@@ -19,7 +19,7 @@ from markupsafe import Markup
 
 from calibration.context import ReportPicture
 from calibration.doctor.check import Status
-from calibration.report.kept import Kept, KeptStep
+from calibration.report.findings import Findings, StepFindings
 from calibration.report.privacy import Names
 from mc_nested.live.devices import Frame
 from mc_nested.live.profile.tables import Profile
@@ -53,23 +53,23 @@ class CalibrationReport:
     name: str
     profile: Profile
     text: str
-    kept: Kept
+    findings: Findings
     version: str
     with_pictures: bool = True
 
 
 def contents(report: CalibrationReport) -> list[str]:
     """What is in the file and what isn't, one line each: shown at its top, and to the person who makes it."""
-    kept = report.kept
-    steps = ", ".join(TITLES.get(step.step, step.step) for step in _in_order(kept.steps))
-    lines = sum(len(step.lines) for step in kept.steps)
+    findings = report.findings
+    steps = ", ".join(TITLES.get(step.step, step.step) for step in _in_order(findings.steps))
+    lines = sum(len(step.lines) for step in findings.steps)
     return [
-        f"the doctor's table: {_count(len(kept.checks), 'check')}"
-        if kept.checks
+        f"the doctor's table: {_count(len(findings.checks), 'check')}"
+        if findings.checks
         else "no doctor's table: none was kept",
         f"what was found: {_count(lines, 'line')} ({steps})" if steps else "no findings: none were kept",
         _about_pictures(report),
-        *([f"what may be seen on them: {SEEN}"] if report.with_pictures and _titles(kept) else []),
+        *([f"what may be seen on them: {SEEN}"] if report.with_pictures and _titles(findings) else []),
         "the profile's text, with the place of your arena in your world, the folders it names and your own comments",
         "not in it: anything outside the game's window; your home folder is written ~, names of accounts <user>",
     ]
@@ -94,18 +94,18 @@ def _without(names: Names, value: Any) -> Any:
 
 
 def _page(report: CalibrationReport) -> dict[str, Any]:
-    kept, calibrated = report.kept, report.profile.calibrated
-    statuses = Counter(check.status for check in kept.checks)
+    findings, calibrated = report.findings, report.profile.calibrated
+    statuses = Counter(check.status for check in findings.checks)
     return {
         "name": report.name,
         "program": f"mc-nested {report.version}",
         "contents": contents(report),
         "tiles": _tiles(report),
         "date": calibrated.date if calibrated else None,
-        "checked": kept.checked,
-        "checks": sorted(kept.checks, key=lambda check: STATUSES.index(check.status)),
+        "checked": findings.checked,
+        "checks": sorted(findings.checks, key=lambda check: STATUSES.index(check.status)),
         "statuses": [(status, statuses[status]) for status in STATUSES if statuses[status]],
-        "steps": [_section(step, with_pictures=report.with_pictures) for step in _in_order(kept.steps)],
+        "steps": [_section(step, with_pictures=report.with_pictures) for step in _in_order(findings.steps)],
         "text": report.text,
     }
 
@@ -125,7 +125,7 @@ def _tiles(report: CalibrationReport) -> list[tuple[str, str]]:
     ]
 
 
-def _section(step: KeptStep, *, with_pictures: bool) -> dict[str, Any]:
+def _section(step: StepFindings, *, with_pictures: bool) -> dict[str, Any]:
     return {
         "id": step.step,
         "title": TITLES.get(step.step, step.step),
@@ -156,13 +156,13 @@ def data_uri(frame: Frame) -> str:
     return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
 
 
-def _in_order(steps: Sequence[KeptStep]) -> list[KeptStep]:
+def _in_order(steps: Sequence[StepFindings]) -> list[StepFindings]:
     order = list(TITLES)
     return sorted(steps, key=lambda step: order.index(step.step) if step.step in order else len(order))
 
 
 def _about_pictures(report: CalibrationReport) -> str:
-    titles = _titles(report.kept)
+    titles = _titles(report.findings)
     if not titles:
         return "no pictures: none were kept"
     if not report.with_pictures:
@@ -171,8 +171,8 @@ def _about_pictures(report: CalibrationReport) -> str:
     return f"{_count(len(titles), 'picture')} of the game's window, its chat blanked, or drawn: {shown}"
 
 
-def _titles(kept: Kept) -> list[str]:
-    return [picture.title for step in _in_order(kept.steps) for picture in step.pictures]
+def _titles(findings: Findings) -> list[str]:
+    return [picture.title for step in _in_order(findings.steps) for picture in step.pictures]
 
 
 def _count(number: int, what: str) -> str:

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from calibration.context import ReportPicture
-from calibration.walk.empirical import EmpiricalWalk
 from calibration.walk.gait_fit import GaitModel
-from calibration.walk.walk_model import WalkModel
+from calibration.walk.walk_model import EmpiricalWalk, WalkModel
 from mc_nested.live.model.kinematics import TICK_S, Gait
 
 if TYPE_CHECKING:

@@ -12,25 +12,21 @@ from pathlib import Path
 import cv2
 
 from calibration.command_console import CommandConsole
-from calibration.context import CalibrationContext, StepResult
-from calibration.open_context import OpenContext
-from calibration.report.kept import keep_or_warn
-from calibration.starting_profile import starting_profile
-from calibration.walk.directions import describe_keys
-from calibration.walk.empirical import EmpiricalWalk, empirical_walk
+from calibration.context import CalibrationContext, OpenContext, StepResult
+from calibration.report.findings import save_findings_or_warn
+from calibration.step_profile import starting_profile
 from calibration.walk.figure import picture_of_empirical_walk, picture_of_walk
 from calibration.walk.gait_fit import rms
-from calibration.walk.survey import FORWARD_AXIS, SIDE_AXIS, Survey
-from calibration.walk.walk_model import PLAIN_SPEED, WalkModel, fit_walk_model
+from calibration.walk.survey import FORWARD_AXIS, SIDE_AXIS, Survey, describe_keys
+from calibration.walk.walk_model import PLAIN_SPEED, EmpiricalWalk, WalkModel, empirical_walk, fit_walk_model
 from calibration.walk.walker import Walker
 from mc_nested.errors import McNestedError, NotConfirmedError, ProfileError, UnreadableError, UserError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.menus.commands import clear_command, floor_commands, teleport_command
+from mc_nested.live.menus.reset import clear_command, floor_commands, teleport_command
 from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.kinematics import TICK_S, nearest_ticks
 from mc_nested.live.model.reading import WorldPose
-from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver
-from mc_nested.live.motion.pose_reader import PoseReader
+from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver, PoseReader
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import KeysTable, Profile, WalkTable
 
@@ -69,7 +65,7 @@ def calibrate_walk(profile_name: str | Path, context_of: OpenContext) -> tuple[S
     with context_of(profile) as context:
         found = walk(context, profile)
     save_profile(found.profile, path)
-    keep_or_warn(context.say, path, [found])
+    save_findings_or_warn(context.say, path, [found])
     picture = path.with_name(f"{path.stem}-walk.png")
     try:
         picture.write_bytes(cv2.imencode(".png", found.pictures[0].frame)[1].tobytes())

@@ -8,10 +8,8 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.model.coordinates import GroundVector
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.timing import HALF_FRAME_S
-from mc_nested.live.motion.key_hold import EVERY_LOOK, KeyHold
-from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver
-from mc_nested.live.motion.pose_reader import PoseReader
-from mc_nested.live.motion.standstill import CAREFUL_SETTLE_S, Standstill
+from mc_nested.live.motion.key_hold import CAREFUL_SETTLE_S, EVERY_LOOK, KeyHold, Standstill
+from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver, PoseReader
 from mc_nested.live.profile.tables import Profile
 
 

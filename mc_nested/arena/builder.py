@@ -1,15 +1,115 @@
 """The scripted builder: the upper limit in every plot. It shows that every design's optimum can be reached.
 
 It builds the farthest row first, and each row from its nearer end. So all nearer rows are still free, nothing is ever
-in the way, and no state (x, y, b) repeats between two blocks. A design in parts is built by part_builder.py.
+in the way, and no state (x, y, b) repeats between two blocks.
+
+In a design in parts, what was built first may stand in the way of what comes later. The order is found backwards, from
+the whole design: a block can have been the last one if the agent can get from the cell before it to where it goes next.
+Taking a block away only opens ways. So whichever is taken first, every order that there is will be found, and a design
+for which none is found can't be built.
 """
 
+from collections import deque
+from collections.abc import Callable, Collection
 from itertools import groupby
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.part_builder import build_in_parts
-from mc_nested.arena.rules import PLACES, STEP, WITH_BLOCK, is_inside
+from mc_nested.arena.rules import PLACES, STEP, WITH_BLOCK, is_inside, moved
 from mc_nested.arena.scenario import Scenario
+from mc_nested.errors import ScenarioError
+
+
+def can_be_built(scenario: Scenario) -> bool:
+    """Whether its parts can be built in their order: whether every cell can still be reached when its turn comes."""
+    return _order_of_parts(scenario) is not None
+
+
+def build_in_parts(scenario: Scenario) -> list[Action]:
+    """The actions that place every block, part after part; ScenarioError if the parts can't be built in their order."""
+    order = _order_of_parts(scenario)
+    if order is None:
+        raise ScenarioError(f"scenario {scenario.name}: its parts can't be built in their order: change it")
+    actions: list[Action] = []
+    placed: set[Cell] = set()
+    cell = scenario.start
+    for target in order:
+        cell, path = _way(cell, _before(target), placed, scenario.size)
+        actions += [*path[:-1], WITH_BLOCK[path[-1]]]
+        placed.add(target)
+    return actions
+
+
+def _order_of_parts(scenario: Scenario) -> list[Cell] | None:
+    """The cells in an order in which they can be built; None if there is none."""
+    free = {(x, y) for x in range(scenario.size) for y in range(scenario.size)} - scenario.design
+    while free:
+        stands: set[Cell] = set()
+        _spread(stands, min(free), scenario.design, scenario.size)
+        free -= stands
+        order = _ending_among(stands, scenario)
+        if order is not None:
+            return order
+    return None
+
+
+def _ending_among(stands: set[Cell], scenario: Scenario) -> list[Cell] | None:
+    """An order after which the agent stands in one of these connected cells; None if there is none.
+
+    ``stands`` grows to all the cells that it could have been in before.
+    """
+    backwards: list[Cell] = []
+    placed = set(scenario.design)
+    for part in reversed(scenario.in_order):
+        left = set(part.cells)
+        while left:
+            last = [cell for cell in left if _before(cell) in stands]
+            if not last:
+                return None
+            # The nearest row goes up last, and its blocks beside one another.
+            chosen = min(last, key=_near_to(backwards[-1] if backwards else min(last)))
+            backwards.append(chosen)
+            left.remove(chosen)
+            placed.remove(chosen)
+            _spread(stands, chosen, placed, scenario.size)
+    return backwards[::-1]
+
+
+def _near_to(later: Cell) -> Callable[[Cell], tuple[int, int, int]]:
+    return lambda cell: (cell[1], abs(cell[0] - later[0]), cell[0])
+
+
+def _before(target: Cell) -> Cell:
+    """Where the agent stands to place a block there."""
+    return target[0], target[1] - 1
+
+
+def _spread(reached: set[Cell], cell: Cell, placed: Collection[Cell], size: int) -> None:
+    """Add a cell to those that are reached, and all that can be reached from it past these blocks."""
+    reached.add(cell)
+    waiting = deque([cell])
+    while waiting:
+        here = waiting.popleft()
+        for action in WITH_BLOCK:
+            there = moved(here, action, placed, size)
+            if there not in reached:
+                reached.add(there)
+                waiting.append(there)
+
+
+def _way(start: Cell, goal: Cell, placed: Collection[Cell], size: int) -> tuple[Cell, list[Action]]:
+    """The goal, and the fewest moves that end there, one at least: an action that places a block begins with a move."""
+    waiting: deque[tuple[Cell, list[Action]]] = deque([(start, [])])
+    seen: set[Cell] = set()
+    while waiting:
+        here, path = waiting.popleft()
+        for action in WITH_BLOCK:
+            there = moved(here, action, placed, size)
+            if there == goal:
+                return there, [*path, action]
+            if there not in seen:
+                seen.add(there)
+                waiting.append((there, [*path, action]))
+    raise ScenarioError(f"cell {goal} can't be reached from {start}: change the order of the parts")
 
 
 def build(scenario: Scenario) -> list[Action]:

@@ -14,9 +14,8 @@ from gymnasium.spaces import Box, Discrete, MultiDiscrete, Space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.drawing import draw_text
+from mc_nested.arena.drawing import draw_picture, draw_text
 from mc_nested.arena.game import Game, Resumable
-from mc_nested.arena.picture import draw_picture
 from mc_nested.arena.rules import cells_of, grid_of
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.tally import THE_ARENA, tally_of

@@ -8,8 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.design_kind import BESIDE, CORNER, DIAGONAL, EDGE, KINDS, kind_of_design, neighbours
-from mc_nested.arena.design_scenario import scenario_of_design
+from mc_nested.arena.design import BESIDE, CORNER, DIAGONAL, EDGE, KINDS, kind_of_design, neighbours, scenario_of_design
 from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
 
 FEWEST_BLOCKS, MOST_BLOCKS = 5, 20

@@ -9,9 +9,8 @@ from typing import Annotated, Any
 from pydantic import BaseModel, ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.part_builder import can_be_built
-from mc_nested.arena.parts import Part
-from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE, Material, Scenario
+from mc_nested.arena.builder import can_be_built
+from mc_nested.arena.scenario import LARGEST_SIZE, SMALLEST_SIZE, Material, Part, Scenario
 from mc_nested.errors import ScenarioError
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
 

@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arena.parts import main_return
-from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario import Scenario, main_return
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
 NEVER = np.iinfo(np.int64).max

@@ -15,7 +15,7 @@ from mc_nested.cli.recording_options import last_recording, recording_path
 from mc_nested.errors import RecordingError
 from mc_nested.live.desktop import open_clipboard
 from mc_nested.live.profile.store import profile_path
-from mc_nested.live.recording.opened import kept_recordings
+from mc_nested.live.recording.run_recorder import kept_recordings
 
 
 def bug_report(

@@ -7,10 +7,10 @@ from typing import Annotated
 
 import typer
 
-from calibration.arena.copy_note import undo_command
+from calibration.arena.undo import undo_command
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build_with_materials
-from mc_nested.arena.design_scenario import is_buildable
+from mc_nested.arena.design import is_buildable
 from mc_nested.arena.env import ArenaEnv, step_in
 from mc_nested.arena.game import Game
 from mc_nested.arena.scenario import Scenario

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from calibration.clicks.find import calibrate_clicks
-from calibration.clicks.show import show_clicks, try_clicks
+from calibration.clicks.points import show_clicks, try_clicks
 from mc_nested.cli.calibrating import calibrating
 from mc_nested.cli.options import DEFAULT_PROFILE, ProfileToWrite
 from mc_nested.cli.recording_options import RecordOption

@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from calibration.report.kept import load_kept
+from calibration.report.findings import load_findings
 from calibration.report.page import CalibrationReport, contents, report_html
 from calibration.report.privacy import names_here
 from mc_nested.atomic_file import atomic_write
@@ -41,7 +41,7 @@ def write_report(name: str, out: Path, *, with_pictures: bool = True, say: Calla
     profile, path = load_profile(name), profile_path(name)
     text = read_toml_text(path, ProfileError)
     version = importlib.metadata.version("mc-nested")
-    made = CalibrationReport(path.stem, profile, text, load_kept(path), version, with_pictures)
+    made = CalibrationReport(path.stem, profile, text, load_findings(path), version, with_pictures)
     names = names_here()
     out = out.expanduser()
     try:

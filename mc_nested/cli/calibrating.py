@@ -7,7 +7,7 @@ from functools import partial
 
 import typer
 
-from calibration.open_context import OpenContext, context_opener
+from calibration.context import OpenContext, context_opener
 from calibration.report.page import TITLES
 from mc_nested.cli.recording_options import live_recorder
 from mc_nested.cli.viewing import viewed

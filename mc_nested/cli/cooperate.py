@@ -11,8 +11,7 @@ import numpy as np
 import typer
 
 from mc_nested.arena.cooperative.team import Team, team_of
-from mc_nested.arena.cooperative.team_env import TeamEnv
-from mc_nested.arena.cooperative.team_picture import draw_team_picture
+from mc_nested.arena.cooperative.team_env import TeamEnv, draw_team_picture
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.atomic_file import atomic_write

@@ -14,10 +14,10 @@ from mc_nested.arena.game import Game, PlayLog
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.errors import RunError
+from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.devices import Display
-from mc_nested.live.failure_budget import FailureBudget
 from mc_nested.live.journal import Journal
-from mc_nested.live.recording.opened import OpenRecorder, no_recorder
+from mc_nested.live.recording.run_recorder import OpenRecorder, no_recorder
 from mc_nested.live.session import open_live_game
 from sim.grid import GridGame, GridVectorEnv
 

@@ -6,9 +6,10 @@ from typing import Annotated, Any
 import typer
 from rich.text import Text
 
-from calibration.profile_facts import ProfileFacts, facts_of
-from calibration.profile_files import (
+from calibration.profiles import (
+    ProfileFacts,
     delete_profile,
+    facts_of,
     files_of,
     holds_a_copy,
     named_profile,

@@ -8,7 +8,7 @@ import typer
 
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import RecordingError
-from mc_nested.live.recording.opened import (
+from mc_nested.live.recording.run_recorder import (
     OpenRecorder,
     is_recording,
     kept_recordings,

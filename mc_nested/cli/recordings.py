@@ -13,8 +13,8 @@ from mc_nested.cli.output import JsonOption, Output
 from mc_nested.cli.recording_options import RecordingArgument, recording_path
 from mc_nested.errors import RecordingError, UserError
 from mc_nested.live.recording.cut import cut, trim
-from mc_nested.live.recording.opened import kept_recordings, recordings_folder
-from mc_nested.live.recording.overview import Overview, overview_of
+from mc_nested.live.recording.recording_file import Overview, overview_of
+from mc_nested.live.recording.run_recorder import kept_recordings, recordings_folder
 
 app = typer.Typer(help="The recordings of live runs: list, verify, trim and cut them.")
 

@@ -22,7 +22,7 @@ from mc_nested.live.model.debug_entries import on_button, target_entry
 from mc_nested.live.model.versions import is_minecrafts
 from mc_nested.live.profile.tables import WindowTable
 from mc_nested.live.vision.font import font_of, load_font
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.debug_entries import GAME_DEFAULT, DebugEntries, names_block, read_profile
 from sim.client.game.edition import Edition
 from sim.client.game.options import LARGEST_SCALE, parse_options

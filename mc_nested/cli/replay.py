@@ -9,13 +9,13 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from calibration.font.of_recording import font_of_recording
+from calibration.font.sources import font_of_recording
 from calibration.installation.folders import System
 from mc_nested.cli.output import JsonOption
 from mc_nested.cli.recording_options import RecordingArgument, recording_path
 from mc_nested.errors import RecordingError
-from mc_nested.live.recording.replay import Difference, Replayed
-from mc_nested.live.recording.replay import replay as replayed
+from mc_nested.live.recording.replayed_run import Difference, Replayed
+from mc_nested.live.recording.replayed_run import replay as replayed
 from mc_nested.live.vision.font import load_font
 
 DIFFERENT = 1

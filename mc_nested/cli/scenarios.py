@@ -9,8 +9,7 @@ from rich.console import Console, Group
 from rich.text import Text
 
 from mc_nested.arena.builder import build
-from mc_nested.arena.parts import Part
-from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario import Part, Scenario
 from mc_nested.arena.scenario_file import draw_grid, shipped_scenarios
 from mc_nested.arena.search import EXACT_UP_TO, fewest_steps
 from mc_nested.cli.output import JsonOption, Output

@@ -22,7 +22,7 @@ from mc_nested.errors import DesktopError, LiveError, NotInFrontError
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from mc_nested.learn.training import Training
-from mc_nested.live.failure_budget import FailureBudget
+from mc_nested.live.action_log import FailureBudget
 from mc_nested.report.arena_map import draw_map
 from mc_nested.report.curve import align_trials, draw_curve
 from mc_nested.report.game_time import expected

@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
+from mc_nested.arena.drawing import Picture
 from mc_nested.arena.game import Game
-from mc_nested.arena.picture import Picture
 from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import FilmError
 from mc_nested.live.devices import Display

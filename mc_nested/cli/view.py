@@ -9,7 +9,7 @@ import typer
 
 from mc_nested.cli.runs_folder import RUNS
 from mc_nested.cli.terminal_view import can_draw
-from mc_nested.view.plain import plain_end, plain_line
+from mc_nested.view.panels import plain_end, plain_line
 from mc_nested.view.status_files import FOLDER, is_published, status_now
 from mc_nested.view.words import StatusShown, life_of
 

@@ -18,8 +18,8 @@ from mc_nested.live.profile.tables import BodyTable, GameVersion, Profile
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.game_screen import WindowScreen
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
-from sim.client.drawing.scenery import SEEN
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.drawing.painter import SEEN
 from sim.client.game.world import VirtualWorld
 
 GUI_SCALE = 1

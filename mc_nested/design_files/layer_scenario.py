@@ -5,7 +5,7 @@ become the design, of one material, which the main agent chooses; what they were
 
 The cells that have blocks are put into the middle of an arena of 15 x 15 cells, or of as many as they need, up to 32 x
 32: 32 cells across and 31 along, since no block can land on the near edge. Of a larger layer the middle is kept. The
-start cell is the far edge's middle; materials and step limit are as in a benchmark (arena/design_scenario.py).
+start cell is the far edge's middle; materials and step limit are as in a benchmark (arena/design.py).
 """
 
 from collections import Counter
@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.design_scenario import scenario_of_design
+from mc_nested.arena.design import scenario_of_design
 from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE, Scenario
 from mc_nested.arena.scenario_file import LONGEST_NAME, load_scenario
 from mc_nested.arrays import Bools
@@ -52,9 +52,9 @@ def scenario_of_layer(name: str, volume: Volume, layer: int) -> tuple[Scenario, 
     return scenario, _notes(volume, layer, trimmed, len(design))
 
 
-def kinds_in_words(kinds: Counter[str], most: int = KINDS_TOLD) -> str:
+def kinds_in_words(kinds: Counter[str]) -> str:
     """``12 stone, 8 oak_planks, 5 others``: blocks by how many there are, at most so many kinds by name."""
-    common = kinds.most_common(most)
+    common = kinds.most_common(KINDS_TOLD)
     named = [f"{count} {name}" for name, count in common]
     others = kinds.total() - sum(count for _, count in common)
     return ", ".join([*named, f"{others} others"] if others else named)

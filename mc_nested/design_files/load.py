@@ -8,10 +8,8 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.design_files.layer_scenario import scenario_of_layer
 from mc_nested.design_files.litematic import is_litematic, read_litematic
-from mc_nested.design_files.mcedit import is_mcedit, read_mcedit
-from mc_nested.design_files.nbt import MOST_BYTES, Compound, is_bedrock, root_of, unpacked
-from mc_nested.design_files.sponge import is_sponge, read_sponge
-from mc_nested.design_files.stated_size import check_stated_size
+from mc_nested.design_files.nbt import MOST_BYTES, Compound, check_stated_size, is_bedrock, root_of, unpacked
+from mc_nested.design_files.schematic import is_mcedit, is_sponge, read_mcedit, read_sponge
 from mc_nested.design_files.structure import is_structure, read_structure
 from mc_nested.design_files.volume import Volume
 from mc_nested.errors import ScenarioError
@@ -119,7 +117,7 @@ def read_volume(path: Path) -> Volume:
         data = _bytes_of(path)
         if path.suffix.lower() == PICTURE:
             # Imported here: only pictures need it.
-            from mc_nested.design_files.picture import read_picture
+            from mc_nested.design_files.png import read_picture
 
             return read_picture(data)
         if path.suffix.lower() == BEDROCK:

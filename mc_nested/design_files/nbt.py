@@ -1,18 +1,24 @@
 """NBT from a file that nobody vouches for: bounded before anything is allocated, and typed where it is read.
 
-pynbt believes every length in the file. So it reads from a stream that hands out no byte which isn't there and no more
-than so many values, and the stream's bytes were unpacked up to a limit.
+pynbt, which is an extra, believes every length in the file. So it reads from a stream that hands out no byte which
+isn't there and no more than so many values, and the stream's bytes were unpacked up to a limit.
+
+A file whose stated size is too large is refused at once: decoding it first takes seconds. A size is a tag of a known
+name and form, wherever it stands in the file: programs write a schematic's tags in any order.
 """
 
 import gzip
 import io
+import re
 import struct
 import zlib
+from collections.abc import Iterator
 from typing import Any, TypeVar
 
-import pynbt
-
+from mc_nested.design_files.volume import MOST_CELLS, too_large_error
 from mc_nested.errors import ScenarioError
+
+INSTALL = "pip install -c constraints.txt -e '.[schematics]'"
 
 MOST_BYTES = 32 * 1024 * 1024
 """Bytes of a file, and of what it unpacks to."""
@@ -53,7 +59,11 @@ def read_nbt(data: bytes, most_reads: int = MOST_READS) -> Compound:
 
 
 def root_of(plain: bytes, most_reads: int = MOST_READS) -> Compound:
-    """The root compound of unpacked NBT, with the same limits."""
+    """The root compound of unpacked NBT, with the same limits; ScenarioError without pynbt, too."""
+    try:
+        import pynbt
+    except ImportError:
+        raise ScenarioError(f"reading schematics needs pynbt: {INSTALL}") from None
     stream = _BoundedStream(plain, most_reads)
     try:
         root: Compound = pynbt.NBTFile(stream)
@@ -121,3 +131,50 @@ class _BoundedStream:
             raise ScenarioError("it ends in the middle of a value: copy, or download, it again")
         self._at += size
         return self._data[self._at - size : self._at]
+
+
+SMALL_BYTES = 1 << 18
+"""Unpacked bytes that are decoded so quickly that nothing is gained."""
+
+READS_A_BLOCK = 12
+"""Reads of pynbt for a block that a structure lists, at least."""
+
+_NUMBER = rb"\x03\x00\x01([xyz])(.{4})"
+_CORNER = re.compile(rb"\x0a\x00\x04Size" + 3 * _NUMBER, re.DOTALL)
+_THREE = re.compile(rb"\x09\x00\x04size\x03\x00\x00\x00\x03(.{12})", re.DOTALL)
+_SIDES = tuple(
+    re.compile(rb"\x02\x00" + bytes([len(name)]) + name + rb"(.{2})", re.DOTALL)
+    for name in (b"Width", b"Height", b"Length")
+)
+_LISTED = re.compile(rb"\x09\x00\x06blocks\x0a(.{4})", re.DOTALL)
+
+
+def check_stated_size(plain: bytes) -> None:
+    """ScenarioError, without the file's name, if unpacked NBT states more cells or blocks than are read."""
+    if len(plain) <= SMALL_BYTES:
+        return
+    for width, height, length in _sizes(plain):
+        if width * height * length > MOST_CELLS:
+            raise too_large_error(width, height, length)
+    most = MOST_READS // READS_A_BLOCK
+    for listed in _LISTED.findall(plain):
+        (blocks,) = struct.unpack(">i", listed)
+        if blocks > most:
+            raise ScenarioError(f"it lists {blocks:,} blocks, and at most {most:,} are read: save a smaller part of it")
+
+
+def _sizes(plain: bytes) -> Iterator[tuple[int, int, int]]:
+    """Width, height and length: of Litematica's regions, of a structure, of Sponge's and MCEdit's schematics."""
+    for found in _CORNER.finditer(plain):
+        by_axis = dict(zip(found.groups()[::2], found.groups()[1::2], strict=True))
+        if len(by_axis) == 3:
+            x, y, z = (abs(struct.unpack(">i", by_axis[axis])[0]) for axis in (b"x", b"y", b"z"))
+            yield x, y, z
+    for found in _THREE.finditer(plain):
+        x, y, z = struct.unpack(">3i", found[1])
+        if min(x, y, z) > 0:
+            yield x, y, z
+    sides = [side.search(plain) for side in _SIDES]
+    if all(sides):
+        width, height, length = (struct.unpack(">H", side[1])[0] for side in sides if side)
+        yield width, height, length

@@ -1,10 +1,23 @@
-"""What playing live took, for a training's summary: seconds per action, retries, corrections, recoveries."""
+"""What playing live took, for a training's summary, and how many failed episodes a training accepts.
+
+Failed episodes are thrown away and counted, up to a limit.
+"""
 
 import statistics
 from dataclasses import dataclass, field
 from typing import Any
 
-from mc_nested.live.motion.effort import Effort
+from mc_nested.errors import LiveError, StoppedError
+
+
+@dataclass
+class Effort:
+    """Counts so far: moves and the corrections after them, clicks and those that had to be repeated."""
+
+    moves: int = 0
+    corrections: int = 0
+    clicks: int = 0
+    second_clicks: int = 0
 
 
 @dataclass
@@ -37,3 +50,36 @@ def percentile(values: list[float], share: int) -> float | None:
     if len(values) < 2:
         return round(values[0], 3) if values else None
     return round(statistics.quantiles(values, n=100, method="inclusive")[share - 1], 3)
+
+
+MOST_IN_A_ROW = 5
+"""Episodes that may fail one after the other, without PROGRESS between them."""
+
+PROGRESS = 20
+"""Confirmed steps after which the game counts as working again: about as many as make an episode."""
+
+
+class FailureBudget:
+    """Counts the episodes that were thrown away, and raises when a person stops the game or too many fail in a row."""
+
+    def __init__(self) -> None:
+        self._reasons: list[str] = []
+        self._in_a_row = 0
+        self._steps_at_last = 0
+
+    def record_failure(self, error: LiveError, steps: int) -> None:
+        """Count one more failed episode, at that number of confirmed steps.
+
+        Raises:
+            LiveError: ``error`` itself, where a person stopped the game, or too many episodes failed in a row.
+        """
+        has_progressed = steps >= self._steps_at_last + PROGRESS
+        self._in_a_row = 1 if has_progressed else self._in_a_row + 1
+        self._steps_at_last = steps
+        self._reasons.append(str(error))
+        if isinstance(error, StoppedError) or self._in_a_row > MOST_IN_A_ROW:
+            raise error
+
+    def summary(self) -> dict[str, Any]:
+        """How many episodes failed, and what the last errors said."""
+        return {"spoiled_episodes": len(self._reasons), "last_problems": self._reasons[-3:]}

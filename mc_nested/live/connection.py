@@ -4,13 +4,13 @@ from collections.abc import Callable
 from types import TracebackType
 
 from mc_nested.errors import ProfileError
-from mc_nested.live.chat_lines import ChatLines
 from mc_nested.live.devices import Devices
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.journal import Journal, NoJournal
 from mc_nested.live.profile.fingerprint import check_single_player, game_in
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.chat_region import ChatLines
 from mc_nested.live.vision.font import load_font
 from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
 

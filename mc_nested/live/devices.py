@@ -1,6 +1,6 @@
 """The devices between an agent and a game, as protocols that a desktop and the virtual client both implement.
 
-``live`` and ``calibration`` use these alone; ``desktop/`` has the real ones.
+``live`` and ``calibration`` use these alone; ``desktop/`` has the real ones. A deadline on the clock bounds every wait.
 """
 
 from collections.abc import Callable, Collection
@@ -9,6 +9,8 @@ from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
+
+from mc_nested.errors import ClipboardError
 
 Frame = NDArray[np.uint8]
 """A picture (height, width, 3), blue green red, in framebuffer pixels."""
@@ -125,3 +127,21 @@ class Devices:
     clipboard: Clipboard
     area: Callable[[], DesktopArea] | None = None
     monitors: Callable[[], tuple[DesktopArea, ...]] | None = None
+
+
+class Deadline:
+    """The time ``seconds`` from now, on ``clock``."""
+
+    def __init__(self, clock: Clock, seconds: float) -> None:
+        self._clock = clock
+        self.at = clock.now() + seconds
+
+    @property
+    def has_passed(self) -> bool:
+        """Whether the clock has reached it."""
+        return self._clock.now() >= self.at
+
+
+def not_text_error() -> ClipboardError:
+    """The error for a clipboard with a picture or files on it."""
+    return ClipboardError("the clipboard holds something other than text, and is left alone: copy a text, start again")

@@ -14,13 +14,12 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.journal import Fact
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.menus.click_points import ClickPoints
-from mc_nested.live.menus.commands import reset_commands, teleport_command
 from mc_nested.live.menus.recovery import Recovery
-from mc_nested.live.menus.world_folder import restore_world
+from mc_nested.live.menus.reset import reset_commands, restore_world, teleport_command
 from mc_nested.live.motion.move_and_place import Body
 from mc_nested.live.profile.tables import Profile, WorldTable
+from mc_nested.live.vision.chat_region import LastFrames
 from mc_nested.live.vision.game_screen import seen_gui_scale
-from mc_nested.live.vision.last_frames import LastFrames
 
 RESET_TRIES = 4
 """Attempts at a reset before its error is raised."""

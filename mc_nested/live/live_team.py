@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.cooperative.team import Team
-from mc_nested.arena.cooperative.team_rules import action_with, others_of
+from mc_nested.arena.cooperative.team import Team, action_with, others_of
 from mc_nested.arena.game import Outcome
 from mc_nested.errors import LiveError
 from mc_nested.live.live_game import LiveGame

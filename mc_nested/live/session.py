@@ -8,18 +8,17 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.live.connection import connect, prepare_keyboard
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.devices import SWITCH_KEYS, Devices, Display
-from mc_nested.live.input.panic import Stop
-from mc_nested.live.input.watchdog import watched
+from mc_nested.live.input.stops import Stop, watched
 from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.live_game import LiveGame, check_fits
-from mc_nested.live.menus.point_pictures import load_click_points
+from mc_nested.live.menus.click_points import load_click_points
 from mc_nested.live.menus.wait_for_player import check_block_is_named, check_hotbar, wait_until_standing_still
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.model.versions import later_version_line
 from mc_nested.live.profile.fingerprint import Fingerprint, check_fit, game_in
 from mc_nested.live.profile.store import load_profile, profile_path
-from mc_nested.live.recording.opened import OpenRecorder, no_recorder
+from mc_nested.live.recording.run_recorder import OpenRecorder, no_recorder
 from mc_nested.live.vision.font import load_font
+from mc_nested.live.vision.layout import Scales
 
 
 @contextmanager

@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFont, ImageOps
 
 from mc_nested.arena.action import Cell
-from mc_nested.arena.picture import COLOURS, Colour, Picture, draw_picture
+from mc_nested.arena.drawing import COLOURS, Colour, Picture, draw_picture
 from mc_nested.arena.scenario import Scenario
 
 Size = tuple[int, int]

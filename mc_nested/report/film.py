@@ -7,7 +7,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Protocol
 
-from mc_nested.arena.picture import Picture
+from mc_nested.arena.drawing import Picture
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import FilmError
 from mc_nested.report.gif import GifEncoder

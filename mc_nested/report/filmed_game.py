@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.drawing import Picture
 from mc_nested.arena.game import Game, Outcome, PlayLog
-from mc_nested.arena.picture import Picture
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.tally import THE_ARENA, Tally
 from mc_nested.report.arena_picture import ARENA_PX, Moment, Size, beside, box_for, draw_moment

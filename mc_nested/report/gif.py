@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from mc_nested.arena.picture import Picture
+from mc_nested.arena.drawing import Picture
 from mc_nested.report.arena_picture import DRAWN, INK, PALE_INK, PAPER
 
 CHOSEN = 64

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mc_nested.arena.picture import Picture
+from mc_nested.arena.drawing import Picture
 from mc_nested.errors import FilmError
 
 INSTALL = "pip install -c constraints.txt -e '.[video]'"

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mc_nested.arena.design_kind import kind_of_design
+from mc_nested.arena.design import kind_of_design
 from mc_nested.arrays import Float64s, Int64s
 from mc_nested.studies.inference import Interval, percentiles
 from mc_nested.studies.table import episodes

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from mc_nested.arena.design_kind import kind_of_design
+from mc_nested.arena.design import kind_of_design
 from mc_nested.arena.scenario import Scenario
 from mc_nested.report.game_time import episodes_without_a_prior
 from mc_nested.studies.arm import Arm

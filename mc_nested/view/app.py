@@ -1,4 +1,7 @@
-"""The live view in a terminal (Textual): it reads what a run publishes, and passes on what a person asks of it."""
+"""The live view in a terminal (Textual): it reads what a run publishes, and passes on what a person asks of it.
+
+Each of its panels is drawn by a function, and only where something in it has changed.
+"""
 
 import contextlib
 import time
@@ -11,15 +14,45 @@ from textual.app import App, ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Container
 from textual.events import Resize
+from textual.widget import Widget
 from textual.widgets import Footer
 
 from mc_nested.errors import RunError
 from mc_nested.view import panels
-from mc_nested.view.panel import Panel
 from mc_nested.view.requests import YesOrNo, ask_pause, ask_to_go_on, ask_to_stop, give_answer, renew_pause
-from mc_nested.view.scrubber import Scrubber
-from mc_nested.view.status_files import FOLDER, NOW, history_of, is_published, status_now
+from mc_nested.view.status_files import FOLDER, NOW, Scrubber, history_of, is_published, status_now
 from mc_nested.view.words import Life, StatusShown, life_of
+
+Draw = Callable[[StatusShown, int, int], Text]
+"""Draws what is shown in so many columns and lines."""
+
+
+class Panel(Widget):
+    """Shows what ``draw`` makes of the status, as large as it is."""
+
+    def __init__(self, draw: Draw, *, id: str) -> None:  # noqa: A002 - Textual's name
+        super().__init__(id=id)
+        self._draw = draw
+        self._shown: StatusShown | None = None
+        self._text = Text()
+
+    def show(self, shown: StatusShown) -> None:
+        """Show a status, if it differs from what is there."""
+        self._shown = shown
+        text = self._draw(shown, self.size.width, self.size.height)
+        if text != self._text or text.spans != self._text.spans:
+            self._text = text
+            self.refresh()
+
+    def on_resize(self, _: Resize) -> None:
+        """Draw it again, for its new size."""
+        if self._shown is not None:
+            self.show(self._shown)
+
+    def render(self) -> Text:
+        """The text."""
+        return self._text
+
 
 LOOK_EVERY_S = 0.3
 

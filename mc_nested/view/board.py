@@ -1,15 +1,104 @@
-"""Board: what a run does now, set down by the thread that plays, and read by the one that publishes it."""
+"""Board: what a run does now, in plain words, set down by the thread that plays and read by one that publishes."""
 
 import threading
 import time
 from collections import deque
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, cast
 
-from mc_nested.arena.action import Action
+from mc_nested.arena.action import Action, Cell
 from mc_nested.live.journal import Fact, NoteKind
-from mc_nested.view.narration import DETAIL, Doing, action_seen, detail_of, doing_of, reading_seen
-from mc_nested.view.status import FORMAT, MOST_ACTIONS, ActionSeen, Mood, Status
+from mc_nested.view.status import FORMAT, MOST_ACTIONS, ActionSeen, Mood, ReadingSeen, Status
+
+MOVES = {"F": "forward", "B": "back", "L": "left", "R": "right"}
+
+DETAIL: tuple[NoteKind, ...] = ("plans", "clicks", "types")
+"""Notes of a part of what is done: they don't begin anything new."""
+
+
+@dataclass(frozen=True)
+class Doing:
+    """What a run does from a note on, and how it goes."""
+
+    text: str
+    mood: Mood = "works"
+
+
+def doing_of(kind: NoteKind, facts: dict[str, Fact]) -> Doing | None:
+    """What begins with that note; None where nothing new does."""
+    match kind:
+        case "waits":
+            doing = Doing(f"waits for {facts['on']}", "waits")
+        case "resets":
+            doing = Doing("resets the arena: clears it, goes to the start, takes the material in hand", "plays")
+        case "stands":
+            doing = Doing("stands at the start, and chooses")
+        case "acts":
+            (x, y), action = cast("Cell", facts["cell"]), Action(cast("int", facts["action"]))
+            doing = Doing(f"{words_of(action)}, from ({x}, {y})", "plays")
+        case "recovers":
+            doing = Doing(f"finds its way back to the world, from the screen: {facts['screen']}", "waits")
+        case "fails":
+            doing = Doing(f"was set back: {facts['problem']}", "fails")
+        case _:
+            return None
+    return doing
+
+
+def detail_of(kind: NoteKind, facts: dict[str, Fact]) -> str:
+    """The part of it that is under way, in words; empty where the note is of no part."""
+    match kind:
+        case "plans":
+            ticks = "1 tick" if facts["ticks"] == 1 else f"{facts['ticks']} ticks"
+            return f"holds {facts['key']} for {ticks}{', sneaking' if facts['sneak'] else ''}"
+        case "clicks":
+            attempt = cast("int", facts["attempt"])
+            return f"clicks again, the block was not seen: attempt {attempt + 1}" if attempt else "clicks"
+        case "types":
+            return f"types {facts['line']}"
+    return ""
+
+
+def words_of(action: Action) -> str:
+    """An action in words, with its name in the paper."""
+    move, places = MOVES[action.name[0]], action.name.endswith("D")
+    return f"moves {move}{' and places a block' if places else ''} ({named(action)})"
+
+
+def named(action: Action) -> str:
+    """An action's name in the paper (section 5.1.2), as B+D."""
+    return "+".join(action.name)
+
+
+def action_seen(action: Action, facts: dict[str, Fact]) -> ActionSeen:
+    """What the note ``done`` says of the action."""
+    placed = facts["placed"]
+    return ActionSeen(
+        named(action),
+        cast("Cell", facts["cell"]),
+        None if placed is None else cast("Cell", placed),
+        cast("float", facts["seconds"]),
+    )
+
+
+def reading_seen(facts: dict[str, Fact]) -> ReadingSeen:
+    """What the note ``reads`` says of the debug screen."""
+    if facts.get("problem") is not None:
+        return ReadingSeen(problem=str(facts["problem"]))
+    xyz = cast("tuple[float, float, float] | None", facts.get("xyz"))
+    target = facts.get("target")
+    return ReadingSeen(
+        position=xyz,
+        yaw=cast("float | None", facts.get("yaw")),
+        pitch=cast("float | None", facts.get("pitch")),
+        target=None if target is None else _target_words(cast("tuple[tuple[int, int, int], str]", target)),
+    )
+
+
+def _target_words(target: tuple[tuple[int, int, int], str]) -> str:
+    (x, y, z), name = target
+    return f"{name} at {x} {y} {z}"
 
 
 class Board:
@@ -49,11 +138,11 @@ class Board:
                 self._action = Action(cast("int", facts["action"]))
             self._begin(doing)
 
-    def does(self, text: str, mood: Mood = "works") -> None:
+    def does(self, text: str) -> None:
         """What the run does from now on; said again, it goes on as before."""
         if self._own != text:
             self._own = text
-            self._begin(Doing(text, mood))
+            self._begin(Doing(text, "works"))
 
     def go_on(self) -> None:
         """A pause is over: what is done begins anew."""

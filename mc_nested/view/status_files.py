@@ -1,19 +1,23 @@
 """A run's status as files: now.json is its status now, history.jsonl how it came to be, coarser the longer it lasts.
 
-They lie in the folder ``view`` of a run. A reader sees either the old status or the new one, never a half.
+They lie in the folder ``view`` of a run. A reader sees either the old status or the new one, never a half. A scrubber
+is at one moment of the history.
 """
 
 import contextlib
 import time
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pydantic import ValidationError
+from rich.text import Text
 
 from mc_nested.errors import RunError
 from mc_nested.learn.runs.folder_kind import VIEW, VIEW_FILES
 from mc_nested.learn.runs.folder_lock import holder_of
 from mc_nested.view.status import FORMAT, Status
+from mc_nested.view.words import clock_time
 
 FOLDER = VIEW
 NOW, HISTORY = "now.json", "history.jsonl"
@@ -156,3 +160,32 @@ def _replace(path: Path, text: str) -> None:
     unfinished = path.with_suffix(".unfinished")
     unfinished.write_text(text, encoding="utf-8")
     unfinished.replace(path)
+
+
+@dataclass(frozen=True)
+class Scrubber:
+    """A run's history, the oldest first, and the place in it that is shown; it holds one status at least."""
+
+    history: Sequence[Status]
+    place: int
+
+    @property
+    def status(self) -> Status:
+        """What is shown."""
+        return self.history[self.place]
+
+    def moved(self, places: int) -> "Scrubber":
+        """So many places on, or back where it is negative; it stops at both ends."""
+        return replace(self, place=min(max(self.place + places, 0), len(self.history) - 1))
+
+    def jumped(self, tenths: int) -> "Scrubber":
+        """So many tenths of the whole on, by one place at least."""
+        step = max(1, len(self.history) // 10)
+        return self.moved(tenths * step)
+
+    def line(self, width: int) -> Text:
+        """The whole run as a line, with a mark where it is, and the times of its ends."""
+        first, last = clock_time(self.history[0].at), clock_time(self.history[-1].at)
+        room = max(1, width - len(first) - len(last) - 2)
+        mark = self.place * (room - 1) // max(1, len(self.history) - 1)
+        return Text.assemble(f"{first} ", ("━" * mark, "cyan"), ("●", "bold cyan"), "─" * (room - 1 - mark), f" {last}")

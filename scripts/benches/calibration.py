@@ -24,11 +24,10 @@ from rich.console import Console
 from rich.progress import track
 
 from calibration.calibrate_all import Examine, calibrate_all
-from calibration.context import CalibrationContext, StepResult
+from calibration.context import CalibrationContext, OpenContext, StepResult
 from calibration.doctor.check import Check
 from calibration.doctor.examination import examine
 from calibration.installation.folders import System
-from calibration.open_context import OpenContext
 from calibration.registry import registered_steps
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
@@ -45,7 +44,7 @@ from scripts.benches.calibration_clients import VERSIONS, clients, every_version
 from scripts.benches.live import play_on
 from scripts.benches.played import PlayCounts
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.physics import Ground, displacement
 from sim.client.game.screens import MenuState, ScreenName, menu
 from sim.client.settings import ClientSettings

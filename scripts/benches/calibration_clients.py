@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from mc_nested.live.model.versions import draws_text_over_menus
-from sim.client.drawing.scenery import WORLDS
+from sim.client.drawing.painter import WORLDS
 from sim.client.game.edition import Edition
 from sim.client.game.options import GameOptions
 from sim.client.settings import ClientSettings, Size, gui_scale

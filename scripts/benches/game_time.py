@@ -33,7 +33,7 @@ from mc_nested.learn.imagination.background_practice import GoesOn
 from mc_nested.learn.imagination.experience import RECENT
 from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.learn.trainer import Trainer
-from mc_nested.live.failure_budget import FailureBudget
+from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.profile.arena import Arena, size_for
 from scripts.bench import Figures
 from scripts.benches.live import MISHAP_WITHIN_S, live_game

@@ -19,7 +19,7 @@ from typing import Any
 from rich.console import Console
 from rich.progress import track
 
-from mc_nested.arena.design_kind import KINDS, SCATTERED, kind_of_design
+from mc_nested.arena.design import KINDS, SCATTERED, kind_of_design
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.random_designs import random_scenario
 from mc_nested.arena.scenario import Scenario

@@ -43,7 +43,7 @@ from scripts.benches import reader
 from scripts.benches.into_screens import ScreenPresses
 from scripts.benches.played import ClientTruth, PlayCounts, figures_of, play_in
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 from sim.client.mishaps import Kind
 from sim.client.settings import ClientSettings
 

@@ -34,10 +34,13 @@ from mc_nested.live.vision.overlay import POSITION, find_debug_screen
 from mc_nested.live.vision.screen_reader import ScreenReader
 from mc_nested.live.vision.text_lines import positions_of
 from scripts.bench import Figures
-from sim.client.drawing.f3_cases import WORLDS, expected, frames, random_world
+from sim.client.drawing.f3_cases import expected, frames
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.drawing.painter import WORLDS, random_world
+from sim.client.game.edition import Layout
+from sim.client.game.f3_screen import F3Screen
+from sim.client.game.f3_text import LAYOUTS
 
 WINDOWS = ((854, 480), (1280, 720), (1366, 768), (1600, 900), (1920, 1080))
 FULL_HD = (1080, 1920)

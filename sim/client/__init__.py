@@ -4,19 +4,20 @@ client.py    VirtualClient: the game, its window and its devices, put together  
 mishaps.py   what goes wrong: lost focus, lag, lost keys, death and so on
 
 game/        the game, a tick at a time; it knows no pixels
-    game.py  realm.py  world.py  world_folder.py    a tick; the player and the rules; the blocks; saved as a folder
-    physics.py  gaits.py  ray.py                    walking, falling, bumping; sprinting; what is looked at
+    game.py  realm.py  world.py                     a tick; what is saved; the blocks, and what is looked at
+    physics.py                                      walking, sprinting, falling, bumping
     controls.py  keys.py                            what keys, buttons and the mouse do on each screen
     chat.py  commands/                              messages, and chat commands of each version (edition.py)
-    screens.py  colours.py                          menus: their texts and buttons
-    f3_screen.py  f3_text.py  places.py             what the debug screen is about, and its lines to 1.21.8
+    screens.py  widgets.py                          menus: their texts and buttons
+    f3_screen.py  f3_text.py                        what the debug screen is about, and its lines to 1.21.8
     debug_entries.py  entry_lines.py                which entries are on, from 1.21.9 on; their lines to 26.3
-    entry_boxes.py  box_columns.py                  their boxes from 26.4 on, and where each of them stands
+    entry_boxes.py                                  their boxes from 26.4 on, and where each of them stands
     view.py                                         what is seen at one moment, before it is drawn
 drawing/     from a view to pixels: only what changed, only what is grabbed
-    painter.py  picture.py  layers.py               a view as layers, and layers as a picture
-    f3_layers.py  f3_boxes.py  hud_layers.py  menu_layers.py  scenery.py
-    letters.py  font.py                             texts in any font, and a font drawn for this project
+    painter.py  layers.py                           a view as layers, and layers as a picture
+    f3_layers.py  gui_layers.py                     what lies over the world
+    block_faces.py  world_shapes.py  world_layer.py the world behind
+    letters.py                                      texts in any font, and a font drawn for this project
     f3_cases.py                                     random debug screens, to test a reader on
-desktop/     clock.py  frames.py  window.py (focus, latency)  display.py  keyboard.py  pointer.py  clipboard.py
+desktop/     clock.py  window.py (focus, latency, clipboard)  display.py  keyboard.py  pointer.py
 """

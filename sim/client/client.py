@@ -16,29 +16,24 @@ from mc_nested.live.desktop.keyboard import DesktopKeyboard
 from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.reading import Block
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.vision.font import Font, font_of
-from sim.client.desktop.clipboard import VirtualClipboard
-from sim.client.desktop.clock import VirtualClock
+from mc_nested.live.vision.layout import Scales
+from sim.client.desktop.clock import Frames, VirtualClock
 from sim.client.desktop.display import VirtualDisplay
-from sim.client.desktop.frames import Frames
 from sim.client.desktop.keyboard import VirtualKeySender
 from sim.client.desktop.pointer import VirtualPointer
-from sim.client.desktop.window import VirtualWindow
-from sim.client.drawing.font import drawn_atlas
-from sim.client.drawing.painter import Painter
-from sim.client.drawing.scenery import SEEN
-from sim.client.drawing.view_layers import ViewLayers
+from sim.client.desktop.window import VirtualClipboard, VirtualWindow
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.drawing.painter import SEEN, Painter, ViewLayers
 from sim.client.game.controls import Controls
 from sim.client.game.edition import Edition
 from sim.client.game.game import VirtualGame
 from sim.client.game.keys import BINDINGS, SIDES_SWAPPED, GameKeys
 from sim.client.game.physics import Ground
-from sim.client.game.realm import Player, Realm
+from sim.client.game.realm import Player, Realm, read_world, write_world
 from sim.client.game.view import View
 from sim.client.game.world import AIR, VirtualWorld
-from sim.client.game.world_folder import read_world, write_world
 from sim.client.mishaps import Mishaps
 from sim.client.settings import ClientSettings, Size, scales
 

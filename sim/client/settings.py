@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mc_nested.live.model.scales import Scales, largest_gui_scale
 from mc_nested.live.vision.font import Font
+from mc_nested.live.vision.layout import Scales, largest_gui_scale
 from sim.client.game.debug_entries import TUTORIAL, DebugEntries
 from sim.client.game.edition import Edition
 from sim.client.game.options import GameOptions

@@ -1,7 +1,9 @@
-"""Real time as the client's time, a frame at a time."""
+"""Real time as the client's time, a frame at a time, and the player's eye between two ticks."""
 
 from sim.client.client import MOST_TICKS, TICK_S
 from sim.client.desktop.clock import VirtualClock
+from sim.client.game.game import VirtualGame
+from sim.client.game.view import Eye
 
 
 class FramePacer:
@@ -25,3 +27,28 @@ class FramePacer:
         self._clock.sleep_until(now - self._behind_s)
         # A late frame doesn't make the next ones early.
         self.next_frame = max(self.next_frame + self._frame_s, now)
+
+
+_JUMP = 4.0
+"""Blocks that nobody walks in a tick: a teleport, which is seen at once."""
+
+
+class SmoothEye:
+    """Follows a game's player; between two ticks it moves evenly from the last eye to the present one."""
+
+    def __init__(self, game: VirtualGame) -> None:
+        self._game = game
+        self._ticks, self._since = game.ticks, 0.0
+        self._before = self._now = game.realm.eye()
+
+    def at(self, now: float) -> Eye:
+        """The eye at a time of the client's clock, in seconds; times never go back."""
+        game = self._game
+        if game.ticks != self._ticks:
+            self._ticks, self._since = game.ticks, now
+            self._before, self._now = self._now, game.realm.eye()
+            if max(abs(one - other) for one, other in zip(self._before, self._now, strict=True)) > _JUMP:
+                self._before = self._now
+        part = min(1.0, (now - self._since) / TICK_S)
+        x, y, z = (one + (other - one) * part for one, other in zip(self._before, self._now, strict=True))
+        return Eye((x, y, z), game.realm.player.yaw, game.realm.player.pitch)

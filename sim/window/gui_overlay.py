@@ -6,9 +6,8 @@ import moderngl
 import numpy as np
 
 from mc_nested.live.devices import Frame
-from sim.client.drawing.layers import Rect
-from sim.client.drawing.picture import LayeredPicture
-from sim.client.drawing.view_layers import ViewLayers
+from sim.client.drawing.layers import LayeredPicture, Rect
+from sim.client.drawing.painter import ViewLayers
 from sim.client.game.view import View
 from sim.window.tiles import triangles
 

@@ -1,6 +1,6 @@
 """GLFW's keys, by the place where a keyboard of the United States has them, as profiles name keys (FACTS: Keys)."""
 
-from sim.client.desktop.layouts import key_of
+from sim.client.desktop.keyboard import key_of
 
 _WORDS = {
     32: "space",

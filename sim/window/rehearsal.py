@@ -17,8 +17,8 @@ from sim.window.frame_pacer import FramePacer
 from sim.window.glfw_window import GlfwWindow, now, open_glfw_window, refresh_rate
 from sim.window.input_events import InputEvents
 from sim.window.mishap_window import MishapWindow
-from sim.window.picture import WindowPicture
 from sim.window.truth_file import TruthFile
+from sim.window.window_picture import WindowPicture
 
 
 @dataclass(frozen=True)

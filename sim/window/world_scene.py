@@ -6,11 +6,23 @@ import moderngl
 import numpy as np
 
 from mc_nested.live.model.reading import Block
-from sim.client.drawing import daylight
-from sim.client.drawing.block_colours import block_colour
-from sim.client.drawing.camera import Matrix, held_block, projection, view
-from sim.client.drawing.cubes import FAR, Floats, cubes, floor_square, outline, row_of, unit_cube
-from sim.client.drawing.grain import GRAIN_BLOCKS, grain
+from sim.client.drawing import world_shapes
+from sim.client.drawing.world_shapes import (
+    FAR,
+    GRAIN_BLOCKS,
+    Floats,
+    Matrix,
+    block_colour,
+    cubes,
+    floor_square,
+    grain,
+    held_block,
+    outline,
+    projection,
+    row_of,
+    unit_cube,
+    view,
+)
 from sim.client.game.realm import Realm
 from sim.client.game.view import Eye
 from sim.client.game.world import block_of
@@ -51,11 +63,11 @@ void main() { pixel = vec4(0.0, 0.0, 0.0, 1.0); }
 
 _CONSTANTS = {
     "GRAIN": GRAIN_BLOCKS,
-    "FOG_FROM": daylight.FOG_FROM,
-    "TOP": daylight.TOP,
-    "BOTTOM": daylight.BOTTOM,
-    "NORTH_AND_SOUTH": daylight.NORTH_AND_SOUTH,
-    "EAST_AND_WEST": daylight.EAST_AND_WEST,
+    "FOG_FROM": world_shapes.FOG_FROM,
+    "TOP": world_shapes.TOP,
+    "BOTTOM": world_shapes.BOTTOM,
+    "NORTH_AND_SOUTH": world_shapes.NORTH_AND_SOUTH,
+    "EAST_AND_WEST": world_shapes.EAST_AND_WEST,
 }
 
 _LOWER = 0.002
@@ -92,7 +104,7 @@ class WorldScene:
         origin = block_of(eye.position)
         x, y, z = (part - own for part, own in zip(eye.position, origin, strict=True))
         perspective = projection(*size)
-        self._context.clear(*daylight.SKY, depth=1.0)
+        self._context.clear(*world_shapes.SKY, depth=1.0)
         self._context.enable(moderngl.DEPTH_TEST)
         self._look(perspective @ view((x, y, z), eye.yaw, eye.pitch), origin)
         floor = row_of((0.0, world.floor - origin[1] - _LOWER, 0.0), block_colour(world.floor_block))
@@ -119,7 +131,7 @@ class WorldScene:
     def _look(self, camera: Matrix, origin: Block) -> None:
         for program in (self._blocks, self._lines):
             program["camera"] = tuple(float(part) for part in camera.T.flat)
-        self._blocks["sky"], self._blocks["far"], self._blocks["grain"] = daylight.SKY, float(FAR), 0
+        self._blocks["sky"], self._blocks["far"], self._blocks["grain"] = world_shapes.SKY, float(FAR), 0
         # The grain repeats with the blocks, so only the part within it counts; small numbers keep their digits.
         self._blocks["origin"] = tuple(float(part % GRAIN_BLOCKS) for part in origin)
         self._grain.use(0)

@@ -5,9 +5,8 @@ from dataclasses import replace
 from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action
-from mc_nested.arena.part_builder import can_be_built
-from mc_nested.arena.parts import Part
-from mc_nested.arena.scenario import Material, Scenario
+from mc_nested.arena.builder import can_be_built
+from mc_nested.arena.scenario import Material, Part, Scenario
 
 WOOD, STONE = 0, 1
 

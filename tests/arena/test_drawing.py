@@ -1,10 +1,27 @@
-"""The arena from above as text: which sign each cell gets."""
+"""The arena from above as text: which sign each cell gets.
+
+The arena as a picture: where each cell lies, what tells its kind, and which way the agent looks.
+"""
 
 import dataclasses
 
+import numpy as np
 import pytest
 
-from mc_nested.arena.drawing import draw_text, kind_of
+from mc_nested.arena.drawing import (
+    AGENT_ARROW,
+    AGENT_BODY,
+    BLOCKS,
+    CELL_PX,
+    DESIGN,
+    GRID,
+    GROUND,
+    TO_BUILD,
+    Picture,
+    draw_picture,
+    draw_text,
+    kind_of,
+)
 from mc_nested.arena.scenario import Material, Scenario
 from tests.arena.made_parts import STRIPES
 
@@ -40,3 +57,80 @@ def test_an_arena_is_drawn_as_large_as_it_is(size: int) -> None:
     lines = draw_text(corner, (0, 0), ()).splitlines()
     assert [len(line.split()) for line in lines] == [size] * size
     assert (lines[0].split()[-1], lines[-1].split()[0]) == ("o", "^")
+
+
+BUILT, WRONG = (BLOCKS[kind][0] for kind in "#x")
+
+
+def cell_of(picture: Picture, x: int, y: int, px: int = CELL_PX, size: int = 15) -> Picture:
+    """The part of a picture that is one cell."""
+    top, left = (size - 1 - y) * px, x * px
+    return picture[top : top + px, left : left + px]
+
+
+def middle(picture: Picture, x: int, y: int) -> list[int]:
+    colour: list[int] = cell_of(picture, x, y)[CELL_PX // 2, CELL_PX // 2].tolist()
+    return colour
+
+
+def test_every_kind_of_cell_has_a_colour_of_its_own_and_the_far_edge_is_on_top() -> None:
+    picture = draw_picture(PAIR, None, {(7, 14), (0, 3)})
+    assert picture.shape == (240, 240, 3)
+    assert picture.dtype == np.uint8
+    cells = [(7, 14), (6, 14), (0, 3), (9, 9)]
+    assert [middle(picture, *cell) for cell in cells] == [list(each) for each in (BUILT, TO_BUILD[0], WRONG, GROUND)]
+
+
+def test_the_design_is_outlined_before_and_after_it_is_built_and_nothing_else_is() -> None:
+    picture = draw_picture(PAIR, None, {(7, 14), (0, 3)})
+    corner = [cell_of(picture, *cell)[1, 1].tolist() for cell in [(7, 14), (6, 14), (0, 3), (9, 9)]]
+    assert [colour == list(DESIGN[0]) for colour in corner] == [True, True, False, False]
+
+
+def test_a_line_of_the_grid_runs_before_every_cell() -> None:
+    picture = draw_picture(PAIR, (7, 12), {(7, 14)})
+    assert (picture[::CELL_PX] == GRID).all()
+    assert (picture[:, ::CELL_PX] == GRID).all()
+
+
+def test_the_agent_looks_up_and_hides_nothing_of_its_cells_edge() -> None:
+    bare, shown = (cell_of(draw_picture(PAIR, agent, (), 32), 6, 14, 32) for agent in (None, (6, 14)))
+    arrow = (shown == AGENT_ARROW).all(axis=2)
+    wide = [int(np.ptp(np.flatnonzero(arrow[row]))) for row in (9, 14, 19)]
+    assert (np.abs(shown[16, 7] - np.array(AGENT_BODY)) < 3).all()
+    assert (shown[13, 16] == AGENT_ARROW).all()
+    assert wide[0] < wide[1] < wide[2]
+    assert (shown[:, :2] == bare[:, :2]).all()
+    np.testing.assert_array_equal(arrow[:, 1:], arrow[:, :0:-1])
+
+
+def test_the_agent_changes_no_other_cell() -> None:
+    with_agent, without = (draw_picture(PAIR, agent, {(7, 14)}) for agent in ((7, 13), None))
+    changed = np.argwhere((with_agent != without).any(axis=2)) // CELL_PX
+    assert {(int(row), int(column)) for row, column in changed} == {(1, 7)}
+
+
+@pytest.mark.parametrize(("size", "px"), [(8, 16), (32, 15), (5, 96)])
+def test_an_arena_is_drawn_as_large_as_it_is_asked_for(size: int, px: int) -> None:
+    corner = dataclasses.replace(PAIR, design=frozenset({(size - 1, size - 1)}), start=(0, 0), size=size)
+    picture = draw_picture(corner, (0, 0), (), px)
+    assert picture.shape == (size * px, size * px, 3)
+    at = px // 2
+    assert cell_of(picture, size - 1, size - 1, px, size)[at, at].tolist() == list(TO_BUILD[0])
+    reds = (picture[..., 0] > 190) & (picture[..., 1] < 80)
+    assert reds[-px:, :px].any()
+    assert not reds[:-px].any()
+
+
+def test_a_picture_is_the_callers_own() -> None:
+    first = draw_picture(PAIR, None, ())
+    first[:] = 0
+    assert draw_picture(PAIR, None, ()).any()
+
+
+def test_the_parts_of_a_design_have_colours_of_their_own_built_or_not() -> None:
+    picture = draw_picture(STRIPES, None, {(1, 3), (3, 2)}, 20)
+    far, near = (cell_of(picture, *cell, 20, 5) for cell in ((2, 3), (1, 2)))
+    assert [cell[10, 10].tolist() for cell in (far, near)] == [list(colour) for colour in TO_BUILD[:2]]
+    built = [cell_of(picture, *cell, 20, 5)[1, 1].tolist() for cell in ((1, 3), (3, 2))]
+    assert built == [list(colour) for colour in DESIGN[:2]]

@@ -8,9 +8,9 @@ from gymnasium.utils.env_checker import check_env
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
+from mc_nested.arena.drawing import CELL_PX, draw_picture
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Outcome
-from mc_nested.arena.picture import CELL_PX, draw_picture
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, ScenarioError

@@ -5,8 +5,7 @@ import hashlib
 import numpy as np
 import pytest
 
-from mc_nested.arena.design_kind import KINDS, SCATTERED, kind_of_design
-from mc_nested.arena.design_scenario import is_buildable
+from mc_nested.arena.design import KINDS, SCATTERED, is_buildable, kind_of_design
 from mc_nested.arena.random_designs import FEWEST_BLOCKS, MOST_BLOCKS, draw_design, random_scenario
 from mc_nested.arena.scenario_file import load_scenario, table_of
 

@@ -1,11 +1,17 @@
-"""What follows from a scenario's facts."""
+"""What follows from a scenario's facts.
+
+Parts: which is built when, what must hold of them, and the main agent's return.
+"""
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from mc_nested.arena.scenario import Material, Scenario
+from mc_nested.arena.action import Cell
+from mc_nested.arena.scenario import Material, Part, Scenario, main_return, part_after
 from mc_nested.errors import ScenarioError
+from tests.arena.made_parts import FAR, NEAR, STRIPES
 
 WOOD, STONE = Material("wood", -5.0, "oak_planks"), Material("stone", 10.0, "stone")
 CLAY = Material("clay", 10.0, "clay")
@@ -46,3 +52,55 @@ def test_a_design_larger_than_its_arena_is_refused_whoever_makes_it(cell: tuple[
 def test_a_start_outside_its_arena_is_refused_whoever_makes_it(start: tuple[int, int]) -> None:
     with pytest.raises(ScenarioError, match="lies outside: choose 0 to 14 for x and y"):
         replace(BAR, start=start)
+
+
+WORTH = (1.0, 2.0)
+
+
+def test_the_part_that_is_built_follows_from_the_blocks_laid() -> None:
+    assert [part_after(laid, STRIPES.parts) for laid in range(6)] == [0, 0, 1, 1, 1, 1]
+    assert [STRIPES.part_at(left) for left in (5, 4, 3, 1, 0)] == [0, 0, 1, 1, 1]
+
+
+def test_without_parts_the_design_is_one_in_which_materials_are_worth_their_p() -> None:
+    assert replace(STRIPES, parts=()).in_order == (Part(FAR | NEAR, (-5.0, 10.0)),)
+
+
+def test_the_optimum_is_every_block_on_its_part_of_the_best_material_there() -> None:
+    assert STRIPES.optimum == 5 + 10 + 6
+    assert (STRIPES.best_material, STRIPES.best_materials) == (1, (1, 0))
+
+
+def test_the_return_is_the_blocks_on_their_part_and_the_shares_of_p() -> None:
+    # Both parts of an episode: one block of wood and one of stone in the first, two of three of stone in the second.
+    laid = np.array([[[1, 1], [0, 2]]])
+    worth = np.array([[[-5.0, 10.0], [6.0, -3.0]]])
+    assert main_return(np.array([3]), laid, worth, np.array([[2, 3]])) == 3 + (-5 + 10) / 2 - 3 * 2 / 3
+
+
+@pytest.mark.parametrize("p", [-5.0, 10.0, 0.1, 1 / 3])
+def test_of_one_part_and_one_choice_the_return_is_the_papers(p: float) -> None:
+    blocks, none = np.array([7]), np.array([[[7, 0]]])
+    assert main_return(blocks, none, np.array([[[p, 99.0]]]), np.array([[7]])) == 7 + p
+
+
+@pytest.mark.parametrize(
+    ("parts", "problem"),
+    [
+        ((FAR, NEAR | {(1, 3)}), r"cell \(1, 3\) is in part 2 and in an earlier one: draw it in one"),
+        ((FAR, NEAR - {(3, 2)}), r"cell \(3, 2\) of the design is in no part: draw it in one"),
+        ((FAR, NEAR | {(4, 4)}), r"cell \(4, 4\) of part 2 is not in the design: draw it there, too"),
+        ((FAR | NEAR, frozenset()), "part 2 has no block: draw at least one"),
+    ],
+)
+def test_parts_that_overlap_or_do_not_cover_the_design_are_refused(
+    parts: tuple[frozenset[Cell], ...], problem: str
+) -> None:
+    with pytest.raises(ScenarioError, match=f"^parts: {problem}$"):
+        replace(STRIPES, parts=tuple(Part(cells, WORTH) for cells in parts))
+
+
+def test_a_later_part_that_nobody_would_begin_is_refused() -> None:
+    replace(STRIPES, parts=(Part(FAR, (-9.0, -9.0)), Part(NEAR, (-3.0, -9.0))))
+    with pytest.raises(ScenarioError, match=r"^parts: part 2, built whole, brings at most -0\.5: raise a worth$"):
+        replace(STRIPES, parts=(Part(FAR, WORTH), Part(NEAR, (-3.5, -9.0))))

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import build
-from mc_nested.arena.parts import Part
-from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE, SMALLEST_SIZE, Material, Scenario
+from mc_nested.arena.scenario import DEFAULT_SIZE, LARGEST_SIZE, SMALLEST_SIZE, Material, Part, Scenario
 from mc_nested.arena.scenario_file import (
     draw_grid,
     load_scenario,

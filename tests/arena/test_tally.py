@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build, build_with_materials
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.parts import Part
-from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario import Part, Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
 from sim.grid import GridVectorEnv, arena_env

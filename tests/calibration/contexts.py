@@ -1,4 +1,4 @@
-"""Contexts over virtual clients, wired as calibration/open_context.py wires a desktop's; and a font file for them."""
+"""Contexts over virtual clients, wired as calibration/context.py wires a desktop's; and a font file for them."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -6,13 +6,12 @@ from pathlib import Path
 
 import cv2
 
-from calibration.context import CalibrationContext
-from calibration.open_context import OpenContext
+from calibration.context import CalibrationContext, OpenContext
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.profile.tables import Profile, ScreenTable
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 
 SPANISH = {
     "Back to Game": "Volver al juego",

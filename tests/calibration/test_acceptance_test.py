@@ -16,7 +16,7 @@ from mc_nested.live.devices import Frame, Region
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import BlocksTable, GameVersion, KeysTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.options import GameOptions
 from tests.calibration.contexts import context_over
 from tests.sim.client.playing import arena_of

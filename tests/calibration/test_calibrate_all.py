@@ -1,6 +1,11 @@
-"""The guided run on virtual clients: what is written, and that nothing is written if anything goes wrong."""
+"""The guided run on virtual clients: what is written, and that nothing is written if anything goes wrong.
 
+The runner of the steps: what each step gets, what ends the run, and which steps are skipped.
+"""
+
+import contextlib
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -9,19 +14,35 @@ import pytest
 
 from calibration.arena.build import build_arena
 from calibration.arena.undo import undo_built_arena
-from calibration.calibrate_all import GATES, CalibrationResult, calibrate_all
+from calibration.calibrate_all import (
+    GATES,
+    CalibrationResult,
+    CalibrationStep,
+    RunResult,
+    StepFunction,
+    calibrate_all,
+    run_steps,
+)
 from calibration.context import CalibrationContext, ReportPicture, StepResult
 from calibration.doctor.check import Check, CheckName
 from calibration.registry import registered_steps
-from calibration.report.kept import kept_folder, load_kept
-from calibration.runner import CalibrationStep, StepFunction
-from mc_nested.errors import DesktopError, LiveError, McNestedError, NotConfirmedError, ProfileError, UserError
+from calibration.report.findings import findings_folder, load_findings
+from mc_nested.errors import (
+    DesktopError,
+    LiveError,
+    McNestedError,
+    NotConfirmedError,
+    NotInFrontError,
+    ProfileError,
+    StoppedError,
+    UserError,
+)
 from mc_nested.live.profile.store import earlier_path, load_profile, save_profile
-from mc_nested.live.profile.tables import CalibratedTable, KeysTable, Profile, ScreenTable
+from mc_nested.live.profile.tables import CalibratedTable, GameVersion, KeysTable, Profile, ScreenTable
 from mc_nested.live.vision.chat_region import without_chat
 from scripts.benches.calibration import context_opener_for, doctor_for, write_font
 from sim.client.client import VirtualClient
-from tests.calibration.contexts import SPANISH
+from tests.calibration.contexts import SPANISH, context_over
 
 DAY = "2026-11-21"
 
@@ -109,7 +130,7 @@ def test_the_profile_is_written_with_what_it_was_calibrated_on(client: VirtualCl
 
 def test_what_was_seen_lies_beside_it(client: VirtualClient, profile: Path) -> None:
     run(client, profile, CalibrationStep("walk", swapped))
-    kept = load_kept(profile)
+    kept = load_findings(profile)
     assert [(step.step, step.lines, step.date) for step in kept.steps] == [("walk", ("swapped",), DAY)]
     assert [check.name for check in kept.checks] == list(CheckName)
     assert kept.steps[0].pictures[0].frame.shape == (480, 854, 3)
@@ -154,7 +175,7 @@ def test_however_it_ends_early_the_profile_is_as_it_was_and_no_key_is_down(
     with pytest.raises((LiveError, KeyboardInterrupt)):
         run(client, profile, CalibrationStep("walk", swapped), CalibrationStep("proof", last))
     assert profile.read_bytes() == before
-    assert not kept_folder(profile).exists()
+    assert not findings_folder(profile).exists()
     assert not earlier_path(profile).exists()
     assert not client.window.down
 
@@ -184,7 +205,7 @@ def test_a_path_that_can_not_be_written_is_reported_before_the_window_is_looked_
 
 
 def test_what_can_not_be_kept_for_the_report_does_not_end_it(client: VirtualClient, profile: Path) -> None:
-    kept_folder(profile).write_text("no folder", "utf-8")
+    findings_folder(profile).write_text("no folder", "utf-8")
     run(client, profile, CalibrationStep("walk", swapped))
     assert load_profile(profile).keys.left == "d"
 
@@ -277,7 +298,7 @@ def test_a_tested_profile_is_made_unattended(tmp_path: Path) -> None:
     assert set(written.points) == {
         *("back_to_game", "save_and_quit_to_title", "singleplayer", "world", "play_selected_world")
     }
-    assert [step.step for step in load_kept(result.path).steps] == [
+    assert [step.step for step in load_findings(result.path).steps] == [
         *("font", "arena", "walk", "clicks", "cross-check", "proof")
     ]
     assert not [check for check in result.checks if check.status == "fail"]
@@ -335,3 +356,124 @@ def test_whatever_happens_midway_nothing_is_written_and_no_key_stays_down(step: 
     assert list(tmp_path.glob("new*")) == []
     assert not client.window.down
     assert not client.window.strays
+
+
+@dataclass
+class StepLog:
+    """Notes the progress of the run."""
+
+    events: list[object] = field(default_factory=list)
+
+    def begin(self, name: str, number: int, of: int) -> None:
+        self.events.append((name, number, of))
+
+    def end(self, result: StepResult, seconds: float) -> None:
+        self.events.append((result.lines, round(seconds, 6)))
+
+    def skip(self, reason: str, seconds: float) -> None:
+        self.events.append((reason, round(seconds, 6)))
+
+
+class Room:
+    """A virtual client with a calibration context, and the profiles with which the run recovered."""
+
+    def __init__(self) -> None:
+        self.client = VirtualClient()
+        self.progress = StepLog()
+        self.recoveries: list[Profile] = []
+        self.context = context_over(self.client)
+
+    def run(self, *steps: CalibrationStep, profile: Profile | None = None) -> RunResult:
+        return run_steps(steps, self.context, profile or Profile(), self.progress, self.recoveries.append)
+
+
+def sets(**tables: object) -> StepFunction:
+    """A step that takes a second and finds these tables."""
+
+    def run(context: CalibrationContext, profile: Profile) -> StepResult:
+        context.devices.clock.sleep_until(context.devices.clock.now() + 1)
+        return StepResult("+".join(tables), profile.model_copy(update=tables), (f"found {', '.join(tables)}",), 1)
+
+    return run
+
+
+def fails(error: BaseException) -> StepFunction:
+    """A step that fails after half a second, a key still down."""
+
+    def run(context: CalibrationContext, _profile: Profile) -> StepResult:
+        context.controller.confirm_screen("world")
+        context.controller.press(context.devices.clock.now() + 2, "w")
+        context.devices.clock.sleep_until(context.devices.clock.now() + 0.5)
+        raise error
+
+    return run
+
+
+OLD = GameVersion(version="1.12.2")
+SWAPPED = KeysTable(left="d", right="a")
+
+
+def test_each_step_stands_on_what_the_one_before_found() -> None:
+    room = Room()
+    seen: list[Profile] = []
+
+    def last(_context: CalibrationContext, profile: Profile) -> StepResult:
+        seen.append(profile)
+        return StepResult("last", profile, (), 0)
+
+    result = room.run(
+        CalibrationStep("game", sets(game=OLD)),
+        CalibrationStep("keys", sets(keys=SWAPPED)),
+        CalibrationStep("last", last),
+    )
+    assert result.profile == seen[0] == Profile(game=OLD, keys=SWAPPED)
+    assert [each.step for each in result.results] == ["game", "keys", "last"]
+    assert result.skipped == {}
+    assert room.progress.events == [
+        ("game", 1, 3),
+        (("found game",), 1.0),
+        ("keys", 2, 3),
+        (("found keys",), 1.0),
+        ("last", 3, 3),
+        ((), 0.0),
+    ]
+
+
+@pytest.mark.parametrize("error", [NotConfirmedError("no"), ProfileError("no")])
+def test_a_needed_step_that_fails_ends_the_run_and_names_itself(error: McNestedError) -> None:
+    room = Room()
+    with pytest.raises(type(error), match=r"^walk: no \(the profile is as it was\)$"):
+        room.run(CalibrationStep("walk", fails(error)), CalibrationStep("never", fails(AssertionError())))
+    assert room.recoveries == []
+
+
+@pytest.mark.parametrize("error", [LiveError("no such button"), UserError("no such button")])
+def test_a_step_that_nothing_stands_on_is_skipped_and_the_world_found_again(error: McNestedError) -> None:
+    room = Room()
+    result = room.run(
+        CalibrationStep("game", sets(game=OLD)),
+        CalibrationStep("clicks", fails(error), is_needed=False),
+        CalibrationStep("keys", sets(keys=SWAPPED)),
+    )
+    assert result.profile == Profile(game=OLD, keys=SWAPPED)
+    assert [each.step for each in result.results] == ["game", "keys"]
+    assert result.skipped == {"clicks": "no such button"}
+    assert ("no such button", 0.5) in room.progress.events
+    assert room.recoveries == [Profile(game=OLD)]
+
+
+@pytest.mark.parametrize("error", [NotInFrontError("behind"), StoppedError("the panic key was pressed")])
+def test_losing_the_game_ends_the_run_in_any_step(error: McNestedError) -> None:
+    with pytest.raises(type(error), match="clicks: "):
+        Room().run(
+            CalibrationStep("clicks", fails(error), is_needed=False), CalibrationStep("never", fails(AssertionError()))
+        )
+
+
+@pytest.mark.parametrize("is_needed", [True, False])
+@pytest.mark.parametrize("error", [NotConfirmedError("no"), KeyboardInterrupt(), StoppedError("stop")])
+def test_no_key_stays_down_however_a_step_ends(error: BaseException, is_needed: bool) -> None:
+    room = Room()
+    with contextlib.suppress(LiveError, KeyboardInterrupt):
+        room.run(CalibrationStep("walk", fails(error), is_needed=is_needed))
+    assert not room.client.window.down

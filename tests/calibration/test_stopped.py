@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from calibration.clicks.find import calibrate_clicks
+from calibration.context import OpenContext
 from calibration.font.find import calibrate_font
 from calibration.font.sources import FontSources
-from calibration.open_context import OpenContext
 from mc_nested.errors import DesktopError, LiveError, McNestedError, NotInFrontError
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.menus import recovery

@@ -6,13 +6,12 @@ from pathlib import Path
 
 import cv2
 
-from calibration.context import CalibrationContext
-from calibration.open_context import OpenContext
+from calibration.context import CalibrationContext, OpenContext
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.profile.tables import GameVersion, Profile, ScreenTable
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 
 
 def context_on(

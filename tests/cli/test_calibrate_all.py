@@ -6,10 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from calibration.context import CalibrationContext, StepResult
+from calibration.calibrate_all import CalibrationStep
+from calibration.context import CalibrationContext, OpenContext, StepResult
 from calibration.doctor.check import Check, CheckName
-from calibration.open_context import OpenContext
-from calibration.runner import CalibrationStep
 from mc_nested.cli import calibrate_all, calibrating
 from mc_nested.cli.app import main
 from mc_nested.cli.json_fields import JSON_FIELDS

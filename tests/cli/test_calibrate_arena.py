@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from calibration.open_context import OpenContext
+from calibration.context import OpenContext
 from mc_nested.cli import calibrating
 from mc_nested.cli.app import main
 from mc_nested.live.profile.store import load_profile, save_profile

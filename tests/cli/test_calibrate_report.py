@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibration.context import ReportPicture, StepResult
-from calibration.report.kept import keep
+from calibration.report.findings import save_findings
 from mc_nested.cli.app import main
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile, ScreenTable
@@ -25,7 +25,7 @@ def profile(tmp_path: Path) -> Path:
     font = str(Path.home() / ".minecraft" / "1.20.1.jar")
     save_profile(Profile(screen=ScreenTable(font=font)), path)
     picture = ReportPicture("The debug screen", np.zeros((2, 2, 3), np.uint8))
-    keep(path, [StepResult("font", Profile(), (f"font of {font}",), 1, (picture,))], today="2026-11-21")
+    save_findings(path, [StepResult("font", Profile(), (f"font of {font}",), 1, (picture,))], today="2026-11-21")
     return path
 
 

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from calibration.context import StepResult
-from calibration.open_context import OpenContext
+from calibration.context import OpenContext, StepResult
 from mc_nested.cli import calibrate_walk, calibrating
 from mc_nested.live.profile.store import load_profile, save_profile
 from mc_nested.live.profile.tables import Profile

@@ -7,8 +7,7 @@ from typing import cast
 
 import pytest
 
-from calibration.context import CalibrationContext
-from calibration.open_context import OpenContext
+from calibration.context import CalibrationContext, OpenContext
 from mc_nested.cli import calibrate_all, calibrating
 from mc_nested.cli.viewing import Viewed
 from mc_nested.errors import UserError

@@ -18,8 +18,8 @@ from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import font_of
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import F3Screen
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.game.f3_screen import F3Screen
 from tests.cli.running import run
 
 

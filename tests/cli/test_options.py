@@ -8,7 +8,7 @@ import pytest
 
 from mc_nested.cli.options import Backend, open_arenas, open_game, played_live
 from mc_nested.errors import RunError
-from mc_nested.live.failure_budget import FailureBudget
+from mc_nested.live.action_log import FailureBudget
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile

@@ -11,8 +11,8 @@ from mc_nested.cli.app import main
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.font import font_of
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import F3Screen
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.game.f3_screen import F3Screen
 from tests.cli.running import check_mistake
 
 STONE = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, 65.0, Target((8, 63, -2), "minecraft:stone"))

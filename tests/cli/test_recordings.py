@@ -11,9 +11,9 @@ from calibration.doctor.check import Check, CheckName
 from calibration.report.privacy import Names
 from mc_nested.cli.app import main
 from mc_nested.cli.json_fields import JSON_FIELDS
-from mc_nested.live.recording.opened import MOST_RECORDINGS, kept_recordings, recordings_folder
 from mc_nested.live.recording.recording_file import facts_of
-from sim.client.drawing.font import drawn_atlas
+from mc_nested.live.recording.run_recorder import MOST_RECORDINGS, kept_recordings, recordings_folder
+from sim.client.drawing.letters import drawn_atlas
 from tests.live.recording.recorded_play import record_play
 
 pytestmark = pytest.mark.skipif("sys.platform != 'linux'", reason="elsewhere the folder isn't named by a variable")
@@ -137,12 +137,12 @@ def test_a_folder_that_holds_something_is_no_place_for_a_recording(
 
 
 def test_the_oldest_of_many_makes_room(kept: Path) -> None:
-    from mc_nested.live.recording import opened
+    from mc_nested.live.recording import run_recorder
 
     for number in range(MOST_RECORDINGS + 2):
         (kept.parent / f"old-{number:02d}").mkdir()
         (kept.parent / f"old-{number:02d}" / "00001.mcap").write_bytes(b"")
-    opened.make_room()
+    run_recorder.make_room()
     assert len(kept_recordings()) == MOST_RECORDINGS - 1
 
 

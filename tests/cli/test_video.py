@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from mc_nested.arena.action import Action
+from mc_nested.arena.drawing import Picture
 from mc_nested.arena.game import Game
-from mc_nested.arena.picture import Picture
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.cli.video import filmed
 from mc_nested.errors import LiveError, StoppedError
-from mc_nested.live.recording.opened import run_recorder
-from mc_nested.live.recording.replay import replay
+from mc_nested.live.recording.replayed_run import replay
+from mc_nested.live.recording.run_recorder import run_recorder
 from mc_nested.live.vision.chat_region import BLANK
 from mc_nested.report.arena_picture import CAPTION, MARGIN, SMALL_ARENA_PX
 from sim.client.client import VirtualClient

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from mc_nested.design_files.picture import SIGNATURE
+from mc_nested.design_files.png import SIGNATURE
 from tests.design_files.written import Longs, Short, litematic, named, nbt_file, payload, sponge, states
 
 pytestmark = [

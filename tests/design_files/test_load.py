@@ -2,6 +2,7 @@
 
 import gzip
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -183,3 +184,15 @@ def test_a_file_that_may_not_be_read_is_refused(write: Write) -> None:
     path.chmod(0)
     with pytest.raises(ScenarioError, match="it can't be read, Permission denied: name another file"):
         read_volume(path)
+
+
+def test_without_pynbt_a_schematic_is_refused_in_one_line_that_names_the_extra(
+    write: Write, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "pynbt", None)
+    with pytest.raises(ScenarioError) as refused:
+        read_volume(write("hut.schem", sponge(HUT)))
+    assert str(refused.value).endswith(
+        "hut.schem: reading schematics needs pynbt: pip install -c constraints.txt -e '.[schematics]'"
+    )
+    assert load_any_scenario(write("hut.png", picture(HUT[0]))).scenario.blocks

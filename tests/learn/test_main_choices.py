@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from mc_nested.arena.action import Action
-from mc_nested.arena.parts import Part
-from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario import Part, Scenario
 from mc_nested.arrays import Arrays, Int64s
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import AGENT_SPECS, Agent

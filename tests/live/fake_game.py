@@ -14,9 +14,9 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Button, Devices, Frame, Keyboard, Pointer, Region
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.reading import Block, Reading, Target
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.game_screen import GameScreen
+from mc_nested.live.vision.layout import Scales
 from mc_nested.live.vision.menu_labels import MenuButton
 
 TICK = 0.05

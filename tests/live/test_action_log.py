@@ -1,7 +1,12 @@
-"""What playing took, as plain numbers."""
+"""What playing took, as plain numbers.
 
-from mc_nested.live.action_log import ActionLog, percentile
-from mc_nested.live.motion.effort import Effort
+Failed episodes: counted, accepted up to a limit, but never after a person stopped the game.
+"""
+
+import pytest
+
+from mc_nested.errors import NotConfirmedError, StoppedError
+from mc_nested.live.action_log import MOST_IN_A_ROW, PROGRESS, ActionLog, Effort, FailureBudget, percentile
 
 
 def test_percentiles_are_values_that_shares_lie_below() -> None:
@@ -25,3 +30,44 @@ def test_the_summary_counts_what_the_body_did() -> None:
         "failed_resets": 0,
         "recoveries": 0,
     }
+
+
+ERROR = NotConfirmedError("the agent looks away")
+
+
+def test_failed_episodes_are_counted_with_what_the_last_errors_said() -> None:
+    failure_budget = FailureBudget()
+    for steps in range(4):
+        failure_budget.record_failure(NotConfirmedError(f"problem {steps}"), steps)
+    assert failure_budget.summary() == {"spoiled_episodes": 4, "last_problems": ["problem 1", "problem 2", "problem 3"]}
+
+
+def test_too_many_in_a_row_are_an_error() -> None:
+    failure_budget = FailureBudget()
+    for _ in range(MOST_IN_A_ROW):
+        failure_budget.record_failure(ERROR, 3)
+    with pytest.raises(NotConfirmedError, match="looks away"):
+        failure_budget.record_failure(ERROR, 3)
+
+
+def test_failures_with_progress_between_them_go_on() -> None:
+    failure_budget = FailureBudget()
+    for episode in range(10 * MOST_IN_A_ROW):
+        failure_budget.record_failure(ERROR, episode * PROGRESS)
+
+
+def test_a_person_who_stops_the_game_ends_it_at_once() -> None:
+    with pytest.raises(StoppedError):
+        FailureBudget().record_failure(StoppedError("the panic key was pressed"), 0)
+
+
+def test_progress_is_counted_from_the_last_failure_and_starts_the_row_at_one() -> None:
+    failure_budget = FailureBudget()
+    steps = 0
+    for _ in range(MOST_IN_A_ROW):
+        failure_budget.record_failure(ERROR, steps := steps + PROGRESS - 1)
+    failure_budget.record_failure(ERROR, steps := steps + PROGRESS)
+    for _ in range(MOST_IN_A_ROW - 1):
+        failure_budget.record_failure(ERROR, steps := steps + PROGRESS - 1)
+    with pytest.raises(NotConfirmedError, match="looks away"):
+        failure_budget.record_failure(ERROR, steps)

@@ -10,7 +10,7 @@ from mc_nested.live.connection import GameConnection, connect
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.profile.tables import InputTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 from tests.live.fake_game import FakeGame, FakeScreen, connection_to, devices_of
 from tests.live.menus.fake_menus import FakeMenus, connection_of
 

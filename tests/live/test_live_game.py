@@ -20,7 +20,7 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import RESET_TRIES, LiveGame, check_fits
-from mc_nested.live.menus.commands import reset_commands
+from mc_nested.live.menus.reset import reset_commands
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import GameVersion, Profile, WorldTable

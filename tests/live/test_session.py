@@ -9,13 +9,13 @@ import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, FontError, LiveError, NotInFrontError, ProfileError, StoppedError
-from mc_nested.live.input.panic import Stop
-from mc_nested.live.model.scales import Scales
+from mc_nested.live.input.stops import Stop
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable, WindowTable
 from mc_nested.live.session import fingerprint_of, open_live_game
+from mc_nested.live.vision.layout import Scales
 from sim.client.client import VirtualClient
-from sim.client.drawing import hud_layers
+from sim.client.drawing import gui_layers
 from sim.client.game.debug_entries import GAME_DEFAULT
 from sim.client.settings import ClientSettings
 from tests.live.virtual_session import ARENA, font_in, live_on, opener, profile_in, saved
@@ -64,7 +64,7 @@ def test_a_hotbar_that_can_not_be_seen_is_refused_soon_and_nothing_is_pressed(
     version: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # As a resource pack may draw it.
-    monkeypatch.setattr(hud_layers, "_HOTBAR_FRAME", {0: 20, 1: 0x70, 2: 0x40, 19: 0x60, 20: 0x50, 21: 20})
+    monkeypatch.setattr(gui_layers, "_HOTBAR_FRAME", {0: 20, 1: 0x70, 2: 0x40, 19: 0x60, 20: 0x50, 21: 20})
     client = VirtualClient(version=version)
     began = client.clock.now()
     with pytest.raises(LiveError, match="the hotbar isn't seen"), live_on(client)(LINE, profile_in(tmp_path), print):

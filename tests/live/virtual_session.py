@@ -14,7 +14,7 @@ from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile, ScreenTable
 from mc_nested.live.session import open_live_game
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 
 OpenDevices = Callable[[str], AbstractContextManager[Devices]]
 

@@ -13,10 +13,10 @@ from pathlib import Path
 
 import pytest
 
-from calibration.font.of_recording import font_of_recording
+from calibration.font.sources import font_of_recording
 from calibration.installation.folders import System
 from mc_nested.errors import FontError
-from mc_nested.live.recording.replay import replay
+from mc_nested.live.recording.replayed_run import replay
 from mc_nested.live.vision.font import ENTRY, Font, load_font
 from tests.calibration.contexts import font_file_in
 from tests.sim.client.playing import FONT

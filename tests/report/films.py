@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from PIL import Image
 
-from mc_nested.arena.picture import Picture
+from mc_nested.arena.drawing import Picture
 
 
 def flat(colour: tuple[int, int, int], width: int = 32, height: int = 24) -> Picture:

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from mc_nested.arena.picture import Picture, draw_picture
+from mc_nested.arena.drawing import Picture, draw_picture
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.report.arena_picture import (
     ARENA_PX,

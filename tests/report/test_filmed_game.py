@@ -5,7 +5,7 @@ import pytest
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
-from mc_nested.arena.picture import Picture
+from mc_nested.arena.drawing import Picture
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.report.arena_picture import Moment, beside, box_for, draw_moment
 from mc_nested.report.film import Film

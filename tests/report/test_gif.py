@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from mc_nested.arena.picture import COLOURS, draw_picture
+from mc_nested.arena.drawing import COLOURS, draw_picture
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.report.gif import GifEncoder
 from tests.report.films import GREEN, RED, pictures_of

@@ -6,7 +6,7 @@ from pathlib import Path
 import cv2
 import pytest
 
-from mc_nested.arena.design_kind import KINDS
+from mc_nested.arena.design import KINDS
 from mc_nested.studies.benchmark import COLUMNS, STUDY, report
 from mc_nested.studies.study import write_report
 from tests.studies.made_benchmark import contestant, made_benchmark, played

@@ -15,6 +15,7 @@ from mc_nested.view.status_files import (
     KEEP_EVERY_S,
     MOST_KEPT,
     NOW,
+    Scrubber,
     StatusFiles,
     history_of,
     remove_status,
@@ -169,3 +170,33 @@ def test_any_words_and_numbers_come_back(doing: str, title: str, since: float, s
 
 def test_bytes_that_are_no_text_are_written_as_question_marks() -> None:
     assert Status(format=FORMAT, what="train", title="r\udce9").title == "r?"
+
+
+STATUSES = [LIVE.model_copy(update={"at": float(number)}) for number in range(41)]
+
+
+def test_it_moves_by_a_moment_and_by_a_tenth() -> None:
+    past = Scrubber(STATUSES, 20)
+
+    assert past.moved(-1).status.at == 19
+    assert past.moved(1).status.at == 21
+    assert past.jumped(-1).status.at == 16
+    assert past.jumped(2).status.at == 28
+
+
+@given(st.lists(st.integers(-100, 100)))
+def test_it_stops_at_both_ends(moves: list[int]) -> None:
+    past = Scrubber(STATUSES, 20)
+    for move in moves:
+        past = past.moved(move)
+        assert past.status in STATUSES
+
+
+def test_its_line_has_a_mark_where_it_is_and_the_times_of_its_ends() -> None:
+    assert Scrubber(STATUSES, 0).line(29).plain == "00:00:00 ●────────── 00:00:40"
+    assert Scrubber(STATUSES, 20).line(29).plain == "00:00:00 ━━━━━●───── 00:00:40"
+    assert Scrubber(STATUSES, 40).line(29).plain == "00:00:00 ━━━━━━━━━━● 00:00:40"
+
+
+def test_a_history_of_one_moment_has_a_line_too() -> None:
+    assert Scrubber(STATUSES[:1], 0).line(25).plain == "00:00:00 ●────── 00:00:00"

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from mc_nested.live.model.key_places import PLACES
+from mc_nested.live.model.keys import PLACES
 from scripts.game_windows import SDL_3_4_WINDOWS, fetch_sdl
 from scripts.window_display import set_layout
 from scripts.windows_parts import windows_path

@@ -10,10 +10,8 @@ from gymnasium.error import ResetNeeded
 from gymnasium.spaces import Discrete, Space
 
 from mc_nested.arena.action import Action
-from mc_nested.arena.cooperative.team import Team
-from mc_nested.arena.cooperative.team_env import TeamEnv
-from mc_nested.arena.cooperative.team_game import TeamGame
-from mc_nested.arena.cooperative.team_picture import rendered_team
+from mc_nested.arena.cooperative.team import Team, TeamGame
+from mc_nested.arena.cooperative.team_env import TeamEnv, rendered_team
 from mc_nested.arena.env import RENDERING, highest_observation, space_up_to
 from mc_nested.arrays import Int64s
 from mc_nested.errors import UserError

@@ -1,6 +1,9 @@
-"""TeamEnv: the episodes of a team, over any TeamGame: what each builder sees and earns, and when it is over."""
+"""TeamEnv: the episodes of a team, over any TeamGame: what each builder sees and earns, and when it is over.
 
-from collections.abc import Mapping, Sequence
+Its arena is drawn from above, the far edge on top, each builder in a colour of its own.
+"""
+
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,8 +12,8 @@ from gymnasium.error import ResetNeeded
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.cooperative.team import Team
-from mc_nested.arena.cooperative.team_game import TeamGame
+from mc_nested.arena.cooperative.team import Team, TeamGame
+from mc_nested.arena.drawing import AGENT_BODY, CELL_PX, Colour, Picture, draw_agent, draw_picture, kind_of
 from mc_nested.arena.game import Resumable
 from mc_nested.arena.rules import cells_of, grid_of
 from mc_nested.arena.vector import NO_ACTION
@@ -112,3 +115,35 @@ class TeamEnv:
     def _observations(self) -> Int64s:
         left = self.team.scenario.blocks - len(self._placed)
         return np.array([(*cell, left) for cell in self._cells], dtype=np.int64)
+
+
+BODIES: tuple[Colour, ...] = (AGENT_BODY, (34, 122, 74), (122, 66, 160), (24, 118, 150))
+"""The builders' colours, by number: red, green, violet, blue."""
+
+
+def draw_team_text(team: Team, cells: Sequence[Cell], placed: Collection[Cell]) -> str:
+    """The arena as a line of text a row, two characters a cell; a builder is its number."""
+    across = range(team.scenario.size)
+    number_at = {cell: str(number) for number, cell in enumerate(cells)}
+    rows = (
+        " ".join(number_at.get((x, y)) or kind_of(team.scenario, None, placed, (x, y)) for x in across)
+        for y in reversed(across)
+    )
+    return "\n".join(rows)
+
+
+def draw_team_picture(team: Team, cells: Sequence[Cell], placed: Collection[Cell], cell_px: int = CELL_PX) -> Picture:
+    """The arena as ``draw_picture`` draws it, (size * cell_px, size * cell_px, 3), with every builder."""
+    picture = draw_picture(team.scenario, None, placed, cell_px)
+    for cell, body in zip(cells, BODIES, strict=False):
+        draw_agent(picture, team.scenario.size, cell, cell_px, body)
+    return picture
+
+
+def rendered_team(mode: str | None, team: Team, cells: Sequence[Cell], placed: Collection[Cell]) -> Any:
+    """The arena from above as a render mode wants it; None without one."""
+    if mode == "rgb_array":
+        return draw_team_picture(team, cells, placed)
+    if mode == "ansi":
+        return draw_team_text(team, cells, placed)
+    return None

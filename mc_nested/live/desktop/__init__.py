@@ -25,8 +25,8 @@ def open_desktop(title: str) -> Iterator[Devices]:
     system = this_system()
     with system.open_window(title) as window:
         # Without a display these imports fail, so the window comes first: it says what is missing.
+        from mc_nested.live.desktop.camera import monitors
         from mc_nested.live.desktop.keyboard import open_keyboard
-        from mc_nested.live.desktop.monitors import monitors
         from mc_nested.live.desktop.pointer import DesktopPointer
 
         with open_camera(window) as camera, open_keyboard() as keyboard:

@@ -1,4 +1,4 @@
-"""The camera: pictures of the desktop through mss."""
+"""The camera: pictures of the desktop through mss, and the monitors that it lists."""
 
 import importlib
 import sys
@@ -58,3 +58,13 @@ def picture_every_pixel(mss_darwin: Any) -> None:
 
 def _off_the_screen() -> DesktopError:
     return DesktopError("the game's window can't be pictured: move it so that all of it is on the screen")
+
+
+def monitors() -> tuple[DesktopArea, ...]:
+    """Where each monitor is on the desktop; none where the system names none. It needs a display."""
+    try:
+        with mss.MSS() as shots:
+            each_alone = shots.monitors[1:]  # the first is all of them together
+    except ScreenShotError:
+        return ()
+    return tuple(DesktopArea(each["left"], each["top"], each["width"], each["height"]) for each in each_alone)

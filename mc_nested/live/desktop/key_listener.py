@@ -1,14 +1,15 @@
-"""Hears keys by their places, whichever window they go to and whatever the layout."""
+"""Hear keys by their places, whichever window they go to and whatever the layout: for the panic key and for hotkeys."""
 
 import queue
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from collections.abc import Callable, Collection, Iterator
+from contextlib import AbstractContextManager, contextmanager, suppress
 from typing import Any
 
-from mc_nested.live.model.key_places import EXTENDED, NAME_AT_MAC, NAME_AT_SCAN
+from mc_nested.errors import DesktopError
+from mc_nested.live.model.keys import EXTENDED, NAME_AT_MAC, NAME_AT_SCAN, canonical, check_key
 
 OnKey = Callable[[str, bool], None]
 """Gets a key's canonical name, and whether it went down; in the listener's thread. A held key may go down
@@ -106,3 +107,38 @@ def _mac_code(key: Any) -> int:
     """The virtual keycode of a key that pynput heard on macOS; -1 if it has none."""
     code = getattr(getattr(key, "value", key), "vk", None)
     return -1 if code is None else int(code)
+
+
+LOOK_S = 0.2
+"""Seconds between two checks that the listener still runs. A wait without a limit would block Ctrl+C on Windows."""
+
+
+@contextmanager
+def open_hotkeys(names: Collection[str], listen: Listen = listening) -> Iterator[Callable[[], str]]:
+    """While the context lasts, listen for these keys; yields a function that waits for a press and returns its key.
+
+    Needs a display: open the desktop first. Raises ProfileError for a name that no key has; the function raises
+    DesktopError where the desktop lets no program listen.
+    """
+    for name in names:
+        check_key(name)
+    wanted = {canonical(name): name for name in names}
+    pressed: queue.SimpleQueue[str] = queue.SimpleQueue()
+    down: set[str] = set()
+
+    def on_key(key: str, is_down: bool) -> None:
+        if not is_down:
+            down.discard(key)
+        # A key that is held long sends many presses and one release.
+        elif key in wanted and key not in down:
+            down.add(key)
+            pressed.put(wanted[key])
+
+    def wait() -> str:
+        while is_listening():
+            with suppress(queue.Empty):
+                return pressed.get(timeout=LOOK_S)
+        raise DesktopError("this desktop lets no program listen for keys: allow it, or use another desktop")
+
+    with listen(on_key) as is_listening:
+        yield wait

@@ -10,9 +10,7 @@ from typing import Protocol
 
 from mc_nested.errors import DesktopError
 from mc_nested.live.desktop.lost_display import LOST, raise_when_display_lost
-from mc_nested.live.model.key_names import place_of
-from mc_nested.live.model.key_places import PLACES, KeyPlace
-from mc_nested.live.model.key_symbols import SHIFT, Layout, missing_keys, stroke_for
+from mc_nested.live.model.keys import PLACES, SHIFT, KeyPlace, Layout, missing_keys, place_of, stroke_for
 
 
 class KeySender(Protocol):

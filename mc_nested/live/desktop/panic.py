@@ -10,8 +10,8 @@ from contextlib import contextmanager
 
 from mc_nested.live.desktop.key_listener import CLOSE_S, Listen, listening
 from mc_nested.live.desktop.pointer import load_pyautogui
-from mc_nested.live.input.panic import CORNER_REASON, KEY_REASON, Stop, corners_of
-from mc_nested.live.model.key_names import canonical, check_key
+from mc_nested.live.input.stops import CORNER_REASON, KEY_REASON, Stop, corners_of
+from mc_nested.live.model.keys import canonical, check_key
 
 
 @contextmanager

@@ -6,9 +6,8 @@ from contextlib import contextmanager
 from typing import Any
 
 from mc_nested.errors import ClipboardError, DesktopError
-from mc_nested.live.desktop.clipboard import not_text_error
 from mc_nested.live.desktop.window import TitledWindow, check_shown, closed_error, game_window
-from mc_nested.live.devices import DesktopArea
+from mc_nested.live.devices import DesktopArea, not_text_error
 
 if sys.platform == "darwin":
     import AppKit

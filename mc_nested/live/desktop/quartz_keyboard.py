@@ -7,7 +7,7 @@ from typing import Any
 from pynput.keyboard import Controller, Key, KeyCode
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.model.key_places import PLACES, KeyPlace
+from mc_nested.live.model.keys import PLACES, KeyPlace
 
 _MODIFIERS: dict[int, Any] = {
     PLACES[place].mac: Key[f"{name}_{side[0]}"]

@@ -8,7 +8,6 @@ from ctypes import wintypes
 from pathlib import PureWindowsPath
 
 from mc_nested.errors import ClipboardError
-from mc_nested.live.desktop.clipboard import not_text_error
 from mc_nested.live.desktop.window import (
     TitledWindow,
     check_shown,
@@ -16,7 +15,7 @@ from mc_nested.live.desktop.window import (
     game_window,
     minimised_error,
 )
-from mc_nested.live.devices import DesktopArea
+from mc_nested.live.devices import DesktopArea, not_text_error
 
 if sys.platform == "win32":
     import pyperclip

@@ -13,8 +13,7 @@ from contextlib import contextmanager
 from ctypes import wintypes
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.model.key_places import EXTENDED, PLACES, KeyPlace
-from mc_nested.live.model.key_symbols import CHARACTERS, Layout
+from mc_nested.live.model.keys import CHARACTERS, EXTENDED, PLACES, KeyPlace, Layout
 
 assert sys.platform == "win32"  # noqa: S101  mypy learns from it that the rest is for Windows alone
 

@@ -6,7 +6,7 @@ from typing import NamedTuple, Protocol
 
 from mc_nested.errors import DesktopError, NoWindowError, SeveralWindowsError
 from mc_nested.live.devices import DesktopArea
-from mc_nested.live.profile.window_title import GAME_TITLE
+from mc_nested.live.model.versions import GAME_TITLE
 
 SHOWN_TITLES = 8
 """Titles that an error names at most: enough to find a misspelling, and still one line."""

@@ -17,11 +17,11 @@ from mc_nested.live.desktop.window import (
     game_window,
     minimised_error,
 )
-from mc_nested.live.desktop.x11_camera import WindowCamera
 from mc_nested.live.desktop.x11_clipboard import X11Clipboard
 from mc_nested.live.desktop.xwayland import (
     ALLOW,
     PANIC,
+    WindowCamera,
     is_rootless,
     is_wayland_session,
     is_xwayland,

@@ -19,7 +19,7 @@ from Xlib.error import ConnectionClosedError, DisplayError, XauthError, XError
 from Xlib.protocol.request import SetSelectionOwner
 
 from mc_nested.errors import ClipboardError
-from mc_nested.live.desktop.clipboard import not_text_error
+from mc_nested.live.devices import not_text_error
 
 if TYPE_CHECKING:
     from Xlib.protocol.rq import Event

@@ -12,7 +12,7 @@ from Xlib.ext import record
 from Xlib.protocol import rq
 
 from mc_nested.live.desktop.x11_keyboard import EVDEV_TO_KEYCODE
-from mc_nested.live.model.key_places import NAME_AT_EVDEV
+from mc_nested.live.model.keys import NAME_AT_EVDEV
 
 READY_S = 2.0
 """Seconds that the server gets to begin, and the listener to end."""

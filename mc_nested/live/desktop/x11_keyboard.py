@@ -14,8 +14,7 @@ from Xlib.protocol import event
 
 from mc_nested.errors import DesktopError
 from mc_nested.live.desktop.x11_spare_keys import SpareKeys
-from mc_nested.live.model.key_places import PLACES, KeyPlace
-from mc_nested.live.model.key_symbols import CHARACTERS, Layout
+from mc_nested.live.model.keys import CHARACTERS, PLACES, KeyPlace, Layout
 
 EVDEV_TO_KEYCODE = 8
 """What an X server's keycode is more than evdev's code, as GLFW and every layout file for evdev take it."""

@@ -1,17 +1,21 @@
-"""Xwayland, the X server of a Wayland session (FACTS: Input and windows).
+"""Xwayland, the X server of a Wayland session, and pictures of one of its windows (FACTS: Input and windows).
 
-Rootless, as desktops run it, each window is a window of the desktop and there is no screen to picture. Rootful, it is
-an ordinary X server in one window.
+Rootless, as desktops run it, each window is a window of the desktop and there is no screen to picture, so that a window
+is pictured by itself. Rootful, it is an ordinary X server in one window.
 """
 
 import os
 
+import cv2
+import numpy as np
 from Xlib import X
 from Xlib.display import Display
-from Xlib.error import BadMatch
+from Xlib.error import BadMatch, CatchError
 from Xlib.ext import randr
+from Xlib.xobject.drawable import Drawable, Window
 
 from mc_nested.errors import DesktopError, NoWindowError
+from mc_nested.live.devices import DesktopArea, Frame
 
 ALL_PLANES = 0xFFFFFFFF
 
@@ -64,3 +68,77 @@ def no_x11_window_error(error: NoWindowError) -> NoWindowError:
     return NoWindowError(
         f"{error}; a game that uses Wayland itself isn't seen: start its launcher with {_AS_X11} before the command"
     )
+
+
+BAND_BYTES = 2_000_000
+"""python-xlib's time for an answer grows with the square of its length: a longer picture comes in such bands."""
+
+_BGRX = (24, 32)
+"""The depths whose pixels are four bytes: blue, green, red and one more."""
+
+
+class WindowCamera:
+    """The Camera of one window, wherever that is and whatever covers it.
+
+    A picture is one moment's, as the X server has it, also where it is fetched in bands. Raises (a picture): XError or
+    ConnectionClosedError where the window or the server is gone, DesktopError where the window is smaller than the
+    area, isn't shown, or has other colours than 8 bits each.
+    """
+
+    def __init__(self, display: Display, window: Window) -> None:
+        self._root = display.screen().root
+        self._window = window
+
+    def __call__(self, area: DesktopArea) -> Frame:
+        inside = self._inside(area)
+        depth = self._checked_depth(inside)
+        try:
+            data = self._pixels(inside, depth)
+        except BadMatch as error:
+            raise _cannot_be_pictured() from error
+        pixels = np.frombuffer(data, np.uint8).reshape(area.height, area.width, 4)
+        return np.asarray(cv2.cvtColor(pixels, cv2.COLOR_BGRA2BGR), np.uint8)
+
+    def _inside(self, area: DesktopArea) -> DesktopArea:
+        corner = self._root.translate_coords(self._window, 0, 0)
+        return DesktopArea(area.left - corner.x, area.top - corner.y, area.width, area.height)
+
+    def _checked_depth(self, inside: DesktopArea) -> int:
+        found = self._window.get_geometry()
+        if found.depth not in _BGRX:
+            raise DesktopError(f"the game's window has colours of {found.depth} bits: set the desktop to 24 bits")
+        right, bottom = inside.left + inside.width, inside.top + inside.height
+        if min(inside.left, inside.top) < 0 or right > found.width or bottom > found.height:
+            raise _cannot_be_pictured()
+        return int(found.depth)
+
+    def _pixels(self, inside: DesktopArea, depth: int) -> bytes:
+        rows = max(1, BAND_BYTES // (4 * inside.width))
+        if inside.height <= rows:
+            return _image(self._window, inside)
+        copy = self._root.create_pixmap(inside.width, inside.height, depth)
+        context = copy.create_gc(subwindow_mode=X.IncludeInferiors, graphics_exposures=False)
+        failed = CatchError()
+        try:
+            copy.copy_area(
+                context, self._window, inside.left, inside.top, inside.width, inside.height, 0, 0, onerror=failed
+            )
+            bands = [
+                _image(copy, DesktopArea(0, top, inside.width, min(rows, inside.height - top)))
+                for top in range(0, inside.height, rows)
+            ]
+        finally:
+            context.free()
+            copy.free()
+        if (error := failed.get_error()) is not None:
+            raise error
+        return b"".join(bands)
+
+
+def _image(drawable: Drawable, part: DesktopArea) -> bytes:
+    data = drawable.get_image(part.left, part.top, part.width, part.height, X.ZPixmap, ALL_PLANES).data
+    return data if isinstance(data, bytes) else str(data).encode("latin-1")
+
+
+def _cannot_be_pictured() -> DesktopError:
+    return DesktopError("the game's window can't be pictured while it is hidden or resized: bring it back, leave it so")

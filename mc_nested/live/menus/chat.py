@@ -6,13 +6,13 @@ chat key -> the line is seen, emptied -> letters -> the line is seen to hold all
 from collections.abc import Callable
 
 from mc_nested.errors import NotConfirmedError
-from mc_nested.live.chat_lines import chat_room
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.deadline import Deadline
+from mc_nested.live.devices import Deadline
 from mc_nested.live.menus.screens import LABELS
 from mc_nested.live.model.kinematics import TICK_S
 from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.chat_region import chat_room
 
 PATIENCE_S = 1.5
 """How long the chat's line may take to look as it should."""

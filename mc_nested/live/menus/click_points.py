@@ -3,10 +3,14 @@
 A point is clicked only where its picture is seen, before the mouse goes there and once it is there; so nothing is
 clicked on a screen that has changed, or on another one. The pattern is compared, not its brightness: a button is
 brighter under the mouse, and its label greyer where it can't be pressed.
+
+A profile's pictures are files: beside ``default.toml``, ``default-points/singleplayer.png``.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
+from urllib.parse import quote
 
 import cv2
 import numpy as np
@@ -14,6 +18,8 @@ import numpy as np
 from mc_nested.live.devices import Display, Frame
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.timing import MENU_LOOK_S
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.font import decoded
 
 WIDTH, HEIGHT = 96, 10
 """GUI pixels that a picture shows, around its point: a label's height and most of its length, and nothing outside any
@@ -119,3 +125,31 @@ def _varies(grey: Frame) -> bool:
 def _grey(picture: Frame) -> Frame:
     """One channel of a picture."""
     return np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY), np.uint8) if picture.size else picture[..., 0]
+
+
+def pictures_folder(profile: Path) -> Path:
+    """The folder of the pictures that belong to the profile in that file."""
+    return profile.with_name(f"{profile.stem}-points")
+
+
+def picture_file(profile: Path, point: str) -> Path:
+    """The file of a point's picture; a name of any letters is one file, in that folder."""
+    return pictures_folder(profile) / f"{quote(point, safe=' ')}.png"
+
+
+def picture_bytes(picture: Frame) -> bytes:
+    """A picture as a PNG file holds it."""
+    return cv2.imencode(".png", picture)[1].tobytes()
+
+
+def load_click_points(profile: Profile, path: Path) -> dict[str, ClickPoint]:
+    """The points of the profile in the file ``path`` that have a picture: without one, none is ever clicked."""
+    points = {}
+    for name, at in profile.points.items():
+        try:
+            picture = decoded(picture_file(path, name).read_bytes(), cv2.IMREAD_COLOR)
+        except OSError:
+            continue
+        if picture is not None:
+            points[name] = ClickPoint(name, at, np.asarray(picture, np.uint8))
+    return points

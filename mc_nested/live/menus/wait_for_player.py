@@ -5,8 +5,7 @@ from collections.abc import Callable
 
 from mc_nested.errors import NotInFrontError, UnreadableError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.deadline import Deadline
-from mc_nested.live.devices import SWITCH_KEYS, Devices
+from mc_nested.live.devices import SWITCH_KEYS, Deadline, Devices
 from mc_nested.live.menus.click_points import ClickPoints
 from mc_nested.live.menus.screens import NO_HOTBAR, identify_screen
 from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, why_none_is_named

@@ -10,14 +10,26 @@ FIRST_WITH_ENTRIES = (1, 21, 9)
 """The first version whose debug screen is made of entries; before it, all that is needed is always shown."""
 
 POSITION = "player_position"
+TARGET, TARGET_FROM_26_1 = "looking_at_block", "looking_at_block_state"
+"""The entry of the block that is looked at."""
+
+DEFAULT_ENTRIES = (
+    *("3d_crosshair", "fps", "game_version", "memory", POSITION, "player_section_position"),
+    *("simple_performance_impactors", "system_specs", "tps"),
+)
+"""What the game shows where nobody has chosen: in every version so far, not the block looked at."""
+
+PERFORMANCE_ENTRIES = ("gpu_utilization", "memory", "simple_performance_impactors", "tps")
+"""What its profile "performance" shows besides ``fps``, which is always on in it."""
+
+ASSUMED_DATA, DATA_OF_1_21_11 = 4649, 4671
+"""Data versions: the one that a file is taken to have which names none, and that of 1.21.11."""
 
 GROUND_PITCH_DEG = 30.0
 """At this pitch or more the player looks at the ground, at most some 3 blocks away, and a block is looked at."""
 
 NONE_NAMED = "the debug screen names no block, though the ground is looked at"
 LOOK_DOWN = "look down at the ground, and run this again"
-
-_TARGET, _TARGET_FROM_26_1 = "looking_at_block", "looking_at_block_state"
 
 
 def has_entries(version: str) -> bool:
@@ -27,7 +39,7 @@ def has_entries(version: str) -> bool:
 
 def target_entry(version: str) -> str:
     """The id of the entry for the block that is looked at."""
-    return _TARGET if version_numbers(version) < (26, 1) else _TARGET_FROM_26_1
+    return TARGET if version_numbers(version) < (26, 1) else TARGET_FROM_26_1
 
 
 def on_button(version: str) -> str:
@@ -38,7 +50,7 @@ def on_button(version: str) -> str:
 def switch_on(version: str | None) -> str:
     """How to switch that entry on in the game; None where the version isn't known."""
     if version is None:
-        return f"from 1.21.9 on press F3+F6, and set {_TARGET} (from 26.1 on {_TARGET_FROM_26_1}) to In Overlay"
+        return f"from 1.21.9 on press F3+F6, and set {TARGET} (from 26.1 on {TARGET_FROM_26_1}) to In Overlay"
     return f"press F3+F6 in the game, and set {target_entry(version)} to {on_button(version)}"
 
 

@@ -8,9 +8,8 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.model.coordinates import GroundVector
 from mc_nested.live.model.kinematics import TICK_S, plan_hold, push_of
 from mc_nested.live.model.timing import HALF_FRAME_S, surely_seen_after
-from mc_nested.live.motion.key_hold import KeyHold
+from mc_nested.live.motion.key_hold import KeyHold, Standstill
 from mc_nested.live.motion.pose_observer import PoseEstimate, PoseObserver
-from mc_nested.live.motion.standstill import Standstill
 from mc_nested.live.motion.walk_tracker import CoastingState, Hold, WalkTracker
 from mc_nested.live.profile.tables import Profile
 

@@ -10,15 +10,13 @@ from collections.abc import Callable, Mapping
 from mc_nested.arena.action import Cell
 from mc_nested.arena.rules import front_of, is_inside
 from mc_nested.errors import NotConfirmedError
+from mc_nested.live.action_log import Effort
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.model.coordinates import GroundVector, cell_at
+from mc_nested.live.model.coordinates import COASTING_CLICK, GroundVector, cell_at, hits_floor, is_click_right, is_near
 from mc_nested.live.model.debug_entries import NONE_NAMED, switch_on
 from mc_nested.live.model.reading import Block, Target
-from mc_nested.live.motion.click_range import COASTING_CLICK, hits_floor, is_click_right, is_near
-from mc_nested.live.motion.effort import Effort
 from mc_nested.live.motion.locomotion import Locomotion
-from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver, check_pose
-from mc_nested.live.motion.tick_phase import TickPhase
+from mc_nested.live.motion.pose_observer import PoseEstimate, PoseFrame, PoseObserver, TickPhase, check_pose
 from mc_nested.live.motion.walk_tracker import CoastingState
 from mc_nested.live.profile.tables import Profile
 

@@ -1,22 +1,111 @@
-"""PoseObserver: the agent's position and the block it looks at, read from the debug screen, and the game's tick phase.
+"""PoseObserver reads the agent's position, the block it looks at and the game's tick phase from the debug screen.
 
 Every press needs a look first: only what was just seen permits a press. Nothing is pressed while the view or the height
-is not the expected one.
+is not the expected one. PoseReader is the part of it that calibration shares: the next pose that can be read.
+
+TickPhase estimates when the game's ticks come. A step is seen some time after its tick: the game draws a frame, the
+desktop shows it, and only then does a look see it. So one observation says little. But ticks come every 50 ms, and the
+mean of many observations modulo 50 ms lies a fixed time behind them.
 """
 
+import cmath
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from mc_nested.arena.action import Cell
-from mc_nested.errors import NotConfirmedError
+from mc_nested.errors import NotConfirmedError, UnreadableError
 from mc_nested.live.connection import GameConnection
-from mc_nested.live.deadline import Deadline
+from mc_nested.live.devices import Deadline
 from mc_nested.live.model.coordinates import GroundVector, cell_at, offset_from, turn_between
-from mc_nested.live.model.reading import XYZ, Target, WorldPose
-from mc_nested.live.model.timing import EARLY_LOOK_S, FRAME_S, HALF_FRAME_S, SAME_FRAME_S
-from mc_nested.live.motion.pose_reader import PoseReader
-from mc_nested.live.motion.tick_phase import TickPhase
+from mc_nested.live.model.kinematics import TICK_S
+from mc_nested.live.model.reading import XYZ, Target, WorldPose, facts_of
+from mc_nested.live.model.timing import CAPTURE_LATENCY_S, EARLY_LOOK_S, FRAME_S, HALF_FRAME_S, SAME_FRAME_S
 from mc_nested.live.profile.tables import Profile
+
+
+class PoseReader:
+    """Reads poses from the debug screen; waits while it can't be read.
+
+    Raises (every read): UnreadableError if that takes longer than ``patience_s``; what the input controller raises.
+    """
+
+    def __init__(self, connection: GameConnection, patience_s: float) -> None:
+        self._controller = connection.controller
+        self._screen = connection.screen
+        self._clock = connection.devices.clock
+        self._journal = connection.journal
+        self._patience_s = patience_s
+        self.is_delayed = False
+        """Whether the last pose was read only after frames that couldn't be read."""
+
+    def read(self) -> tuple[float, WorldPose, Target | None]:
+        """When a readable picture was taken, the pose on it, and the block looked at."""
+        self.is_delayed = False
+        patience = Deadline(self._clock, self._patience_s)
+        while True:
+            at = self._clock.now()
+            reading = self._screen.read()
+            self._journal.note("reads", **facts_of(reading))
+            if reading.xyz is not None and reading.yaw is not None and reading.pitch is not None:
+                return at, WorldPose(reading.xyz, reading.yaw, reading.pitch), reading.target
+            self.is_delayed = True
+            # A window in front of the game can't be read, but it is the reason.
+            self._controller.check_front()
+            if patience.has_passed:
+                reason = reading.problem or "it shows no Facing line"
+                raise UnreadableError(f"the debug screen was unreadable for {self._patience_s:g} s: {reason}")
+            self._controller.wait(FRAME_S)
+
+
+DECAY = 0.9
+"""The weight that earlier observations keep with each new one: about the last ten count."""
+
+MIN_AGREEMENT = 0.35
+"""How much observations must agree, of 1: those of a game without ticks reach 0.23, those of one with ticks 0.5."""
+
+ENOUGH = 6.0
+"""Weight of observations that the estimate needs; older ones weigh less."""
+
+
+class TickPhase:
+    """When ticks come, in seconds of the clock that the observations are given in.
+
+    Args:
+        capture_latency_s: from a tick until its step is on the screen, on average.
+    """
+
+    def __init__(self, capture_latency_s: float = CAPTURE_LATENCY_S) -> None:
+        self._capture_latency_s = capture_latency_s
+        self._sum = 0j
+        self._weight = 0.0
+
+    @property
+    def state(self) -> tuple[float, float, float]:
+        """What the estimate rests on, to go on from: the sum of directions, and their weight."""
+        return self._sum.real, self._sum.imag, self._weight
+
+    def go_on_from(self, state: tuple[float, float, float]) -> None:
+        """Take the estimate that had this state."""
+        real, imaginary, self._weight = state
+        self._sum = complex(real, imaginary)
+
+    def saw_step(self, since: float, at: float) -> None:
+        """Take in that a step was first seen by the look ``at``, and not yet by the one before, at ``since``."""
+        tick = (since + at) / 2 - self._capture_latency_s
+        self._sum = DECAY * self._sum + cmath.exp(2j * math.pi * tick / TICK_S)
+        self._weight = DECAY * self._weight + 1.0
+
+    @property
+    def is_known(self) -> bool:
+        """Whether there are enough observations and they agree."""
+        return self._weight >= ENOUGH and abs(self._sum) >= MIN_AGREEMENT * self._weight
+
+    def next(self, after: float, offset: float = 0.0) -> float:
+        """The first time from ``after`` on that is ``offset`` seconds behind a tick."""
+        first = cmath.phase(self._sum) / (2 * math.pi) * TICK_S + offset
+        return after + (first - after) % TICK_S
+
 
 VIEW_TOLERANCE = 0.5
 """Degrees that the view may be off: the debug screen shows tenths (FACTS: The F3 debug screen)."""

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 from mc_nested.errors import DesktopError, ProfileError
-from mc_nested.live.model.scales import Scales, largest_gui_scale
+from mc_nested.live.model.versions import may_be_shared, state_in, version_in
 from mc_nested.live.profile.tables import CalibratedTable, GameVersion
-from mc_nested.live.profile.window_title import may_be_shared, state_in, version_in
+from mc_nested.live.vision.layout import Scales, largest_gui_scale
 
 
 @dataclass(frozen=True)

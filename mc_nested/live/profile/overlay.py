@@ -4,7 +4,7 @@ import dataclasses
 
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.layout import VANILLA, Overlay
-from mc_nested.live.vision.layouts import LAYOUTS
+from mc_nested.live.vision.overlay import LAYOUTS
 from mc_nested.live.vision.standin import STANDIN
 
 

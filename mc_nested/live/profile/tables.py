@@ -10,14 +10,12 @@ from typing import Annotated, Literal
 from pydantic import AliasChoices, Field, field_validator, model_validator
 
 from mc_nested.errors import ProfileError
-from mc_nested.live.model.key_names import canonical, check_key
+from mc_nested.live.model.keys import canonical, check_key
 from mc_nested.live.model.kinematics import INERTIA, SNEAKING, walk_response
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.model.timing import CAPTURE_LATENCY_S, INPUT_LATENCY_S
-from mc_nested.live.model.versions import is_minecrafts, version_numbers
+from mc_nested.live.model.versions import GAME_TITLE, is_minecrafts, version_numbers
 from mc_nested.live.profile.arena import Arena, ProfileTable
-from mc_nested.live.profile.window_title import GAME_TITLE
-from mc_nested.live.vision.layout import LayoutName
+from mc_nested.live.vision.layout import LayoutName, Scales
 
 Dialect = Literal["1.12", "1.13", "1.17"]
 """The first version of each syntax of the commands (FACTS: Commands)."""

@@ -2,7 +2,8 @@
 
 A reading comes with its lines' ink, if the same is read from that alone. The whole picture is kept, the chat blanked,
 where a frame could not be read, where no block is looked at, where the ink is not enough, and every few seconds; all
-that within a budget. Pixels of a window that was resized name its size.
+that within a budget of so many bytes a second on average, and some at once. Pixels of a window that was resized name
+its size.
 """
 
 import time
@@ -14,8 +15,7 @@ import cv2
 
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Reading
-from mc_nested.live.recording.byte_budget import ByteBudget
-from mc_nested.live.recording.plain_values import plain
+from mc_nested.live.recording.format import plain_value
 from mc_nested.live.recording.tape import Call
 from mc_nested.live.recording.text_pixels import TextPixels, paint, reads_the_same, text_pixels_of
 from mc_nested.live.vision.chat_region import blank_chat
@@ -24,6 +24,35 @@ from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GlyphGrid
 from mc_nested.live.vision.screen_lines import ScreenLines
 from mc_nested.live.vision.screen_reader import Look
+
+BYTES_A_SECOND = 60_000
+"""3.6 MB a minute."""
+
+AT_ONCE = 3_000_000
+"""About one picture of a large window that can't be packed well."""
+
+
+class ByteBudget:
+    """What may be spent now. A picture's size is known only once it is packed: the last one may overdraw it.
+
+    Args:
+        now: seconds from an arbitrary zero.
+    """
+
+    def __init__(self, now: float) -> None:
+        self._left: float = AT_ONCE
+        self._at = now
+
+    def may_spend(self, now: float) -> bool:
+        """Whether anything is left at that time."""
+        self._left = min(AT_ONCE, self._left + (now - self._at) * BYTES_A_SECOND)
+        self._at = now
+        return self._left > 0
+
+    def spend(self, count: int) -> None:
+        """Take so many bytes off."""
+        self._left -= count
+
 
 PICTURE_EVERY_S = 5.0
 """Seconds from one whole picture to the next while all goes well."""
@@ -66,11 +95,11 @@ class CallEncoder:
             return self._grab(*call[1:])
         if call[0] == "screen" and isinstance(call[-1], Look):
             return self._reading(call)
-        return plain(call), []
+        return plain_value(call), []
 
     def _grab(self, region: Region | None, frame: Frame) -> tuple[list[Any], list[KeptPicture]]:
         pictures = self._picture(self._without_chat(frame, region, None), region)
-        return ["grab", plain(region), pictures[0].index if pictures else None], pictures
+        return ["grab", plain_value(region), pictures[0].index if pictures else None], pictures
 
     def _reading(self, call: Call) -> tuple[list[Any], list[KeptPicture]]:
         *said, answer, look = call
@@ -91,7 +120,7 @@ class CallEncoder:
                 kept = {"picture": pictures[0].index, "is_enough": self._is_enough(blanked, look, answer)}
         if kept is not None and self.size != self._first_size:
             kept["size"] = list(self.size)
-        return [*(plain(each) for each in said), plain(answer), kept], pictures
+        return [*(plain_value(each) for each in said), plain_value(answer), kept], pictures
 
     def _without_chat(self, frame: Frame, region: Region | None, text: TextPixels | None) -> Frame:
         """A copy without the chat, at whichever scale it may be. The lines that were read are drawn again over that."""
@@ -117,7 +146,7 @@ class CallEncoder:
         self._budget.spend(len(png))
         self._pictured_at = now
         self._index += 1
-        return [KeptPicture(self._index, plain(region), png.tobytes())]
+        return [KeptPicture(self._index, plain_value(region), png.tobytes())]
 
     def _is_enough(self, blanked: Frame, look: Look, answer: object) -> bool:
         """Whether the picture without the chat gives the same answer."""

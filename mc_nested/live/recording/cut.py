@@ -10,9 +10,16 @@ import tomlkit
 from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.call_encoder import KeptPicture
-from mc_nested.live.recording.events import event_of
-from mc_nested.live.recording.part_writer import PartWriter, Timed
-from mc_nested.live.recording.recording_file import PartEnd, TimedCall, facts_of, parts_of, read_recording
+from mc_nested.live.recording.format import event_of
+from mc_nested.live.recording.recording_file import (
+    PartEnd,
+    PartWriter,
+    Timed,
+    TimedCall,
+    facts_of,
+    parts_of,
+    read_recording,
+)
 from mc_nested.toml_file import parse_document
 
 _BATCH = 500

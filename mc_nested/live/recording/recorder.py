@@ -1,7 +1,9 @@
-"""Recorder: keeps a live run in a folder, in files of a minute, while the run goes on.
+"""Recorder keeps a live run in a folder, in files of a minute, while the run goes on.
 
 The thread that plays only sets calls down. A thread of its own packs and writes them four times a second, so a run that
 is killed has lost less than its last second. Where the disk refuses, the recording ends, and the run goes on.
+
+A run hands its devices, screens and notes to a Recording; NoRecording keeps nothing.
 """
 
 import threading
@@ -9,18 +11,51 @@ import time
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import TracebackType
+from typing import Protocol
 
 from mc_nested.live.devices import Devices
 from mc_nested.live.journal import Fact, NoteKind
 from mc_nested.live.recording.call_encoder import CallEncoder, KeptPicture
-from mc_nested.live.recording.events import event_of
-from mc_nested.live.recording.format import SUFFIX
-from mc_nested.live.recording.part_writer import PartWriter, Timed
-from mc_nested.live.recording.recorded_devices import recorded
-from mc_nested.live.recording.recorded_screen import RecordedScreen
-from mc_nested.live.recording.recording import Stop
+from mc_nested.live.recording.format import SUFFIX, event_of
+from mc_nested.live.recording.recorded_devices import RecordedScreen, recorded
+from mc_nested.live.recording.recording_file import PartWriter, Timed
 from mc_nested.live.recording.tape import Tape
 from mc_nested.live.vision.game_screen import GameScreen, WindowScreen
+
+Stop = Callable[[str], None]
+
+
+class Recording(Protocol):
+    """Is put between a run and its window. It is a journal, too."""
+
+    def devices(self, devices: Devices) -> Devices:
+        """The same devices, recorded."""
+
+    def screen(self, screen: GameScreen) -> GameScreen:
+        """The same screen, recorded."""
+
+    def stopping(self, stop: Stop) -> Stop:
+        """What stops the run by a person's will, recorded."""
+
+    def note(self, kind: NoteKind, /, **facts: Fact) -> None:
+        """Set down a note of the journal."""
+
+
+class NoRecording:
+    """Puts nothing between them."""
+
+    def devices(self, devices: Devices) -> Devices:
+        return devices
+
+    def screen(self, screen: GameScreen) -> GameScreen:
+        return screen
+
+    def stopping(self, stop: Stop) -> Stop:
+        return stop
+
+    def note(self, kind: NoteKind, /, **facts: Fact) -> None:
+        """Do nothing."""
+
 
 WRITE_EVERY_S = 0.25
 
@@ -40,7 +75,6 @@ class Recorder:
         facts: what the recording is of, as texts by name.
         size: the window's width and height.
         say: shows the person one line, where the disk refuses.
-        kept_s: seconds that are kept at most.
         kept_bytes: bytes that are kept at most.
 
     Raises OSError where the folder can't be made.
@@ -53,7 +87,6 @@ class Recorder:
         size: tuple[int, int],
         say: Callable[[str], None],
         *,
-        kept_s: float = KEPT_S,
         kept_bytes: int = KEPT_BYTES,
     ) -> None:
         folder.mkdir(parents=True, exist_ok=True)
@@ -61,7 +94,7 @@ class Recorder:
         self.tape = Tape()
         self._facts = dict(facts)
         self._say = say
-        self._kept_s, self._kept_bytes = kept_s, kept_bytes
+        self._kept_bytes = kept_bytes
         self._encoder = CallEncoder(size)
         self._part: PartWriter | None = None
         self._part_began = 0.0
@@ -150,7 +183,7 @@ class Recorder:
 
     def _drop_old(self, now: float) -> None:
         sizes = [path.stat().st_size for _, path in self._closed]
-        while self._closed and (sum(sizes) > self._kept_bytes or now - self._closed[0][0] > self._kept_s):
+        while self._closed and (sum(sizes) > self._kept_bytes or now - self._closed[0][0] > KEPT_S):
             _, path = self._closed.pop(0)
             sizes.pop(0)
             path.unlink()

@@ -1,9 +1,13 @@
-"""Reading a recording: one file, or a folder of them, one after the other. Whatever was written whole is read."""
+"""The files of a recording, written and read again, one after the other where a folder has several.
+
+A file can be read at any moment, up to the last batch that was written: whatever was written whole is read.
+"""
 
 import base64
+import contextlib
 import json
 import struct
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,11 +15,12 @@ from typing import Any
 from mcap.exceptions import EndOfFile, McapError
 from mcap.records import Channel, Footer, Message, Metadata
 from mcap.stream_reader import StreamReader
+from mcap.writer import CompressionType, Writer
 from zstandard import ZstdError
 
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.call_encoder import KeptPicture
-from mc_nested.live.recording.format import CALLS, FACTS, FORMAT, SUFFIX, WINDOW
+from mc_nested.live.recording.format import CALLS, EVENTS, FACTS, FORMAT, SCHEMAS, SUFFIX, WINDOW
 
 LARGEST_RECORD = 256 * 2**20
 """Bytes: no record of ours is near it, and a damaged length must not fill the memory."""
@@ -141,3 +146,112 @@ def _check_format(part: Path, facts: Mapping[str, str]) -> None:
         raise RecordingError(
             f"{part}: is of format {written}, written by a newer mc-nested; this one reads up to {FORMAT}: update it"
         )
+
+
+Timed = tuple[int, Any]
+"""Nanoseconds of the time of day, and what it was."""
+
+
+class PartWriter:
+    """Writes an MCAP file, message by message. Each is packed, has a checksum, and is the system's at once.
+
+    Args:
+        path: the file, a new one.
+        facts: what the recording is of.
+
+    Raises (everything): OSError where the disk refuses.
+    """
+
+    def __init__(self, path: Path, facts: Mapping[str, str]) -> None:
+        self.path = path
+        self._file = path.open("xb")
+        # A chunk ends with each message: whatever is written later, this one is whole.
+        self._writer = Writer(self._file, chunk_size=1, compression=CompressionType.ZSTD)
+        self._writer.start(profile="", library="mc-nested")
+        self._channels = {}
+        for topic, (name, schema) in SCHEMAS.items():
+            schema_id = self._writer.register_schema(name, "jsonschema", schema.encode())
+            self._channels[topic] = self._writer.register_channel(topic, "json", schema_id)
+        self._writer.add_metadata(FACTS, dict(facts))
+
+    def write(
+        self, calls: Sequence[Timed], events: Sequence[Timed], pictures: Sequence[tuple[int, KeptPicture]]
+    ) -> None:
+        """Write a batch, the pictures first: a call that names one never stands before it."""
+        for at, picture in pictures:
+            self._message(WINDOW, at, _image(at, picture))
+        if events:
+            self._message(EVENTS, events[-1][0], {"list": [{"time_ns": at, **event} for at, event in events]})
+        if calls:
+            times, said = zip(*calls, strict=True)
+            self._message(CALLS, times[-1], {"list": said, "times_ns": times})
+        self._file.flush()
+
+    def close(self) -> None:
+        """Write the index, and close the file."""
+        try:
+            self._writer.finish()  # type: ignore[no-untyped-call]  # mcap leaves it untyped
+        finally:
+            self._file.close()
+
+    def abandon(self) -> None:
+        """Close the file as it is, where the disk refuses."""
+        with contextlib.suppress(OSError):
+            self._file.close()
+
+    def _message(self, topic: str, at: int, value: Mapping[str, Any]) -> None:
+        data = json.dumps(value, separators=(",", ":")).encode()
+        self._writer.add_message(self._channels[topic], at, data, at)
+
+
+def _image(at: int, picture: KeptPicture) -> dict[str, Any]:
+    return {
+        "timestamp": {"sec": at // 10**9, "nsec": at % 10**9},
+        "frame_id": "window",
+        "format": "png",
+        "data": base64.b64encode(picture.png).decode("ascii"),
+        "index": picture.index,
+        "region": picture.region,
+    }
+
+
+@dataclass(frozen=True)
+class Overview:
+    """A recording at a glance; times are nanoseconds of the time of day, None if it holds no call."""
+
+    what: str
+    version: str
+    began: int | None
+    ended: int | None
+    calls: int
+    actions: int
+    pictures: int
+    size: int
+    damage: tuple[str, ...]
+
+    @property
+    def seconds(self) -> float:
+        """From its first call to its last."""
+        return 0.0 if self.began is None or self.ended is None else (self.ended - self.began) / 1e9
+
+
+def overview_of(path: Path) -> Overview:
+    """Read a recording as a whole, its checksums too; RecordingError if it is foreign, newer, or nothing is left."""
+    facts = facts_of(path)
+    began = ended = None
+    calls = actions = pictures = 0
+    damage = []
+    for each in read_recording(path):
+        if isinstance(each, KeptPicture):
+            pictures += 1
+        elif isinstance(each, PartEnd):
+            if each.problem:
+                damage.append(f"{each.path.name}: {each.problem}")
+        else:
+            began = each.at if began is None else began
+            ended = each.at
+            calls += 1
+            actions += each.call[:2] == ["note", "acts"]
+    size = sum(part.stat().st_size for part in parts_of(path))
+    what, version = facts.get("what", "unknown"), facts.get("version", "unknown")
+    return Overview(what, version, began, ended, calls, actions, pictures, size, tuple(damage))

@@ -1,11 +1,14 @@
-"""A button's label below the debug screen, known by those of its dots that still show.
+"""What still shows of a menu's text: a button's label below the debug screen, and the words of a pause without a menu.
 
 From 1.21.9 on the debug screen lies over menus. Its ground is half-transparent, so a label's colour below it is known;
 behind its letters, brighter than anything that is dimmed, a dot may be anything (FACTS: The F3 debug screen).
+
+In a pause by F3+Esc the world stays bright. Its words are known by their shadow, too, since they are as white as snow;
+in another language, as a white text with a shadow that stands in that place (FACTS: Screens and their buttons).
 """
 
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from typing import NamedTuple
 
 import cv2
@@ -13,11 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.arrays import Bools
-from mc_nested.live.devices import Frame
-from mc_nested.live.vision.debug_boxes import ALPHA
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.vision.debug_boxes import ALPHA, FACTS_GREY, TITLE_GREY
+from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
-from mc_nested.live.vision.group_boxes import FACTS_GREY, TITLE_GREY
-from mc_nested.live.vision.text_colours import DISABLED, GLUE, INK_SPREAD, WHITE
+from mc_nested.live.vision.layout import DISABLED, GLUE, INK_SPREAD, WHITE
 
 _GROUNDS = ((), (FACTS_GREY,), (TITLE_GREY,), (FACTS_GREY, FACTS_GREY))
 """The greys that may lie over a dot: none, one, or one of each column of the debug screen."""
@@ -143,3 +146,60 @@ def _shares(mask: Bools, glyphs: NDArray[np.uint8]) -> NDArray[np.float32]:
     """For each place of a label in a mask, the part of its dots where the mask is set."""
     kernel = glyphs.astype(np.float32)
     return np.asarray(cv2.matchTemplate(mask.astype(np.float32), kernel, cv2.TM_CCORR) / kernel.sum(), np.float32)
+
+
+WORDS = ("Game Paused", "Game paused")
+"""From 1.18 on, and before."""
+
+_TOP = 10
+"""GUI pixels from the window's upper edge to the words, which stand in its middle."""
+
+_ABOVE, _BELOW = 1, 2
+"""Rows above the words, where nothing of them is, and below, where their shadow ends."""
+
+_ROOM_FOR_WORDS = 160
+"""GUI pixels that hold the words in any font and language."""
+
+_FEW = 20
+"""Dots with a shadow that are fewer than those of any words."""
+
+_LETTERS = slice(_ABOVE, _ABOVE + GLYPH_ROWS - 1)
+"""The rows of every capital letter. A boss's name and the chat's lines stand in others."""
+
+_OFF = 2
+"""Dots by which the middle of the words' ink may differ from the window's."""
+
+
+def pause_region(size: tuple[int, int], scale: int) -> Region:
+    """Where the words would stand in a window (width, height), in framebuffer pixels at that GUI scale."""
+    left = max(0, -(-size[0] // scale) // 2 - _ROOM_FOR_WORDS // 2)
+    rows = _ABOVE + GLYPH_ROWS + _BELOW
+    return Region(left * scale, (_TOP - _ABOVE) * scale, _ROOM_FOR_WORDS * scale, rows * scale)
+
+
+def shows_pause(frame: Frame, scale: int, font: Font) -> bool:
+    """Whether a picture of that region shows the words, most of them, or others there that nothing covers."""
+    dots = np.ascontiguousarray(frame[scale // 2 :: scale, scale // 2 :: scale])
+    if dots.shape[0] < _ABOVE + GLYPH_ROWS + _BELOW or dots.shape[1] < _ROOM_FOR_WORDS:
+        return False
+    shown = ShownDots(dots, WHITE[0])
+    if _are_words(shown.bare):
+        return True
+    return int(np.count_nonzero(shown.surely)) >= _FEW and any(
+        label_row(shown, casting, (_ROOM_FOR_WORDS - casting.shape[1]) // 2) == _ABOVE for casting in _words(font)
+    )
+
+
+@lru_cache(8)
+def _words(font: Font) -> tuple[NDArray[np.uint8], ...]:
+    return tuple(casting_dots(font.columns(words).rstrip(b"\0")) for words in WORDS)
+
+
+def _are_words(white: Bools) -> bool:
+    """Whether these dots, white with a shadow, are a text in the words' rows and in the middle."""
+    if np.count_nonzero(white) < _FEW:
+        return False
+    rows: Bools = np.asarray(white.any(axis=1))
+    across = np.flatnonzero(white.any(axis=0))
+    is_in_rows = rows[_LETTERS].all() and not rows[:_ABOVE].any() and not rows[_ABOVE + GLYPH_ROWS :].any()
+    return bool(is_in_rows and abs(int(across[0]) + int(across[-1]) + 1 - _ROOM_FOR_WORDS) <= 2 * _OFF)

@@ -12,8 +12,7 @@ from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.layout import Overlay
 from mc_nested.live.vision.overlay import POSITION, REDUCED, SCALES, SECTIONS, FoundScreen, find_debug_screen
 from mc_nested.live.vision.screen_lines import CLEAR, WHOLE, DebugLines, ScreenLines, Unreadable, matched, only_line
-from mc_nested.live.vision.target_block import target_block
-from mc_nested.live.vision.target_box import target_in_box
+from mc_nested.live.vision.target_block import target_block, target_in_box
 from mc_nested.live.vision.text_lines import UNKNOWN
 
 # What follows the third decimal or the last bracket is the world beside the box: the forms are complete without it.

@@ -4,19 +4,27 @@ from typing import Protocol
 
 from mc_nested.live.devices import Display, Frame, Region
 from mc_nested.live.model.reading import Reading
-from mc_nested.live.model.scales import Scales, largest_gui_scale
 from mc_nested.live.model.versions import draws_text_over_menus
+from mc_nested.live.vision.covered_label import pause_region, shows_pause
 from mc_nested.live.vision.font import SPACE, Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
-from mc_nested.live.vision.hotbar import HotbarLook, bottom_dots, bottom_region, hotbar_look, typed_dots
-from mc_nested.live.vision.layout import Overlay
+from mc_nested.live.vision.layout import INK_SPREAD, WHITE, Overlay, Scales, largest_gui_scale
 from mc_nested.live.vision.menu_labels import MenuButton, MenuLabels
 from mc_nested.live.vision.overlay import SCALES, find_overlay
-from mc_nested.live.vision.pause_words import pause_region, shows_pause
 from mc_nested.live.vision.screen_reader import Look, ScreenReader
 from mc_nested.live.vision.standin import STANDIN
-from mc_nested.live.vision.text_colours import INK_SPREAD, WHITE
-from mc_nested.live.vision.typed_line import FIRST_COLUMNS, begins_a_line, reads_as, typed_line_dots, typed_line_region
+from mc_nested.live.vision.window_bottom import (
+    FIRST_COLUMNS,
+    HotbarLook,
+    begins_a_line,
+    bottom_dots,
+    bottom_region,
+    hotbar_look,
+    reads_as,
+    typed_dots,
+    typed_line_dots,
+    typed_line_region,
+)
 
 WORLDS_TITLE = "Select World"
 """Above the list of worlds, the one screen where a click has to go where no label is."""

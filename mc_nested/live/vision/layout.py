@@ -1,9 +1,40 @@
-"""How a debug screen is laid out and drawn: what a reader has to know before it reads a line."""
+"""How the game writes on the screen: its colours, its scales, and how a debug screen is laid out.
+
+A reader has to know this before it reads a line (FACTS: The F3 debug screen).
+"""
 
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from mc_nested.live.vision.text_colours import PLAIN, Colour
+Colour = tuple[int, int, int]
+"""Red, green, blue."""
+
+INK_SPREAD = 4
+"""How far a channel of the ink may lie from the text's: 221 to 224 were seen for 224 (FACTS: The F3 debug screen)."""
+
+PLAIN: Colour = (224, 224, 224)
+"""The debug screen's text, what is typed into the chat, and the buttons' labels before 1.16."""
+
+WHITE: Colour = (255, 255, 255)
+GLUE: Colour = (208, 208, 208)
+"""What stands between the values, which are white, of the debug screen from 26.4 on."""
+
+PURE_GREEN: Colour = (0, 255, 0)
+PURE_RED: Colour = (255, 0, 0)
+GREY: Colour = (170, 170, 170)
+AQUA: Colour = (85, 255, 255)
+YELLOW: Colour = (255, 255, 85)
+GREEN: Colour = (85, 255, 85)
+LIGHT_PURPLE: Colour = (255, 85, 255)
+GOLD: Colour = (255, 170, 0)
+RED: Colour = (255, 85, 85)
+
+UNDER_MOUSE: Colour = (255, 255, 160)
+"""A button's label while the mouse is over it."""
+
+DISABLED: Colour = (160, 160, 160)
+"""The label of a button that can't be pressed now."""
+
 
 LayoutName = Literal["vanilla", "boxes", "stand-in"]
 
@@ -84,3 +115,21 @@ class Overlay:
     def pitch(self) -> int:
         """Dots from one line to the next."""
         return self.layout.pitch
+
+
+class Scales(NamedTuple):
+    """``gui`` is that of menus, chat and hotbar, ``debug`` that of the debug screen's text, the same or smaller.
+
+    Up to 26.2 they are always the same.
+    """
+
+    gui: int
+    debug: int
+
+    def __str__(self) -> str:
+        return f"{self.gui}" if self.gui == self.debug else f"{self.gui}, debug screen {self.debug}"
+
+
+def largest_gui_scale(size: tuple[int, int]) -> int:
+    """The largest GUI scale that a window (width, height) in framebuffer pixels can hold."""
+    return max(1, min(size[0] // 320, size[1] // 240))

@@ -13,8 +13,8 @@ from mc_nested.live.devices import Frame
 from mc_nested.live.vision.covered_label import CoveredLabels
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
+from mc_nested.live.vision.layout import DISABLED, INK_SPREAD, PLAIN, UNDER_MOUSE, WHITE, Colour
 from mc_nested.live.vision.overlay import SCALES
-from mc_nested.live.vision.text_colours import DISABLED, INK_SPREAD, PLAIN, UNDER_MOUSE, WHITE, Colour
 
 _COLOURS = (WHITE, PLAIN, UNDER_MOUSE, DISABLED)
 _LEAST = (min(PLAIN) - INK_SPREAD, min(DISABLED) - INK_SPREAD)

@@ -1,4 +1,9 @@
-"""Readings of picture files, as ``mc-nested read`` prints them."""
+"""Readings of picture files, as ``mc-nested read`` prints them.
+
+A picture may show more than the game's window, as one of the whole desktop does. In a window's own, the first line
+stands in the upper left corner, and the lines of the right column end at the right side (FACTS: The F3 debug screen;
+The stand-in).
+"""
 
 from pathlib import Path
 
@@ -8,10 +13,36 @@ import numpy as np
 from mc_nested.errors import PictureError
 from mc_nested.live.model.reading import Reading
 from mc_nested.live.vision.debug_screen import nothing_seen, read_found
+from mc_nested.live.vision.fact_lines import fact_from
 from mc_nested.live.vision.font import Font, decoded
+from mc_nested.live.vision.glyph_grid import GridPosition
 from mc_nested.live.vision.layout import Overlay
-from mc_nested.live.vision.overlay import find_debug_screen
-from mc_nested.live.vision.whole_window import shows_more_than_window
+from mc_nested.live.vision.overlay import FoundScreen, find_debug_screen
+from mc_nested.live.vision.screen_lines import ScreenLines
+from mc_nested.live.vision.text_lines import UNKNOWN, is_text
+
+_CORNERS = {"vanilla": ((2, 2),), "boxes": ((2, 3), (2, 6)), "stand-in": ((1, 1),)}
+"""Row and column of the first line's first dot by the layout; of boxes, a line's and a title's."""
+
+_ON_THE_RIGHT = "Java: "
+"""How the right column begins in every version of the game."""
+
+
+def shows_more_than_window(found: FoundScreen, font: Font) -> bool:
+    """Whether the debug screen that was found there stands elsewhere than in its window's corner, or is narrower."""
+    lines = ScreenLines(found.dots, font, found.overlay)
+    if not any(_begins(found, font, corner) for corner in _CORNERS[lines.layout.name]):
+        return True
+    has_right_side = lines.layout.name == "vanilla" and lines.holds(_ON_THE_RIGHT)
+    return has_right_side and not lines.right_column()
+
+
+def _begins(found: FoundScreen, font: Font, corner: GridPosition) -> bool:
+    if not found.overlay.layout.has_facts:
+        return is_text(found.dots, font, found.overlay, corner)
+    text = fact_from(found.dots, font, found.overlay, corner).text
+    return len(text) > 2 and UNKNOWN not in text[:3]
+
 
 _JPEG = b"\xff\xd8\xff"
 """How every JPEG file begins."""

@@ -4,12 +4,11 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Protocol
 
-from mc_nested.live.vision.facts import fact_from
+from mc_nested.live.vision.fact_lines import fact_from
 from mc_nested.live.vision.font import Font
-from mc_nested.live.vision.full_columns import columns_are_full
 from mc_nested.live.vision.glyph_grid import GlyphGrid, GridPosition
+from mc_nested.live.vision.hidden_lines import columns_are_full, may_hide_lines
 from mc_nested.live.vision.layout import Overlay, ScreenLayout
-from mc_nested.live.vision.notices import may_hide_lines
 from mc_nested.live.vision.text_lines import UNKNOWN, Line, is_text, line_from, line_up_to, positions_of
 
 WHOLE = r"(-?(?:0|[1-9]\d{0,7}))"

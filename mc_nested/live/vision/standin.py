@@ -5,9 +5,8 @@ It stands in the right column: the block's name without a namespace, its propert
 
 import re
 
-from mc_nested.live.vision.layout import Box, ScreenLayout
+from mc_nested.live.vision.layout import WHITE, Box, ScreenLayout
 from mc_nested.live.vision.screen_lines import CLEAR, DebugLines, Unreadable, check_whole, only_line, shown
-from mc_nested.live.vision.text_colours import WHITE
 from mc_nested.live.vision.text_lines import UNKNOWN, Line
 
 STANDIN = ScreenLayout(

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import SPACE, Font, Glyph
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid, GridPosition
-from mc_nested.live.vision.layout import Box, Overlay
-from mc_nested.live.vision.text_colours import GREEN, INK_SPREAD, RED, Colour
+from mc_nested.live.vision.layout import GREEN, INK_SPREAD, RED, Box, Colour, Overlay
 
 UNKNOWN = "\N{REPLACEMENT CHARACTER}"
 

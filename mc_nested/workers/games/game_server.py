@@ -14,7 +14,7 @@ from mc_nested.errors import DesktopError, LiveError, NotInFrontError, UserError
 from mc_nested.learn.agents import Agent
 from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.player import play_episode
-from mc_nested.live.failure_budget import FailureBudget
+from mc_nested.live.action_log import FailureBudget
 from mc_nested.workers.games.desk import Desk, Request
 from mc_nested.workers.games.order import GameAnswer, GameOrder
 

@@ -1,8 +1,13 @@
-"""The virtual clock: time passes only during waits, and events that fall due meanwhile happen at their times."""
+"""The virtual clock: time passes only during waits, and events that fall due meanwhile happen at their times.
+
+Frames are such events. All that the game does, it does then: it takes the input that came, and runs the ticks due.
+"""
 
 import heapq
 import itertools
+import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 Event = Callable[[], None]
 
@@ -32,3 +37,30 @@ class VirtualClock:
     def call_at(self, at: float, event: Event) -> None:
         """Run ``event`` at the time ``at``, or as soon as time passes; at equal times, in the order of the calls."""
         heapq.heappush(self._events, (at, next(self._order), event))
+
+
+_EXACT = 1e-6
+"""The part of a frame by which a time may miss a frame's own, as sums of floating point numbers do."""
+
+
+@dataclass(frozen=True)
+class Frames:
+    """Frames at ``fps`` a second, one of them at ``phase_s``. With ``math.inf`` there is a frame at any time.
+
+    A frame takes the input that has come, then runs the ticks that are due, at most ten, then is shown (FACTS: Keys).
+    """
+
+    fps: float
+    phase_s: float = 0.0
+
+    def at_or_after(self, time_s: float) -> float:
+        """The time of the first frame that isn't before ``time_s``."""
+        if math.isinf(self.fps):
+            return time_s
+        return self.phase_s + math.ceil((time_s - self.phase_s) * self.fps - _EXACT) / self.fps
+
+    def at_or_before(self, time_s: float) -> float:
+        """The time of the last frame that isn't after ``time_s``."""
+        if math.isinf(self.fps):
+            return time_s
+        return self.phase_s + math.floor((time_s - self.phase_s) * self.fps + _EXACT) / self.fps

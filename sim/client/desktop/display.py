@@ -7,8 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from mc_nested.live.devices import DesktopArea, Frame, Region
-from sim.client.desktop.clock import VirtualClock
-from sim.client.desktop.frames import Frames
+from sim.client.desktop.clock import Frames, VirtualClock
 from sim.client.desktop.window import VirtualWindow
 from sim.client.drawing.painter import Painter
 from sim.client.game.view import View

@@ -1,12 +1,11 @@
-"""The game's window on its desktop: whether it is in front, and how late keys reach it."""
+"""The game's window on its desktop: whether it is in front, how late keys reach it; and the desktop's clipboard."""
 
 from collections import deque
 from dataclasses import dataclass
 
 import numpy as np
 
-from sim.client.desktop.clock import Event, VirtualClock
-from sim.client.desktop.frames import Frames
+from sim.client.desktop.clock import Event, Frames, VirtualClock
 from sim.client.settings import Size
 
 
@@ -104,3 +103,16 @@ class VirtualWindow:
         self._last_arrival = max(self._last_arrival, arrival)
         self._arriving.append((self._last_arrival, event))
         self._clock.call_at(self._frames.at_or_after(self._last_arrival), self.poll)
+
+
+class VirtualClipboard:
+    """A text, empty at first."""
+
+    def __init__(self) -> None:
+        self._text = ""
+
+    def read(self) -> str:
+        return self._text
+
+    def write(self, text: str) -> None:
+        self._text = text

@@ -1,7 +1,7 @@
 """The faces of the world's blocks that can be seen at all, as squares in space.
 
-Each face has a darker rim, as the grain of the window's scene has (grain.py); its dots are too fine for a picture that
-is made smaller, so the rest of a face has the grain's mean.
+Each face has a darker rim, as the grain of the window's scene has (world_shapes.py); its dots are too fine for a
+picture that is made smaller, so the rest of a face has the grain's mean.
 """
 
 from collections.abc import Mapping
@@ -12,11 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mc_nested.live.model.reading import Block
-from sim.client.drawing.block_colours import block_colour
-from sim.client.drawing.cubes import FACES, HOLE
-from sim.client.drawing.daylight import light
-from sim.client.drawing.grain import DOTS, RIM, grain
-from sim.client.game.colours import Colour
+from sim.client.drawing.world_shapes import DOTS, FACES, HOLE, RIM, block_colour, grain, light
+from sim.client.game.widgets import Colour
 from sim.client.game.world import AIR
 
 NEAR_FLOOR = 12

@@ -10,13 +10,11 @@ from mc_nested.live.model.reading import Block, Reading, Target
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.overlay import SCALES
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.scenery import WORLDS, random_world
+from sim.client.drawing.painter import WORLDS, random_world
 from sim.client.game.debug_entries import TUTORIAL, known_entries, shown_entries
 from sim.client.game.edition import Edition, Layout
 from sim.client.game.f3_screen import BY_ENTRIES, F3Screen
 from sim.client.game.f3_text import LAYOUTS
-
-__all__ = ["WINDOWS", "WORLDS", "expected", "frames", "random_screen", "random_world"]
 
 WINDOWS = ((854, 480), (1280, 720), (1366, 768), (1600, 900), (1920, 1080), (2560, 1440))
 """Widths and heights in pixels, wide enough that the two columns don't overlap."""

@@ -15,12 +15,20 @@ from numpy.typing import NDArray
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Block
-from sim.client.drawing import daylight
-from sim.client.drawing.block_colours import block_colour
+from sim.client.drawing import world_shapes
 from sim.client.drawing.block_faces import Faces, both, brightness, cube_faces, faces_of, floor_faces, inside_rims
-from sim.client.drawing.camera import FIELD_OF_VIEW_DEG, NEAR, Matrix, held_block, projection, view
-from sim.client.drawing.cubes import FACES, FAR
 from sim.client.drawing.layers import Rect
+from sim.client.drawing.world_shapes import (
+    FACES,
+    FAR,
+    FIELD_OF_VIEW_DEG,
+    NEAR,
+    Matrix,
+    block_colour,
+    held_block,
+    projection,
+    view,
+)
 from sim.client.game.view import Eye, Sight
 from sim.client.game.world import block_of
 
@@ -107,9 +115,9 @@ class WorldLayer:
         rises = up * math.cos(tilt) - math.sin(tilt)
         falls = np.where(rises < 0, -rises, 1e-9)
         away = (eye.position[1] - self._sight.floor) / falls
-        fog = np.clip((away / FAR - daylight.FOG_FROM) / (1 - daylight.FOG_FROM), 0, 1)[:, np.newaxis]
+        fog = np.clip((away / FAR - world_shapes.FOG_FROM) / (1 - world_shapes.FOG_FROM), 0, 1)[:, np.newaxis]
         floor = np.array(block_colour(self._sight.floor_block)) * brightness()[0]
-        rows = floor * (1 - fog) + np.array(daylight.SKY) * 255 * fog
+        rows = floor * (1 - fog) + np.array(world_shapes.SKY) * 255 * fog
         return np.rint(rows[:, ::-1]).astype(np.uint8)
 
     @cached_property

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import NamedTuple
 
-from sim.client.game.colours import RED, WHITE, Colour
 from sim.client.game.options import HALF
+from sim.client.game.widgets import RED, WHITE, Colour
 
 LONGEST = 256
 """Characters that a typed line may have."""

@@ -10,6 +10,14 @@ from types import MappingProxyType
 from typing import Any, Literal, get_args
 
 from mc_nested.errors import UserError
+from mc_nested.live.model.debug_entries import (
+    ASSUMED_DATA,
+    DATA_OF_1_21_11,
+    DEFAULT_ENTRIES,
+    PERFORMANCE_ENTRIES,
+    TARGET,
+    TARGET_FROM_26_1,
+)
 from sim.client.game.edition import Edition
 
 Status = Literal["alwaysOn", "inOverlay", "never"]
@@ -23,35 +31,27 @@ def _with_f3(*ids: str) -> DebugEntries:
     return MappingProxyType(dict.fromkeys(ids, "inOverlay"))
 
 
-GAME_DEFAULT = _with_f3(
-    *("3d_crosshair", "fps", "game_version", "memory", "player_position", "player_section_position"),
-    *("simple_performance_impactors", "system_specs", "tps"),
-)
+GAME_DEFAULT = _with_f3(*DEFAULT_ENTRIES)
 """The game's own choice, in every version so far: the block looked at is not shown."""
 
-PERFORMANCE: DebugEntries = MappingProxyType(
-    {**_with_f3("gpu_utilization", "memory", "simple_performance_impactors", "tps"), "fps": "alwaysOn"}
-)
+PERFORMANCE: DebugEntries = MappingProxyType({**_with_f3(*PERFORMANCE_ENTRIES), "fps": "alwaysOn"})
 """The game's other profile, which has no position."""
 
-TUTORIAL: DebugEntries = MappingProxyType({**GAME_DEFAULT, **_with_f3("looking_at_block", "looking_at_block_state")})
+TUTORIAL: DebugEntries = MappingProxyType({**GAME_DEFAULT, **_with_f3(TARGET, TARGET_FROM_26_1)})
 """What our tutorial asks for: the default, and the block looked at, under the name that the version has for it."""
 
 _PROFILES = {"default": GAME_DEFAULT, "performance": PERFORMANCE}
 
-_OLD_NAMES = {"looking_at_block": "looking_at_block_state", "looking_at_fluid": "looking_at_fluid_state"}
+_OLD_NAMES = {TARGET: TARGET_FROM_26_1, "looking_at_fluid": "looking_at_fluid_state"}
 """Ids to 1.21.11, and from 26.1 on: a file of an older game is upgraded when it is read."""
 
-_NAMING = frozenset({"looking_at_block", "looking_at_block_state"})
+_NAMING = frozenset({TARGET, TARGET_FROM_26_1})
 
 _FIRST_IN_OVERLAY = 4650
 """The DataVersion from which on a file says ``inOverlay``, not ``inF3``."""
 
-_ASSUMED = 4649
-"""The DataVersion of a file that names none."""
-
-_FIRST_SPLIT = 4672
-"""The DataVersion from which on a file has the new ids, or one between: 1.21.11 is 4671."""
+_FIRST_SPLIT = DATA_OF_1_21_11 + 1
+"""The DataVersion from which on a file has the new ids, or one between."""
 
 _FREELY = frozenset(
     {
@@ -146,7 +146,7 @@ def _has(edition: Edition, entry: str) -> bool:
 
 def _parsed(profile: Any, edition: Edition) -> DebugEntries:
     custom, written = profile.get("custom", {}), profile.get("DataVersion")
-    written = written if isinstance(written, int | float) else _ASSUMED
+    written = written if isinstance(written, int | float) else ASSUMED_DATA
     entries = {_name(entry, written, edition): _status(status, written, edition) for entry, status in custom.items()}
     return _PROFILES[profile["profile"]] if "profile" in profile else entries
 

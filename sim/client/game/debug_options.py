@@ -5,10 +5,9 @@ Positions and sizes are in GUI pixels; ``width`` and ``height`` are the window's
 
 from itertools import groupby
 
-from sim.client.game.colours import GREY, WHITE, Colour
 from sim.client.game.debug_entries import DebugEntries, Status, known_entries
 from sim.client.game.edition import Edition
-from sim.client.game.widgets import Effect, EntryChange, Menu, MenuText, Panel, Widget
+from sim.client.game.widgets import GREY, WHITE, Colour, Effect, EntryChange, Menu, MenuText, Panel, Widget
 
 _HEADER, _FOOTER, _ROW = 61, 33, 20
 _BUTTON_HEIGHT, _LINE = 16, 2

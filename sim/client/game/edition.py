@@ -1,9 +1,10 @@
 """The Minecraft version of a virtual client, and what it changes in titles, screens and commands."""
 
-import re
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
+
+from mc_nested.live.model.versions import version_numbers
 
 Layout = Literal["1.8-1.12", "1.13-1.15", "1.16-1.19.2", "1.19.3-1.21.8", "1.21.9-26.3", "standin", "26.4"]
 """How a debug screen is laid out: by the versions that have it, or the stand-in's."""
@@ -25,8 +26,8 @@ class Edition:
     version: str
 
     @cached_property
-    def _numbers(self) -> tuple[int, ...]:
-        return tuple(int(part) for part in re.findall(r"\d+", self.version)[:3])
+    def _numbers(self) -> tuple[int, int, int]:
+        return version_numbers(self.version)
 
     def since(self, *numbers: int) -> bool:
         """Whether this version is that one or a newer one."""

@@ -9,8 +9,7 @@ from functools import lru_cache
 from typing import NamedTuple, TypeVar
 
 from mc_nested.live.model.reading import Block
-from sim.client.game.f3_screen import F3Screen, Part, TextLine
-from sim.client.game.places import chunk_of, section_of, towards
+from sim.client.game.f3_screen import F3Screen, Part, TextLine, chunk_of, section_of, towards
 
 T = TypeVar("T")
 

@@ -1,4 +1,7 @@
-"""What a debug screen is about, before it is put into words (FACTS: The F3 debug screen)."""
+"""What a debug screen is about, before it is put into words, and the words that all versions share.
+
+Those are positions, directions, and the tags of blocks by version (FACTS: The F3 debug screen).
+"""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -111,3 +114,51 @@ class F3Screen:
         """Whether it says which block is looked at, if any is."""
         is_chosen = not {"looking_at_block", "looking_at_block_state"}.isdisjoint(self.shown)
         return is_chosen if self.layout in BY_ENTRIES else not self.reduced
+
+
+_FACINGS = (
+    "south (Towards positive Z)",
+    "west (Towards negative X)",
+    "north (Towards negative Z)",
+    "east (Towards positive X)",
+)
+
+
+def towards(yaw: float) -> str:
+    """The direction nearest to a yaw in degrees, and its axis in brackets."""
+    return _FACINGS[floor(yaw / 90 + 0.5) & 3]
+
+
+def chunk_of(block: Block) -> str:
+    """The chunk that a block is in, and its place in the region's file, from 1.19.3 on."""
+    x, y, z = block
+    return f"{x >> 4} {y >> 4} {z >> 4} [{x >> 4 & 31} {z >> 4 & 31} in r.{x >> 9}.{z >> 9}.mca]"
+
+
+def section_of(block: Block) -> str:
+    """A block's place in its chunk's section, from 1.21.9 on."""
+    x, y, z = block
+    return f"{x & 15:02d} {y & 15:02d} {z & 15:02d}"
+
+
+_PICKAXE = "minecraft:mineable/pickaxe"
+
+
+def tags_of(block: str, edition: Edition) -> tuple[str, ...]:
+    """A block's tags, without #. The game's order may be another one each time that it starts; here it is fixed."""
+    if not edition.since(1, 13):
+        return ()
+    tags = _TAGS.get(block, ())
+    return tuple(tag for since, tag in tags if edition.since(*since))
+
+
+_TAGS: dict[str, tuple[tuple[tuple[int, ...], str], ...]] = {
+    "oak_planks": (((1, 13), "minecraft:planks"), ((1, 17), "minecraft:mineable/axe")),
+    "stone": (
+        ((1, 17), _PICKAXE),
+        ((1, 18), "minecraft:base_stone_overworld"),
+        ((1, 18), "minecraft:lush_ground_replaceable"),
+    ),
+    "obsidian": (((1, 17), _PICKAXE), ((1, 20, 5), "minecraft:incorrect_for_wooden_tool")),
+}
+"""Each tag with the first version that has it. The long ones meet the left column in a narrow window."""

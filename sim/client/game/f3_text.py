@@ -1,20 +1,16 @@
 """The text of each version's debug screen, line by line (FACTS: The F3 debug screen).
 
-From 1.21.9 on it is made from entries (entry_lines.py), and 26.4 puts it into boxes (f3_boxes.py).
+From 1.21.9 on it is made from entries (entry_lines.py), and 26.4 puts it into boxes (f3_layers.py).
 """
 
 from functools import lru_cache
 from itertools import chain
 from typing import get_args
 
-from sim.client.game.box_columns import box_columns
 from sim.client.game.edition import Layout
-from sim.client.game.entry_boxes import Box
+from sim.client.game.entry_boxes import Box, box_columns
 from sim.client.game.entry_lines import entry_columns
-from sim.client.game.f3_screen import F3Screen, Part, TextLine
-from sim.client.game.places import chunk_of, towards
-
-__all__ = ["LAYOUTS", "F3Screen", "Layout", "Part", "TextLine", "both_columns", "left_lines", "right_lines"]
+from sim.client.game.f3_screen import F3Screen, Part, TextLine, chunk_of, towards
 
 LAYOUTS: tuple[Layout, ...] = get_args(Layout)
 """All of them."""

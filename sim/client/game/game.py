@@ -4,23 +4,22 @@ from collections import deque
 from collections.abc import Callable, Mapping
 
 from mc_nested.live.model.reading import Target
-from sim.client.game import bodies, physics, ray
-from sim.client.game.block_tags import tags_of
-from sim.client.game.box_columns import stood_after
+from sim.client.game import physics
 from sim.client.game.chat import ChatLine, TypedLine, VirtualChat
 from sim.client.game.commands import chat_line
 from sim.client.game.debug_entries import GAME_DEFAULT, PERFORMANCE, TUTORIAL, DebugEntries, shown_entries
 from sim.client.game.debug_options import choices
 from sim.client.game.edition import Edition
-from sim.client.game.f3_screen import BY_ENTRIES, F3Screen, Stood
-from sim.client.game.gaits import Gaits
+from sim.client.game.entry_boxes import stood_after
+from sim.client.game.f3_screen import BY_ENTRIES, F3Screen, Stood, tags_of
 from sim.client.game.keys import HOTBAR, GameKeys
 from sim.client.game.options import HIDDEN, GameOptions
+from sim.client.game.physics import Gaits
 from sim.client.game.realm import SLOTS, Realm
 from sim.client.game.screens import DEATH_WAIT, IN_WORLD, PAUSING, MenuState, ScreenName
 from sim.client.game.view import Eye, Sight, View
 from sim.client.game.widgets import Effect, EntryChange
-from sim.client.game.world import AIR, block_of
+from sim.client.game.world import AIR, Hit, block_of, cast_ray
 
 REPEAT_TICKS = 4
 """While the right button is held, the game places again every so many ticks (FACTS: Standing, looking, placing)."""
@@ -95,8 +94,8 @@ class VirtualGame:
         self._gaits = Gaits(realm.edition)
         self._is_at_wall = False
         self._rested_at: tuple[int, physics.Vector] | None = None
-        self._looked: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
-        self._looked_on_f3: tuple[tuple[object, ...], ray.Hit | None] = ((), None)
+        self._looked: tuple[tuple[object, ...], Hit | None] = ((), None)
+        self._looked_on_f3: tuple[tuple[object, ...], Hit | None] = ((), None)
         self._shown_f3: tuple[tuple[object, ...], F3Screen | None] = ((), None)
         self._stood: Stood = ((), ())
         self._before = self._aim()
@@ -280,22 +279,22 @@ class VirtualGame:
             stack.block if stack else None,
         )
 
-    def target_block(self, reach: float) -> ray.Hit | None:
+    def target_block(self, reach: float) -> Hit | None:
         """The block that the player looks at, if it is within ``reach`` blocks."""
         player, world = self.realm.player, self.realm.world
         now = (player.feet, player.yaw, player.pitch, player.is_sneaking, world.revision)
         if self._looked[0] != now:
-            self._looked = (now, ray.cast(self.realm.eye(), player.yaw, player.pitch, SIGHT, world.is_solid))
+            self._looked = (now, cast_ray(self.realm.eye(), player.yaw, player.pitch, SIGHT, world.is_solid))
         hit = self._looked[1]
         return hit if hit is not None and hit.distance <= reach else None
 
-    def target_on_f3(self) -> ray.Hit | None:
+    def target_on_f3(self) -> Hit | None:
         """The block that the debug screen names, from where the eyes were a tick ago (FACTS: The F3 debug screen)."""
         eye, yaw, pitch = self._before
         world, reach = self.realm.world, SIGHT if self.edition.since(1, 13) else self.reach()
         now = (self._before, world.revision)
         if self._looked_on_f3[0] != now:
-            self._looked_on_f3 = (now, ray.cast(eye, yaw, pitch, SIGHT, world.is_solid))
+            self._looked_on_f3 = (now, cast_ray(eye, yaw, pitch, SIGHT, world.is_solid))
         hit = self._looked_on_f3[1]
         return hit if hit is not None and hit.distance <= reach else None
 
@@ -356,7 +355,7 @@ class VirtualGame:
         if keys.is_held("use") and not self._use_delay:
             self._use(target)
 
-    def _use(self, target: ray.Hit | None) -> None:
+    def _use(self, target: Hit | None) -> None:
         """Right-click: place the block in hand, unless the game refuses (FACTS: Standing, looking, placing)."""
         self._use_delay = REPEAT_TICKS
         player, world = self.realm.player, self.realm.world
@@ -416,7 +415,7 @@ class VirtualGame:
     def _stop_at_others(self, before: physics.Vector, height: float) -> None:
         """Take back what of the step led into another player, and the speed that way."""
         player = self.realm.player
-        feet = bodies.kept_apart(before, player.feet, self.realm.others(), height)
+        feet = physics.kept_apart(before, player.feet, self.realm.others(), height)
         if feet != player.feet:
             east, up, south = player.velocity
             stays_x, stays_z = feet[0] != player.feet[0], feet[2] != player.feet[2]
@@ -444,7 +443,7 @@ class VirtualGame:
 
     def _new_f3(
         self,
-        hit: ray.Hit | None,
+        hit: Hit | None,
         fps: int,
         size: tuple[int, int],
         scale: int,

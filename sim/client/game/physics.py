@@ -1,13 +1,18 @@
-"""How a player moves in a tick: walking, sneaking, falling, and what stops them (FACTS: Walking).
+"""How a player moves in a tick: walking, sneaking, sprinting, falling, and what stops them (FACTS: Walking).
 
 In a tick, for each axis: a small speed becomes 0 -> the push is added -> the player moves, as far as blocks allow ->
 the speed is multiplied by the inertia.
+
+Here a player stops at another one. In the game players push each other apart. The live path never walks into one, since
+the rules void that (arena/cooperative/team.py). A reset may put one into another, which is not as in the game.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from typing import Literal
+
+from sim.client.game.edition import Edition
 
 Gait = Literal["walk", "sneak", "sprint"]
 Vector = tuple[float, float, float]
@@ -176,3 +181,71 @@ def _stopped(feet: list[float], axis: int, motion: float, height: float, is_soli
                 if layer != first and is_solid(block[0], block[1], block[2]):
                     return feet[axis] + (layer if motion > 0 else layer + 1) - front
     return feet[axis] + motion
+
+
+SPRINT_WINDOW = 7
+"""Ticks: the second of two presses of forward that come sooner than this after each other sprints (FACTS: Walking)."""
+
+
+class Gaits:
+    """Follows the keys from tick to tick.
+
+    Args:
+        edition: the game's version, which decides when sneaking begins to slow the player down.
+    """
+
+    def __init__(self, edition: Edition) -> None:
+        self._sneaks_at_once = not edition.since(1, 15)
+        self._sneaked = False
+        self._was_forward = False
+        self._is_sprinting = False
+        self._window = 0
+
+    def tick(self, *, is_forward: bool, sneaks: bool, may_sprint: bool) -> Gait:
+        """The gait of this tick.
+
+        Args:
+            is_forward: whether forward is down, and back isn't.
+            sneaks: whether the sneak key is down.
+            may_sprint: whether the player is on the ground and didn't stop at a wall in the last tick.
+        """
+        self._window = 0 if self._sneaked else max(0, self._window - 1)
+        is_slow = sneaks if self._sneaks_at_once else self._sneaked
+        is_fast = is_forward and not is_slow
+        if is_fast and not self._was_forward and not self._is_sprinting and may_sprint:
+            if self._window:
+                self._is_sprinting = True
+            else:
+                self._window = SPRINT_WINDOW
+        if not is_fast or not may_sprint:
+            self._is_sprinting = False
+        self._was_forward, self._sneaked = is_fast, sneaks
+        if is_slow:
+            return "sneak"
+        return "sprint" if self._is_sprinting else "walk"
+
+
+WIDTH = 2 * HALF_WIDTH
+
+
+def touches(one: Vector, other: Vector, height: float) -> bool:
+    """Whether players of that height whose feet are there are in each other's way."""
+    return abs(one[0] - other[0]) < WIDTH and abs(one[2] - other[2]) < WIDTH and abs(one[1] - other[1]) < height
+
+
+def kept_apart(before: Vector, after: Vector, others: Collection[Vector], height: float) -> Vector:
+    """Where a step from ``before`` that blocks would let end at ``after`` ends, with others standing there.
+
+    Each way is taken alone: one that leads into another player isn't gone at all. Who is in somebody already, as after
+    a teleport, may go on.
+    """
+    around = [other for other in others if not touches(before, other, height)]
+
+    def is_free(feet: Vector) -> bool:
+        return not any(touches(feet, other, height) for other in around)
+
+    if is_free(after):
+        return after
+    x = after[0] if is_free((after[0], after[1], before[2])) else before[0]
+    z = after[2] if is_free((x, after[1], after[2])) else before[2]
+    return x, after[1], z

@@ -6,10 +6,9 @@ Positions and sizes are in GUI pixels; ``width`` and ``height`` are the window's
 from collections.abc import Callable
 from typing import Literal, NamedTuple
 
-from sim.client.game.colours import GREY, WHITE, Colour
 from sim.client.game.debug_options import Choice, debug_options
 from sim.client.game.edition import Edition
-from sim.client.game.widgets import Menu, MenuText, Panel, Widget
+from sim.client.game.widgets import GREY, WHITE, Colour, Menu, MenuText, Panel, Widget
 
 ScreenName = Literal[
     "world",

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from mc_nested.live.model.reading import Block
 from sim.client.game.chat import ChatLine, TypedLine
-from sim.client.game.f3_text import F3Screen
+from sim.client.game.f3_screen import F3Screen
 from sim.client.game.realm import Stack
 from sim.client.game.screens import MenuState
 

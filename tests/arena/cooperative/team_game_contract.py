@@ -3,9 +3,7 @@
 from collections.abc import Callable, Sequence
 
 from mc_nested.arena.action import Action, Cell
-from mc_nested.arena.cooperative.team import Team
-from mc_nested.arena.cooperative.team_game import TeamGame
-from mc_nested.arena.cooperative.team_rules import resolved
+from mc_nested.arena.cooperative.team import Team, TeamGame, resolved
 
 Truth = Callable[[], tuple[tuple[Cell, ...], set[Cell]]]
 """The builders' true cells, and the cells that truly hold a block."""

@@ -1,4 +1,7 @@
-"""Who builds, and from where."""
+"""Who builds, and from where.
+
+The order within a tick, and who stops whom: every value by hand.
+"""
 
 import dataclasses
 
@@ -6,8 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mc_nested.arena.action import Cell
-from mc_nested.arena.cooperative.team import Team, spread_starts, team_of
+from mc_nested.arena.action import Action, Cell
+from mc_nested.arena.cooperative.team import Team, resolved, spread_starts, team_of
+from mc_nested.arena.game import Outcome
+from mc_nested.arena.rules import landing, moved
 from mc_nested.arena.scenario import SMALLEST_SIZE
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import ScenarioError
@@ -57,3 +62,77 @@ def test_nobody_starts_outside() -> None:
 def test_a_team_builds_a_design_without_parts() -> None:
     with pytest.raises(ScenarioError, match=r"^scenario flag has parts: several builders take one without$"):
         team_of(load_scenario("flag"), 2)
+
+
+F, B, L, R, FD, LD, RD, BD = Action
+SIZE = 15
+
+
+def tick(
+    cells: list[Cell], actions: list[Action | None], placed: set[Cell] | None = None, left: int = 9
+) -> tuple[Outcome, ...]:
+    return resolved(cells, placed or set(), actions, SIZE, left)
+
+
+def test_nobody_moves_into_a_builders_cell() -> None:
+    assert tick([(3, 3), (4, 3)], [R, F]) == (Outcome((3, 3), None), Outcome((4, 4), None))
+
+
+def test_a_cell_that_a_lower_number_left_is_free_in_the_same_tick() -> None:
+    assert tick([(4, 3), (3, 3)], [F, R]) == (Outcome((4, 4), None), Outcome((4, 3), None))
+
+
+def test_of_two_that_want_one_cell_the_lower_number_gets_it() -> None:
+    assert tick([(3, 3), (5, 3)], [R, L]) == (Outcome((4, 3), None), Outcome((5, 3), None))
+
+
+def test_two_neighbours_never_change_places() -> None:
+    assert tick([(3, 3), (4, 3)], [R, L]) == (Outcome((3, 3), None), Outcome((4, 3), None))
+
+
+def test_no_block_lands_on_a_builder_but_the_move_is_done() -> None:
+    assert tick([(3, 3), (4, 4)], [RD, None]) == (Outcome((4, 3), None), Outcome((4, 4), None))
+
+
+def test_a_block_of_a_lower_number_stops_the_others_in_the_same_tick() -> None:
+    assert tick([(3, 4), (4, 4)], [BD, L]) == (Outcome((3, 3), (3, 4)), Outcome((4, 4), None))
+    assert tick([(4, 4), (3, 4)], [L, BD]) == (Outcome((4, 4), None), Outcome((3, 3), (3, 4)))
+
+
+def test_a_builder_that_another_one_stops_still_places_in_front_of_it() -> None:
+    assert tick([(3, 3), (3, 4)], [None, BD]) == (Outcome((3, 3), None), Outcome((3, 4), (3, 5)))
+
+
+@pytest.mark.parametrize(("left", "second"), [(2, (9, 5)), (1, None)])
+def test_the_blocks_left_are_the_teams(left: int, second: Cell | None) -> None:
+    assert tick([(3, 5), (9, 5)], [BD, BD], left=left) == (Outcome((3, 4), (3, 5)), Outcome((9, 4), second))
+
+
+def test_nothing_is_done_instead_of_no_action() -> None:
+    assert tick([(3, 3)], [None]) == (Outcome((3, 3), None),)
+
+
+@given(st.lists(st.sampled_from(Action), max_size=60))
+def test_one_builder_alone_has_the_rules_of_one(actions: list[Action]) -> None:
+    cell, placed = (7, 14), set[Cell]()
+    for action in actions:
+        (outcome,) = resolved([cell], placed, [action], SIZE, 99)
+        cell = moved(cell, action, placed, SIZE)
+        assert outcome == Outcome(cell, landing(cell, action, placed, SIZE))
+        if outcome.placed is not None:
+            placed.add(outcome.placed)
+
+
+@given(st.lists(st.tuples(*[st.sampled_from(Action)] * 3), max_size=60))
+def test_builders_and_blocks_never_share_a_cell(ticks: list[tuple[Action, Action, Action]]) -> None:
+    cells, placed = [(2, 2), (3, 2), (2, 3)], set[Cell]()
+    for actions in ticks:
+        outcomes = resolved(cells, placed, actions, 5, 12 - len(placed))
+        cells = [outcome.cell for outcome in outcomes]
+        landed = [outcome.placed for outcome in outcomes if outcome.placed is not None]
+        assert len(set(landed)) == len(landed)
+        assert not placed.intersection(landed)
+        placed |= set(landed)
+        assert len(set(cells)) == 3
+        assert not placed.intersection(cells)
+    assert len(placed) <= 12

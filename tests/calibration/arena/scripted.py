@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 
-from calibration.arena.block_queries import BlockQueries
+from calibration.arena.ground_survey import BlockQueries
 from calibration.arena.plan import Box
 from calibration.command_console import CommandConsole
 from mc_nested.live.model.reading import Block, Reading

@@ -1,14 +1,35 @@
-"""The survey of the ground: free, flat, where a copy can lie, and what stays unknown."""
+"""The survey of the ground: free, flat, where a copy can lie, and what stays unknown.
+
+Questions about blocks: the command of each, and what each answer means.
+
+Looking around an arena: where the view is turned, and what is taken for the floor or for something in the way.
+"""
+
+import math
+import re
 
 import pytest
 
-from calibration.arena.ground_survey import GroundSurvey, is_copy_gone, survey_ground
+from calibration.arena.ground_survey import (
+    BlockQueries,
+    GroundSurvey,
+    cells_to_look_at,
+    is_copy_gone,
+    is_in_sight,
+    look_around,
+    look_at,
+    survey_ground,
+    teleport_and_look,
+)
 from calibration.arena.plan import box_at, box_of
 from mc_nested.errors import UserError
 from mc_nested.live.model.reading import Reading, Target
 from mc_nested.live.profile.arena import Arena
-from mc_nested.live.profile.tables import GameVersion, Profile
+from mc_nested.live.profile.tables import GameVersion, InputTable, Profile
+from mc_nested.live.vision.game_screen import GameScreen
+from sim.client.client import VirtualClient
 from tests.calibration.arena.scripted import ScriptedConsole, ScriptedQueries, looks
+from tests.sim.client.playing import connection_to
 
 ARENA = Arena.around((7, 64, 0), "south")
 FIRST, SECOND = (-8, 127, -1), (-8, 95, -1)
@@ -112,3 +133,191 @@ def test_a_copy_is_gone_where_there_is_only_air_as_above_it() -> None:
     assert not is_copy_gone(ScriptedQueries(alike={(-8, 130, -1): False}), with_copy), "a hole in the copied floor"
     # Under the player's cell (7, 0), which is at x = 0, z = 0, one block of the copy's floor.
     assert not is_copy_gone(ScriptedQueries({(0, 127, 0): False}), with_copy)
+
+
+BOX = ((0, 64, 0), (2, 65, 4))
+
+
+def turns(command: str) -> Reading:
+    """The view that the command's last two numbers ask for."""
+    yaw, pitch = command.split()[-2:]
+    return Reading(xyz=(0.5, 64.0, 0.5), yaw=float(yaw), pitch=float(pitch))
+
+
+def queries(console: ScriptedConsole, version: str = "1.20.1", *, reads_chat: bool = True) -> BlockQueries:
+    profile = Profile(game=GameVersion(version=version), input=InputTable(reads_chat=reads_chat))
+    return BlockQueries(console, profile, screen(), 90.0)
+
+
+def screen() -> GameScreen:
+    return connection_to(VirtualClient()).screen
+
+
+def test_a_condition_that_holds_turns_the_view() -> None:
+    console = ScriptedConsole(turns)
+    assert queries(console).is_air((1, -2, 3)) is True
+    assert console.sent == ["/execute if block 1 -2 3 minecraft:air run tp @s ~ ~ ~ 90 20"]
+
+
+def test_a_condition_that_does_not_hold_turns_it_to_another_pitch() -> None:
+    console = ScriptedConsole(lambda command: turns(command) if " unless " in command else None)
+    assert queries(console).are_alike(BOX, (10, 64, 10)) is False
+    assert console.sent == [
+        "/execute if blocks 0 64 0 2 65 4 10 64 10 all run tp @s ~ ~ ~ 90 20",
+        "/execute unless blocks 0 64 0 2 65 4 10 64 10 all run tp @s ~ ~ ~ 90 21",
+    ]
+
+
+def test_without_any_effect_the_answer_is_unknown() -> None:
+    console = ScriptedConsole()
+    assert queries(console).is_air((0, 0, 0)) is None
+    assert len(console.sent) == 2
+
+
+@pytest.mark.parametrize(("off", "answer"), [(0.1, True), (-0.1, True), (0.5, None), (-0.5, None)])
+def test_the_view_may_differ_from_the_command_by_a_rounding(off: float, answer: bool | None) -> None:
+    def turned(command: str) -> Reading:
+        return Reading(xyz=(0.5, 64.0, 0.5), yaw=90.0, pitch=float(command.split()[-1]) + off)
+
+    assert queries(ScriptedConsole(turned)).is_air((0, 0, 0)) is answer
+
+
+def test_pitches_are_used_again_only_after_forty_questions() -> None:
+    console = ScriptedConsole(turns)
+    asking = queries(console)
+    for _ in range(42):
+        asking.is_air((0, 0, 0))
+    pitches = [int(command.split()[-1]) for command in console.sent]
+    assert pitches[:41] == [*range(20, 60), 20]
+    assert pitches[41] == 21
+
+
+def test_1_12_answers_only_whether_one_block_is_air() -> None:
+    console = ScriptedConsole(turns)
+    assert queries(console, "1.12.2").is_air((1, 2, 3)) is True
+    assert console.sent == ["/execute @s ~ ~ ~ detect 1 2 3 minecraft:air 0 tp @s ~ ~ ~ 90 20"]
+    assert queries(ScriptedConsole(), "1.12.2").is_air((1, 2, 3)) is None
+
+
+def test_1_12_without_its_chat_can_compare_nothing() -> None:
+    console = ScriptedConsole()
+    assert queries(console, "1.12.2", reads_chat=False).are_alike(BOX, (10, 64, 10)) is None
+    assert console.sent == []
+
+
+def test_1_12_compares_after_its_chat_is_cleared() -> None:
+    console = ScriptedConsole()
+    assert queries(console, "1.12.2").are_alike(BOX, (10, 64, 10)) is None, "its screen shows no answer"
+    assert console.sent == ["clear", "/testforblocks 0 64 0 2 65 4 10 64 10"]
+
+
+def test_a_floor_of_one_block_equals_itself_one_on_in_both_directions() -> None:
+    console = ScriptedConsole(turns)
+    assert queries(console).is_uniform(((0, 63, 0), (16, 63, 16))) is True
+    regions = [re.search(r"blocks (.*) all", command) for command in console.sent]
+    assert [match and match[1] for match in regions] == ["0 63 0 15 63 16 1 63 0", "0 63 0 0 63 15 0 63 1"]
+
+
+def test_a_floor_that_differs_along_one_direction_is_not_of_one_block() -> None:
+    def along_only(command: str) -> Reading | None:
+        holds = "0 63 0 15 63 16" in command
+        return turns(command) if holds == (" if " in command) else None
+
+    assert queries(ScriptedConsole(along_only)).is_uniform(((0, 63, 0), (16, 63, 16))) is False
+
+
+ARENA = Arena.around((7, 64, 0), "south")
+
+
+def sees(target: Target | None, off: tuple[float, float] = (0.0, 0.0)) -> ScriptedConsole:
+    def respond(command: str) -> Reading:
+        yaw, pitch = (float(part) for part in command.split()[-2:])
+        return Reading(xyz=(0.5, 64.0, 0.5), yaw=yaw + off[0], pitch=pitch + off[1], target=target)
+
+    return ScriptedConsole(respond)
+
+
+def test_the_view_is_turned_from_the_eyes_to_the_point() -> None:
+    console = sees(None)
+    # 3 blocks east, 4 south, at the height of the feet: 5 blocks away, the eyes 1.62 above.
+    look_at(console, (3.5, 64.0, 4.5))
+    yaw, pitch = -math.degrees(math.atan2(3, 4)), math.degrees(math.atan2(1.62, 5))
+    assert console.sent == [f"/tp @s ~ ~ ~ {yaw:.1f} {pitch:.1f}"] == ["/tp @s ~ ~ ~ -36.9 18.0"]
+
+
+def test_a_higher_point_is_looked_up_to() -> None:
+    console = sees(None)
+    look_at(console, (0.5, 64.0 + 1.62 + 4, -3.5))
+    assert console.sent in (["/tp @s ~ ~ ~ -180.0 -45.0"], ["/tp @s ~ ~ ~ 180.0 -45.0"])
+
+
+@pytest.mark.parametrize(
+    ("off", "is_seen"),
+    [((0.1, 0.1), True), ((0.5, 0.0), False), ((-0.5, 0.0), False), ((0.0, 0.5), False), ((0.0, -0.5), False)],
+)
+def test_a_block_counts_once_the_view_is_there(off: tuple[float, float], is_seen: bool) -> None:
+    stone = Target((1, 2, 3), "minecraft:stone")
+    seen = teleport_and_look(sees(stone, off), "1 2 3 90 45", 90.0, 45.0)
+    assert seen == (stone if is_seen else None)
+
+
+def test_a_view_is_there_up_to_two_tenths_of_a_degree() -> None:
+    stone = Target((1, 2, 3), "minecraft:stone")
+    assert teleport_and_look(sees(stone, (0.2, 0.2)), "1 2 3 0 0", 0.0, 0.0) == stone
+    assert teleport_and_look(sees(stone, (0.3, 0.0)), "1 2 3 0 0", 0.0, 0.0) is None
+    assert teleport_and_look(sees(stone, (0.0, 0.3)), "1 2 3 0 0", 0.0, 0.0) is None
+
+
+def test_a_view_that_can_not_be_read_is_not_there() -> None:
+    blind = Reading(xyz=(0.5, 64.0, 0.5))
+    assert teleport_and_look(ScriptedConsole(lambda _: blind), "~ ~ ~ 0 0", 0.0, 0.0) is None
+
+
+def test_every_look_sees_the_floor_of_its_own_cell() -> None:
+    floors = iter([ARENA.block_of(cell) for cell in cells_to_look_at(15)])
+
+    def respond(command: str) -> Reading:
+        yaw, pitch = (float(part) for part in command.split()[-2:])
+        x, y, z = next(floors)
+        return Reading(xyz=(0.5, 64.0, 0.5), yaw=yaw, pitch=pitch, target=Target((x, y - 1, z), "minecraft:stone"))
+
+    seen = look_around(ScriptedConsole(respond), ARENA, (7, 0))
+    assert (seen.in_the_way, seen.floor, seen.looks) == ({}, 15, 15)
+
+
+@pytest.mark.parametrize(
+    ("target", "in_the_way"),
+    [
+        (Target((3, 64, 5), "minecraft:dirt"), {(3, 64, 5): "minecraft:dirt"}),
+        (Target((3, 65, 5), None), {(3, 65, 5): "a block"}),
+        (Target((3, 63, 500), "minecraft:dirt"), {}),
+        (Target(None, "minecraft:dirt"), {}),
+        (None, {}),
+    ],
+)
+def test_blocks_from_the_level_of_the_feet_up_are_in_the_way(
+    target: Target | None, in_the_way: dict[tuple[int, int, int], str]
+) -> None:
+    seen = look_around(sees(target), ARENA, (7, 0))
+    assert (seen.in_the_way, seen.floor, seen.looks) == (in_the_way, 0, 15)
+
+
+def test_of_an_arena_of_15_cells_all_that_is_looked_at_is_in_sight_from_every_cell() -> None:
+    assert cells_to_look_at(15) == [(x, y) for y in (3, 8, 13) for x in (1, 4, 7, 10, 13)]
+    corners = [(0, 0), (14, 0), (0, 14), (14, 14)]
+    assert all(is_in_sight(cell, corner) for cell in cells_to_look_at(15) for corner in corners)
+
+
+@pytest.mark.parametrize(("cell", "is_seen"), [((16, 19), True), ((16, 20), False), ((0, 11), True), ((0, 12), False)])
+def test_a_floor_is_in_sight_where_the_game_names_its_block(cell: tuple[int, int], is_seen: bool) -> None:
+    # From (16, 0), eyes 1.62 up: 19.07 and 20.07, 19.48 and 20.06 blocks away.
+    assert is_in_sight(cell, (16, 0)) is is_seen
+
+
+@pytest.mark.parametrize(("size", "looks"), [(20, 15), (32, 8)])
+def test_what_is_out_of_sight_is_counted_and_not_looked_at(size: int, looks: int) -> None:
+    arena = Arena.around((7, 64, 0), "south", size=size)
+    console = sees(None)
+    seen = look_around(console, arena, arena.near_middle)
+    assert len(cells_to_look_at(size)) == 15
+    assert (seen.looks, seen.out_of_sight, len(console.sent)) == (looks, 15 - looks, looks)

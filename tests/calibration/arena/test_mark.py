@@ -14,8 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibration.arena.mark import arena_from_reading, mark_arena, mark_question
-from calibration.context import CalibrationContext
-from calibration.open_context import OpenContext
+from calibration.context import CalibrationContext, OpenContext
 from mc_nested.arena.action import Cell
 from mc_nested.errors import DesktopError, ProfileError, UserError
 from mc_nested.live.connection import GameConnection
@@ -27,9 +26,9 @@ from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.font import load_font
-from sim.client.desktop.clipboard import VirtualClipboard
+from sim.client.desktop.window import VirtualClipboard
 from sim.client.drawing.f3_layers import paint
-from sim.client.game.f3_text import F3Screen
+from sim.client.game.f3_screen import F3Screen
 
 FACINGS: list[Facing] = ["north", "south", "west", "east"]
 CELLS = st.tuples(st.integers(0, 14), st.integers(0, 14))

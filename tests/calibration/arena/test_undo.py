@@ -1,4 +1,7 @@
-"""Undoing an arena, as the verb does it: what has to be known before a window is opened."""
+"""Undoing an arena, as the verb does it: what has to be known before a window is opened.
+
+The note of a copy: written before anything is built, removed once the profile knows the same.
+"""
 
 from contextlib import AbstractContextManager
 from pathlib import Path
@@ -6,12 +9,21 @@ from pathlib import Path
 import pytest
 
 from calibration.arena.build import build_arena
-from calibration.arena.copy_note import note_path, write_copy_note
-from calibration.arena.undo import undo_arena, undo_built_arena
+from calibration.arena.undo import (
+    note_path,
+    read_copy_note,
+    remove_copy_note,
+    remove_saved_copy_note,
+    undo_arena,
+    undo_built_arena,
+    undo_command,
+    undo_hint_on_error,
+    write_copy_note,
+)
 from calibration.context import CalibrationContext
-from mc_nested.errors import DesktopError, ProfileError, UserError
+from mc_nested.errors import DesktopError, LiveError, ProfileError, UserError
 from mc_nested.live.profile.arena import Arena
-from mc_nested.live.profile.store import load_profile, save_profile
+from mc_nested.live.profile.store import load_profile, profile_path, save_profile
 from mc_nested.live.profile.tables import Profile
 from sim.client.client import VirtualClient
 from tests.calibration.virtual_context import context_on, profile_of
@@ -71,3 +83,55 @@ def test_a_profile_without_a_copy_is_refused_by_the_step_too(tmp_path: Path) -> 
     profile = profile_of(client, tmp_path).model_copy(update={"arena": HERE})
     with context_on(client)(profile) as context, pytest.raises(UserError, match="no copy is known"):
         undo_arena(context, profile)
+
+
+PROFILE_HERE = Profile(arena=Arena.around((7, 64, 0), "south").model_copy(update={"copied_to": (-8, 127, -1)}))
+PROFILE_ELSEWHERE = Profile(arena=Arena.around((70, 64, 0), "south"))
+
+
+def test_a_note_is_read_as_it_was_written_and_a_later_one_replaces_it(tmp_path: Path) -> None:
+    file = tmp_path / "folder" / "mine.toml"
+    assert read_copy_note(file) is None
+    write_copy_note(PROFILE_ELSEWHERE, file)
+    write_copy_note(PROFILE_HERE, file)
+    assert read_copy_note(file) == PROFILE_HERE
+    assert [each.name for each in file.parent.iterdir()] == ["mine.toml.ground"]
+
+
+def test_a_note_that_can_not_be_written_or_removed_is_a_line(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("", "utf-8")
+    with pytest.raises(ProfileError, match="nothing was built"):
+        write_copy_note(PROFILE_HERE, tmp_path / "file" / "mine.toml")
+    note_path(tmp_path / "mine.toml").mkdir()
+    with pytest.raises(ProfileError, match="remove it by hand"):
+        remove_copy_note(tmp_path / "mine.toml")
+
+
+def test_it_is_removed_once_the_saved_profile_has_the_same_arena(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    remove_saved_copy_note(PROFILE_HERE, file)
+    write_copy_note(PROFILE_HERE, file)
+    remove_saved_copy_note(PROFILE_ELSEWHERE, file)
+    assert read_copy_note(file) == PROFILE_HERE
+    remove_saved_copy_note(PROFILE_HERE, file)
+    assert read_copy_note(file) is None
+    remove_copy_note(file)
+
+
+def test_the_command_names_the_profile_as_the_command_line_takes_it(tmp_path: Path) -> None:
+    verb = "mc-nested calibrate arena --undo --profile"
+    assert undo_command(profile_path("mine")) == f"{verb} mine"
+    assert undo_command(profile_path("my game")) == f'{verb} "my game"'
+    assert undo_command(tmp_path / "mine.toml") == f"{verb} {tmp_path / 'mine.toml'}"
+
+
+def test_an_error_says_how_to_undo_only_where_there_is_something_to_undo(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    with pytest.raises(LiveError, match=r"^no$"), undo_hint_on_error(file):
+        raise LiveError("no")
+    write_copy_note(PROFILE_HERE, file)
+    wanted = r"^no; what stood where the arena is comes back with mc-nested"
+    with pytest.raises(LiveError, match=wanted), undo_hint_on_error(file):
+        raise LiveError("no")
+    with pytest.raises(KeyboardInterrupt), undo_hint_on_error(file):
+        raise KeyboardInterrupt

@@ -14,7 +14,7 @@ from mc_nested.live.devices import Clipboard, Devices
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 
 if TYPE_CHECKING:
     from calibration.installation.processes import Process

@@ -6,10 +6,10 @@ import pytest
 
 from calibration.doctor.profile_rows import fit_row, font_row, profile_row
 from calibration.installation.folders import System
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable
+from mc_nested.live.vision.layout import Scales
 from tests.calibration.contexts import font_file_in
 
 CALIBRATED = Profile(calibrated=CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2))

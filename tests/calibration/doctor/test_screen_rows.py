@@ -1,18 +1,43 @@
-"""The debug screen's checks, by what the window shows."""
+"""The debug screen's checks, by what the window shows.
+
+Pictures in which nothing can be read: black ones, and ones of other colours.
+
+The window's checks: in front, the display's scaling, the size and the GUI scale.
+"""
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from calibration.doctor.check import Check, CheckName
-from calibration.doctor.screen_rows import SCREEN_CHECKS, reduced_by_options, screen_rows
+from calibration.doctor.screen_rows import (
+    BLACK,
+    BRIGHT,
+    FAINT,
+    SCREEN_CHECKS,
+    front_row,
+    picture_fault,
+    reduced_by_options,
+    scaling_row,
+    screen_rows,
+    size_row,
+    window_row,
+    window_rows,
+)
 from calibration.doctor.snapshot import ScreenContents, WindowSnapshot
 from calibration.installation.options_txt import parse_options
+from mc_nested.live.devices import Frame
 from mc_nested.live.menus.screens import ScreenName
 from mc_nested.live.model.debug_entries import switch_on
 from mc_nested.live.model.reading import Reading, Target
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
+from mc_nested.live.profile.tables import Profile, ScreenTable
+from mc_nested.live.vision.font import font_of
+from mc_nested.live.vision.layout import Scales
+from sim.client.client import VirtualClient
+from sim.client.drawing.letters import drawn_atlas
+from tests.calibration.contexts import started
 
 READ = Reading(xyz=(0.5, 64.0, 0.25), yaw=0.0, pitch=40.0, target=Target((0, 63, 1), "minecraft:stone"))
 
@@ -112,3 +137,143 @@ def test_an_option_that_reduces_it_counts_where_no_debug_screen_was_seen(
     checks = {name: Check(name, "pass" if known == "pass" else "skip", "")} if known else {}
     row = reduced_by_options(parse_options(text.encode(), Path("options.txt")), checks)
     assert (row is not None and row.status == "fail") == is_fault
+
+
+FONT = font_of(drawn_atlas())
+WINDOW = Fingerprint("Minecraft 26.3", (854, 480))
+
+
+@pytest.fixture(scope="module")
+def shown() -> Frame:
+    frame: Frame = started(VirtualClient()).display.grab()
+    return frame
+
+
+def levelled(frame: Frame, darkest: float, brightest: float) -> Frame:
+    """The frame with its levels squeezed into that range."""
+    found: Frame = (darkest + frame.astype(np.float32) * (brightest - darkest) / 255).astype(np.uint8)
+    return found
+
+
+@pytest.mark.parametrize("level", [0, BLACK])
+def test_a_black_picture_names_what_pictures_black(shown: Frame, level: int) -> None:
+    fault = picture_fault(np.full_like(shown, level), FONT)
+    assert fault is not None
+    assert fault.startswith("the window's picture is black: play in a window")
+    assert "remote" in fault
+
+
+@pytest.mark.parametrize(
+    ("darkest", "brightest", "says"),
+    [(0, 200, FAINT), (0, 120, FAINT), (40, 180, FAINT), (0, 225, FAINT), (90, 255, BRIGHT)],
+)
+def test_text_of_other_brightness_names_what_changes_colours(
+    darkest: int, brightest: int, says: str, shown: Frame
+) -> None:
+    fault = picture_fault(levelled(shown, darkest, brightest), FONT)
+    assert fault is not None
+    assert fault.startswith(f"{says}: switch HDR")
+
+
+def test_a_picture_without_text_has_no_fault_that_is_known() -> None:
+    frame = started(VirtualClient(has_f3=False)).display.grab()
+    assert picture_fault(frame, FONT) is None
+    assert picture_fault(np.full_like(frame, 128), FONT) is None
+
+
+def test_the_row_of_the_debug_screen_says_it(shown: Frame) -> None:
+    contents = ScreenContents("unknown", None, None, Reading(problem="no debug screen: press F3"))
+    rows = [
+        screen_rows(WindowSnapshot(WINDOW, (854, 480), None, True, contents, picture), FONT)[0]
+        for picture in (np.zeros_like(shown), np.full_like(shown, 128))
+    ]
+    assert [(row.name, row.status) for row in rows] == [(CheckName.DEBUG_SCREEN, "fail")] * 2
+    assert [row.detail for row in rows] == ["the window's picture is black", "no debug screen"]
+
+
+Size = tuple[int, int]
+
+
+def snapshot_of_size(picture_size: Size, points: Size | None, gui_scale: int | None = 2) -> WindowSnapshot:
+    scales = Scales(gui_scale, gui_scale) if gui_scale else None
+    window = Fingerprint("Minecraft 1.20.1", picture_size, scales)
+    return WindowSnapshot(window, picture_size, points, is_in_front=True, contents=None)
+
+
+@pytest.mark.parametrize(
+    ("picture_size", "points", "status", "detail"),
+    [
+        ((854, 480), (854, 480), "pass", "1 pixels to a point: 854 x 480 for 854 x 480"),
+        ((1708, 960), (854, 480), "pass", "2 pixels to a point: 1708 x 960 for 854 x 480"),
+        ((1281, 720), (854, 480), "warn", "1.5 pixels to a point: 1281 x 720 for 854 x 480"),
+        ((1708, 480), (854, 480), "fail", "2 pixels to a point: 1708 x 480 for 854 x 480, but 1 downwards"),
+        ((854, 480), None, "skip", "this window's points aren't known"),
+    ],
+)
+def test_the_scaling_is_measured_on_the_picture(
+    picture_size: Size, points: Size | None, status: str, detail: str
+) -> None:
+    row = scaling_row(snapshot_of_size(picture_size, points))
+    assert (row.status, row.detail) == (status, detail)
+    assert bool(row.fix) == (status in ("warn", "fail"))
+
+
+@pytest.mark.parametrize(
+    ("size", "scale", "status"),
+    [((854, 480), 2, "warn"), ((1280, 720), 3, "warn"), ((959, 540), 2, "pass"), ((958, 540), 2, "warn")],
+)
+def test_below_480_gui_pixels_of_width_a_blocks_line_may_cover_the_facing_line(
+    size: Size, scale: int, status: str
+) -> None:
+    row = size_row(snapshot_of_size(size, None, scale), None)
+    assert row.status == status
+    assert row.fix.startswith("" if status == "pass" else f"make the window at least {480 * scale} pixels wide")
+    assert bool(row.fix) == (status == "warn")
+
+
+def test_a_window_smaller_than_the_games_screens_fails() -> None:
+    assert size_row(snapshot_of_size((319, 480), None), None).status == "fail"
+    assert size_row(snapshot_of_size((320, 240), None, gui_scale=1), None).status == "warn"
+    assert size_row(snapshot_of_size((320, 240), None, gui_scale=None), None).status == "skip"
+    assert size_row(snapshot_of_size((320, 239), None), None).fix == "make the window larger than 320 x 240"
+
+
+@pytest.mark.parametrize(("wanted", "status"), [(2, "pass"), (None, "pass"), (3, "fail")])
+def test_a_gui_scale_is_the_profiles_if_that_names_one(wanted: int | None, status: str) -> None:
+    row = size_row(snapshot_of_size((960, 540), None), Profile(screen=ScreenTable(debug_scale=wanted)))
+    assert row.status == status
+    assert row.detail.startswith("960 x 540 pixels, GUI scale 2")
+    assert ("GUI Scale to 3" in row.fix) == (status == "fail")
+
+
+@pytest.mark.parametrize(
+    ("pictured", "status"),
+    [
+        ((1709, 961), "pass"),
+        ((1709, 963), "pass"),
+        ((1695, 953), "warn"),
+        ((1750, 980), "warn"),
+        ((1750, 960), "fail"),
+        ((1700, 1000), "fail"),
+    ],
+)
+def test_a_ratio_may_differ_from_a_whole_number_by_a_hundredth(pictured: Size, status: str) -> None:
+    assert scaling_row(snapshot_of_size(pictured, (854, 480))).status == status
+
+
+def test_another_window_in_front_is_a_fault() -> None:
+    behind = WindowSnapshot(
+        Fingerprint("Minecraft", (854, 480), None), (854, 480), None, is_in_front=False, contents=None
+    )
+    assert front_row(behind).status == "fail"
+    assert front_row(snapshot_of_size((854, 480), None)).status == "pass"
+    rows = window_rows(snapshot_of_size((854, 480), None), None)
+    assert [row.name.value for row in rows] == ["game's window", "in front", "display scaling", "size and GUI scale"]
+
+
+def test_a_version_later_than_all_known_ones_is_played_and_says_what_to_look_at() -> None:
+    row = window_row("Minecraft 27.1 - Singleplayer")
+    assert (row.status, row.detail.startswith("Minecraft 27.1 is later than 26.4")) == ("warn", True)
+    assert row.fix.startswith("look in the calibration's report")
+    assert window_row("Minecraft 26.4").status == "pass"
+    assert window_row("A pack of mods 99").status == "pass"

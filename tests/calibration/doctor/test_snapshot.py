@@ -10,12 +10,12 @@ from calibration.doctor.snapshot import (
     take_snapshot,
     wait_until_readable,
 )
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.tables import GameVersion, Profile, ScreenTable
 from mc_nested.live.vision.font import font_of
+from mc_nested.live.vision.layout import Scales
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.options import GameOptions
 from sim.client.game.screens import ScreenName
 from tests.calibration.contexts import started

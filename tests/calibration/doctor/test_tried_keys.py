@@ -11,7 +11,7 @@ from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.profile.tables import InputTable, KeysTable
 from mc_nested.live.vision.font import font_of
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 from tests.calibration.contexts import started
 
 

@@ -12,20 +12,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibration.context import ReportPicture
-from calibration.report.kept import Kept, KeptCheck, KeptStep
+from calibration.report.findings import CheckFinding, Findings, StepFindings
 from calibration.report.page import SMALL_BYTES, CalibrationReport, contents, data_uri, report_html
 from calibration.report.privacy import Names
 from mc_nested.live.profile.tables import CalibratedTable, Profile
 
 NOBODY = Names("/nowhere/at/all", ())
 GREY = np.full((3, 4, 3), 99, np.uint8)
-FONT = KeptStep(
+FONT = StepFindings(
     "font", "2026-11-21", ("GUI scale 2", "13 lines read"), 12, (ReportPicture("The debug screen", GREY, "F3"),)
 )
-WALK = KeptStep("walk", "2026-11-21", ("0.216 blocks a tick",), 96, (ReportPicture("The curve", GREY),))
+WALK = StepFindings("walk", "2026-11-21", ("0.216 blocks a tick",), 96, (ReportPicture("The curve", GREY),))
 CHECKS = (
-    KeptCheck("session", "pass", "X11"),
-    KeptCheck("window", "fail", "not found", "start the game"),
+    CheckFinding("session", "pass", "X11"),
+    CheckFinding("window", "fail", "not found", "start the game"),
 )
 MADE = CalibrationReport(
     "mine",
@@ -35,7 +35,7 @@ MADE = CalibrationReport(
         )
     ),
     "[window]\n",
-    Kept((WALK, FONT), CHECKS, "2026-11-21"),
+    Findings((WALK, FONT), CHECKS, "2026-11-21"),
     "0.1.0",
 )
 VOID = {"meta", "img", "br", "link", "input", "hr"}
@@ -100,8 +100,8 @@ def test_it_shows_the_fingerprint_the_checks_and_the_steps_in_the_order_of_the_r
 
 
 def test_a_fix_is_shown_only_where_something_has_to_be_done() -> None:
-    done = KeptCheck("game", "pass", "found", "not needed")
-    assert "not needed" not in page(dataclasses.replace(MADE, kept=Kept((), (done,)))).texts
+    done = CheckFinding("game", "pass", "found", "not needed")
+    assert "not needed" not in page(dataclasses.replace(MADE, findings=Findings((), (done,)))).texts
 
 
 def test_its_list_of_contents_is_on_top_of_it_word_for_word() -> None:
@@ -115,7 +115,7 @@ def test_its_list_of_contents_is_on_top_of_it_word_for_word() -> None:
 def test_each_picture_comes_back_as_it_was_kept() -> None:
     noise = np.random.default_rng(0).integers(0, 256, (20, 30, 3), np.uint8)
     step = dataclasses.replace(FONT, pictures=(ReportPicture("noise", noise),))
-    (image,) = page(dataclasses.replace(MADE, kept=Kept((step,)))).of("img")
+    (image,) = page(dataclasses.replace(MADE, findings=Findings((step,)))).of("img")
     kind, data = (image["src"] or "").split(",")
     assert kind == "data:image/png;base64"
     decoded = cv2.imdecode(np.frombuffer(base64.b64decode(data), np.uint8), cv2.IMREAD_COLOR)
@@ -139,7 +139,7 @@ def test_without_pictures_it_has_none_and_says_so() -> None:
 
 
 def test_a_profile_that_was_never_calibrated_has_a_report_that_says_so() -> None:
-    bare = dataclasses.replace(MADE, profile=Profile(), kept=Kept())
+    bare = dataclasses.replace(MADE, profile=Profile(), findings=Findings())
     assert {"not as a whole", "no doctor's table: none was kept", "no findings: none were kept"} <= set(
         page(bare).texts
     )
@@ -150,10 +150,10 @@ HTML = st.text(st.sampled_from("<>&\"'/={}%abim sx"), max_size=30)
 
 @given(HTML)
 def test_whatever_a_text_holds_it_is_text(text: str) -> None:
-    step = KeptStep(text, text, (text,), 1, (ReportPicture(text, GREY, text),))
-    check = KeptCheck(text, "warn", text, text)
+    step = StepFindings(text, text, (text,), 1, (ReportPicture(text, GREY, text),))
+    check = CheckFinding(text, "warn", text, text)
     plain = page(MADE)
-    seen = page(CalibrationReport(text, MADE.profile, text, Kept((FONT, step), (*CHECKS, check), text), text))
+    seen = page(CalibrationReport(text, MADE.profile, text, Findings((FONT, step), (*CHECKS, check), text), text))
     assert seen.open == []
     assert {name for name, _ in seen.tags} == {name for name, _ in plain.tags}
     if text.strip():
@@ -164,8 +164,8 @@ def test_whatever_a_text_holds_it_is_text(text: str) -> None:
 def test_it_names_nobody(name: str, around: str) -> None:
     names = Names(f"/home/{name}", (name,))
     text = f"{around}{name}{around} in /home/{name}/x, C:\\Users\\{name}\\x"
-    step = KeptStep("font", text, (text,), 1, (ReportPicture(text, GREY, text),))
-    made = CalibrationReport(text, MADE.profile, text, Kept((step,), (KeptCheck(text, "warn", text, text),)), "")
+    step = StepFindings("font", text, (text,), 1, (ReportPicture(text, GREY, text),))
+    made = CalibrationReport(text, MADE.profile, text, Findings((step,), (CheckFinding(text, "warn", text, text),)), "")
     html = report_html(made, names)
     left = re.sub(r"data:image/\w+;base64,[^\"]*", "", html[html.index("</style>") :])
     assert name not in left

@@ -1,12 +1,25 @@
-"""Survey holds: what one hold says about its direction, its sideways drift and its timing."""
+"""Survey holds: what one hold says about its direction, its sideways drift and its timing.
 
+Which key goes which way, from where a step with each of them ended.
+"""
+
+import itertools
 from typing import cast
 
 import pytest
 
-from calibration.walk.directions import Direction
-from calibration.walk.survey import SHORTEST, Survey, SurveyHold
+from calibration.walk.survey import (
+    DIRECTIONS,
+    SHORTEST,
+    Direction,
+    Survey,
+    SurveyHold,
+    corrected_keys,
+    describe_keys,
+    direction_of,
+)
 from calibration.walk.walker import RecordedHold, Sighting, Walker
+from mc_nested.errors import UserError
 from mc_nested.live.model.coordinates import GroundVector
 from mc_nested.live.profile.tables import KeysTable
 from tests.live.fake_game import FakeClock
@@ -90,3 +103,43 @@ def test_every_short_hold_is_made_and_longer_ones_as_far_as_the_floor_is_free(re
     survey.reach = reach
     survey.walk()
     assert set(walker.held_ticks) == set(range(1, longest + 1))
+
+
+KEYS = KeysTable()
+
+
+@pytest.mark.parametrize(
+    ("offset", "way"),
+    [
+        ((0.0, 0.32), "forward"),
+        ((0.02, -0.32), "back"),
+        ((0.32, 0.05), "right"),
+        ((-0.32, 0.0), "left"),
+        ((0.2, 0.2), None),
+        ((0.0, 0.05), None),
+        ((0.0, 0.0), None),
+    ],
+)
+def test_a_step_leads_one_way_or_none(offset: tuple[float, float], way: Direction | None) -> None:
+    assert direction_of(offset) == way
+
+
+def test_whatever_the_four_keys_do_each_ends_at_its_own_way() -> None:
+    for led in itertools.permutations(DIRECTIONS):
+        keys = corrected_keys(KEYS, dict(zip(DIRECTIONS, led, strict=True)))
+        for way, found in zip(DIRECTIONS, led, strict=True):
+            assert getattr(keys, found) == getattr(KEYS, way)
+
+
+def test_swapped_sides_are_said() -> None:
+    keys = corrected_keys(KEYS, {"forward": "forward", "back": "back", "left": "right", "right": "left"})
+    assert (keys.left, keys.right, keys.forward, keys.sneak) == ("d", "a", "w", "left.shift")
+    assert describe_keys(KEYS, keys).endswith("the profile had left and right the other way round")
+    assert describe_keys(KEYS, KEYS) == "w goes forward, s goes back, a goes left, d goes right"
+
+
+def test_a_key_without_effect_and_two_that_go_the_same_way_are_mistakes() -> None:
+    with pytest.raises(UserError, match="the key a doesn't move the player left"):
+        corrected_keys(KEYS, {"forward": "forward", "back": "back", "left": None, "right": "right"})
+    with pytest.raises(UserError, match="don't go four ways"):
+        corrected_keys(KEYS, {"forward": "forward", "back": "forward", "left": "left", "right": "right"})

@@ -1,6 +1,6 @@
 """SDL 3's names of the keys at their places, but for the two beside Alt, which each system names in its way."""
 
-from mc_nested.live.model.key_places import PLACES
+from mc_nested.live.model.keys import PLACES
 
 _NAMES = {
     "esc": "Escape",

@@ -8,8 +8,7 @@ import pytest
 from mc_nested.errors import DesktopError, ProfileError
 from mc_nested.live.desktop.keyboard import DesktopKeyboard
 from mc_nested.live.desktop.lost_display import LOST
-from mc_nested.live.model.key_places import PLACES, KeyPlace
-from mc_nested.live.model.key_symbols import Layout
+from mc_nested.live.model.keys import PLACES, KeyPlace, Layout
 from tests.live.desktop.probed import glfw_probed, probed
 
 LAYOUTS = ("us", "fr", "de", "dvorak", "ru")

@@ -7,9 +7,9 @@ import pytest
 if not sys.platform.startswith("linux"):
     pytest.skip("windows on an X server", allow_module_level=True)
 
-from mc_nested.live.model.key_symbols import CHARACTERS, taken_for
+from mc_nested.live.model.keys import CHARACTERS, taken_for
 from scripts.window_display import set_layout
-from sim.client.desktop.layouts import LAYOUTS, characters_of, taken_by_lwjgl
+from sim.client.desktop.keyboard import LAYOUTS, characters_of, taken_by_lwjgl
 from tests.live.desktop.game_window_fixtures import desktop, lwjgl_program
 from tests.live.desktop.probed import window_probed
 from tests.live.desktop.test_keyboard import COMMAND

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from mc_nested.errors import DesktopError
-from mc_nested.live.model.key_places import PLACES
+from mc_nested.live.model.keys import PLACES
 from tests.live.desktop.fake_devices import Controller, Key, install_pynput, reloaded
 
 

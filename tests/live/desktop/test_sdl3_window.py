@@ -8,7 +8,7 @@ import pytest
 if not sys.platform.startswith("linux"):
     pytest.skip("windows on an X server", allow_module_level=True)
 
-from mc_nested.live.model.key_places import PLACES
+from mc_nested.live.model.keys import PLACES
 from scripts.window_display import set_layout
 from tests.live.desktop.game_window_fixtures import desktop, sdl_program
 from tests.live.desktop.probed import window_probed

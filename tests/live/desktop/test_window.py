@@ -7,7 +7,7 @@ import pytest
 from mc_nested.errors import DesktopError, NoWindowError
 from mc_nested.live.desktop.window import TitledWindow, check_shown, closed_error, game_window, is_within
 from mc_nested.live.devices import DesktopArea
-from mc_nested.live.profile.window_title import GAME_TITLE
+from mc_nested.live.model.versions import GAME_TITLE
 
 TAB = "Minecraft 1.20.1 release notes - Mozilla Firefox"
 

@@ -19,8 +19,7 @@ sys.path.insert(0, str(Path(__file__).parents[3]))  # a Windows Python that was 
 from mc_nested.errors import McNestedError
 from mc_nested.live.connection import prepare_keyboard
 from mc_nested.live.desktop import open_desktop
-from mc_nested.live.desktop.hotkeys import open_hotkeys
-from mc_nested.live.desktop.key_listener import listening
+from mc_nested.live.desktop.key_listener import listening, open_hotkeys
 from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.devices import Devices
 from mc_nested.live.profile.tables import Profile

@@ -18,10 +18,10 @@ from Xlib.ext import xtest
 
 from mc_nested.errors import McNestedError
 from mc_nested.live.desktop import open_desktop
-from mc_nested.live.desktop.hotkeys import open_hotkeys
+from mc_nested.live.desktop.key_listener import open_hotkeys
 from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.devices import Devices, Region
-from mc_nested.live.input.panic import CORNER_REASON, KEY_REASON
+from mc_nested.live.input.stops import CORNER_REASON, KEY_REASON
 
 if TYPE_CHECKING:
     from Xlib.xobject.drawable import Window

@@ -9,8 +9,8 @@ from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Button, Devices, Frame, Region
 from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.model.reading import Reading
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.tables import InputTable
+from mc_nested.live.vision.layout import Scales
 from mc_nested.live.vision.menu_labels import MenuButton
 from tests.live.fake_game import FakeClipboard, FakeClock
 

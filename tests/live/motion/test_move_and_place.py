@@ -6,9 +6,9 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Cell
 from mc_nested.errors import NotConfirmedError, NotInFrontError, UnreadableError
+from mc_nested.live.action_log import Effort
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.model.reading import Reading, Target
-from mc_nested.live.motion.effort import Effort
 from mc_nested.live.motion.move_and_place import Body
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import Profile, WalkTable

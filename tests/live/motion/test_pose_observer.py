@@ -1,15 +1,20 @@
-"""PoseObserver: what a look says, which looks it spares, and which steps it takes as sightings of a tick."""
+"""PoseObserver: what a look says, which looks it spares, and which steps it takes as sightings of a tick.
 
+PoseReader: the first readable pose, and bounded patience with a screen that can't be read.
+
+TickPhase: found from sightings that are late by chance, and not found in a game without ticks.
+"""
+
+import random
 from collections.abc import Callable
 
 import pytest
 
-from mc_nested.errors import NotConfirmedError, UnreadableError, WrongScreenError
+from mc_nested.errors import NotConfirmedError, NotInFrontError, UnreadableError, WrongScreenError
 from mc_nested.live.input.input_controller import FRESH_S
 from mc_nested.live.model.reading import Reading, Target, WorldPose
 from mc_nested.live.model.timing import EARLY_LOOK_S, FRAME_S
-from mc_nested.live.motion.pose_observer import PoseFrame, PoseObserver, check_pose
-from mc_nested.live.motion.tick_phase import TickPhase
+from mc_nested.live.motion.pose_observer import ENOUGH, PoseFrame, PoseObserver, PoseReader, TickPhase, check_pose
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import Profile
 from tests.live.fake_game import FakeGame, FakeScreen, connection_to
@@ -214,3 +219,99 @@ def test_a_frame_around_a_pose_measures_from_there_and_expects_its_view_and_heig
     assert frame.position_of((9.5, 70.0, -5.5)) == pytest.approx((2.0, 1.0))
     assert frame.problem(WorldPose((0.0, 70.04, 0.0), 90.4, 20.4)) is None
     assert frame.problem(WorldPose((0.0, 70.0, 0.0), 91.0, 20.0)) == "the view is 91 / 20, not 90 / 20"
+
+
+READABLE = Reading((7.5, 64.0, 7.5), 90.0, 20.0, Target((7, 63, 8), "stone"))
+
+
+def _reader(game: FakeGame, *readings: Reading) -> PoseReader:
+    coming = iter(readings)
+    return PoseReader(connection_to(game, FakeScreen(game, lambda: next(coming, None))), 5.0)
+
+
+def test_a_readable_frame_gives_its_pose_its_target_and_its_time() -> None:
+    game = FakeGame(Profile())
+    reader = _reader(game, READABLE)
+    began = game.clock.now()
+    assert reader.read() == (began, WorldPose((7.5, 64.0, 7.5), 90.0, 20.0), Target((7, 63, 8), "stone"))
+    assert not reader.is_delayed
+
+
+def test_unreadable_frames_are_waited_out_a_frame_at_a_time() -> None:
+    game = FakeGame(Profile())
+    reader = _reader(game, *[Reading(problem="covered")] * 3, READABLE, READABLE)
+    began = game.clock.now()
+    assert reader.read()[0] - began == pytest.approx(3 * FRAME_S)
+    assert reader.is_delayed
+    reader.read()
+    assert not reader.is_delayed
+
+
+@pytest.mark.parametrize(
+    ("missing", "reason"),
+    [
+        (Reading(None, 0.0, 65.0, problem="chat covers it"), "chat covers it"),
+        (Reading((7.5, 64.0, 7.5), None, 65.0), "it shows no Facing line"),
+        (Reading((7.5, 64.0, 7.5), 0.0, None), "it shows no Facing line"),
+    ],
+)
+def test_a_part_that_stays_missing_is_an_error_after_the_patience(missing: Reading, reason: str) -> None:
+    game = FakeGame(Profile())
+    began = game.clock.now()
+    with pytest.raises(UnreadableError, match=f"unreadable for 5 s: {reason}"):
+        _reader(game, *[missing] * 1000).read()
+    assert game.clock.now() - began == pytest.approx(5.0, abs=FRAME_S)
+
+
+def test_a_window_in_front_of_the_game_is_the_reason_at_once() -> None:
+    game = FakeGame(Profile())
+    game.front_until = game.clock.now()
+    with pytest.raises(NotInFrontError):
+        _reader(game, Reading(problem="covered")).read()
+
+
+TICK = 0.05
+
+
+def _sightings(count: int, phase: float, seed: int) -> list[float]:
+    """When steps are seen first: half a frame and 10 to 30 ms behind ticks."""
+    rng = random.Random(seed)  # noqa: S311 - chance, not secrets
+    return [
+        100 + phase + TICK * rng.randrange(2000) + rng.uniform(0, 1 / 60) + rng.uniform(0.01, 0.03)
+        for _ in range(count)
+    ]
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.013, 0.031, 0.049])
+@pytest.mark.parametrize("seed", range(5))
+def test_ticks_are_known_to_a_few_milliseconds_after_some_steps(phase: float, seed: int) -> None:
+    tick_phase = TickPhase()
+    for seen in _sightings(40, phase, seed):
+        tick_phase.saw_step(seen - 0.004, seen + 0.004)
+    assert tick_phase.is_known
+    off = (tick_phase.next(500.0) - phase + TICK / 2) % TICK - TICK / 2
+    assert abs(off) < 0.008
+
+
+def test_few_sightings_give_no_tick_phase() -> None:
+    tick_phase = TickPhase()
+    for seen in _sightings(int(ENOUGH) - 1, 0.01, 0):
+        tick_phase.saw_step(seen, seen)
+    assert not tick_phase.is_known
+
+
+def test_a_game_without_ticks_has_no_phase() -> None:
+    tick_phase, rng = TickPhase(), random.Random(1)  # noqa: S311
+    for _ in range(60):
+        seen = rng.uniform(0, 100)
+        tick_phase.saw_step(seen, seen)
+    assert not tick_phase.is_known
+
+
+def test_the_next_tick_is_none_before() -> None:
+    tick_phase = TickPhase()
+    for seen in _sightings(20, 0.02, 2):
+        tick_phase.saw_step(seen, seen)
+    first = tick_phase.next(7.0, 0.0125)
+    assert 7.0 <= first < 7.05
+    assert tick_phase.next(first + 0.001, 0.0125) == pytest.approx(first + TICK)

@@ -5,7 +5,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.errors import DesktopError, ProfileError
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.fingerprint import (
     Fingerprint,
     check_fit,
@@ -14,6 +13,7 @@ from mc_nested.live.profile.fingerprint import (
     mismatch,
 )
 from mc_nested.live.profile.tables import CalibratedTable, GameVersion
+from mc_nested.live.vision.layout import Scales
 
 CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
 CURRENT = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), Scales(2, 2))

@@ -6,7 +6,7 @@ import platformdirs
 import pytest
 import tomlkit
 
-from calibration.starting_profile import starting_profile
+from calibration.step_profile import starting_profile
 from mc_nested.errors import ProfileError
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.folder import profile_folder

@@ -15,11 +15,11 @@ from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import GameVersion, InputTable, Profile
-from mc_nested.live.recording.opened import recorder_opener
+from mc_nested.live.recording.run_recorder import recorder_opener
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.game_screen import WindowScreen
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 
 STEPS_AN_EPISODE = 25
 FONT = font_of(drawn_atlas())

@@ -11,9 +11,8 @@ from mc_nested.errors import RecordingError
 from mc_nested.live.profile.tables import Profile, ScreenTable, WorldTable
 from mc_nested.live.recording.cut import cut, trim
 from mc_nested.live.recording.format import FORMAT
-from mc_nested.live.recording.part_writer import PartWriter
-from mc_nested.live.recording.recording_file import TimedCall, facts_of, read_recording
-from mc_nested.live.recording.replay import profile_of
+from mc_nested.live.recording.recording_file import PartWriter, TimedCall, facts_of, read_recording
+from mc_nested.live.recording.replayed_run import profile_of
 
 CLEAN = Names("/home/ann", ("ann", "left", "note")).removed_from
 

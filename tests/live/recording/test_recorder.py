@@ -12,11 +12,10 @@ import cv2
 import numpy as np
 import pytest
 
-from mc_nested.live.recording import part_writer, recorder
+from mc_nested.live.recording import recorder, recording_file
 from mc_nested.live.recording.call_encoder import CallEncoder, KeptPicture
-from mc_nested.live.recording.overview import overview_of
 from mc_nested.live.recording.recorder import Recorder
-from mc_nested.live.recording.recording_file import TimedCall, read_recording
+from mc_nested.live.recording.recording_file import TimedCall, overview_of, read_recording
 from mc_nested.live.vision.chat_region import BLANK, chat_regions
 from sim.client.client import VirtualClient
 
@@ -74,7 +73,7 @@ def test_a_full_disk_ends_the_recording_and_not_the_run(tmp_path: Path, monkeypa
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(part_writer.PartWriter, "write", full)
+    monkeypatch.setattr(recording_file.PartWriter, "write", full)
     said: list[str] = []
     with Recorder(tmp_path / "full", {"format": "1"}, (854, 480), said.append) as recording:
         for _ in range(5):

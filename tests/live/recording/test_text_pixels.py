@@ -12,7 +12,9 @@ from mc_nested.live.vision.game_screen import WindowScreen
 from mc_nested.live.vision.screen_reader import ScreenReader
 from sim.client.client import VirtualClient
 from sim.client.drawing import f3_layers
-from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+from sim.client.game.edition import Layout
+from sim.client.game.f3_screen import F3Screen
+from sim.client.game.f3_text import LAYOUTS
 from tests.sim.client.playing import FONT, arena_of, command
 
 

@@ -1,19 +1,41 @@
-"""Where the chat lies on a picture, by hand and against the virtual client's own chat."""
+"""Where the chat lies on a picture, by hand and against the virtual client's own chat.
 
+The last frames before a failure, over a display of the test's own; test_chat_region.py has what is blanked.
+
+Lines of chat are counted, and cleared before they cover the debug screen.
+"""
+
+from pathlib import Path
+
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.vision.chat_region import BLANK, LINES, blanked_share, chat_regions, without_chat
+from mc_nested.live.menus.chat import Chat
+from mc_nested.live.profile.tables import GameVersion, Profile
+from mc_nested.live.vision.chat_region import (
+    BLANK,
+    LINES,
+    SHOWN_S,
+    ChatLines,
+    LastFrames,
+    blanked_share,
+    chat_regions,
+    chat_room,
+    without_chat,
+)
+from mc_nested.live.vision.game_screen import WindowScreen
+from scripts.benches.live import connection_to
 from sim.client.client import VirtualClient
-from sim.client.drawing.hud_layers import HudLayers
+from sim.client.drawing.gui_layers import HudLayers
 from sim.client.drawing.layers import draw_all
 from sim.client.drawing.letters import Letters
 from sim.client.game.chat import ChatLine, TypedLine
-from sim.client.game.colours import WHITE
 from sim.client.game.edition import Edition
+from sim.client.game.widgets import WHITE
 from sim.client.settings import gui_scale
 from tests.sim.client.playing import FONT, tap
 
@@ -117,3 +139,183 @@ def test_the_rest_of_the_picture_and_what_is_opaque_stay_and_the_frame_itself_is
     assert np.array_equal(blanked[470:, :5], frame[470:, :5])
     assert (blanked[252:350, :332] == BLANK).all()
     assert np.array_equal(blanked[252:442, 332:], frame[252:442, 332:])
+
+
+class GreyDisplay:
+    """A Display of one shade, which the test changes."""
+
+    def __init__(self) -> None:
+        self.shade = 0
+        self.is_seen = True
+        self.grabs = 0
+
+    def size(self) -> tuple[int, int]:
+        return 400, 300
+
+    def title(self) -> str:
+        return "Minecraft"
+
+    def is_in_front(self) -> bool:
+        return self.is_seen
+
+    def grab(self, region: Region | None = None) -> Frame:
+        assert region is None
+        self.grabs += 1
+        return np.full((300, 400, 3), self.shade, np.uint8)
+
+
+def shades(paths: list[Path]) -> list[int]:
+    """The shade in the upper right of each picture, where no chat is."""
+    return [int(picture[0, -1, 0]) for path in paths if (picture := cv2.imread(str(path))) is not None]
+
+
+def test_the_last_three_are_written_the_oldest_first(tmp_path: Path) -> None:
+    display = GreyDisplay()
+    last = LastFrames(display, tmp_path / "new" / "evidence", lambda: 1)
+    for display.shade in (10, 20, 30, 40):
+        last.take()
+    paths = last.save()
+    assert [path.name for path in paths] == ["last-1.png", "last-2.png", "last-3.png"]
+    assert shades(paths) == [20, 30, 40]
+
+
+def test_another_window_is_never_pictured(tmp_path: Path) -> None:
+    display = GreyDisplay()
+    display.is_seen = False
+    last = LastFrames(display, tmp_path, lambda: 1)
+    last.take()
+    assert (last.save(), display.grabs) == ([], 0)
+
+
+def test_without_a_folder_nothing_is_kept() -> None:
+    display = GreyDisplay()
+    last = LastFrames(display, None, lambda: 1)
+    last.take()
+    assert (last.save(), display.grabs) == ([], 0)
+
+
+def test_a_picture_that_the_disk_refuses_is_not_named(tmp_path: Path) -> None:
+    (tmp_path / "last-1.png").mkdir()
+    display = GreyDisplay()
+    last = LastFrames(display, tmp_path, lambda: 1)
+    last.take()
+    last.take()
+    assert last.save() == [tmp_path / "last-2.png"]
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "26.1"])
+@pytest.mark.parametrize(("size", "scale"), [((854, 480), 2), ((1280, 721), 3)])
+def test_what_is_being_typed_can_not_be_read_on_them(
+    version: str, size: tuple[int, int], scale: int, tmp_path: Path
+) -> None:
+    def saved(words: str) -> Frame:
+        client = VirtualClient(version=version, size=size, scale=scale, capture_latency_s=(0.0, 0.0))
+        tap(client, "t")
+        client.keyboard.type(words)
+        client.clock.sleep(0.3)
+        last = LastFrames(client.display, tmp_path / words[:4], lambda: client.scale)
+        last.take()
+        picture = cv2.imread(str(last.save()[0]))
+        assert picture is not None
+        return np.asarray(picture, np.uint8)
+
+    # The end of a long line stands at the window's right side.
+    one, other = saved("meet me at the oak " * 6), saved("i will be a bit late " * 6)
+    assert np.array_equal(one, other)
+
+
+@pytest.mark.parametrize("size", [(854, 480), (1920, 1080)])
+def test_where_no_debug_screen_says_the_scale_what_is_typed_can_not_be_read_either(
+    size: tuple[int, int], tmp_path: Path
+) -> None:
+    def saved(words: str) -> Frame:
+        client = VirtualClient(size=size, scale=0, has_f3=False, capture_latency_s=(0.0, 0.0))
+        client.clock.sleep(0.2)
+        screen = WindowScreen(client.display, FONT)
+        tap(client, "t")
+        client.keyboard.type(words)
+        client.clock.sleep(0.3)
+        assert screen.seen_scales() is None
+        last = LastFrames(client.display, tmp_path / words[:4], lambda: None)
+        last.take()
+        picture = cv2.imread(str(last.save()[0]))
+        assert picture is not None
+        return np.asarray(picture, np.uint8)
+
+    assert np.array_equal(saved("meet me at the oak " * 6), saved("i will be a bit late " * 6))
+
+
+def test_what_a_long_open_chat_shows_can_not_be_read_on_them(tmp_path: Path) -> None:
+    # Of 180 dots, 20 lines, from 40 above the lower edge, in 1.12 48.
+    display = GreyDisplay()
+    last = LastFrames(display, tmp_path, lambda: 1)
+    display.shade = 200
+    last.take()
+    picture = cv2.imread(str(last.save()[0]))
+    assert picture is not None
+    chat = picture[300 - 48 - 180 : 300 - 40, : 4 + 320]
+    assert (chat != 200).all()
+
+
+RESET = (
+    "/tp @s 0.5 64 0.5 0 65",
+    "/fill 20 64 20 22 65 22 minecraft:air",
+    "/fill 20 63 20 22 63 22 minecraft:stone keep",
+    "/tp @s 0.5 64 0.5 0 65",
+    "/time set 6000",
+    "/time set 6000",
+)
+
+
+@pytest.mark.parametrize("version", ["1.12.2", "1.13.2", "1.14.4", "1.15.2", "1.16.5", "1.20.1"])
+def test_after_each_command_of_two_resets_the_debug_screen_is_read_in_the_smallest_window(version: str) -> None:
+    client = VirtualClient(version=version, size=(854, 480), scale=2, pitch=65.0)
+    connection = connection_to(client)
+    chat = Chat(Profile(game=GameVersion(version=version)), connection)
+    for command in (*RESET, *RESET):
+        assert connection.screen.read().target is not None, command
+        connection.controller.confirm_screen("world")
+        chat.send(command)
+        client.clock.sleep(0.2)
+    assert connection.screen.read().problem is None
+
+
+def cleared(version: str, size: tuple[int, int], scale: int) -> int:
+    """How often the chat is cleared in a reset of five lines."""
+    client = VirtualClient(version=version, size=size, scale=scale, pitch=65.0)
+    connection, count = connection_to(client), 0
+    forget = client.game.chat.clear
+
+    def counted() -> None:
+        nonlocal count
+        count += 1
+        forget()
+
+    client.game.chat.clear = counted  # type: ignore[method-assign]
+    chat = Chat(Profile(game=GameVersion(version=version)), connection)
+    for command in RESET[1:4] + RESET[1:2]:
+        assert connection.screen.read().problem is None
+        connection.controller.confirm_screen("world")
+        chat.send(command)
+    return count
+
+
+def test_a_reset_of_five_lines_is_cleared_once_where_the_fifth_covers_the_block_and_nowhere_else() -> None:
+    assert cleared("1.13.2", (854, 480), 2) == 1
+    assert cleared("1.13.2", (1920, 1080), 4) == 0
+    assert [cleared(version, (854, 480), 2) for version in ("1.12.2", "1.20.1", "1.21.9", "26.4")] == [0, 0, 0, 0]
+
+
+def test_lines_that_have_faded_do_not_count() -> None:
+    lines = ChatLines()
+    lines.note("/tp @s 0 0 0", 1.0)
+    lines.note("/fill", 2.0)
+    assert lines.after("/fill", 3.0) == 4
+    assert lines.after("/fill", 2.5 + SHOWN_S) == 2
+    lines.forget()
+    assert lines.after("/fill", 3.0) == 0
+
+
+def test_no_version_without_the_key_or_with_its_text_on_top_is_cleared() -> None:
+    assert [chat_room(version) for version in ("1.8.9", "1.9", "1.13", "1.16", "1.21.9")] == [None, 6, 4, 8, None]
+    assert chat_room("1.13.2", 270) == 7

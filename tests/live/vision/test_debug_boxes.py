@@ -1,17 +1,31 @@
-"""Boxes are in pixels; a GUI scale of 2 doubles all of the facts' lengths."""
+"""Boxes are in pixels; a GUI scale of 2 doubles all of the facts' lengths.
+
+Where 26.4's boxes lie on a picture: as they were drawn, before any world.
+"""
+
+import dataclasses
 
 import numpy as np
 import pytest
 
-from mc_nested.live.devices import Frame
-from mc_nested.live.vision.debug_boxes import ALPHA, GREY, ink_of, line_boxes
-from mc_nested.live.vision.font import font_of
-from sim.client.drawing.f3_cases import WORLDS, random_world
+from mc_nested.live.devices import Frame, Region
+from mc_nested.live.model.reading import Target
+from mc_nested.live.vision.debug_boxes import (
+    ALPHA,
+    FACTS_GREY,
+    GREY,
+    TITLE_GREY,
+    GroundPart,
+    ground_parts,
+    ink_of,
+    line_boxes,
+)
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import F3Screen, left_lines, right_lines
+from sim.client.drawing.painter import WORLDS, random_world
+from sim.client.game.f3_screen import F3Screen
+from sim.client.game.f3_text import left_lines, right_lines
+from tests.sim.client.playing import FONT
 
-FONT = font_of(drawn_atlas())
 SCREEN = F3Screen("1.19.3-1.21.8", 1, (0.5, 64.0, 0.5), 0.0, 65.0)
 
 
@@ -68,3 +82,49 @@ def test_under_a_box_the_world_is_a_mean_with_its_grey() -> None:
 def test_ink_is_white_green_or_red_as_the_game_writes() -> None:
     picture = np.array([[(224, 224, 224), (221, 221, 221), (85, 255, 85), (85, 85, 255), (200, 200, 200)]], np.uint8)
     assert ink_of(picture).tolist() == [[True, True, True, True, False]]
+
+
+TARGET = Target((4, -61, 11), "minecraft:oak_log")
+BOXED_SCREEN = F3Screen(
+    "26.4", 1, (-12.3, -59.0, -6.011), 58.0, 3.3, TARGET, (("axis", "y"), ("lit", "true")), ("minecraft:logs",)
+)
+BOXED_SCREEN = dataclasses.replace(
+    BOXED_SCREEN, entries=("fps", "looking_at_block_state", "looking_at_block_tags", "memory", "player_position")
+)
+
+
+@pytest.mark.parametrize("scale", [1, 2, 3])
+def test_each_ground_lies_where_it_was_drawn(scale: int) -> None:
+    bare = np.full((300 * scale, 700 * scale, 3), 100, np.uint8)
+    frame = paint(bare, dataclasses.replace(BOXED_SCREEN, gui_scale=scale, has_f3=False), FONT)
+    covered = np.zeros(frame.shape[:2], bool)
+    for region, grey in ground_parts(frame, scale):
+        rows = slice(region.top, region.top + region.height)
+        columns = slice(region.left, region.left + region.width)
+        covered[rows, columns] = True
+        assert (frame[rows, columns][0, 0] == round(100 * 111 / 255 + grey * 144 / 255)).all()
+    # The bars at both sides are no ground.
+    changed = (frame != bare).any(2)
+    changed[:, :scale] = changed[:, -scale:] = False
+    assert np.array_equal(covered, changed)
+
+
+@pytest.mark.parametrize("kind", [*(kind for kind in WORLDS if kind != "specks"), "bright", "dark"])
+def test_they_are_found_before_any_world(kind: str) -> None:
+    world = random_world(np.random.default_rng(1), kind, 854, 480)
+    plain = ground_parts(paint(np.full_like(world, 100), BOXED_SCREEN, FONT), 1)
+    found = ground_parts(paint(world, BOXED_SCREEN, FONT), 1)
+    assert len(set(found) & set(plain)) >= 0.7 * len(plain)
+
+
+def test_titles_lie_on_a_darker_ground() -> None:
+    parts = ground_parts(paint(np.full((300, 700, 3), 100, np.uint8), BOXED_SCREEN, FONT), 1)
+    assert {part.grey for part in parts} == {TITLE_GREY, FACTS_GREY}
+    assert all(part.region.height == 9 for part in parts if part.grey == TITLE_GREY)
+
+
+@pytest.mark.parametrize("layout", ["1.20.1", "26.1"])
+def test_older_screens_have_none(layout: str) -> None:
+    old = F3Screen("1.21.9-26.3" if layout == "26.1" else "1.19.3-1.21.8", 1, (0.5, 64.0, 0.5), 0.0, 65.0)
+    assert ground_parts(paint(np.full((300, 700, 3), 100, np.uint8), old, FONT), 1) == []
+    assert GroundPart(Region(0, 0, 1, 1), 80) not in ground_parts(np.full((300, 700, 3), 100, np.uint8), 1)

@@ -14,14 +14,17 @@ from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
 from mc_nested.live.vision.layout import VANILLA, LayoutName, Overlay
-from mc_nested.live.vision.layouts import LAYOUTS as SCREEN_LAYOUTS
+from mc_nested.live.vision.overlay import LAYOUTS as SCREEN_LAYOUTS
 from mc_nested.live.vision.overlay import find_debug_screen, find_overlay
 from mc_nested.live.vision.screen_lines import ScreenLines
 from mc_nested.live.vision.text_lines import positions_of
-from sim.client.drawing.f3_cases import WORLDS, expected, frames, random_screen, random_world
+from sim.client.drawing.f3_cases import expected, frames, random_screen
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.drawing.painter import WORLDS, random_world
+from sim.client.game.edition import Layout
+from sim.client.game.f3_screen import F3Screen
+from sim.client.game.f3_text import LAYOUTS
 
 FONT = font_of(drawn_atlas())
 SCALES = (1, 2, 3, 4)

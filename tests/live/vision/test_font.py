@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from mc_nested.errors import FontError
 from mc_nested.live.vision.font import ENTRY, Font, font_of, load_font
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 
 LETTERS = [chr(code) for code in range(ord("!"), ord("~") + 1)]
 

@@ -9,7 +9,7 @@ from mc_nested.errors import FontError
 from mc_nested.live.devices import Frame
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.menu_labels import MenuLabels
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 from tests.live.vision.menu_painter import GREY, HOVERED, OLD_WHITE, WHITE, Colour, MenuPainter
 
 FONT = font_of(drawn_atlas())

@@ -7,19 +7,18 @@ import pytest
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Target
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.vision.font import Font, font_of
 from mc_nested.live.vision.glyph_grid import GlyphGrid
-from mc_nested.live.vision.layout import BOXES, VANILLA, Overlay
+from mc_nested.live.vision.layout import BOXES, VANILLA, Overlay, Scales
 from mc_nested.live.vision.overlay import find_debug_screen, find_overlay
 from mc_nested.live.vision.standin import STANDIN
 from mc_nested.live.vision.text_lines import positions_of
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.drawing.painter import Painter
-from sim.client.drawing.scenery import WORLDS, random_world
-from sim.client.game.edition import Edition
-from sim.client.game.f3_text import LAYOUTS, F3Screen, Layout
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.drawing.painter import WORLDS, Painter, random_world
+from sim.client.game.edition import Edition, Layout
+from sim.client.game.f3_screen import F3Screen
+from sim.client.game.f3_text import LAYOUTS
 from sim.client.game.screens import MenuState, ScreenName
 from sim.client.game.view import View
 

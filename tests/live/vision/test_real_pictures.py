@@ -15,8 +15,8 @@ import pytest
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.font import font_of
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import F3Screen
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.game.f3_screen import F3Screen
 from tests.live.vision.real_pictures import TRUTH, VARIABLE, differences, truths
 
 ROOT = Path(__file__).parents[3]

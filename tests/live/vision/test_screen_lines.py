@@ -11,8 +11,9 @@ from mc_nested.live.vision.overlay import FoundScreen, find_debug_screen
 from mc_nested.live.vision.screen_lines import ScreenLines, Unreadable, check_whole, matched, only_line, shown
 from mc_nested.live.vision.text_lines import UNKNOWN, positions_of
 from sim.client.drawing.f3_layers import paint
-from sim.client.drawing.font import drawn_atlas
-from sim.client.game.f3_text import F3Screen, Layout
+from sim.client.drawing.letters import drawn_atlas
+from sim.client.game.edition import Layout
+from sim.client.game.f3_screen import F3Screen
 from tests.live.vision.written_lines import WrittenLines, written
 
 FONT = font_of(drawn_atlas())

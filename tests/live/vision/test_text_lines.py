@@ -19,7 +19,7 @@ from mc_nested.live.vision.text_lines import (
     line_up_to,
     positions_of,
 )
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 
 FONT = font_of(drawn_atlas())
 DRAWN = Overlay(1, VANILLA, (224, 224, 224))

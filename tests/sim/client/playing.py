@@ -13,7 +13,7 @@ from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.game_screen import WindowScreen
 from mc_nested.live.vision.layout import VANILLA, Overlay
 from sim.client.client import VirtualClient
-from sim.client.drawing.font import drawn_atlas
+from sim.client.drawing.letters import drawn_atlas
 
 FONT = font_of(drawn_atlas())
 TAP_S, SOON_S = 0.05, 0.3

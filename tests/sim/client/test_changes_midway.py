@@ -17,7 +17,7 @@ from mc_nested.live.motion.key_hold import KeyHold
 from mc_nested.live.motion.pose_observer import PoseFrame, PoseObserver
 from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.tables import GameVersion, Profile, ScreenTable
-from mc_nested.live.recording.replay import replay
+from mc_nested.live.recording.replayed_run import replay
 from mc_nested.live.vision.game_screen import WindowScreen
 from scripts.benches.into_screens import ScreenPresses
 from sim.client.client import VirtualClient

@@ -14,9 +14,8 @@ from mc_nested.live.menus import recovery, screens
 from mc_nested.live.menus.chat import Chat
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.vision.chat_region import without_chat
+from mc_nested.live.vision.chat_region import LastFrames, without_chat
 from mc_nested.live.vision.game_screen import WindowScreen
-from mc_nested.live.vision.last_frames import LastFrames
 from sim.client.client import VirtualClient
 from sim.client.game.options import GameOptions
 from tests.sim.client.playing import FONT, arena_of, command, connection_to, play, screen_of

@@ -14,7 +14,7 @@ from mc_nested.live.input.input_controller import InputController
 from mc_nested.live.profile.tables import GameVersion, InputTable, KeysTable, Profile
 from mc_nested.live.session import open_live_game
 from sim.client.client import VirtualClient
-from sim.client.desktop.layouts import LAYOUTS
+from sim.client.desktop.keyboard import LAYOUTS
 from tests.live.virtual_session import opener, profile_in
 from tests.sim.client.playing import arena_of, play
 

@@ -22,7 +22,7 @@ from mc_nested.live.model.reading import Target
 from mc_nested.live.profile.tables import GameVersion, Profile, WalkTable
 from mc_nested.live.vision.debug_screen import read_debug_screen
 from sim.client.client import VirtualClient
-from sim.client.drawing.scenery import SEEN
+from sim.client.drawing.painter import SEEN
 from sim.client.game.debug_entries import GAME_DEFAULT
 from sim.client.mishaps import KINDS
 from tests.arena.game_contract import BUMPS, check_game, check_materials

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from sim.client.client import VirtualClient
-from sim.client.desktop.clock import VirtualClock
-from sim.client.desktop.frames import Frames
+from sim.client.desktop.clock import Frames, VirtualClock
 from sim.client.desktop.window import VirtualWindow
 from sim.client.game.edition import Edition
 from sim.client.game.game import VirtualGame

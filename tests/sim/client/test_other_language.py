@@ -7,8 +7,7 @@ import pytest
 from calibration.clicks.find import calibrate_clicks
 from mc_nested.errors import DesktopError, LiveError
 from mc_nested.live.menus import recovery
-from mc_nested.live.menus.click_points import ClickPoints, record_point
-from mc_nested.live.menus.point_pictures import load_click_points
+from mc_nested.live.menus.click_points import ClickPoints, load_click_points, record_point
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.profile.store import load_profile, save_profile
 from mc_nested.live.profile.tables import Profile

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, StoppedError
-from mc_nested.live.input.panic import CORNER_REASON, KEY_REASON, corners_of
+from mc_nested.live.input.stops import CORNER_REASON, KEY_REASON, corners_of
 from sim.client.client import VirtualClient
 from sim.client.mishaps import KINDS, Kind
 from tests.sim.client.playing import arena_of, play

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from mc_nested.errors import LiveError
 from mc_nested.live.menus.recovery import Recovery
 from mc_nested.live.menus.screens import identify_screen
-from mc_nested.live.model.scales import Scales
 from mc_nested.live.profile.tables import Profile
+from mc_nested.live.vision.layout import Scales
 from sim.client.client import VirtualClient
-from sim.client.drawing import hud_layers
+from sim.client.drawing import gui_layers
 from sim.client.game.options import GameOptions
 from sim.client.game.screens import IN_WORLD, ScreenName
 from tests.sim.client.playing import connection_to, screen_of
@@ -92,7 +92,7 @@ def test_a_pause_without_a_menu_is_ended_in_any_language_and_over_any_world(
 def test_another_gui_scale_in_the_same_window_is_noticed_also_with_a_packs_hotbar(
     version: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(hud_layers, "_HOTBAR_FRAME", PACK)
+    monkeypatch.setattr(gui_layers, "_HOTBAR_FRAME", PACK)
     client = _client(version, (1280, 720), 3, 0, "noise")
     screen = screen_of(client)
     assert screen.read().problem is None
@@ -113,8 +113,8 @@ def test_another_gui_scale_in_the_same_window_is_noticed_also_with_a_packs_hotba
 def test_an_empty_chat_is_not_the_world_while_its_cursor_is_off(
     version: str, opacity: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    drawn = hud_layers.HudLayers._drawn_input
-    monkeypatch.setattr(hud_layers.HudLayers, "_drawn_input", lambda layers, typed: drawn(layers, typed)[:1])
+    drawn = gui_layers.HudLayers._drawn_input
+    monkeypatch.setattr(gui_layers.HudLayers, "_drawn_input", lambda layers, typed: drawn(layers, typed)[:1])
     options = GameOptions(text_background_opacity=opacity, background_for_chat_only=False)
     client = VirtualClient(version=version, options=options)
     client.clock.sleep(0.2)
@@ -127,7 +127,7 @@ def test_an_empty_chat_is_not_the_world_while_its_cursor_is_off(
 def test_a_hotbar_that_a_pack_draws_otherwise_is_named_as_the_cause_soon(
     version: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(hud_layers, "_HOTBAR_FRAME", PACK)
+    monkeypatch.setattr(gui_layers, "_HOTBAR_FRAME", PACK)
     client = _client(version, (854, 480), 0, 0, "noise")
     began = client.clock.now()
     with pytest.raises(LiveError, match=r"hotbar isn't seen .* take off a resource pack"):

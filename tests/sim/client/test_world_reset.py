@@ -9,11 +9,10 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, RunError
 from mc_nested.live.live_game import LiveGame
-from mc_nested.live.menus.world_folder import MARKER
+from mc_nested.live.menus.reset import MARKER
 from mc_nested.live.profile.tables import GameVersion, Profile, WorldTable
 from sim.client.client import VirtualClient
-from sim.client.game.realm import Stack
-from sim.client.game.world_folder import write_world
+from sim.client.game.realm import Stack, write_world
 from tests.sim.client.playing import arena_of, connection_to, play
 
 LINE = load_scenario("line")

@@ -1,6 +1,6 @@
 import pytest
 
-from mc_nested.live.model.key_names import check_key
+from mc_nested.live.model.keys import check_key
 from sim.client.game.keys import BINDINGS
 from sim.window.places import PLACES, symbol_at
 

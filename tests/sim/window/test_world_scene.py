@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from sim.client.client import VirtualClient
-from sim.client.drawing.scenery import SEEN
+from sim.client.drawing.painter import SEEN
 from sim.client.game.realm import Stack
 from sim.client.game.view import Eye
 

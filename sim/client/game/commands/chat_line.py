@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from sim.client.game.commands import blocks, player, regions, rules
+from sim.client.game.commands import blocks, player, rules
 from sim.client.game.commands.words import CommandRefusedError
 from sim.client.game.realm import Realm
 
@@ -90,7 +90,7 @@ def _execute(realm: Realm, words: list[str]) -> str:
             raise CommandRefusedError(f"Failed to execute '{' '.join(words)}' as {realm.player_name}")
         return command(realm, words[1:])
 
-    return regions.execute(realm, words, run_words)
+    return blocks.execute(realm, words, run_words)
 
 
 _COMMANDS: dict[str, _Command] = {
@@ -109,7 +109,7 @@ _COMMANDS: dict[str, _Command] = {
     "replaceitem": player.replaceitem,
     "effect": player.effect,
     "kill": player.kill,
-    "clone": regions.clone,
-    "testforblocks": regions.testforblocks,
+    "clone": blocks.clone,
+    "testforblocks": blocks.testforblocks,
     "execute": _execute,
 }

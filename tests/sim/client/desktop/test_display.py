@@ -4,10 +4,9 @@ import numpy as np
 import pytest
 
 from mc_nested.live.devices import Region
-from mc_nested.live.model.scales import Scales
-from sim.client.desktop.clock import VirtualClock
+from mc_nested.live.vision.layout import Scales
+from sim.client.desktop.clock import Frames, VirtualClock
 from sim.client.desktop.display import GRAB_S, VirtualDisplay
-from sim.client.desktop.frames import Frames
 from sim.client.desktop.window import VirtualWindow
 from sim.client.drawing.painter import Painter
 from sim.client.game.edition import Edition

@@ -7,11 +7,9 @@ import pytest
 
 from mc_nested.errors import ProfileError
 from mc_nested.live.desktop.keyboard import DesktopKeyboard
-from mc_nested.live.model.key_places import PLACES
-from sim.client.desktop.clock import VirtualClock
-from sim.client.desktop.frames import Frames
-from sim.client.desktop.keyboard import VirtualKeySender
-from sim.client.desktop.layouts import LAYOUTS
+from mc_nested.live.model.keys import PLACES
+from sim.client.desktop.clock import Frames, VirtualClock
+from sim.client.desktop.keyboard import LAYOUTS, VirtualKeySender
 from sim.client.desktop.window import VirtualWindow
 from sim.client.game.controls import Controls
 from sim.client.game.edition import Edition

@@ -3,8 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from sim.client.desktop.clock import VirtualClock
-from sim.client.desktop.frames import Frames
+from sim.client.desktop.clock import Frames, VirtualClock
 from sim.client.desktop.pointer import VirtualPointer
 from sim.client.desktop.window import VirtualWindow
 from sim.client.game.controls import Controls

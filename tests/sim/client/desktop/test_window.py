@@ -3,9 +3,8 @@ import math
 import numpy as np
 import pytest
 
-from sim.client.desktop.clock import VirtualClock
-from sim.client.desktop.frames import Frames
-from sim.client.desktop.window import Stray, VirtualWindow
+from sim.client.desktop.clock import Frames, VirtualClock
+from sim.client.desktop.window import Stray, VirtualClipboard, VirtualWindow
 
 EVER = Frames(math.inf)
 
@@ -143,3 +142,10 @@ def test_an_event_that_has_arrived_is_taken_when_asked_for_and_once() -> None:
     assert desktop.names() == ["w"]
     desktop.clock.sleep(2.0)
     assert desktop.names() == ["w"]
+
+
+def test_what_was_written_is_read() -> None:
+    clipboard = VirtualClipboard()
+    assert clipboard.read() == ""
+    clipboard.write("text")
+    assert clipboard.read() == "text"

@@ -1,9 +1,8 @@
 import numpy as np
 import pytest
 
-from sim.client.drawing.block_colours import block_colour
 from sim.client.drawing.block_faces import NEAR_FLOOR, brightness, cube_faces, faces_of, floor_faces, inside_rims
-from sim.client.drawing.cubes import FACES, HOLE
+from sim.client.drawing.world_shapes import FACES, HOLE, block_colour
 
 
 def test_a_block_on_the_floor_shows_its_top_and_four_sides() -> None:

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
-from mc_nested.live.devices import Frame
-from sim.client.drawing.layers import Blend, Gradient, Group, Ink, Rect, draw_all, intersection
-from sim.client.game.colours import Colour
+from mc_nested.live.devices import Frame, Region
+from sim.client.drawing.layers import Blend, Gradient, Group, Ink, LayeredPicture, Rect, draw_all, intersection
+from sim.client.game.widgets import WHITE, Colour
 
 
 def grey(value: int, height: int = 10, width: int = 20) -> Frame:
@@ -96,3 +96,135 @@ def test_a_layer_that_only_touches_the_part_is_not_drawn(rect: Rect) -> None:
     frame = grey(0)
     draw_all(frame, [Blend(rect, (9, 9, 9), 255)], (4, 3, 7, 5))
     assert not frame.any()
+
+
+class Note:
+    """A layer that only notes which parts of it are drawn."""
+
+    def __init__(self, rect: Rect) -> None:
+        self.rect = rect
+        self.parts: list[Rect] = []
+
+    def draw(self, frame: Frame, part: Rect) -> None:
+        frame[part[1] : part[3], part[0] : part[2]] += 1
+        self.parts.append(part)
+
+
+def test_nothing_is_drawn_before_a_grab_and_only_what_is_grabbed() -> None:
+    picture, upper, lower = (
+        LayeredPicture(np.zeros((100, 50, 3), np.uint8)),
+        Note((10, 10, 20, 20)),
+        Note((10, 60, 20, 70)),
+    )
+    picture.show(np.zeros((100, 50, 3), np.uint8), [upper, lower])
+    assert upper.parts == []
+    part = picture.grab(Region(0, 15, 50, 10))
+    assert upper.parts == [(10, 15, 20, 20)]
+    assert lower.parts == []
+    assert part.sum() == 5 * 10 * 3
+    whole = picture.grab()
+    assert whole.sum() == 2 * 10 * 10 * 3
+    assert upper.parts == [(10, 15, 20, 20), (10, 10, 20, 15)]
+
+
+def test_only_what_changed_is_drawn_again() -> None:
+    world = np.zeros((100, 50, 3), np.uint8)
+    picture, kept, gone, new = LayeredPicture(world), Note((0, 0, 9, 9)), Note((0, 20, 9, 29)), Note((0, 40, 9, 49))
+    picture.show(world, [kept, gone])
+    before = picture.grab()
+    picture.show(world, [kept, new])
+    after = picture.grab()
+    assert len(kept.parts) == len(gone.parts) == len(new.parts) == 1
+    assert before[20:29].any()
+    assert not after[20:29].any()
+    assert after[40:49, :9].all()
+
+
+def test_a_picture_once_given_never_changes() -> None:
+    world = np.zeros((10, 10, 3), np.uint8)
+    picture = LayeredPicture(world)
+    first = picture.grab()
+    picture.show(world, [Blend((0, 0, 10, 10), WHITE, 255)])
+    assert picture.grab().all()
+    assert not first.any()
+    with pytest.raises(ValueError, match="read-only"):
+        first[0, 0, 0] = 1
+
+
+def test_a_region_beside_the_window_is_cut_off() -> None:
+    picture = LayeredPicture(np.full((10, 20, 3), 7, np.uint8))
+    assert picture.grab(Region(15, -5, 50, 8)).shape == (3, 5, 3)
+    assert picture.grab(Region(15, -5, 50, 8)).min() == 7
+    assert picture.grab(Region(20, 0, 5, 5)).shape == (0, 0, 3)
+
+
+def test_the_same_region_is_the_same_array_until_something_changes() -> None:
+    world = np.zeros((10, 20, 3), np.uint8)
+    picture = LayeredPicture(world)
+    first = picture.grab(Region(0, 0, 5, 5))
+    assert picture.grab(Region(0, 0, 5, 5)) is first
+    assert picture.grab(Region(0, 0, 5, 6)) is not first
+    picture.show(world, [])
+    assert picture.grab(Region(0, 0, 5, 6)) is not first
+
+
+def test_another_background_is_drawn_as_a_whole() -> None:
+    picture = LayeredPicture(np.zeros((10, 20, 3), np.uint8))
+    picture.grab()
+    layer = Note((2, 2, 4, 4))
+    picture.show(np.full((10, 20, 3), 9, np.uint8), [layer])
+    shown = picture.grab()
+    assert shown[0, 0, 0] == 9
+    assert shown[2, 2, 0] == 10
+    assert layer.parts == [(2, 2, 4, 4)]
+
+
+def test_rows_above_and_below_the_grabbed_ones_stay_to_be_drawn() -> None:
+    world = np.zeros((12, 20, 3), np.uint8)
+    picture, layer = LayeredPicture(world), Note((0, 0, 20, 12))
+    picture.grab()
+    picture.show(world, [layer])
+    picture.grab(Region(0, 4, 20, 4))
+    assert layer.parts == [(0, 4, 20, 8)]
+    picture.grab(Region(0, 4, 20, 4))
+    assert layer.parts == [(0, 4, 20, 8)]
+    assert picture.grab().min() == 1
+    assert sorted(layer.parts) == [(0, 0, 20, 4), (0, 4, 20, 8), (0, 8, 20, 12)]
+
+
+def test_overlapping_changes_are_drawn_once() -> None:
+    world = np.zeros((12, 20, 3), np.uint8)
+    picture = LayeredPicture(world)
+    picture.grab()
+    inner, outer, inner_again = Note((4, 4, 8, 8)), Note((2, 2, 10, 10)), Note((4, 4, 8, 8))
+    picture.show(world, [inner, outer, inner_again])
+    assert picture.grab().max() == 3
+    assert (inner.parts, outer.parts, inner_again.parts) == ([(4, 4, 8, 8)], [(2, 2, 10, 10)], [(4, 4, 8, 8)])
+
+
+def test_a_layer_beyond_the_window_is_drawn_up_to_its_edge() -> None:
+    world = np.zeros((10, 20, 3), np.uint8)
+    picture, layer, beyond = LayeredPicture(world), Note((-5, -5, 3, 3)), Note((30, 30, 40, 40))
+    picture.grab()
+    picture.show(world, [layer, beyond])
+    picture.grab()
+    assert (layer.parts, beyond.parts) == ([(0, 0, 3, 3)], [])
+
+
+def test_a_narrow_part_is_all_that_is_drawn_for_it_and_the_rest_follows_later() -> None:
+    picture, layer = LayeredPicture(np.zeros((20, 40, 3), np.uint8)), Note((0, 0, 40, 20))
+    picture.show(np.zeros((20, 40, 3), np.uint8), [layer])
+    assert picture.grab(Region(8, 5, 4, 6)).all()
+    assert layer.parts == [(8, 5, 12, 11)]
+    assert (picture.grab() == 1).all()  # each pixel once
+
+
+def test_two_regions_are_each_the_same_array_until_something_changes() -> None:
+    world = np.zeros((20, 40, 3), np.uint8)
+    picture = LayeredPicture(world)
+    regions = Region(0, 0, 40, 5), Region(0, 10, 40, 5)
+    first, second = (picture.grab(region) for region in regions)
+    assert picture.grab(regions[0]) is first
+    assert picture.grab(regions[1]) is second
+    picture.show(world, [Blend((0, 0, 40, 20), WHITE, 255)])
+    assert picture.grab(regions[0]) is not first

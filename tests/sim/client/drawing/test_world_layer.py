@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Block
-from sim.client.drawing.block_colours import block_colour
 from sim.client.drawing.block_faces import brightness
 from sim.client.drawing.world_layer import WorldLayers
+from sim.client.drawing.world_shapes import block_colour
 from sim.client.game.view import Eye, Sight
 
 SIZE = (200, 100)

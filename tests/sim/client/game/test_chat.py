@@ -1,7 +1,7 @@
 import pytest
 
 from sim.client.game.chat import LONGEST, ChatLine, VirtualChat
-from sim.client.game.colours import RED, WHITE
+from sim.client.game.widgets import RED, WHITE
 
 
 def texts(chat: VirtualChat, tick: int) -> list[str]:

@@ -1,7 +1,6 @@
 import pytest
 
-from sim.client.game.edition import Edition
-from sim.client.game.f3_text import Layout
+from sim.client.game.edition import Edition, Layout
 
 
 @pytest.mark.parametrize(

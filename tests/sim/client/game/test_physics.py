@@ -1,10 +1,32 @@
+"""Players in one world: each is as solid to the others as a block."""
+
 import math
+from collections.abc import Sequence
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sim.client.game.physics import AT_REST, INPUT, Gait, Ground, displacement, is_free, overlaps, step, wish
+from sim.client.game.edition import Edition
+from sim.client.game.game import VirtualGame
+from sim.client.game.physics import (
+    AT_REST,
+    INPUT,
+    SPRINT_WINDOW,
+    Gait,
+    Gaits,
+    Ground,
+    Vector,
+    displacement,
+    is_free,
+    kept_apart,
+    overlaps,
+    step,
+    touches,
+    wish,
+)
+from sim.client.game.realm import Player, Realm, Stack
+from sim.client.game.world import VirtualWorld
 
 INERTIA = 0.546
 PUSH = 0.98 * 0.1 * 0.1627714 / INERTIA**3
@@ -139,3 +161,107 @@ def test_a_walking_player_walks_over_an_edge() -> None:
         push = wish(1, 0, "walk", 0.0)
         feet, velocity, stands = step(feet, velocity, push, 1.8, is_solid, on_ground=stands)
     assert feet[1] < 60
+
+
+def gaits_of(keys: Sequence[str], version: str = "1.20.1", may_sprint: bool = True) -> list[Gait]:
+    """The gaits of ticks in which these keys are down: any of w and s (for sneak)."""
+    gaits = Gaits(Edition(version))
+    return [gaits.tick(is_forward="w" in down, sneaks="s" in down, may_sprint=may_sprint) for down in keys]
+
+
+def twice(apart: int) -> list[str]:
+    """Forward down in tick 0, and in two ticks from ``apart`` on."""
+    return ["w", *[""] * (apart - 1), "w", "w"]
+
+
+@pytest.mark.parametrize("apart", range(2, SPRINT_WINDOW))
+def test_a_second_press_within_the_window_sprints_until_it_ends(apart: int) -> None:
+    assert gaits_of([*twice(apart), "", "w"])[apart:] == [
+        "sprint",
+        "sprint",
+        "walk",
+        "walk" if apart >= 4 else "sprint",
+    ]
+
+
+def test_a_second_press_after_the_window_walks() -> None:
+    assert set(gaits_of(twice(SPRINT_WINDOW))) == {"walk"}
+
+
+def test_one_long_press_never_sprints() -> None:
+    assert set(gaits_of(["w"] * 20)) == {"walk"}
+
+
+def test_whoever_may_not_sprint_walks() -> None:
+    assert set(gaits_of(twice(3), may_sprint=False)) == {"walk"}
+
+
+def test_a_tick_of_sneaking_between_two_presses_keeps_them_apart() -> None:
+    assert gaits_of(["w", "s", "", "w"]) == ["walk", "walk", "sneak", "walk"]
+
+
+def test_from_1_15_on_sneaking_slows_down_a_tick_after_its_key() -> None:
+    keys = ["ws", "ws", "ws", "w"]
+    assert gaits_of(keys, "1.15") == ["walk", "sneak", "sneak", "sneak"]
+    assert gaits_of(keys, "1.14.4") == ["sneak", "sneak", "sneak", "walk"]
+
+
+HEIGHT = 1.8
+
+
+def two(first: Vector, second: Vector) -> tuple[VirtualGame, VirtualGame]:
+    one = Realm(Edition("1.20.1"), VirtualWorld(64, "dirt"), Player(first))
+    other = Realm(Edition("1.20.1"), one.world, Player(second), "Player2", players=one.players)
+    return VirtualGame(one), VirtualGame(other)
+
+
+@pytest.mark.parametrize(
+    ("other", "is_touched"),
+    [((0.59, 64.0, 0.0), True), ((0.61, 64.0, 0.0), False), ((0.5, 64.0, 0.59), True), ((0.0, 65.9, 0.0), False)],
+)
+def test_players_are_0_6_wide_and_1_8_high(other: Vector, is_touched: bool) -> None:
+    assert touches((0.0, 64.0, 0.0), other, HEIGHT) == is_touched
+
+
+def test_a_way_into_somebody_is_not_gone_and_the_other_way_is() -> None:
+    before, after = (0.0, 64.0, 0.0), (0.5, 64.0, 0.1)
+    assert kept_apart(before, after, [(1.0, 64.0, 0.0)], HEIGHT) == (0.0, 64.0, 0.1)
+    assert kept_apart(before, after, [(5.0, 64.0, 0.0)], HEIGHT) == after
+
+
+def test_who_is_in_somebody_may_leave() -> None:
+    assert kept_apart((0.0, 64.0, 0.0), (0.1, 64.0, 0.0), [(0.2, 64.0, 0.0)], HEIGHT) == (0.1, 64.0, 0.0)
+
+
+def test_a_player_walks_up_to_another_and_no_further() -> None:
+    walker, _ = two((0.5, 64.0, 0.5), (0.5, 64.0, 3.5))
+    walker.keys.press("w")
+    for _ in range(60):
+        walker.tick()
+    assert 2.6 < walker.realm.player.feet[2] <= 2.9
+    walker.keys.release("w")
+    walker.keys.press("d")
+    for _ in range(60):
+        walker.tick()
+    assert walker.realm.player.feet[0] < -3, "beside it the way is free"
+
+
+def test_no_block_is_placed_into_another_player() -> None:
+    builder, other = two((0.5, 64.0, 0.5), (0.5, 64.0, 1.5))
+    builder.realm.player.hotbar[0] = Stack("stone", 64)
+    builder.realm.player.look(0.0, 65.0)
+    builder.keys.press("right button")
+    builder.tick()
+    assert builder.realm.world.built() == {}
+    builder.keys.release("right button")
+    other.realm.player.go_to((4.5, 64.0, 4.5))
+    for _ in range(5):
+        builder.tick()
+    builder.keys.press("right button")
+    builder.tick()
+    assert other.realm.world.built() == {(0, 64, 1): "stone"}, "the other sees it, it is the same world"
+
+
+def test_alone_there_are_no_others() -> None:
+    realm = Realm(Edition("1.20.1"), VirtualWorld(64, "dirt"), Player((0.5, 64.0, 0.5)))
+    assert realm.others() == []

@@ -1,7 +1,7 @@
 import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.live.menus.commands import reset_commands
+from mc_nested.live.menus.reset import reset_commands
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.tables import GameVersion, Profile
 from sim.client.game.commands.chat_line import Answer, run

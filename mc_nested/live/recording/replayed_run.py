@@ -1,0 +1,194 @@
+"""Replay: today's reader and body on a recording: where they would read or decide otherwise.
+
+Each reading is taken anew from its pixels and compared; play goes on with the one of then. Each call to a device must
+be the recorded one, to the last digit of its time. After the first that is another, nothing can be known of that
+episode any more, and the next reset is where both are alike again.
+"""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mc_nested.arena.action import Action
+from mc_nested.arena.scenario_file import parse_scenario
+from mc_nested.errors import LiveError, RecordingError
+from mc_nested.live.connection import GameConnection
+from mc_nested.live.devices import Frame
+from mc_nested.live.input.input_controller import InputController
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.profile.overlay import overlay_of
+from mc_nested.live.profile.store import parse_profile
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.recording.call_encoder import KeptPicture
+from mc_nested.live.recording.format import FORMAT
+from mc_nested.live.recording.recording_file import PartEnd, facts_of, read_recording
+from mc_nested.live.recording.replayed_devices import OtherCall, ReplayedTape, replayed
+from mc_nested.live.recording.replayed_screen import PixelReader, ReplayedScreen
+from mc_nested.live.vision.font import Font, load_font
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Where this version reads or decides otherwise.
+
+    Attributes:
+        action: the number of actions that had begun.
+        kind: a reading, or a decision.
+        then: what was recorded, in words.
+        now: what this version does.
+        picture: what it was read from, for a reading.
+    """
+
+    action: int
+    kind: str
+    then: str
+    now: str
+    picture: Frame | None = None
+
+
+@dataclass
+class Replayed:
+    """What a replay saw. Readings whose pixels were not kept are not among ``read_anew``."""
+
+    actions: int = 0
+    followed: int = 0
+    readings: int = 0
+    read_anew: int = 0
+    damaged: list[str] = field(default_factory=list)
+    differences: list[Difference] = field(default_factory=list)
+
+
+def profile_of(path: Path, facts: Mapping[str, str]) -> Profile:
+    """The profile of a recording that says these facts of itself; RecordingError if it can't be replayed with it."""
+    if (written := int(facts["format"])) < FORMAT:
+        raise RecordingError(
+            f"{path}: is of format {written}, of a run by an earlier mc-nested, and this one replays format {FORMAT}: "
+            "record the run again, or replay it with the mc-nested of that time"
+        )
+    try:
+        return parse_profile(facts["profile"], f"{path}: its profile")
+    except KeyError:
+        raise RecordingError(f"{path}: says nothing of its profile: it can't be replayed") from None
+
+
+def replay(path: Path, font: Font | None = None, on_progress: Callable[[Replayed], None] = lambda _: None) -> Replayed:
+    """Replay a recording's file or folder.
+
+    Args:
+        path: the recording.
+        font: reads it; the font of its profile without one.
+        on_progress: is called after each action.
+
+    Raises:
+        RecordingError: it is foreign, of another format or holds nothing.
+        FontError: its profile's font isn't on this computer.
+    """
+    facts = facts_of(path)
+    profile = profile_of(path, facts)
+    player = _Player(path, facts, profile, font or load_font(profile.screen.font_path()), on_progress)
+    return player.play()
+
+
+class _Player:
+    def __init__(
+        self,
+        path: Path,
+        facts: Mapping[str, str],
+        profile: Profile,
+        font: Font,
+        on_progress: Callable[[Replayed], None],
+    ) -> None:
+        self.seen = Replayed()
+        self._on_progress = on_progress
+        width, height = (int(each) for each in facts["size"].split("x"))
+        self._pixels = PixelReader((width, height), font, overlay_of(profile))
+        self._tape = ReplayedTape(self._calls(path))
+        self._screen = ReplayedScreen(self._tape, self._pixels, self._compare)
+        devices = replayed(self._tape, (width, height), facts.get("title", ""))
+        self._controller = InputController(devices, profile.input)
+        connection = GameConnection(
+            devices,
+            self._controller,
+            self._screen,
+            is_server_allowed=facts.get("is_server_allowed") == "true",
+            journal=self._tape,
+        )
+        self._game = None
+        if "scenario" in facts:
+            scenario = parse_scenario(facts["scenario"], f"{path}: its scenario")
+            self._game = LiveGame(scenario, profile, connection, restore=lambda _world, _template: None)
+
+    def play(self) -> Replayed:
+        while (call := self._tape.peek()) is not None:
+            if self._game is not None and call[:2] == ["note", "resets"]:
+                self._follow(self._game, call[2])
+            else:
+                self._pass_by(call)
+        return self.seen
+
+    def _follow(self, game: LiveGame, facts: Mapping[str, Any]) -> None:
+        """One episode: its reset, and its actions until the next one, or until the first other call."""
+        tape = self._tape
+        placed = [(int(x), int(y)) for x, y in facts["placed"]]
+        real, imaginary, weight = facts["tick_phase"]
+        chat = [(float(sent), int(lines)) for sent, lines in facts["chat"]]
+        game.go_on_from(placed, facts["pressed"], (real, imaginary, weight), chat)
+        tape.is_followed = True
+        try:
+            self._call(lambda: game.reset(int(facts["material"])))
+            while (call := tape.peek()) is not None and call[:2] != ["note", "resets"]:
+                if call[:2] != ["note", "acts"]:
+                    self._pass_by(call)
+                    continue
+                self.seen.actions += 1
+                self._call(partial(game.act, Action(call[2]["action"]), call[2].get("material")))
+                self.seen.followed += 1
+                self._on_progress(self.seen)
+        except OtherCall as other:
+            if tape.peek() is not None and tape.stop_reason is None:
+                self._differs("decision", _words(other.then), _words(other.now))
+        finally:
+            tape.is_followed = False
+
+    def _call(self, play: Callable[[], object]) -> None:
+        try:
+            play()
+        except LiveError:
+            return  # as it was then, or its note would have differed
+
+    def _pass_by(self, call: list[Any]) -> None:
+        """A call that nothing is compared with but its reading."""
+        self._tape.skip()
+        if call[:2] == ["note", "acts"]:
+            self.seen.actions += 1
+        elif call[0] == "screen" and call[1] in ("read", "read_position"):
+            self._screen.read_again(call[1], call[3], call[4])
+
+    def _compare(self, then: Any, now: Any | None) -> None:
+        self.seen.readings += 1
+        if now is None:
+            return
+        self.seen.read_anew += 1
+        if then != now:
+            self._differs("reading", str(then[0]), str(now[0]), np.array(self._pixels.canvas))
+
+    def _differs(self, kind: str, then: str, now: str, picture: Frame | None = None) -> None:
+        self.seen.differences.append(Difference(self.seen.actions, kind, then, now, picture))
+
+    def _calls(self, path: Path) -> Iterator[list[Any]]:
+        for each in read_recording(path):
+            if isinstance(each, KeptPicture):
+                self._pixels.keep(each)
+            elif isinstance(each, PartEnd):
+                if each.problem:
+                    self.seen.damaged.append(f"{each.path.name}: {each.problem}")
+            else:
+                yield each.call
+
+
+def _words(call: list[Any] | None) -> str:
+    return "nothing more" if call is None else " ".join(str(each) for each in call)

@@ -1,0 +1,164 @@
+"""Opening a live run's recorder: where recordings lie, what they say of themselves, and how many are kept."""
+
+import datetime
+import importlib.metadata
+import platform
+import shutil
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
+from pathlib import Path
+
+import platformdirs
+import tomlkit
+
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import table_of
+from mc_nested.errors import RecordingError
+from mc_nested.live.devices import DesktopArea, Devices
+from mc_nested.live.profile.tables import Profile
+from mc_nested.live.recording.format import FORMAT, SUFFIX
+from mc_nested.live.recording.recorder import NoRecording, Recorder, Recording
+
+MOST_RECORDINGS = 10
+"""Recordings that are kept where they lie by default; the oldest one makes room for a new one."""
+
+OFF = "off"
+"""Instead of a folder: nothing is recorded."""
+
+UNKNOWN = "unknown"
+"""What a fact is where the system doesn't say."""
+
+OpenRecorder = Callable[[Profile, Devices], AbstractContextManager[Recording]]
+"""Opens the recorder of a window that is played in with a profile."""
+
+
+def is_recording(path: Path) -> bool:
+    """Whether a file, or a folder's files, are named as those of a recording."""
+    return any(path.glob(f"*{SUFFIX}")) if path.is_dir() else path.suffix == SUFFIX
+
+
+@contextmanager
+def no_recorder(profile: Profile, devices: Devices) -> Iterator[Recording]:
+    """Record nothing."""
+    del profile, devices
+    yield NoRecording()
+
+
+def recordings_folder() -> Path:
+    """Where recordings lie by default, by the system's convention."""
+    return platformdirs.user_state_path("mc-nested", appauthor=False) / "recordings"
+
+
+def kept_recordings() -> list[Path]:
+    """The recordings in their folder, the oldest first: folders of files, and single files."""
+    folder = recordings_folder()
+    if not folder.is_dir():
+        return []
+    found = [
+        each for each in folder.iterdir() if each.suffix == SUFFIX or (each.is_dir() and any(each.glob(f"*{SUFFIX}")))
+    ]
+    return sorted(found, key=lambda each: (each.stat().st_mtime_ns, each.name))
+
+
+def recorder_opener(
+    where: Path | None, what: str, say: Callable[[str], None], facts: Mapping[str, str] | None = None
+) -> OpenRecorder:
+    """Opens recorders for a run.
+
+    Args:
+        where: a new folder for the recording; None for one by its date among the others.
+        what: the run, in a word or two, as "train-line".
+        say: shows the person one line, where nothing can be recorded.
+        facts: more of the run: its scenario as TOML, whether a server is allowed.
+    """
+
+    @contextmanager
+    def opened(profile: Profile, devices: Devices) -> Iterator[Recording]:
+        said = {**_facts(what, profile, devices), **(facts or {})}
+        folder = where or _new_folder(what)
+        try:
+            recorder = Recorder(folder, said, devices.display.size(), say)
+        except OSError as error:
+            say(f"nothing is recorded: {folder}: {error.strerror or error}")
+            yield NoRecording()
+            return
+        with recorder:
+            yield recorder
+
+    return opened
+
+
+def run_recorder(
+    record: str | Path | None,
+    what: str,
+    say: Callable[[str], None],
+    scenario: Scenario | None = None,
+    *,
+    server_allowed: bool = False,
+) -> OpenRecorder:
+    """What opens the recorder of a live run.
+
+    Args:
+        record: a new folder, or "off"; None for one among the others.
+        what: the run, in a word or two.
+        say: shows the person one line, where nothing can be recorded.
+        scenario: what is built there, if anything.
+        server_allowed: whether to play in a game that others may share.
+
+    Raises:
+        RecordingError: the folder holds something already.
+    """
+    if record == OFF:
+        return no_recorder
+    where = None if record is None else Path(record)
+    if where is not None and where.exists() and (not where.is_dir() or any(where.iterdir())):
+        raise RecordingError(f"{where}: holds something already: name a new folder for the recording, or {OFF!r}")
+    facts = {"is_server_allowed": str(server_allowed).lower()}
+    if scenario is not None:
+        facts["scenario"] = tomlkit.dumps(table_of(scenario).model_dump(exclude_none=True))
+    return recorder_opener(where, what, say, facts)
+
+
+def versions_here() -> dict[str, str]:
+    """The versions of this program, of Python and of the system."""
+    return {
+        "version": importlib.metadata.version("mc-nested"),
+        "python": platform.python_version(),
+        "system": platform.platform(),
+    }
+
+
+def make_room() -> None:
+    """Delete the oldest recordings where they lie by default, so that there is room for one more."""
+    for old in kept_recordings()[: 1 - MOST_RECORDINGS]:
+        if old.is_dir() and not old.is_symlink():
+            shutil.rmtree(old, ignore_errors=True)
+        else:
+            old.unlink(missing_ok=True)
+
+
+def _new_folder(what: str) -> Path:
+    make_room()
+    now = datetime.datetime.now().astimezone()
+    return recordings_folder() / f"{what}-{now:%Y-%m-%d-%H%M%S}"
+
+
+def _facts(what: str, profile: Profile, devices: Devices) -> dict[str, str]:
+    width, height = devices.display.size()
+    document = tomlkit.document()
+    document.update(profile.model_dump(mode="json", exclude_none=True, exclude_defaults=True))
+    return {
+        "format": str(FORMAT),
+        "what": what,
+        **versions_here(),
+        "size": f"{width}x{height}",
+        "title": devices.display.title(),
+        "profile": tomlkit.dumps(document),
+        "window": _area_words(devices.area()) if devices.area else UNKNOWN,
+        "monitors": ", ".join(map(_area_words, devices.monitors() if devices.monitors else ())) or UNKNOWN,
+    }
+
+
+def _area_words(area: DesktopArea) -> str:
+    """As "854x480 at 100 50", in points of the desktop."""
+    return f"{area.width}x{area.height} at {area.left} {area.top}"

@@ -1,0 +1,97 @@
+"""The kinds of designs: each of exactly one.
+
+A scenario from a design alone: what it takes over, and its step limit.
+"""
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mc_nested.arena.action import Cell
+from mc_nested.arena.builder import build
+from mc_nested.arena.design import (
+    BESIDE,
+    CORNER,
+    DIAGONAL,
+    EDGE,
+    SCATTERED,
+    is_buildable,
+    kind_of_design,
+    neighbours,
+    scenario_of_design,
+)
+from mc_nested.arena.scenario import SMALLEST_SIZE, Scenario
+from mc_nested.arena.scenario_file import load_scenario
+from mc_nested.arena.search import fewest_steps
+
+
+@pytest.mark.parametrize(("name", "kind"), [("line", EDGE), ("zigzag", CORNER), ("diamond", CORNER)])
+def test_the_shipped_designs(name: str, kind: str) -> None:
+    assert kind_of_design(load_scenario(name).design) == kind
+
+
+@pytest.mark.parametrize(
+    ("design", "kind"),
+    [
+        ({(3, 3)}, EDGE),
+        ({(3, 3), (3, 4), (4, 4), (5, 4)}, EDGE),
+        ({(3, 3), (3, 4), (4, 5), (4, 6)}, CORNER),
+        ({(3, 3), (3, 4), (3, 6)}, SCATTERED),
+        ({(3, 3), (4, 4), (6, 5)}, SCATTERED),
+    ],
+)
+def test_edges_then_corners_then_nothing(design: set[Cell], kind: str) -> None:
+    assert kind_of_design(design) == kind
+
+
+def test_eight_cells_are_around_a_cell() -> None:
+    around = neighbours((5, 5), (*BESIDE, *DIAGONAL))
+    assert sorted(around) == [(x, y) for x in (4, 5, 6) for y in (4, 5, 6) if (x, y) != (5, 5)]
+
+
+LINE = load_scenario("line")
+
+
+def test_a_design_that_is_quickly_built_has_the_shipped_designs_limit() -> None:
+    for name in ("line", "zigzag"):
+        shipped = load_scenario(name)
+        assert scenario_of_design(name, shipped.design, LINE) == shipped
+
+
+def test_a_long_way_has_half_as_many_steps_again_as_the_builder_takes() -> None:
+    far_apart = frozenset({(0, 1), (14, 1), (0, 14), (14, 14), (0, 7), (14, 7)})
+    scenario = scenario_of_design("far", far_apart, LINE)
+    assert scenario
+    steps = len(build(scenario))
+    assert steps > 40
+    assert 1.5 * steps <= scenario.step_limit < 1.5 * steps + 1
+    assert (scenario.start, scenario.materials) == (LINE.start, LINE.materials)
+
+
+def test_what_the_builder_can_not_build_is_none() -> None:
+    # No block can land on the near edge: the builder walks against the arena's edge, and places it elsewhere.
+    assert scenario_of_design("near", frozenset({(3, 0), (3, 1)}), LINE) is None
+    assert not is_buildable(replace(LINE, step_limit=10))
+    assert is_buildable(LINE)
+
+
+@st.composite
+def small_designs(draw: st.DrawFn) -> Scenario:
+    """Any design of a few blocks off the near edge, from any start, with no step limit to speak of."""
+    size = draw(st.integers(SMALLEST_SIZE, 9))
+    cells = st.tuples(st.integers(0, size - 1), st.integers(0, size - 1))
+    design = draw(st.frozensets(cells.filter(lambda cell: cell[1] > 0), min_size=1, max_size=7))
+    return replace(LINE, size=size, design=design, start=draw(cells))
+
+
+@given(small_designs())
+def test_every_design_is_built_within_its_limit_and_never_in_fewer_steps_than_the_exact_search_finds(
+    like: Scenario,
+) -> None:
+    scenario = scenario_of_design("any", like.design, like)
+    assert scenario
+    fewest = fewest_steps(scenario)
+    assert fewest.exact
+    assert fewest.steps <= len(build(scenario)) <= scenario.step_limit

@@ -1,0 +1,49 @@
+"""Which positions of the mouse are corners of a screen.
+
+The watchdog: what is held too long goes up, even while the program does nothing.
+"""
+
+import time
+
+import pytest
+
+from mc_nested.live.input.input_controller import OVERDUE_S, InputController
+from mc_nested.live.input.stops import corners_of, watched
+from mc_nested.live.profile.tables import Profile
+from tests.live.fake_game import FakeGame, devices_of
+
+
+@pytest.mark.parametrize("corner", [(0, 0), (1919, 0), (0, 1079), (1919, 1079)])
+def test_the_last_point_of_each_side_is_a_corner(corner: tuple[int, int]) -> None:
+    assert corner in corners_of(1920, 1080)
+
+
+@pytest.mark.parametrize("point", [(1, 0), (1920, 0), (0, 1080), (960, 540), (1918, 1079)])
+def test_any_other_point_is_no_corner(point: tuple[int, int]) -> None:
+    assert point not in corners_of(1920, 1080)
+
+
+@pytest.mark.realtime
+def test_a_key_that_is_held_past_its_time_goes_up_though_nobody_waits() -> None:
+    game = FakeGame(Profile())
+    controller = InputController(devices_of(game), game.profile.input)
+    controller.confirm_screen("world")
+    with watched(controller):
+        controller.press(game.clock.now() + 0.25, "w")
+        game.clock.time += 0.25 + OVERDUE_S
+        until = time.monotonic() + 2.0
+        while game.down and time.monotonic() < until:
+            time.sleep(0.01)
+        assert game.down == set()
+
+
+@pytest.mark.realtime
+def test_what_is_held_for_a_while_is_left_alone() -> None:
+    game = FakeGame(Profile())
+    controller = InputController(devices_of(game), game.profile.input)
+    controller.confirm_screen("world")
+    with watched(controller):
+        controller.press(game.clock.now() + 0.25, "w")
+        time.sleep(0.12)
+        assert game.down == {"w"}
+    controller.release_all()

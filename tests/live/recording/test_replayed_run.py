@@ -1,0 +1,195 @@
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from calibration.font.sources import font_of_recording
+from calibration.installation.folders import System
+from mc_nested.errors import ProfileError, RecordingError
+from mc_nested.live.recording.call_encoder import KeptPicture
+from mc_nested.live.recording.cut import cut, trim
+from mc_nested.live.recording.format import FORMAT
+from mc_nested.live.recording.recording_file import PartWriter, TimedCall, facts_of, overview_of, read_recording
+from mc_nested.live.recording.replayed_run import replay
+from mc_nested.live.recording.text_pixels import OUTSIDE
+from mc_nested.live.vision.font import font_of
+from sim.client.client import VirtualClient
+from sim.client.drawing.letters import drawn_atlas
+from tests.live.recording.recorded_play import record_play
+from tests.sim.client.playing import FONT
+
+
+@pytest.fixture(scope="module")
+def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Sixty actions in three episodes, on a virtual client."""
+    folder = tmp_path_factory.mktemp("recordings") / "play"
+    assert record_play(folder, 60, seed=5) == []
+    return folder
+
+
+def calls_of(path: Path) -> list[TimedCall]:
+    return [each for each in read_recording(path) if isinstance(each, TimedCall)]
+
+
+def written(path: Path, calls: list[TimedCall], facts: dict[str, str], pictures: list[KeptPicture]) -> Path:
+    writer = PartWriter(path, facts)
+    writer.write([(each.at, each.call) for each in calls], [], [(calls[0].at, picture) for picture in pictures])
+    writer.close()
+    return path
+
+
+def test_what_was_recorded_is_read_and_decided_alike(recording: Path) -> None:
+    seen = replay(recording, FONT)
+    assert (seen.actions, seen.followed, seen.differences, seen.damaged) == (60, 60, [], [])
+    assert seen.read_anew > 5 * seen.actions
+
+
+def test_every_reading_of_a_block_comes_with_pixels_that_suffice(recording: Path) -> None:
+    looks = [each.call for each in calls_of(recording) if each.call[:2] == ["screen", "read"]]
+    with_target = [call for call in looks if call[3].get("target")]
+    assert len(with_target) > 100
+    assert all("text" in call[4] for call in with_target)
+
+
+def test_a_glyph_that_is_another_one_is_seen_in_the_readings(recording: Path) -> None:
+    atlas = drawn_atlas().copy()
+    cell = atlas.shape[0] // 16
+    seven = (slice(3 * cell, 4 * cell), slice(7 * cell, 8 * cell))
+    atlas[seven] = atlas[seven][::-1]
+    seen = replay(recording, font_of(atlas))
+    assert {each.kind for each in seen.differences} == {"reading"}
+    assert all("7" in each.then for each in seen.differences)
+    assert all(each.picture is not None and each.picture.max() == OUTSIDE for each in seen.differences)
+    assert seen.followed == 60  # play is followed on as it was read then
+
+
+def test_a_key_that_was_held_for_longer_is_a_decision_that_differs(recording: Path, tmp_path: Path) -> None:
+    calls = calls_of(recording)
+    second = [at for at, each in enumerate(calls) if each.call[:2] == ["note", "resets"]][1]
+    changed = next(at for at, each in enumerate(calls[:second]) if at > 300 and each.call[:3] == ["key", "press", "a"])
+    calls[changed] = TimedCall(calls[changed].at, ["key", "press", "d"])
+    pictures = [each for each in read_recording(recording) if isinstance(each, KeptPicture)]
+    seen = replay(written(tmp_path / "changed.mcap", calls, dict(facts_of(recording)), pictures), FONT)
+    (difference,) = seen.differences
+    assert (difference.kind, difference.then, difference.now) == ("decision", "key press d", "key press a")
+    # The other two episodes are followed to their end.
+    assert 35 <= seen.followed < 60
+
+
+def test_a_part_is_cut_from_a_reset_on_and_replays_alone(recording: Path, tmp_path: Path) -> None:
+    calls = calls_of(recording)
+    resets = [each.at for each in calls if each.call[:2] == ["note", "resets"]]
+    out = tmp_path / "part.mcap"
+    cut(recording, out, resets[0] + 1, calls[-1].at)
+    assert calls_of(out)[0].at == resets[1]
+    seen = replay(out, FONT)
+    assert (seen.actions, seen.followed, seen.differences) == (35, 35, [])
+
+
+def test_names_are_taken_out_of_what_is_cut(recording: Path, tmp_path: Path) -> None:
+    out = tmp_path / "part.mcap"
+    calls = calls_of(recording)
+    cut(recording, out, 0, calls[-1].at, lambda text: text.replace("Singleplayer", "<world>"))
+    assert "Singleplayer" not in json.dumps([each.call for each in calls_of(out)])
+    assert facts_of(out)["title"].endswith("<world>")
+
+
+def test_nothing_recorded_in_that_time_is_an_error_that_leaves_no_file(recording: Path, tmp_path: Path) -> None:
+    with pytest.raises(RecordingError, match="nothing was recorded then"):
+        cut(recording, tmp_path / "none.mcap", 1, 2)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_end_alone_is_kept_by_trimming(recording: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "play"
+    shutil.copytree(recording, folder)
+    before = overview_of(folder)
+    trim(folder, 3600)
+    after = overview_of(folder)
+    assert (after.calls, after.actions, after.damage) == (
+        before.calls - 1,
+        60,
+        (),
+    )
+    assert [path.name for path in folder.iterdir()] == ["00001.mcap"]
+
+
+def test_materials_that_are_taken_in_hand_are_decided_alike(tmp_path: Path) -> None:
+    record_play(tmp_path / "flag", 12, scenario_name="flag")
+    taken = [call.call[2]["material"] for call in calls_of(tmp_path / "flag") if call.call[:2] == ["note", "acts"]]
+    assert set(taken) == {0, 1}
+    seen = replay(tmp_path / "flag", FONT)
+    assert (seen.actions, seen.followed, seen.differences) == (12, 12, [])
+
+
+def test_an_episode_with_mishaps_is_followed_too(tmp_path: Path) -> None:
+    client = VirtualClient(seed=2)
+    client.mishaps.plan("pause", 1.5)
+    failed = record_play(tmp_path / "play", 12, client)
+    seen = replay(tmp_path / "play", FONT)
+    assert client.mishaps.happened
+    assert (seen.differences, len(failed)) == ([], seen.actions - 12)
+
+
+def test_what_ends_early_is_read_up_to_there(recording: Path, tmp_path: Path) -> None:
+    calls = calls_of(recording)
+    file = tmp_path / "whole.mcap"
+    writer = PartWriter(file, facts_of(recording))
+    ends = []
+    for first in range(0, len(calls), 100):
+        writer.write([(each.at, each.call) for each in calls[first : first + 100]], [], [])
+        ends.append(file.stat().st_size)
+    writer.close()
+    content = file.read_bytes()
+    for batches in (1, 10, len(ends) // 2):
+        early = tmp_path / f"{batches}.mcap"
+        early.write_bytes(content[: ends[batches] - 5])
+        seen = overview_of(early)
+        assert seen.calls == 100 * (batches + 1)
+        assert seen.damage == (f"{early.name}: it ends early, as after a crash",)
+
+
+def test_a_damaged_byte_is_found_by_its_checksum(recording: Path, tmp_path: Path) -> None:
+    (part,) = recording.iterdir()
+    content = bytearray(part.read_bytes())
+    content[len(content) // 2] ^= 0xFF
+    file = tmp_path / "damaged.mcap"
+    file.write_bytes(content)
+    (damage,) = overview_of(file).damage
+    assert "damaged" in damage or "ends early" in damage
+
+
+@pytest.mark.parametrize("content", [b"", b"no recording at all", b"\x89MCAP0\r\n", b"\x89MCAP0\r\n" + b"\xff" * 40])
+def test_a_foreign_file_is_one_line(tmp_path: Path, content: bytes) -> None:
+    file = tmp_path / "foreign.mcap"
+    file.write_bytes(content)
+    with pytest.raises(RecordingError, match="is no recording of mc-nested"):
+        replay(file, FONT)
+
+
+def test_a_newer_recording_is_refused_by_its_format(tmp_path: Path) -> None:
+    file = tmp_path / "newer.mcap"
+    writer = PartWriter(file, {"format": str(FORMAT + 1)})
+    writer.close()
+    with pytest.raises(RecordingError, match=rf"is of format {FORMAT + 1}, written by a newer mc-nested"):
+        replay(file, FONT)
+
+
+def test_an_older_recording_is_one_line_and_can_still_be_cut(recording: Path, tmp_path: Path) -> None:
+    facts = {**facts_of(recording), "format": "1", "profile": "[screen]\ngui_scale = 2\n"}
+    pictures = [each for each in read_recording(recording) if isinstance(each, KeptPicture)]
+    calls = calls_of(recording)
+    old = written(tmp_path / "old.mcap", calls, facts, pictures)
+    line = rf"old\.mcap: is of format 1, of a run by an earlier mc-nested, .* format {FORMAT}: record the run again"
+    for refused in (lambda: replay(old, FONT), lambda: font_of_recording(old, System("linux", tmp_path, {}))):
+        with pytest.raises(RecordingError, match=line):
+            refused()
+    cut(old, tmp_path / "part.mcap", 0, calls[-1].at)
+    assert facts_of(tmp_path / "part.mcap")["format"] == "1"
+    assert overview_of(tmp_path / "part.mcap").actions == 60
+
+
+def test_without_a_font_the_profiles_is_asked_for(recording: Path) -> None:
+    with pytest.raises(ProfileError, match=r"screen\.font is missing"):
+        replay(recording)
