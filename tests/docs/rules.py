@@ -10,6 +10,8 @@ SIZES = {
     "mc-nested reproduce": "--trials 1 --episodes 4 --scenario line",
     "mc-nested reproduce --robustness": "--trials 1 --episodes 1 --scenario line",
     "mc-nested reproduce --beyond": "--trials 1 --episodes 4",
+    "mc-nested study robustness": "--trials 1 --episodes 1 --scenario line",
+    "mc-nested study beyond": "--trials 1 --episodes 4",
     "mc-nested study ablation": "--trials 1 --episodes 1 --scenario line",
     "mc-nested study sweep": "--trials 1 --episodes 2 --scenario line",
     "mc-nested study benchmark": "--designs 1 --agents nested --presets live",
