@@ -62,7 +62,7 @@ class DivergedError(UserError):
 
 
 class RecordingError(UserError):
-    """A recording that can't be used: foreign, newer, or nothing of it is left."""
+    """A recording that can't be used: foreign, of another format, or nothing of it is left."""
 
 
 class RunError(UserError):

@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -14,10 +13,10 @@ from mc_nested.arena.action import Cell
 from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena
-from scripts.window_display import running
+from scripts.programs import ROOT
+from scripts.window_display import running, wait_until
 from sim.client.game.world import AIR
 
-ROOT = Path(__file__).resolve().parent.parent
 START_S = 30.0
 
 
@@ -95,11 +94,9 @@ def open_rehearsal(env: dict[str, str], folder: Path, *options: str) -> Iterator
     command = [sys.executable, "-m", "mc_nested.cli", "rehearse", "--seed", "0"]
     command += ["--truth", str(truth), "--font", str(font), *_with_target(folder, options)]
     with running(command, env={**env, "PYTHONPATH": str(ROOT)}, log=log) as process:
-        end = time.monotonic() + START_S
-        while not truth.exists():
-            if process.poll() is not None or time.monotonic() > end:
-                raise RuntimeError(f"the rehearsal window didn't open: {log.read_text(encoding='utf-8')}")
-            time.sleep(0.05)
+        wait_until(lambda: truth.exists() or process.poll() is not None, START_S)
+        if not truth.exists():
+            raise RuntimeError(f"the rehearsal window didn't open: {log.read_text(encoding='utf-8')}")
         yield RehearsalWindow(env, process, font, truth, log)
 
 

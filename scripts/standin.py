@@ -1,4 +1,4 @@
-"""The stand-in: a real game window without Minecraft, for tests. Linux, standard library only.
+"""The stand-in: a real game window without Minecraft, for tests. Linux only.
 
     python scripts/standin.py up       fetch what is missing, then start it; ends when the debug screen shows
     python scripts/standin.py status   one line, and the state as JSON; exit code 0 when it is up, 1 when it is down
@@ -14,24 +14,28 @@ that the message names; 1: the stand-in did not come up, or is down.
 
 import argparse
 import json
+import os
 import signal
+import subprocess
 import sys
-import tempfile
+import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from scripts.cache_lock import BusyError, alone  # noqa: E402 - found only with the line above
-from scripts.standin_game import Folders, start_game  # noqa: E402
-from scripts.standin_keeper import stay_behind  # noqa: E402
-from scripts.standin_oracle import answers  # noqa: E402
-from scripts.standin_parts import FONTS, WEB_CLIENT, MissingError, fetch, install_programs, install_server  # noqa: E402
-from scripts.standin_processes import StandinError, State, clean_up, load_state  # noqa: E402
+from mc_nested.errors import RunError
+from mc_nested.file_lock import file_lock
+from scripts.programs import ROOT, MissingError, alone
+from scripts.standin_game import KEEPER, LOOK_S, STATE, STOPPED, OracleError, StandinError, ask, say
+from scripts.standin_parts import fetch_all
+from scripts.window_display import wait_until
 
-STOPPED = 130
-"""The exit code after Ctrl+C."""
+KEEP = (sys.executable, "-m", "scripts.standin_game")
+"""The program that keeps the game, which takes the cache's folder."""
+ENDS_S = 40.0
+"""Seconds in which the keeper and all that it started must end."""
 
 
 def main(arguments: Sequence[str] | None = None, cache: Path = ROOT / ".standin") -> int:
@@ -49,7 +53,7 @@ def main(arguments: Sequence[str] | None = None, cache: Path = ROOT / ".standin"
     except MissingError as error:
         say(str(error))
         return 2
-    except (BusyError, StandinError) as error:
+    except (RunError, StandinError) as error:
         say(str(error))
         return 1
     except KeyboardInterrupt:
@@ -59,80 +63,85 @@ def main(arguments: Sequence[str] | None = None, cache: Path = ROOT / ".standin"
 
 def up(cache: Path) -> int:
     """Start the stand-in, unless it is up, and print its state."""
-    path = cache / "state.json"
-    state = load_state(path)
-    if state is not None and not _is_up(state):
-        say("cleaning up after an earlier run")
-        clean_up(state)
-        state = None
-    if state is None:
-        folders = _fetched(cache)
-        code = stay_behind(lambda: _start(path, folders))
-        state = load_state(path)
-        if code != 0 or state is None:
-            return code or 1
-    print(json.dumps(state.as_json()))
-    return 0
-
-
-def _start(path: Path, folders: Folders) -> int:
-    """Start the game; when that fails, or Ctrl+C is pressed, stop what was started. Returns the exit code."""
-    state = State(path, scratch=tempfile.mkdtemp(prefix="mc-nested-standin-"))
-    try:
-        state.save()
-        start_game(state, folders, say)
-    except (StandinError, KeyboardInterrupt) as error:
-        # A second Ctrl+C would interrupt the stopping.
-        for again in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(again, signal.SIG_IGN)
-        clean_up(state)
-        say(str(error) or "stopped; nothing is left running")
-        return STOPPED if isinstance(error, KeyboardInterrupt) else 1
-    except BaseException:
-        clean_up(state)
-        raise
+    if not is_up(cache):
+        _end_keeper(cache)
+        fetch_all(cache, say)
+        code = _start_keeper(cache)
+        if code is not None:
+            return code
+    print(json.dumps(state_of(cache)))
     return 0
 
 
 def down(cache: Path) -> int:
-    """Stop everything that `up` started, whether or not it finished."""
-    state = load_state(cache / "state.json")
-    if state is not None:
-        clean_up(state)
+    """Stop everything that `up` started."""
+    _end_keeper(cache)
     say("the stand-in is down")
     return 0
 
 
 def status(cache: Path) -> int:
     """Print whether the stand-in is up, and its state."""
-    state = load_state(cache / "state.json")
-    is_up = state is not None and _is_up(state)
-    remains = state is not None and any(process.pids() for process in state.processes)
-    line = "up" if is_up else "half up: take it down" if remains else "down"
-    print(f"the stand-in is {line}\n{json.dumps(state.as_json() if state else {'ready': False})}")
-    return 0 if is_up else 1
+    code = 0 if is_up(cache) else 1
+    line = "up" if code == 0 else "half up: take it down" if keeper_of(cache) else "down"
+    print(f"the stand-in is {line}\n{json.dumps(state_of(cache))}")
+    return code
 
 
-def say(line: str) -> None:
-    """Print one line of progress, or why it ended."""
-    print(f"standin: {line}", file=sys.stderr, flush=True)
+def is_up(cache: Path) -> bool:
+    """Return whether its keeper lives, and there is a player in its world."""
+    state = state_of(cache)
+    try:
+        return bool(state["ready"] and ask(state["oracle"], "/player"))
+    except OracleError:
+        return False
 
 
-def _is_up(state: State) -> bool:
-    return state.is_up and answers(state.facts["oracle"])
+def state_of(cache: Path) -> dict[str, Any]:
+    """Return what its keeper wrote, if that one lives."""
+    path = cache / STATE
+    known: dict[str, Any] = json.loads(path.read_text("utf-8")) if keeper_of(cache) and path.exists() else {}
+    return {"ready": False, **known}
 
 
-def _fetched(cache: Path) -> Folders:
-    logs = cache / "logs"
-    logs.mkdir(exist_ok=True)
-    install_programs(say, logs / "apt.log")
-    return Folders(
-        cache=cache,
-        logs=logs,
-        modules=install_server(cache, say, logs / "npm.log"),
-        client=fetch(WEB_CLIENT, cache, say, logs / "npm.log"),
-        fonts=fetch(FONTS, cache, say, logs / "npm.log"),
+def keeper_of(cache: Path) -> int | None:
+    """Return the pid of the process that keeps it; None if there is none."""
+    with file_lock(cache / KEEPER) as lock:
+        return None if lock.is_mine else lock.holder
+
+
+def _start_keeper(cache: Path) -> int | None:
+    """Leave a keeper behind that has started the game; the exit code where it couldn't."""
+    state = cache / STATE
+    state.unlink(missing_ok=True)  # of a keeper that was killed
+    keeper = subprocess.Popen(  # noqa: S603 - our own
+        [*KEEP, str(cache.resolve())],
+        cwd=ROOT,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        start_new_session=True,
     )
+    try:
+        while keeper.poll() is None and not state.exists():
+            time.sleep(LOOK_S)
+    except KeyboardInterrupt:
+        keeper.terminate()
+        keeper.wait()
+        raise
+    code = keeper.poll()
+    keeper.returncode = 0  # otherwise Popen would warn that the process, which is meant to stay, still runs
+    return code
+
+
+def _end_keeper(cache: Path) -> None:
+    for how in (signal.SIGTERM, signal.SIGKILL):
+        pid = keeper_of(cache)
+        if pid is None:
+            return
+        os.kill(pid, how)
+        wait_until(lambda: keeper_of(cache) is None, ENDS_S)
+    if keeper_of(cache) is not None:
+        raise StandinError(f"the keeper, process {pid}, doesn't stop: end it by hand")
 
 
 if __name__ == "__main__":

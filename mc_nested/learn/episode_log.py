@@ -1,5 +1,6 @@
 """A training's log: a row for each finished training episode, and one for each greedy evaluation."""
 
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, TypeVar, get_type_hints
 
 import numpy as np
@@ -30,17 +31,15 @@ class EvaluationRow(NamedTuple):
     steps: int
 
 
-Row = TypeVar("Row", EpisodeRow, EvaluationRow)
+Row = TypeVar("Row")
 
 
-def table_of_rows(rows: list[Row], kind: type[Row]) -> Float64s:
-    """The rows as an array, a column a field."""
-    return np.array(rows, dtype=np.float64).reshape(len(rows), len(kind._fields))
+def table_of_rows(rows: Sequence[object], kind: type) -> Float64s:
+    """Put the rows, named tuples of numbers of that kind, into an array, a column a field."""
+    return np.array(rows, dtype=np.float64).reshape(len(rows), len(get_type_hints(kind)))
 
 
-def rows_of_table(table: NDArray[Any], kind: type[Row]) -> list[Row]:
-    """The rows that ``table_of_rows`` turned into that table."""
-    types = get_type_hints(kind)
-    return [
-        kind(*(types[name](value) for name, value in zip(kind._fields, row, strict=True))) for row in table.tolist()
-    ]
+def rows_of_table(table: NDArray[Any], kind: Callable[..., Row]) -> list[Row]:
+    """Return the rows that ``table_of_rows`` turned into that table."""
+    types = get_type_hints(kind).values()
+    return [kind(*(field(value) for field, value in zip(types, row, strict=True))) for row in table.tolist()]

@@ -1,23 +1,13 @@
 """Preset: all hyper-parameters of a training, as a TOML file that pydantic checks."""
 
-from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import (
-    BaseModel,
-    ConfigDict,
-    Field,
-    SerializerFunctionWrapHandler,
-    ValidationError,
-    model_serializer,
-    model_validator,
-)
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from mc_nested.errors import PresetError
-from mc_nested.learn.dqn.engines import EngineChoice
-from mc_nested.learn.engine_fit import Computing, misfit
+from mc_nested.learn.dqn.engines import Computing, EngineChoice, misfit
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
 
 MOST = 1_000_000_000
@@ -45,18 +35,6 @@ class _Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-class _GrownTable(_Table):
-    """A table that has got keys since it was first saved: with their defaults, it keeps its identity."""
-
-    @model_serializer(mode="wrap")
-    def _dumped(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        dumped: dict[str, Any] = dump(self)
-        fields = type(self).model_fields
-        return {
-            key: value for key, value in dumped.items() if fields[key].is_required() or value != fields[key].default
-        }
-
-
 class Exploration(_Table):
     """ε from ``start`` to ``floor`` over the first ``share`` of the episodes."""
 
@@ -79,7 +57,7 @@ class ExcursionRule(_Table):
     repeat: Probability = Field(description="the probability to place a block where that is known to be on the design")
 
 
-class Imitation(_GrownTable):
+class Imitation(_Table):
     """Self-imitation (self_imitation.py): a part of each batch comes from the best episode so far."""
 
     batch: Count = Field(description="how many transitions of a batch come from the best episode")
@@ -116,7 +94,7 @@ class MainUpdates(_Table):
     )
 
 
-class ImaginationRule(_GrownTable):
+class ImaginationRule(_Table):
     """Practice in the learnt game between real episodes (imagination/), instead of exploring the real one by chance.
 
     A practice ends when the greedy policy scores ``enough`` of the best that is imaginable while cells are still to be
@@ -148,20 +126,6 @@ class ImaginationRule(_GrownTable):
     double: bool = Field(
         default=True, description="whether the online network chooses the action that the target network values"
     )
-
-    @model_validator(mode="before")
-    @classmethod
-    def _check_version(cls, table: object) -> object:
-        needed = {"table_steps_exploring", "table_steps_building", "n_steps"}
-        if not isinstance(table, Mapping) or table.keys() >= needed:
-            return table
-        is_misspelt = table.keys() & needed and table.keys() - cls.model_fields.keys()
-        if not is_misspelt:
-            raise ValueError(
-                f"lacks {', '.join(sorted(needed - table.keys()))}: copy what is missing from the preset live; a run "
-                "of an earlier version has to be trained anew"
-            )
-        return table
 
     @model_validator(mode="after")
     def _check(self) -> "ImaginationRule":
@@ -226,15 +190,6 @@ class Preset(_Table):
     prioritized: Prioritized | None = None
     main: MainUpdates | None = None
     imagination: ImaginationRule | None = None
-
-    @model_serializer(mode="wrap")
-    def _dumped(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """What was saved before there were these keys keeps its identity: at its default, none is named."""
-        dumped: dict[str, Any] = dump(self)
-        for later in ("main", "imagination", "states", "engine", "device", "network"):
-            if getattr(self, later) == type(self).model_fields[later].default:
-                dumped.pop(later, None)
-        return dumped
 
     @property
     def engine_choice(self) -> EngineChoice:

@@ -1,4 +1,4 @@
-"""The folder of a study: config.toml, and units/ with each job's checkpoint or outcome."""
+"""The folder of a study: config.toml, and jobs/ with each job's checkpoint or outcome."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -15,7 +15,7 @@ from mc_nested.studies.job import Job
 from mc_nested.studies.outcome import JobOutcome, outcome_of
 from mc_nested.toml_file import parse_toml, read_toml_text
 
-CONFIG, JOBS_FOLDER, STAMP = "config.toml", "units", "config.sha256"
+CONFIG, JOBS_FOLDER, STAMP = "config.toml", "jobs", "config.sha256"
 
 
 class StudyFolder:

@@ -7,7 +7,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
 
-FORMAT = 1
+FORMAT: Literal[1] = 1
 
 MOST_ACTIONS = 40
 """Actions that a status holds, the latest ones; a screen shows as many as it has room for."""
@@ -113,7 +113,7 @@ class Status(BaseModel):
 
     model_config = ConfigDict(frozen=True, ser_json_inf_nan="constants")
 
-    format: int
+    format: Literal[1]
     at: float = 0.0
     what: Words
     title: Words

@@ -16,7 +16,7 @@ from rich.text import Text
 from mc_nested.errors import RunError
 from mc_nested.learn.runs.folder_kind import VIEW, VIEW_FILES
 from mc_nested.learn.runs.folder_lock import holder_of
-from mc_nested.view.status import FORMAT, Status
+from mc_nested.view.status import Status
 from mc_nested.view.words import clock_time
 
 FOLDER = VIEW
@@ -103,7 +103,7 @@ def status_now(folder: Path) -> Status:
     except (FileNotFoundError, NotADirectoryError) as error:
         why = "name the folder of a training (its --out), mc-nested runs lists them"
         if (folder / "config.toml").is_file():
-            why = "it is an experiment, or was made before there was a view: mc-nested runs show says what it holds"
+            why = "it is an experiment: mc-nested runs show says what it holds"
         raise RunError(f"{folder}: there is nothing to view: {why}") from error
 
 
@@ -147,12 +147,9 @@ def _lines(path: Path) -> list[str]:
 
 def _status_of(text: str | bytes, path: Path) -> Status:
     try:
-        status = Status.model_validate_json(text)
+        return Status.model_validate_json(text)
     except ValidationError as error:
         raise RunError(f"{path}: can't be read: it is damaged, or of another version of mc-nested") from error
-    if status.format > FORMAT:
-        raise RunError(f"{path}: was written by a newer mc-nested: view it with that version")
-    return status
 
 
 def _replace(path: Path, text: str) -> None:

@@ -17,13 +17,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from rich.console import Console
+from rich.progress import track
 
+from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import UserError
 from mc_nested.live.input.signals import signals_as_exit
+from mc_nested.live.opening import Opening
+from mc_nested.live.profile.store import load_profile
+from mc_nested.live.session import open_live_game
 from scripts.bench import Figures
-from scripts.rehearsal_window import ROOT, mc_nested, open_rehearsal
-from scripts.standin_parts import MissingError, Say
+from scripts.benches.played import figures_of, play_in
+from scripts.programs import ROOT, MissingError, Say
+from scripts.rehearsal_window import RehearsalTruth, mc_nested, open_rehearsal
 from scripts.window_display import install_programs, open_display
 
 MOST_MEDIAN_S = 0.36
@@ -70,17 +77,29 @@ def calibrate_and_play(condition: Condition, actions: int, seed: int) -> dict[st
 
 
 def play(profile: Path, truth: Path, actions: int, seed: int, env: dict[str, str]) -> dict[str, Any]:
-    """Play so many actions in the window on that display; RuntimeError with what was said where that fails."""
-    script = [sys.executable, str(ROOT / "scripts" / "benches" / "rehearsal_play.py"), str(profile), str(truth)]
-    options = ["--actions", str(actions), "--seed", str(seed)]
+    """Play so many actions in the window on that display; RuntimeError with what was said where that fails.
+
+    In a process of its own: a program keeps to the display that it was started on.
+    """
+    command = [sys.executable, "-m", "scripts.benches.rehearsal", str(profile), str(truth), str(actions), str(seed)]
     limit_s = START_S + actions * LONGEST_ACTION_S
     done = subprocess.run(  # noqa: S603 - our own
-        [*script, *options], env=env, capture_output=True, text=True, timeout=limit_s, check=False
+        command, cwd=ROOT, env=env, capture_output=True, text=True, timeout=limit_s, check=False
     )
     if not done.stdout:
         raise RuntimeError(done.stderr or "nothing was said")
     figures: dict[str, Any] = json.loads(done.stdout)
     return figures
+
+
+def play_here(profile: str, truth: str, actions: str, seed: str) -> None:
+    """Play so many random actions on this process's display, and print the figures as one JSON object."""
+    scenario = load_scenario("diamond")
+    seen = RehearsalTruth(Path(truth), load_profile(profile).marked_arena())
+    with open_live_game(scenario, Opening(profile, lambda line: print(line, file=sys.stderr))) as (game, _):
+        steps = track(range(int(actions)), "actions", console=Console(stderr=True))
+        played = play_in(game, seen, scenario, steps, np.random.default_rng(int(seed)))
+    print(json.dumps(figures_of(played)))
 
 
 def prepare(say: Say) -> None:
@@ -122,3 +141,7 @@ def measure(options: argparse.Namespace) -> tuple[Figures, bool]:
         found[condition.name] = calibrate_and_play(condition, count, options.seed)
         say(str(found[condition.name]))
     return found, all(is_right_under(each, found[each.name]) for each in CONDITIONS if each.name in found)
+
+
+if __name__ == "__main__":
+    play_here(*sys.argv[1:])

@@ -1,12 +1,14 @@
 """What mkdocs.yml hooks into MkDocs: pages and pictures from outside of docs/, and the reference, made from the code.
 
-A page names what is to be made in a comment: ``<!-- made from the code: profile -->``.
+A page names what is to be made in a comment: ``<!-- made from the code: profile -->``. Pages link to files as they lie
+in the project, so that links work there, too.
 """
 
+import posixpath
 import re
 import sys
 from collections.abc import Callable
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent))
 
@@ -19,12 +21,29 @@ from mkdocs.structure.pages import Page
 from mc_nested.arena.scenario_file import ScenarioTable, shipped_scenarios
 from mc_nested.learn.preset import Preset, shipped_presets
 from mc_nested.live.profile.tables import Profile
-from scripts.documentation import command_reference, env_reference, error_reference, table_reference
-from scripts.documentation.places import PAGES, PICTURES, SUFFIXES, place_of, with_links_of_site
+from scripts.documentation import reference, table_reference
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 
 LOG = get_plugin_logger("documentation")
+
+PAGES = {
+    "README.md": "project/readme.md",
+    "ARCHITECTURE.md": "explanation/architecture.md",
+    "mc_nested/live/FACTS.md": "explanation/facts.md",
+    "CONTRIBUTING.md": "project/contributing.md",
+    "CHANGELOG.md": "project/changelog.md",
+    "LICENSE": "project/license.txt",
+}
+"""Files outside of docs/ that are pages of the site."""
+
+PICTURES = "scripts"
+"""The folder of the project's pictures."""
+
+SUFFIXES = (".png", ".gif", ".svg")
+
+_LINK = re.compile(r"(!?\[[^\]]*\]\()([^)\s]+)(\))")
+_FENCE = re.compile(r"^(```.*?^```[ \t]*$)", re.MULTILINE | re.DOTALL)
 
 _CELL = re.compile(r"<td.*?</td>", re.DOTALL)
 _CODE = re.compile(r"<code>([^<]*)</code>")
@@ -44,7 +63,7 @@ def shipped_files(folder: str, names: list[str]) -> str:
 
 
 MAKERS: dict[str, Callable[[], str]] = {
-    "command line": command_reference.markdown,
+    "command line": reference.command_line,
     "profile": lambda: table_reference.markdown(Profile),
     "preset": lambda: table_reference.markdown(Preset),
     "scenario": lambda: table_reference.markdown(ScenarioTable),
@@ -52,9 +71,7 @@ MAKERS: dict[str, Callable[[], str]] = {
     "shipped designs": lambda: shipped_files("mc_nested/arena/designs", shipped_scenarios()),
     "stable baselines example": lambda: program("scripts/examples/sb3_dqn.py"),
     "single file example": lambda: program("scripts/examples/cleanrl_dqn.py"),
-    "env": env_reference.markdown,
-    "exit codes": error_reference.exit_codes,
-    "errors": error_reference.error_tree,
+    "errors": reference.error_tree,
 }
 """What makes each part of the reference."""
 
@@ -79,6 +96,47 @@ def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Fil
         LOG.warning(f"{place} links to {link}, which isn't on the site")
 
     return with_links_of_site(made(markdown), place, lost)
+
+
+def place_of(file: str) -> str | None:
+    """Where a file, named from the project's root, is on the site; None if it isn't there."""
+    path = PurePosixPath(file)
+    if file in PAGES:
+        return PAGES[file]
+    if path.parts[:1] == ("docs",):
+        return str(path.relative_to("docs"))
+    if str(path.parent) == PICTURES and path.suffix in SUFFIXES:
+        return f"pictures/{path.name}"
+    return None
+
+
+def file_of(place: str) -> str:
+    """The file, named from the project's root, of a page of the site."""
+    return next((file for file, at in PAGES.items() if at == place), f"docs/{place}")
+
+
+def with_links_of_site(markdown: str, place: str, lost: Callable[[str], None]) -> str:
+    """A page's Markdown with each link to a file of the project turned into one on the site.
+
+    Args:
+        markdown: the page, as it is in the project.
+        place: where it is on the site.
+        lost: is told each link to what isn't on the site; it stays as it is.
+    """
+    folder = posixpath.dirname(file_of(place))
+
+    def moved(link: re.Match[str]) -> str:
+        target, mark, anchor = link[2].partition("#")
+        if not target or re.match(r"[a-z]+:", target):
+            return link[0]
+        there = place_of(posixpath.normpath(posixpath.join(folder, target)))
+        if there is None:
+            lost(link[2])
+            return link[0]
+        return f"{link[1]}{posixpath.relpath(there, posixpath.dirname(place))}{mark}{anchor}{link[3]}"
+
+    parts = _FENCE.split(markdown)
+    return "".join(part if part.startswith("```") else _LINK.sub(moved, part) for part in parts)
 
 
 def on_page_content(html: str, page: Page, config: MkDocsConfig, files: Files) -> str:  # noqa: ARG001 - MkDocs' names

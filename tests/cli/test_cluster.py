@@ -80,11 +80,11 @@ def test_it_is_stopped_on_one_side_and_goes_on_at_the_other(
     cut = tmp_path / "cut"
     stopped = [sys.executable, "-m", "mc_nested.cli", *long, "--out", str(cut)]
     training = subprocess.Popen([*stopped, *(word.replace("URL", url) for word in first)])
-    while training.poll() is None and not list(cut.glob("units/*/outcome.json")):
+    while training.poll() is None and not list(cut.glob("jobs/*/outcome.json")):
         time.sleep(0.05)
     training.send_signal(signal.SIGINT)
     assert training.wait(60) == 130
-    assert any((job / "checkpoint").is_dir() for job in (cut / "units").iterdir() if job.is_dir())
+    assert any((job / "checkpoint").is_dir() for job in (cut / "jobs").iterdir() if job.is_dir())
     assert run("reproduce", "--resume", cut, *(word.replace("URL", url) for word in then)) == 0
     assert content(cut) == whole
 

@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 
 from mc_nested.cli import study as study_module
-from mc_nested.cli.json_fields import JSON_FIELDS
+from mc_nested.cli.output import json_fields
+from mc_nested.cli.reproduce import reproduce
 from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.reproduce import STUDY
@@ -63,7 +64,9 @@ def test_a_preset_that_an_agent_can_not_use_is_refused_before_anything_is_traine
     assert not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize("verb", [("evaluate",), ("play",), ("train", "--resume"), ("study", "sweep", "--resume")])
+@pytest.mark.parametrize(
+    "verb", [("runs", "evaluate"), ("play",), ("train", "--resume"), ("study", "sweep", "--resume")]
+)
 def test_other_verbs_say_whose_folder_it_is(
     done: Path, verb: tuple[str, ...], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -72,14 +75,14 @@ def test_other_verbs_say_whose_folder_it_is(
 
 
 def test_it_leaves_the_results_and_what_made_them(done: Path) -> None:
-    assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "units", "tensorboard"}
+    assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "jobs", "tensorboard"}
     runs = {f"{a}-{s}-{t}" for a in ("nested", "hierarchical", "single") for s in ("dot", "bar") for t in (0, 1)}
     assert {path.name for path in (done / "tensorboard").iterdir()} == runs
     rows = table(done / "results.csv")
     own = [row for row in rows if (row["agent"], row["scenario"], row["trial"]) == ("single", "bar", "1")]
     assert [row["episode"] for row in own] == ["5", "10", "15", "20"]
     assert len(rows) == 3 * 2 * 2 * 4
-    assert [path.name for path in sorted((done / "units").rglob("*")) if path.is_file()] == [
+    assert [path.name for path in sorted((done / "jobs").rglob("*")) if path.is_file()] == [
         *["outcome.json"] * 3,
         "config.sha256",
     ]
@@ -129,7 +132,7 @@ def test_for_a_program_it_prints_its_files_and_the_verdicts(done: Path, capsys: 
     assert run("reproduce", "--resume", done, "--json", "--quiet") == 0
     printed = capsys.readouterr()
     found = json.loads(printed.out)
-    assert found.keys() == JSON_FIELDS["reproduce"].keys()
+    assert found.keys() == json_fields(reproduce).keys()
     assert found["folder"] == str(done)
     assert found["files"] == {what: str(done / name) for what, name in FILES.items()}
     assert [claim["letter"] for claim in found["claims"]][:4] == ["a1", "a2", "a3", "b"]
@@ -159,7 +162,7 @@ def long_one(words: list[str], out: Path, episodes: int) -> Iterator[subprocess.
     command = [sys.executable, "-m", "mc_nested.cli", *words, "--episodes", f"{episodes}", "--jobs", "2"]
     process = subprocess.Popen([*command, "--out", str(out)], stderr=subprocess.PIPE, text=True, start_new_session=True)
     try:
-        wait_until(lambda: len(list(out.glob(f"units/*/checkpoint/{FILE}"))) >= 2)
+        wait_until(lambda: len(list(out.glob(f"jobs/*/checkpoint/{FILE}"))) >= 2)
         yield process
     finally:
         with contextlib.suppress(ProcessLookupError):

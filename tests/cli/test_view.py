@@ -34,7 +34,7 @@ def test_a_run_without_a_view_is_told_what_to_do(tmp_path: Path, capsys: pytest.
     (tmp_path / "config.toml").write_text("")
 
     assert run("view", tmp_path) == 2
-    assert "was made before there was a view" in capsys.readouterr().err
+    assert "it is an experiment: mc-nested runs show" in capsys.readouterr().err
     assert run("view", tmp_path / "config.toml") == 2
     assert "name the folder of a training" in capsys.readouterr().err
 

@@ -5,7 +5,6 @@ with CI set, that is a failure.
 """
 
 import json
-import os
 import subprocess
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,8 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from scripts.standin import ROOT
-from scripts.standin_parts import NODE, MissingError, install_locked
+from scripts.programs import ROOT
+from scripts.standin_parts import NODE, install_locked
+from tests.found_or_skipped import found_or_skipped
 
 HERE = Path(__file__).resolve().parent / "node"
 
@@ -45,10 +45,5 @@ def other_readers() -> OtherReaders:
     """The readers, installed once."""
     cache = ROOT / ".standin"
     cache.mkdir(exist_ok=True)
-    try:
-        modules = install_locked("the readers", HERE, cache / "readers", print, cache / "readers.log")
-    except MissingError as error:
-        if os.environ.get("CI"):
-            pytest.fail(str(error))
-        pytest.skip(str(error))
-    return OtherReaders(modules)
+    log = cache / "readers.log"
+    return OtherReaders(found_or_skipped(lambda: install_locked("the readers", HERE, cache / "readers", print, log)))

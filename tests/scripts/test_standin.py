@@ -3,17 +3,22 @@
 import json
 import subprocess
 import sys
+import textwrap
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from mc_nested.live.profile.store import load_profile
 from scripts import standin as script
-from scripts.standin_game import write_profile
+from scripts.standin_game import STOPPED, last_line, write_profile
 from scripts.standin_parts import NODE_FOLDER
-from scripts.standin_processes import wait_until
+from scripts.window_display import wait_until
 from tests.standin_fixture import Standin
+
+for_linux = pytest.mark.skipif(sys.platform != "linux", reason="the stand-in is for Linux")
 
 
 def test_nothing_started_is_down(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -50,20 +55,99 @@ def test_without_the_programs_one_line_says_how_to_get_them(
     monkeypatch.setenv("PATH", str(tmp_path))
     assert script.main(["up"], tmp_path) == 2
     (line,) = capsys.readouterr().err.splitlines()
-    assert "sudo apt-get install --no-install-recommends nodejs npm xvfb chromium xdotool" in line
+    assert "sudo apt-get install --no-install-recommends chromium nodejs npm x11-xkb-utils xdotool xvfb" in line
     assert not (tmp_path / "state.json").exists()
 
 
-@pytest.mark.parametrize("command", ["up", "down", "status"])
-def test_a_damaged_state_is_neither_trusted_nor_deleted(
-    command: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def keeper(code: str) -> tuple[str, ...]:
+    """A program in the keeper's place, which has its lock."""
+    begin = "import json, os, sys, time; from pathlib import Path; from mc_nested.file_lock import file_lock\n"
+    begin += "from scripts.standin_game import KEEPER, STATE\ncache = Path(sys.argv[1])\n"
+    return (sys.executable, "-c", f"{begin}with file_lock(cache / KEEPER):\n{textwrap.indent(code, '    ')}")
+
+
+ANSWERS = """\
+import http.server
+class Oracle(http.server.BaseHTTPRequestHandler):
+    def do_GET(self):
+        self.send_response(200)
+        self.end_headers()
+        self.wfile.write(b'{"position": [0, 0, 0]}')
+server = http.server.HTTPServer(("127.0.0.1", 0), Oracle)
+state = {"ready": True, "oracle": f"http://127.0.0.1:{server.server_port}", "pids": {"keeper": os.getpid()}}
+(cache / "unfinished").write_text(json.dumps(state))
+(cache / "unfinished").replace(cache / STATE)
+server.serve_forever()
+"""
+
+
+@pytest.fixture
+def kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Callable[[str], Path]]:
+    """Puts a program in the keeper's place; returns the cache."""
+    monkeypatch.setattr(script, "fetch_all", lambda *_: None)
+
+    def keeps(code: str) -> Path:
+        monkeypatch.setattr(script, "KEEP", keeper(code))
+        return tmp_path
+
+    yield keeps
+    assert script.main(["down"], tmp_path) == 0
+
+
+@for_linux
+def test_it_is_up_until_it_is_taken_down(kept: Callable[[str], Path], capsys: pytest.CaptureFixture[str]) -> None:
+    cache = kept(ANSWERS)
+    assert script.main(["up"], cache) == 0
+    state = json.loads(capsys.readouterr().out)
+    assert script.keeper_of(cache) == state["pids"]["keeper"]
+    assert script.main(["up"], cache) == script.main(["status"], cache) == 0
+    again, line, shown = capsys.readouterr().out.splitlines()
+    assert line == "the stand-in is up"
+    assert json.loads(again) == json.loads(shown) == state
+    assert script.main(["down"], cache) == 0
+    assert script.keeper_of(cache) is None
+    assert script.main(["status"], cache) == 1
+
+
+@for_linux
+def test_one_that_does_not_come_up_says_why_and_is_down(kept: Callable[[str], Path]) -> None:
+    assert script.main(["up"], kept("sys.exit(3)")) == 3
+    assert script.main(["status"], kept("")) == 1
+
+
+@for_linux
+def test_one_whose_world_does_not_answer_is_half_up_and_is_started_anew(
+    kept: Callable[[str], Path], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    state = tmp_path / "state.json"
-    state.write_text('{"ready": true, "processes": [{"pid": 1}]}')
-    assert script.main([command], tmp_path) == 1
-    (line,) = capsys.readouterr().err.splitlines()
-    assert str(state) in line
-    assert state.exists()
+    cache = kept('(cache / STATE).write_text(\'{"ready": true, "oracle": "http://127.0.0.1:1"}\'); time.sleep(60)')
+    assert script.main(["up"], cache) == 0
+    deaf = script.keeper_of(cache)
+    capsys.readouterr()
+    assert script.main(["status"], cache) == 1
+    assert capsys.readouterr().out.startswith("the stand-in is half up: take it down\n")
+    assert script.main(["up"], kept(ANSWERS)) == 0
+    assert script.keeper_of(cache) not in (None, deaf)
+
+
+@for_linux
+def test_ctrl_c_ends_what_was_started(kept: Callable[[str], Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    cache = kept("time.sleep(60)")
+
+    def interrupted(_seconds: float) -> None:
+        assert wait_until(lambda: script.keeper_of(cache) is not None, 10)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(script, "time", SimpleNamespace(sleep=interrupted))
+    assert script.main(["up"], cache) == STOPPED
+    assert script.keeper_of(cache) is None
+
+
+def test_the_last_line_of_a_log_is_the_last_that_says_something(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    log.write_bytes(b"first\nlast \xff\n \n\n")
+    assert last_line(log) == "last \N{REPLACEMENT CHARACTER}"
+    log.write_bytes(b"")
+    assert "is empty" in last_line(log)
 
 
 def test_the_profile_is_one_that_mc_nested_reads(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from scripts import windows_parts as parts
-from scripts.standin_parts import MissingError
+from scripts.programs import ROOT, MissingError
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="Wine is for Linux")
 
@@ -28,7 +28,7 @@ def pins(name: str) -> dict[str, str]:
 
 def test_every_package_is_pinned_by_the_version_of_the_constraints_and_its_whole_hash() -> None:
     constraints: dict[str, str] = {}
-    for line in (parts.ROOT / "constraints.txt").read_text("utf-8").splitlines():
+    for line in (ROOT / "constraints.txt").read_text("utf-8").splitlines():
         name, _, rest = line.partition("==")
         version, _, marker = rest.partition(";")
         if not line.startswith("#") and "<" not in marker:

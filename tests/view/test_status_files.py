@@ -127,10 +127,11 @@ def test_what_is_no_text_is_refused_in_a_line(tmp_path: Path) -> None:
         status_now(tmp_path)
 
 
-def test_a_newer_status_is_refused_in_a_line(tmp_path: Path) -> None:
-    StatusFiles(tmp_path).write(at(1.0, format=FORMAT + 1))
+def test_status_of_another_version_is_refused_in_a_line(tmp_path: Path) -> None:
+    (tmp_path / FOLDER).mkdir()
+    (tmp_path / FOLDER / NOW).write_text(f'{{"format": {FORMAT + 1}, "what": "trains", "title": "line"}}')
 
-    with pytest.raises(RunError, match="newer mc-nested"):
+    with pytest.raises(RunError, match="another version of mc-nested"):
         status_now(tmp_path)
 
 

@@ -9,12 +9,12 @@ from typing import Any
 import pytest
 
 from mc_nested.live.model.keys import PLACES
-from scripts.game_windows import SDL_3_4_WINDOWS, fetch_sdl
 from scripts.window_display import set_layout
 from scripts.windows_parts import windows_path
 from scripts.windows_session import Session
-from tests.live.desktop.game_window_fixtures import found_or_skipped
+from tests.found_or_skipped import found_or_skipped
 from tests.live.desktop.sdl3_names import expected_keys
+from tests.live.desktop.sdl_releases import SDL_3_4_WINDOWS, fetch_sdl
 from tests.live.desktop.test_keyboard import COMMAND, expected_events
 from tests.live.desktop.window_driver import TITLE
 

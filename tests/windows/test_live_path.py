@@ -17,7 +17,7 @@ from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import parse_profile
 from mc_nested.workers.cluster.keys import make_keys
 from scripts.rehearsal_window import TruthReader, mc_nested, write_font
-from scripts.standin_processes import wait_until
+from scripts.window_display import wait_until
 from scripts.windows_parts import windows_path
 from scripts.windows_session import Session
 from sim.client.client import VirtualClient
@@ -127,7 +127,7 @@ def test_its_game_is_served_to_a_learner_on_this_system_over_tls(calibrated: Reh
     design.write_text(scenario_text(DOT), "utf-8")
     pc, learner = make_keys(tmp_path / "keys", ["pc", "learner"])
     with scheduler(tmp_path, *tls_words(learner)) as url:
-        words = ("serve-game", "--scheduler", url, "--keys", windows_path(pc), "--name", "pc")
+        words = ("train", "serve", "--scheduler", url, "--keys", windows_path(pc), "--name", "pc")
         profile = ("--profile", windows_path(calibrated.profile), "--evidence", windows_path(tmp_path / "evidence"))
         with calibrated.windows.started("-m", "mc_nested.cli", *words, *profile) as game:
             cluster = ("--games", url, "--keys", learner)

@@ -1,14 +1,13 @@
-"""The unit tests of what differs on Windows (scripts/windows_suite.py), by a Windows Python under Wine."""
+"""The unit tests of what differs on Windows (scripts/windows.py), by a Windows Python under Wine."""
 
 from pathlib import Path
 
 import pytest
 
 from scripts.test import cases_in
-from scripts.windows import PYTEST, SUITE
+from scripts.windows import PYTEST, SUITE, WHERE_WINDOWS_DIFFERS
 from scripts.windows_parts import windows_path
 from scripts.windows_session import Session
-from scripts.windows_suite import WHERE_WINDOWS_DIFFERS
 
 pytestmark = pytest.mark.wine
 

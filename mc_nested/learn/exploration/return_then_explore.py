@@ -11,14 +11,13 @@ The best episode is followed only while x, y and b are those that it leads to. W
 what comes next in the best episode was right in another cell, and the excursion explores from there instead.
 """
 
-from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from mc_nested.arena.scenario import DEFAULT_SIZE
 from mc_nested.arrays import Arrays, Float64s
+from mc_nested.learn.episode_log import rows_of_table, table_of_rows
 from mc_nested.learn.preset import ExcursionRule
 
 PLAN_NUMBERS, STEP_NUMBERS = 3, 3
@@ -44,10 +43,6 @@ class EpisodeStep(NamedTuple):
     used_block: bool
     part: int = 0
     row: int = 0
-
-
-SEEN = 8
-"""The first fields of a step: what a checkpoint's table of steps has always held; the rest is a table of its own."""
 
 
 class ReturnThenExplore:
@@ -128,26 +123,20 @@ class ReturnThenExplore:
     def state(self) -> Arrays:
         """Everything that later steps depend on, by name."""
         following = -1 if self._following is None else self._following
-        best_row = self.best[-1].row if self.best else 0
-        plan = [best_row, self._clean, self._leave_at, self._wander_until, following]
-        best, walk = _table(self.best), _table(self._walk)
+        plan = [self._clean, self._leave_at, self._wander_until, following]
         return {
-            "came_to": self._effects if len(self._effects) > 1 else self._effects[0],
+            "effects": self._effects,
             "plan": np.array(plan, dtype=np.int64),
-            "best": best[:, :SEEN],
-            "walk": walk[:, :SEEN],
-            "best_of": best[:, SEEN:],
-            "walk_of": walk[:, SEEN:],
+            "best": table_of_rows(self.best, EpisodeStep),
+            "walk": table_of_rows(self._walk, EpisodeStep),
         }
 
     def load(self, state: Arrays) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if its shape differs."""
-        self._effects[:] = state["came_to"]
-        best_row, clean, self._leave_at, self._wander_until, following = (int(value) for value in state["plan"])
+        self._effects[:] = state["effects"]
+        clean, self._leave_at, self._wander_until, following = (int(value) for value in state["plan"])
         self._clean, self._following = bool(clean), None if following < 0 else following
-        # Before there were parts, one row acted in all of an episode.
-        part_and_row = {name: state.get(f"{name}_of", [(0, best_row)] * len(state[name])) for name in ("best", "walk")}
-        self.best, self._walk = (_steps(state[name], of) for name, of in part_and_row.items())
+        self.best, self._walk = (rows_of_table(state[name], EpisodeStep) for name in ("best", "walk"))
 
     def _may_rejoin(self, done: int) -> bool:
         return self._following is None and self._clean and self._leave_at < done <= self._wander_until
@@ -194,19 +183,3 @@ def without_loops(walk: list[EpisodeStep]) -> list[EpisodeStep]:
         at[step.state] = len(kept)
         kept.append(step)
     return kept
-
-
-def _table(steps: list[EpisodeStep]) -> Float64s:
-    return np.array(steps, dtype=np.float64).reshape(len(steps), len(EpisodeStep._fields))
-
-
-def _steps(table: NDArray[Any], parts_and_rows: Iterable[Sequence[float]]) -> list[EpisodeStep]:
-    return [
-        EpisodeStep(
-            *(int(x), int(y), int(state), int(action), float(reward), int(following), bool(terminated), bool(used)),
-            *(int(part), int(row)),
-        )
-        for (x, y, state, action, reward, following, terminated, used), (part, row) in zip(
-            table.tolist(), parts_and_rows, strict=True
-        )
-    ]

@@ -23,12 +23,6 @@ from mc_nested.errors import RunError
 
 FILE, WHOLE_JOURNAL = "state.npz", "journal.npz"
 
-FORMAT = 1
-"""Version of the files."""
-
-FORMER = "state.pt"
-"""What the state's file was named while it held torch tensors."""
-
 ABOUT = "about"
 """The array of the state's file that holds what it says of itself, as JSON."""
 
@@ -37,11 +31,10 @@ MOST_JOURNALS = 64
 
 
 class _About(BaseModel):
-    """The version of a checkpoint's files, what is trained, and the names of its journals."""
+    """What is trained, and the names of its journals."""
 
     model_config = ConfigDict(strict=True)
 
-    format: int
     identity: str
     journals: list[str]
 
@@ -96,7 +89,7 @@ class Checkpoint:
         merge = finished or len(self._journals) >= MOST_JOURNALS
         name = WHOLE_JOURNAL if finished else f"journal-{self._next:06d}.npz"
         journals = [name] if merge else [*self._journals, name]
-        about = _About(format=FORMAT, identity=self.identity, journals=journals)
+        about = _About(identity=self.identity, journals=journals)
         self._write(name, training.journal(None if merge else self._marks))
         self._write(FILE, {ABOUT: np.array(about.model_dump_json()), **training.state()})
         for old in self._journals:
@@ -105,7 +98,7 @@ class Checkpoint:
         self._journals, self._next, self._marks = journals, self._next + 1, training.marks()
 
     def state(self) -> Arrays:
-        """The last saved state; RunError if it is gone, damaged, newer or another training's."""
+        """The last saved state; RunError if it is gone, damaged or another training's."""
         return self._open()[1]
 
     def load_into(self, training: Journalled) -> None:
@@ -121,9 +114,6 @@ class Checkpoint:
         self._next = 1 + max((int(number) for name in self._journals if (number := name[8:-4]).isdigit()), default=-1)
 
     def _open(self) -> tuple[_About, Arrays]:
-        former = self._folder / FORMER
-        if former.exists():
-            raise RunError(f"{former}: written by a version that was never released: train the run again")
         if not self.exists:
             raise RunError(f"{self.file}: the checkpoint is gone: bring back a copy, or train again in a new folder")
         state = self._read(FILE)
@@ -131,8 +121,6 @@ class Checkpoint:
             about = _About.model_validate_json(str(state.pop(ABOUT)))
         except (KeyError, ValueError) as error:
             raise self._damaged(FILE) from error
-        if about.format > FORMAT:
-            raise RunError(f"{self.file}: written by a newer mc-nested: update mc-nested to open it")
         if about.identity != self.identity:
             raise RunError(
                 f"{self.file}: the checkpoint belongs to another scenario, agent or preset than this run's "

@@ -11,14 +11,14 @@ from mc_nested.toml_file import parse_document
 STUDY = "study"
 """The key of a study's config.toml that names it."""
 
-VERB_OF_KEY = {"agent": "train", "builders": "cooperate", STUDY: STUDY}
+VERB_OF_KEY = {"agent": "train", STUDY: STUDY}
 
 VIEW = "view"
 VIEW_FILES = frozenset({"now.json", "history.jsonl", "pause.request", "stop.request", "answer.request", LOCK})
 """A run's folder of what ``mc-nested view`` shows, and its files; a run that never began leaves nothing else."""
 
-FORMAT = 1
-"""Version of config.toml; a file without one is of this version."""
+FORMAT = 2
+"""What the files of a run or an experiment are like: it goes up by one when they change."""
 
 
 def verb_of_study(name: str) -> str:
@@ -33,11 +33,10 @@ def verb_in(document: Mapping[str, object]) -> str | None:
 
 
 def check_config(text: str, folder: Path, *verbs: str) -> None:
-    """RunError if the text of config.toml is of a newer version, or of a folder of other verbs than those named."""
+    """RunError if the text of config.toml is of another format, or of a folder of other verbs than those named."""
     document = parse_document(text, str(folder / "config.toml"), RunError)
-    written = document.get("format")
-    if isinstance(written, int) and written > FORMAT:
-        raise RunError(f"{folder}: written by a newer mc-nested: update mc-nested to open it")
+    if document.get("format") != FORMAT:
+        raise RunError(f"{folder}: written by another version of mc-nested: open it with that one, or train it again")
     found = verb_in(document)
     if found and verbs and found not in verbs:
         raise RunError(

@@ -5,7 +5,6 @@ import dataclasses
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.vision.layout import VANILLA, Overlay
 from mc_nested.live.vision.overlay import LAYOUTS
-from mc_nested.live.vision.standin import STANDIN
 
 
 def overlay_of(profile: Profile) -> Overlay | None:
@@ -16,9 +15,7 @@ def overlay_of(profile: Profile) -> Overlay | None:
     screen = profile.screen
     if screen.debug_scale is None:
         return None
-    # Before layouts had names, lines 10 dots apart meant the stand-in's, and only its profiles had them.
-    unnamed = STANDIN if screen.line_pitch == STANDIN.pitch else VANILLA
-    layout = LAYOUTS[screen.layout] if screen.layout else unnamed
+    layout = LAYOUTS[screen.layout] if screen.layout else VANILLA
     if screen.line_pitch is not None:
         layout = dataclasses.replace(layout, pitch=screen.line_pitch)
     return Overlay(screen.debug_scale, layout, screen.text_colour or layout.text_colour)

@@ -103,10 +103,9 @@ def _check_format(tables: dict[str, Any], source: str) -> None:
     calibrated = tables.get("calibrated")
     written = calibrated.get("format") if isinstance(calibrated, dict) else None
     if isinstance(written, int) and written != FORMAT:
-        which, remedy = ("newer", "update mc-nested") if written > FORMAT else ("older", "keep it for that version")
         raise ProfileError(
-            f"{source}: a profile of format {written}, by {which} mc-nested, and this one knows format {FORMAT}: "
-            f"{remedy}, or make a new one with mc-nested calibrate all --profile another-name"
+            f"{source}: a profile of format {written}, by another version of mc-nested, and this one knows format "
+            f"{FORMAT}: update mc-nested, or make a new one with mc-nested calibrate all --profile another-name"
         )
 
 

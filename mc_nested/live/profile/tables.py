@@ -7,7 +7,7 @@ import re
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Annotated, Literal
 
-from pydantic import AliasChoices, Field, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from mc_nested.errors import ProfileError
 from mc_nested.live.model.keys import canonical, check_key
@@ -266,12 +266,10 @@ class WalkTable(ProfileTable):
     )
     input_latency_s: Latency = Field(
         default=INPUT_LATENCY_S,
-        validation_alias=AliasChoices("input_latency_s", "felt_after_s"),
         description="seconds from a press until the game has it, on average",
     )
     capture_latency_s: Latency = Field(
         default=CAPTURE_LATENCY_S,
-        validation_alias=AliasChoices("capture_latency_s", "seen_after_s"),
         description="seconds from a tick until its step is on the screen, on average",
     )
 

@@ -17,11 +17,8 @@ from mc_nested.live.vision.menu_labels import MenuButton
 FORMAT = 2
 """Of the calls: counted up where a run of before asks other things of its window than one of today.
 
-A recording of a newer one is refused. One of an older one can be listed, cut and read, and is not replayed: every
-episode would differ at its first press, which says nothing of this version.
-
-1: before a press the chat's line was looked for, and a profile had ``screen.gui_scale``.
-2: before a press the hotbar is looked at, a reset notes the chat, and a profile has ``screen.debug_scale``.
+A recording of another format is refused: every episode would differ at its first press, which says nothing of this
+version.
 """
 
 CALLS, EVENTS, WINDOW = "/calls", "/events", "/window"

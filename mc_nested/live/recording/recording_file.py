@@ -66,11 +66,14 @@ def parts_of(path: Path) -> list[Path]:
 
 
 def facts_of(path: Path) -> Mapping[str, str]:
-    """What a recording says it is of. RecordingError if it is none of ours, or of a newer format."""
+    """What a recording says it is of. RecordingError if it is none of ours, or of another format."""
     for part in parts_of(path):
         for record in _records(part):
             if isinstance(record, Metadata) and record.name == FACTS:
-                _check_format(part, record.metadata)
+                if record.metadata.get("format") != str(FORMAT):
+                    raise RecordingError(
+                        f"{part}: is of another version of mc-nested: open it with that one, or record the run again"
+                    )
                 return dict(record.metadata)
     raise RecordingError(f"{path}: is no recording of mc-nested, or nothing of it was written: name another one")
 
@@ -135,17 +138,6 @@ def _records(part: Path) -> Iterator[Any]:
                 yield Damage(ENDS_EARLY if is_cut else f"damaged: {' '.join(str(error).split())[:100]}")
     except OSError as error:
         raise RecordingError(f"{part}: can't be read ({error.strerror or error})") from error
-
-
-def _check_format(part: Path, facts: Mapping[str, str]) -> None:
-    try:
-        written = int(facts["format"])
-    except (KeyError, ValueError):
-        raise RecordingError(f"{part}: says no format that is known: record it again") from None
-    if written > FORMAT:
-        raise RecordingError(
-            f"{part}: is of format {written}, written by a newer mc-nested; this one reads up to {FORMAT}: update it"
-        )
 
 
 Timed = tuple[int, Any]
@@ -236,7 +228,7 @@ class Overview:
 
 
 def overview_of(path: Path) -> Overview:
-    """Read a recording as a whole, its checksums too; RecordingError if it is foreign, newer, or nothing is left."""
+    """Read a recording as a whole, its checksums too; RecordingError as for ``facts_of``."""
     facts = facts_of(path)
     began = ended = None
     calls = actions = pictures = 0

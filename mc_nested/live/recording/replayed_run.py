@@ -24,7 +24,6 @@ from mc_nested.live.profile.overlay import overlay_of
 from mc_nested.live.profile.store import parse_profile
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.call_encoder import KeptPicture
-from mc_nested.live.recording.format import FORMAT
 from mc_nested.live.recording.recording_file import PartEnd, facts_of, read_recording
 from mc_nested.live.recording.replayed_devices import OtherCall, ReplayedTape, replayed
 from mc_nested.live.recording.replayed_screen import PixelReader, ReplayedScreen
@@ -64,11 +63,6 @@ class Replayed:
 
 def profile_of(path: Path, facts: Mapping[str, str]) -> Profile:
     """The profile of a recording that says these facts of itself; RecordingError if it can't be replayed with it."""
-    if (written := int(facts["format"])) < FORMAT:
-        raise RecordingError(
-            f"{path}: is of format {written}, of a run by an earlier mc-nested, and this one replays format {FORMAT}: "
-            "record the run again, or replay it with the mc-nested of that time"
-        )
     try:
         return parse_profile(facts["profile"], f"{path}: its profile")
     except KeyError:

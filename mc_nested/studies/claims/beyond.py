@@ -5,7 +5,7 @@ from functools import partial
 from typing import get_args
 
 from mc_nested.arrays import Float64s
-from mc_nested.learn.cooperation.team_agent import KINDS, Kind
+from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.studies.claims.arm_results import ArmResults, Arms, Budget
 from mc_nested.studies.claims.contests import (
     HIERARCHICAL,
@@ -79,7 +79,7 @@ def of_topic(arms: Arms, topic: str) -> list[ArmResults]:
     return [arm for arm in arms.values() if arm.topic == topic]
 
 
-def teams_of(arms: Sequence[ArmResults], networks: Kind) -> dict[int, ArmResults]:
+def teams_of(arms: Sequence[ArmResults], networks: Networks) -> dict[int, ArmResults]:
     """Return the teams whose builders learn in that way, by how many they are: two or more."""
     teams = {arm.team.count: arm for arm in arms if arm.team and arm.team.networks == networks}
     return {count: arm for count, arm in teams.items() if count > 1}
@@ -208,7 +208,7 @@ def _networks(arms: Arms) -> Evidence:
 def _of_teams(arms: Arms) -> list[Claim]:
     own = of_topic(arms, "cooperation")
     alone = alone_among(own)
-    teams = {kind: list(teams_of(own, kind).values()) for kind in KINDS}
+    teams = {kind: list(teams_of(own, kind).values()) for kind in NETWORKS}
     return [
         Claim(
             "m1",

@@ -48,7 +48,7 @@ CLEAR = 0.9
 
 MEGA = 1e6
 
-UNMEASURED = "not measured: trained by an earlier version, or practised in a learnt game"
+UNMEASURED = "not measured: practised in a learnt game"
 
 Costs = Mapping[tuple[str, str], Cost]
 """The costs of every agent and scenario."""

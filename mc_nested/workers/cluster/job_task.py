@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 REPORT_EVERY_S = 1.0
 """Seconds between two reports, which all go through one scheduler, and between two looks whether to stop."""
 
-UNITS = "units"
+JOBS = "jobs"
 """The folder's name above a job's, as in a study's folder: what a job writes beside it lands there, too."""
 
 GAME = "game"
@@ -97,7 +97,7 @@ def train_on_worker(versions: Versions, library: str | None, package: bytes, top
 
     with _one_at_a_time, tempfile.TemporaryDirectory(prefix="mc-nested-", dir=worker.local_directory) as root:
         _use_one_thread()
-        folder = Path(root) / UNITS / job.name
+        folder = Path(root) / JOBS / job.name
         write_below(folder, files)
         ended = train_job(job, folder, report, REPORT_EVERY_S)
         return Trained(ended, files_below(folder), files_below(Path(root) / FOLDER))

@@ -88,12 +88,12 @@ def test_a_jar_stands_in_for_a_font_that_can_not_be_read(tmp_path: Path) -> None
     assert (row.status, row.detail) == ("pass", f"found, of Minecraft 1.19.4: {jars[1]}")
 
 
-def test_a_profile_of_a_newer_version_is_not_to_be_mended_but_the_program_updated(tmp_path: Path) -> None:
+def test_profile_of_another_version_is_not_to_be_mended_but_the_program_updated(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     file.write_text('[calibrated]\ndate = "2026-11-21"\nformat = 99\n', "utf-8")
     row = profile_row(str(file))[1]
     assert row.status == "fail"
-    assert "a profile of format 99, by newer mc-nested" in row.detail
+    assert "a profile of format 99, by another version of mc-nested" in row.detail
     assert row.fix.startswith("update mc-nested, or make a new one")
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mc_nested.arrays import Arrays
 from mc_nested.errors import RunError
 from mc_nested.learn.runs import checkpoint as checkpoint_module
-from mc_nested.learn.runs.checkpoint import ABOUT, FILE, FORMAT, Checkpoint
+from mc_nested.learn.runs.checkpoint import ABOUT, FILE, Checkpoint
 from tests.learn.runs.changed_arrays import change_arrays
 
 IDENTITY = {"scenario": "line", "preset": {"batch": 32, "hidden": [32, 32]}}
@@ -145,7 +145,7 @@ def test_a_file_of_one_array_is_no_checkpoint(tmp_path: Path) -> None:
         loaded(tmp_path)
 
 
-@pytest.mark.parametrize("says", ["no JSON", "[1]", "{}", '{"format": 1, "identity": "0", "journals": null}'])
+@pytest.mark.parametrize("says", ["no JSON", "[1]", "{}", '{"identity": "0", "journals": null}'])
 def test_a_file_that_says_something_else_of_itself_is_no_checkpoint(tmp_path: Path, says: str) -> None:
     Checkpoint(tmp_path, IDENTITY).save(Counts())
     change_arrays(tmp_path / FILE, lambda arrays: arrays.update({ABOUT: np.array(says)}))
@@ -172,22 +172,6 @@ def test_a_flipped_bit_of_an_array_or_of_its_header_is_damage(tmp_path: Path, at
         journal.write_bytes(whole[:byte] + bytes([whole[byte] ^ 1 << bit]) + whole[byte + 1 :])
         with pytest.raises(RunError, match="damaged or cut short"):
             loaded(tmp_path)
-
-
-def test_a_checkpoint_of_torch_tensors_is_refused_in_one_line(tmp_path: Path) -> None:
-    (tmp_path / "state.pt").touch()
-    with pytest.raises(RunError, match="never released: train the run again"):
-        loaded(tmp_path)
-
-
-def test_a_checkpoint_of_a_newer_version_is_refused_in_one_line(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with monkeypatch.context() as patch:
-        patch.setattr(checkpoint_module, "FORMAT", FORMAT + 1)
-        Checkpoint(tmp_path, IDENTITY).save(Counts().count(2))
-    with pytest.raises(RunError, match="newer mc-nested: update mc-nested"):
-        loaded(tmp_path)
 
 
 def test_what_a_killed_save_left_is_removed_when_the_training_goes_on(tmp_path: Path) -> None:

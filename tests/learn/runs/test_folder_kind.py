@@ -9,19 +9,21 @@ from mc_nested.learn.runs.folder_kind import FORMAT, VIEW, VIEW_FILES, check_con
 
 
 @pytest.mark.parametrize(
-    ("text", "verb"), [('agent = "nested"', "train"), ('agents = ["nested"]', "reproduce"), ("[[variants]]", "sweep")]
+    ("key", "verb"),
+    [('agent = "nested"', "train"), ('study = "reproduce"', "reproduce"), ('study = "sweep"', "study sweep")],
 )
-def test_a_folder_is_opened_by_the_command_that_made_it_alone(text: str, verb: str) -> None:
+def test_a_folder_is_opened_by_the_command_that_made_it_alone(key: str, verb: str) -> None:
+    text = f"format = {FORMAT}\n{key}"
     check_config(text, Path("runs/x"), verb)
-    other = "sweep" if verb == "train" else "train"
+    other = "study sweep" if verb == "train" else "train"
     with pytest.raises(RunError, match=f"the folder of mc-nested {verb}, not of {other}: .* --resume runs/x"):
         check_config(text, Path("runs/x"), other)
 
 
-def test_a_folder_of_a_newer_version_is_refused_in_one_line() -> None:
-    check_config(f'agent = "nested"\nformat = {FORMAT}', Path("runs/x"), "train")
-    with pytest.raises(RunError, match="newer mc-nested: update mc-nested"):
-        check_config(f'agent = "nested"\nformat = {FORMAT + 1}', Path("runs/x"), "train")
+@pytest.mark.parametrize("written", ["", "format = 1", f"format = {FORMAT + 1}"])
+def test_folder_of_another_version_is_refused_in_one_line(written: str) -> None:
+    with pytest.raises(RunError, match="another version of mc-nested: open it with that one, or train it again"):
+        check_config(f'agent = "nested"\n{written}', Path("runs/x"), "train")
 
 
 def test_an_empty_or_missing_folder_can_be_new_and_what_a_killed_process_left_does_not_count(tmp_path: Path) -> None:

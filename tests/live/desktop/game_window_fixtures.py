@@ -1,34 +1,26 @@
-"""The windows of the game's other libraries as fixtures: their programs, fetched and compiled if they are missing.
-
-A machine where that is impossible skips the test and says how to get them; with CI set, that is a failure.
-"""
+"""The windows of the game's other libraries as fixtures: their programs, fetched and compiled if they are missing."""
 
 import os
+import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import TypeVar
 
 import pytest
 
-from scripts.game_windows import SDL_3_2, SDL_3_4, Sdl, compiled, fetch_sdl, install_lwjgl_2
-from scripts.standin_parts import MissingError
+from scripts.programs import Program, install
 from scripts.window_display import open_display
+from tests.found_or_skipped import found_or_skipped
+from tests.live.desktop.sdl_releases import SDL_3_2, SDL_3_4, Sdl, fetch_sdl
 
 SDL_WINDOW = Path(__file__).with_name("sdl3_window.py")
 LWJGL_WINDOW = Path(__file__).with_name("Lwjgl2Window.java")
 
-Found = TypeVar("Found")
-
-
-def found_or_skipped(find: Callable[[], Found]) -> Found:
-    """What was found."""
-    try:
-        return find()
-    except MissingError as error:
-        if os.environ.get("CI"):
-            pytest.fail(str(error))
-        pytest.skip(str(error))
+JAVA = Program(("java",), "default-jre")
+JAVAC = Program(("javac",), "default-jdk-headless")
+LWJGL_2 = ("liblwjgl-java", "liblwjgl-java-jni", "default-jre")
+"""Debian's packages of the library to 1.12, which needs AWT with its windows: a headless JRE lacks them."""
+LWJGL_2_JAR, NATIVES = "/usr/share/java/lwjgl.jar", "/usr/lib/jni"
 
 
 @pytest.fixture(scope="module", params=[SDL_3_4, SDL_3_2], ids=lambda sdl: sdl.release)
@@ -43,8 +35,12 @@ def lwjgl_program(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     """The program that shows a window of LWJGL 2."""
 
     def find() -> list[str]:
-        install_lwjgl_2(print, tmp_path_factory.mktemp("apt") / "apt.log")
-        return compiled(LWJGL_WINDOW, tmp_path_factory.mktemp("classes"))
+        install("a window of LWJGL 2", [JAVAC], LWJGL_2, print, tmp_path_factory.mktemp("apt") / "apt.log")
+        folder = str(tmp_path_factory.mktemp("classes"))
+        command = [JAVAC.required(), "-cp", LWJGL_2_JAR, "-d", folder, str(LWJGL_WINDOW)]
+        subprocess.run(command, check=True, timeout=120)
+        classes = os.pathsep.join((LWJGL_2_JAR, folder))
+        return [JAVA.required(), f"-Djava.library.path={NATIVES}", "-cp", classes, LWJGL_WINDOW.stem]
 
     return found_or_skipped(find)
 

@@ -1,13 +1,12 @@
 """An input method in front of a window: IBus with the table wubi, on a session bus of its own."""
 
 import subprocess
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from scripts.standin_parts import Program, Say, apt_install, is_installed
-from scripts.window_display import running
+from scripts.programs import Program, Say, install
+from scripts.window_display import running, wait_until
 
 BUS = Program(("dbus-daemon",), "dbus-daemon")
 IBUS = Program(("ibus-daemon",), "ibus")
@@ -18,10 +17,7 @@ PATIENCE_S = 20.0
 
 def install_input_method(say: Say, log: Path) -> None:
     """Install what is missing with apt; MissingError where that is impossible."""
-    packages = {program.package for program in (BUS, IBUS) if program.path() is None}
-    packages |= set() if is_installed(TABLE) else {TABLE}
-    if packages:
-        apt_install("an input method", sorted(packages), say, log)
+    install("an input method", (BUS, IBUS), [TABLE], say, log)
 
 
 @contextmanager
@@ -53,8 +49,5 @@ def _says(command: list[str], env: dict[str, str]) -> str | None:
 
 
 def _wait_until(is_so: Callable[[], bool], what: str) -> None:
-    end = time.monotonic() + PATIENCE_S
-    while not is_so():
-        if time.monotonic() > end:
-            raise TimeoutError(f"{what} didn't start")
-        time.sleep(0.1)
+    if not wait_until(is_so, PATIENCE_S):
+        raise TimeoutError(f"{what} didn't start")

@@ -9,9 +9,10 @@ import pytest
 if not sys.platform.startswith("linux"):
     pytest.skip("windows on an X server", allow_module_level=True)
 
-from scripts.rehearsal_window import ROOT, open_rehearsal
+from scripts.programs import ROOT
+from scripts.rehearsal_window import open_rehearsal
 from scripts.window_display import open_display
-from tests.live.desktop.game_window_fixtures import found_or_skipped
+from tests.found_or_skipped import found_or_skipped
 from tests.live.desktop.input_method import input_method, install_input_method
 from tests.live.desktop.probed import glfw_probed
 

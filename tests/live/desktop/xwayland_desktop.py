@@ -10,9 +10,16 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from scripts.standin_parts import XVFB
+from scripts.programs import XDOTOOL, XVFB, Program
 from scripts.window_display import WITH_THIS_PROCESS
-from scripts.xwayland_parts import DBUS, MUTTER, WESTON, XWAYLAND
+
+WESTON = Program(("weston",), "weston")
+MUTTER = Program(("mutter",), "mutter")
+"""GNOME's compositor."""
+DBUS = Program(("dbus-daemon",), "dbus-daemon")
+WAYLAND_WINDOW = Program(("weston-terminal",), "weston")
+XWAYLAND = Program(("Xwayland",), "xwayland")
+PROGRAMS = (WESTON, MUTTER, DBUS, WAYLAND_WINDOW, XWAYLAND, XVFB, XDOTOOL)
 
 SIZE = (1024, 768)
 HAND = "MC_NESTED_TEST_HAND"

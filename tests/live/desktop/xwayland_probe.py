@@ -23,9 +23,8 @@ from mc_nested.errors import DesktopError
 from mc_nested.live.desktop import open_desktop, session_kind
 from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.devices import Devices, Region
-from scripts.standin_parts import XDOTOOL
-from scripts.xwayland_parts import WAYLAND_WINDOW
-from tests.live.desktop.xwayland_desktop import HAND, SIZE
+from scripts.programs import XDOTOOL
+from tests.live.desktop.xwayland_desktop import HAND, SIZE, WAYLAND_WINDOW
 
 TITLE, OTHER = "Minecraft* 1.20.1 - Singleplayer", "Terraria"
 PATIENCE_S = 10.0

@@ -33,9 +33,9 @@ def test_an_arena_around_an_origin_marks_its_cells_as_high_as_the_player() -> No
     assert arena.position_of((3.25, 64.0, -18.5)) == (2.25, 1.0)
 
 
-def test_a_profile_of_before_arenas_had_sizes_has_one_of_15_cells() -> None:
-    old = "[arena]\norigin = [0, 64, 0]\nfacing = 'south'\nmarked = [[0, 64, 0], [-14, 65, 14]]"
-    assert parse_profile(old, "mine.toml").marked_arena() == Arena.around((0, 64, 0), "south")
+def test_arena_without_a_size_in_its_profile_has_15_cells() -> None:
+    text = "[arena]\norigin = [0, 64, 0]\nfacing = 'south'\nmarked = [[0, 64, 0], [-14, 65, 14]]"
+    assert parse_profile(text, "mine.toml").marked_arena() == Arena.around((0, 64, 0), "south")
     assert Arena.around((0, 64, 0), "south").size == 15
 
 

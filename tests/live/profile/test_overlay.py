@@ -34,11 +34,6 @@ def test_a_profile_that_says_the_scale_says_how_the_screen_is_drawn(screen: str,
     assert overlay_of(parse_profile(f"[screen]\n{screen}\n", "here")) == overlay
 
 
-def test_a_profile_written_before_layouts_had_names_still_is_the_stand_ins_where_its_lines_are_10_dots_apart() -> None:
-    before = "[screen]\ndebug_scale = 3\nline_pitch = 10\ntext_colour = [255, 255, 255]\n"
-    assert overlay_of(parse_profile(before, "here")) == Overlay(3, STANDIN, WHITE)
-
-
 def test_the_stand_ins_own_profile_names_its_layout(tmp_path: Path) -> None:
     profile = load_profile(write_profile(tmp_path / "profile.toml", tmp_path / "ascii.png"))
     assert profile.screen.layout == "stand-in"

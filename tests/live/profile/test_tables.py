@@ -85,8 +85,3 @@ def test_any_growing_walk_survives_the_file(steps: list[float]) -> None:
     covered = tuple(sum(steps[: ticks + 1]) for ticks in range(len(steps)))
     profile = Profile(walk=WalkTable(covered=covered))
     assert parse_profile(tomlkit.dumps({"walk": {"covered": list(covered)}}), "mine.toml") == profile
-
-
-def test_the_earlier_names_of_the_latencies_are_still_read() -> None:
-    profile = parse_profile("[walk]\nfelt_after_s = 0.02\nseen_after_s = 0.04\n", "old.toml")
-    assert (profile.walk.input_latency_s, profile.walk.capture_latency_s) == (0.02, 0.04)

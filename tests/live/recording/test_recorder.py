@@ -14,20 +14,24 @@ import pytest
 
 from mc_nested.live.recording import recorder, recording_file
 from mc_nested.live.recording.call_encoder import CallEncoder, KeptPicture
+from mc_nested.live.recording.format import FORMAT
 from mc_nested.live.recording.recorder import Recorder
 from mc_nested.live.recording.recording_file import TimedCall, overview_of, read_recording
 from mc_nested.live.vision.chat_region import BLANK, chat_regions
 from sim.client.client import VirtualClient
+
+FACTS = {"format": str(FORMAT)}
 
 WRITES = """
 import sys, time
 from pathlib import Path
 import numpy as np
 from mc_nested.live.recording import recorder
+from mc_nested.live.recording.format import FORMAT
 from mc_nested.live.recording.recorder import Recorder
 recorder.PART_S = 0.25
 rng = np.random.default_rng(0)
-with Recorder(Path(sys.argv[1]), {"format": "1"}, (320, 240), print) as recording:
+with Recorder(Path(sys.argv[1]), {"format": str(FORMAT)}, (320, 240), print) as recording:
     while True:
         recording.tape.add("now", time.time())
         if rng.random() < 0.02:
@@ -75,7 +79,7 @@ def test_a_full_disk_ends_the_recording_and_not_the_run(tmp_path: Path, monkeypa
 
     monkeypatch.setattr(recording_file.PartWriter, "write", full)
     said: list[str] = []
-    with Recorder(tmp_path / "full", {"format": "1"}, (854, 480), said.append) as recording:
+    with Recorder(tmp_path / "full", FACTS, (854, 480), said.append) as recording:
         for _ in range(5):
             recording.tape.add("now", 1.0)
             time.sleep(0.15)
@@ -85,7 +89,7 @@ def test_a_full_disk_ends_the_recording_and_not_the_run(tmp_path: Path, monkeypa
 def test_only_the_last_of_a_long_run_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(recorder, "PART_S", 0.0)
     monkeypatch.setattr(recorder, "WRITE_EVERY_S", 0.01)
-    with Recorder(tmp_path / "long", {"format": "1"}, (854, 480), print, kept_bytes=6000) as recording:
+    with Recorder(tmp_path / "long", FACTS, (854, 480), print, kept_bytes=6000) as recording:
         for number in range(100):
             recording.tape.add("now", float(number))
             time.sleep(0.012)
@@ -101,7 +105,7 @@ def test_what_another_thread_releases_is_set_down_as_elsewhere(tmp_path: Path) -
     import threading
 
     client = VirtualClient(seed=1)
-    with Recorder(tmp_path / "two", {"format": "1"}, (854, 480), print) as recording:
+    with Recorder(tmp_path / "two", FACTS, (854, 480), print) as recording:
         devices = recording.devices(client.devices)
         devices.keyboard.press("w")
         thread = threading.Thread(target=devices.keyboard.release, args=("w",))
@@ -124,7 +128,7 @@ def test_the_chat_is_on_no_picture() -> None:
 
 def test_the_clipboards_text_is_never_set_down(tmp_path: Path) -> None:
     client = VirtualClient(seed=1)
-    with Recorder(tmp_path / "clip", {"format": "1"}, (854, 480), print) as recording:
+    with Recorder(tmp_path / "clip", FACTS, (854, 480), print) as recording:
         devices = recording.devices(client.devices)
         devices.clipboard.write("a secret")
         assert devices.clipboard.read() == "a secret"

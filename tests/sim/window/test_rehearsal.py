@@ -24,7 +24,8 @@ from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.layout import VANILLA, Overlay
 from mc_nested.live.vision.overlay import find_debug_screen
 from mc_nested.live.vision.screen_lines import ScreenLines
-from scripts.rehearsal_window import ROOT, START_S, RehearsalWindow, open_rehearsal
+from scripts.programs import ROOT
+from scripts.rehearsal_window import START_S, RehearsalWindow, open_rehearsal
 from scripts.window_display import open_display
 from tests.sim.client.playing import FONT
 

@@ -76,7 +76,7 @@ def named(job: Job, name: str) -> Job:
 
 
 def test_a_job_ends_as_it_does_here(client: Client, tmp_path: Path) -> None:
-    here, there = tmp_path / "here" / "units" / JOB.name, tmp_path / "there" / "units" / JOB.name
+    here, there = tmp_path / "here" / "jobs" / JOB.name, tmp_path / "there" / "jobs" / JOB.name
     train_job(JOB, here, goes_on, 1.0)
     heard = Heard()
     train_jobs(DaskJobs(client), [(JOB, there)], never, heard)
@@ -92,7 +92,7 @@ def test_a_job_ends_as_it_does_here(client: Client, tmp_path: Path) -> None:
 
 
 def test_it_goes_on_from_a_checkpoint_of_this_computer(client: Client, tmp_path: Path) -> None:
-    whole, cut = tmp_path / "whole" / "units" / JOB.name, tmp_path / "cut" / "units" / JOB.name
+    whole, cut = tmp_path / "whole" / "jobs" / JOB.name, tmp_path / "cut" / "jobs" / JOB.name
     train_job(JOB, whole, goes_on, 1.0)
     ticks = iter([True] * 30)
     assert not train_job(JOB, cut, lambda _: next(ticks, False), 0.0).finished
@@ -106,20 +106,20 @@ def test_it_goes_on_from_a_checkpoint_of_this_computer(client: Client, tmp_path:
 
 
 def test_asked_to_stop_what_trains_comes_back_and_what_waits_does_not_begin(client: Client, tmp_path: Path) -> None:
-    jobs = [(named(LONG, name), tmp_path / "units" / name) for name in ("one", "two", "three")]
+    jobs = [(named(LONG, name), tmp_path / "jobs" / name) for name in ("one", "two", "three")]
     heard = Heard()
     train_jobs(DaskJobs(client), jobs, lambda: bool(heard.reports), heard)
     assert heard.ended == [JobEnded("one", finished=False)]
-    assert (tmp_path / "units" / "one" / "checkpoint").is_dir()
-    assert not (tmp_path / "units" / "two").exists()
+    assert (tmp_path / "jobs" / "one" / "checkpoint").is_dir()
+    assert not (tmp_path / "jobs" / "two").exists()
     # The worker is free again: what waited is gone from the scheduler.
     after = Heard()
-    train_jobs(DaskJobs(client), [(JOB, tmp_path / "units" / JOB.name)], never, after)
+    train_jobs(DaskJobs(client), [(JOB, tmp_path / "jobs" / JOB.name)], never, after)
     assert after.ended == [JobEnded(JOB.name, finished=True)]
 
 
 def test_a_job_that_fails_is_not_tried_again(client: Client, tmp_path: Path) -> None:
-    folder = tmp_path / "units" / JOB.name
+    folder = tmp_path / "jobs" / JOB.name
     train_job(one_job("nested", [DOT], 3), folder, lambda _: False, 0.0)
     heard = Heard()
     with pytest.raises(RunError, match="belongs to another scenario, agent or preset"):
@@ -135,7 +135,7 @@ def test_a_worker_with_other_versions_refuses_and_says_what_differs(
     with pytest.raises(
         RunError, match=r"^the worker at tcp://.* has numpy .* instead of 0\.1: install the same on both$"
     ):
-        train_jobs(DaskJobs(client), [(JOB, tmp_path / "units" / JOB.name)], never, Heard())
+        train_jobs(DaskJobs(client), [(JOB, tmp_path / "jobs" / JOB.name)], never, Heard())
 
 
 def test_a_client_that_is_gone_leaves_no_job_training(
@@ -143,12 +143,12 @@ def test_a_client_that_is_gone_leaves_no_job_training(
 ) -> None:
     with connected(cluster) as other:
         executor = DaskJobs(other)
-        executor.submit(LONG, tmp_path / "units" / LONG.name)
+        executor.submit(LONG, tmp_path / "jobs" / LONG.name)
         end = time.monotonic() + 20
         while not executor.reports() and time.monotonic() < end:
             time.sleep(0.05)
     heard = Heard()
-    train_jobs(DaskJobs(client), [(JOB, tmp_path / "units" / JOB.name)], never, heard)
+    train_jobs(DaskJobs(client), [(JOB, tmp_path / "jobs" / JOB.name)], never, heard)
     assert heard.ended == [JobEnded(JOB.name, finished=True)]
 
 
@@ -169,7 +169,7 @@ def test_a_killed_worker_costs_the_job_that_it_trained_which_is_counted_once(tmp
                 workers.append(worker(tmp_path, url))
 
         try:
-            jobs = [(named(one_job("nested", [DOT], 2, 500), name), tmp_path / "units" / name) for name in ("a", "b")]
+            jobs = [(named(one_job("nested", [DOT], 2, 500), name), tmp_path / "jobs" / name) for name in ("a", "b")]
             train_jobs(executor, jobs, never, watch)
             said = executor.in_words()
         finally:
@@ -192,7 +192,7 @@ def test_a_scheduler_that_is_lost_ends_it_with_one_line(tmp_path: Path) -> None:
 
         try:
             with pytest.raises(RunError, match=r"^the scheduler was lost"):
-                train_jobs(executor, [(LONG, tmp_path / "units" / LONG.name)], never, watch)
+                train_jobs(executor, [(LONG, tmp_path / "jobs" / LONG.name)], never, watch)
         finally:
             running.kill()
             running.wait()
@@ -214,7 +214,7 @@ def test_a_scheduler_that_is_killed_ends_it_too(tmp_path: Path, monkeypatch: pyt
                 killed.close()
 
         with pytest.raises(RunError, match=r"^the scheduler was lost"):
-            train_jobs(DaskJobs(client), [(LONG, tmp_path / "units" / LONG.name)], never, watch)
+            train_jobs(DaskJobs(client), [(LONG, tmp_path / "jobs" / LONG.name)], never, watch)
 
 
 class LosingExecutor:
@@ -242,5 +242,5 @@ def test_a_job_that_takes_every_worker_with_it_is_given_up(tmp_path: Path) -> No
     with pytest.raises(
         RunError, match="was lost with each of 48 workers: if nobody stopped them, it needs more memory"
     ):
-        train_jobs(DaskJobs(client), [(JOB, tmp_path / "units" / JOB.name)], never, Heard())  # type: ignore[arg-type]
+        train_jobs(DaskJobs(client), [(JOB, tmp_path / "jobs" / JOB.name)], never, Heard())  # type: ignore[arg-type]
     assert executor.tried == MOST_TRIES

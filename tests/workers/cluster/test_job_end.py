@@ -16,14 +16,14 @@ JOB = one_job("nested", [DOT], 2)
 
 def test_a_job_that_failed_changes_nothing_in_its_folder(tmp_path: Path) -> None:
     ended = JobEnded(JOB.name, finished=False, failed="too small a disk")
-    folder = tmp_path / "units" / JOB.name
+    folder = tmp_path / "jobs" / JOB.name
     assert landed_from(Trained(ended, {}, {}), folder) == ended
     assert not folder.exists()
 
 
 def test_a_disk_that_refuses_is_said_in_a_line(tmp_path: Path) -> None:
-    (tmp_path / "units").write_text("a file where the folder would be")
-    folder = tmp_path / "units" / JOB.name
+    (tmp_path / "jobs").write_text("a file where the folder would be")
+    folder = tmp_path / "jobs" / JOB.name
     with pytest.raises(RunError, match=r"can't be written .*: make room$"):
         landed_from(Trained(JobEnded(JOB.name, finished=True), {"outcome.json": b"{}"}, {}), folder)
 

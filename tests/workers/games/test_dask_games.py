@@ -262,7 +262,7 @@ def test_an_experiments_job_leaves_a_game_alone(address: SchedulerAddress, clien
         assert workers_that_train(client) == []
         job = one_job("nested", [DOT], 1)
         executor = DaskJobs(client)
-        future = executor.submit(job, tmp_path / "units" / job.name)
+        future = executor.submit(job, tmp_path / "jobs" / job.name)
         time.sleep(0.3)  # in which a game that took it would have begun
         assert not future.running()
         assert not future.done()
@@ -278,7 +278,7 @@ def test_an_experiments_job_waits_beside_a_game_for_a_worker(
     with GameWorker(address, "one", quiet):
         job = one_job("nested", [DOT], 1)
         executor = DaskJobs(client)
-        future = executor.submit(job, tmp_path / "units" / job.name)
+        future = executor.submit(job, tmp_path / "jobs" / job.name)
         time.sleep(1.5)
         assert executor.reports() == []
         running = worker(tmp_path, address.url)

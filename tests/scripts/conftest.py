@@ -1,0 +1,14 @@
+"""A PATH of a test's own."""
+
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture
+def programs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder that is the whole PATH, for programs that ``write_program`` puts there (fake_programs.py)."""
+    folder = tmp_path / "bin"
+    folder.mkdir()
+    monkeypatch.setenv("PATH", str(folder))
+    return folder
