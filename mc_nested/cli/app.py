@@ -101,7 +101,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     130 after Ctrl+C.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
-    if words in ([], ["calibrate"]):
+    if words in ([], ["calibrate"], ["study"]):
         words.append("--help")
     try:
         code = app_for(words).main(args=words, prog_name=NAME, standalone_mode=False)

@@ -22,7 +22,6 @@ from mc_nested.arena.scenario_file import paper_scenarios
 from mc_nested.cli.cluster_options import ClusterOption, InsecureOption, KeysOption, cluster_of
 from mc_nested.cli.completion import complete_of, complete_runs
 from mc_nested.cli.options import (
-    PRESETS,
     DeviceOption,
     EngineOption,
     LayerOption,
@@ -51,7 +50,7 @@ MOST_TRIALS = 1000
 
 OPTIONS: Mapping[str, Any] = {
     "trials": Annotated[int, typer.Option(min=1, max=MOST_TRIALS, help="of each arm on each design")],
-    "episodes": Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial", show_default=PRESETS)],
+    "episodes": Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial, if not the preset's")],
     "seed": Annotated[int, typer.Option(min=0, help="the same seed gives the same results")],
     "scenario": ScenariosOption,
     "layer": LayerOption,
