@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import glfw
 import moderngl
 
-sys.path.insert(0, str(Path(__file__).parents[3]))  # a Windows Python that was only unpacked knows no PYTHONPATH
+sys.path.insert(0, str(Path(__file__).parents[4]))  # a Windows Python that was only unpacked knows no PYTHONPATH
 
-from tests.live.desktop.window_server import Event, serve
+from tests.live.desktop.real_windows.window_server import Event, serve
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from tests.live.desktop.window_server import Event
+from tests.live.desktop.real_windows.window_server import Event
 
 GLFW_WINDOW = (sys.executable, str(Path(__file__).with_name("glfw_window.py")))
 """The window of the game from 1.13 to 26.2."""

@@ -24,11 +24,11 @@ from mc_nested.live.desktop import open_desktop, session_kind
 from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.devices import Devices, Region
 from scripts.programs import XDOTOOL
-from tests.live.desktop.xwayland_desktop import HAND, SIZE, WAYLAND_WINDOW
+from tests.live.desktop.real_windows.xwayland_desktop import HAND, SIZE, WAYLAND_WINDOW
 
 TITLE, OTHER = "Minecraft* 1.20.1 - Singleplayer", "Terraria"
 PATIENCE_S = 10.0
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[4]
 LARGE = (960, 640)
 """A window whose picture is fetched in bands."""
 
@@ -76,7 +76,7 @@ class Window:
 @contextmanager
 def shown(title: str) -> Iterator[Window]:
     """A window of that title, drawn, which the compositor has put in front."""
-    command = [sys.executable, "-m", "tests.live.desktop.xwayland_window", title]
+    command = [sys.executable, "-m", "tests.live.desktop.real_windows.xwayland_window", title]
     # PyPI's glfw is two libraries: in a Wayland session, it would load the one that knows no X11.
     env = {**os.environ, "PYGLFW_LIBRARY_VARIANT": "x11"}
     pipe = subprocess.PIPE

@@ -14,7 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-sys.path.insert(0, str(Path(__file__).parents[3]))  # a Windows Python that was only unpacked knows no PYTHONPATH
+sys.path.insert(0, str(Path(__file__).parents[4]))  # a Windows Python that was only unpacked knows no PYTHONPATH
 
 from mc_nested.errors import McNestedError
 from mc_nested.live.connection import prepare_keyboard
@@ -23,8 +23,8 @@ from mc_nested.live.desktop.key_listener import listening, open_hotkeys
 from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.devices import Devices
 from mc_nested.live.profile.tables import Profile
-from tests.live.desktop.window_driver import GLFW_WINDOW, PATIENCE_S, TITLE, DrivenWindow, driven_window
-from tests.live.desktop.window_server import Event
+from tests.live.desktop.real_windows.window_driver import GLFW_WINDOW, PATIENCE_S, TITLE, DrivenWindow, driven_window
+from tests.live.desktop.real_windows.window_server import Event
 
 PRESSED, RELEASED = 1, 0
 CLICKS = 100

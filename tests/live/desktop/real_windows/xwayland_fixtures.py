@@ -7,7 +7,7 @@ import pytest
 
 from scripts.programs import OPENGL, install
 from tests.found_or_skipped import found_or_skipped
-from tests.live.desktop.xwayland_desktop import PROGRAMS, rootful_desktop, rootless_desktop
+from tests.live.desktop.real_windows.xwayland_desktop import PROGRAMS, rootful_desktop, rootless_desktop
 
 
 @pytest.fixture(scope="session")
