@@ -40,7 +40,7 @@ from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.arm import AGENTS
 from mc_nested.studies.config import config_of
 from mc_nested.studies.folder import StudyFolder
-from mc_nested.studies.study import SHIPPED, Asked, Study, write_report
+from mc_nested.studies.study import SHIPPED, Study, StudyOptions, write_report
 from mc_nested.studies.table import Table
 from mc_nested.workers.cluster.address import SchedulerAddress
 from sim.worlds import check_window
@@ -230,28 +230,28 @@ def _resume(verbs: Sequence[str], values: Mapping[str, Any]) -> None:
 
 def _begin(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> None:
     output, scheduler = Output(values["quiet"], values["as_json"]), _scheduler(values)
-    asked = _asked(study, values, given)
-    arms = study.arms(asked)
+    options = _options_of(study, values, given)
+    arms = study.arms(options)
     for arm in arms:
         check_window(arm.preset.states, has_window=False)
         arm.check()
-    if asked.device:
+    if options.device:
         from mc_nested.learn.dqn.torch_engine.engine import device_named  # torch takes seconds to load
 
-        device_named(asked.device)
+        device_named(options.device)
     config = config_of(
         study.name,
         arms,
-        trials=asked.trials,
-        seed=asked.seed,
+        trials=options.trials,
+        seed=options.seed,
         jobs=values["jobs"] or jobs_at_once(scheduler, output),
-        notes=study.notes(asked),
+        notes=study.notes(options),
     )
     with output_folder(values["out"], study.folder or study.name) as path:
         _run(study, StudyFolder.new(path, config), values)
 
 
-def _asked(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> Asked:
+def _options_of(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> StudyOptions:
     """Return what was asked for, with the designs and the names of lists loaded and taken apart."""
     own = {name: values[name] for name in study.options if name not in ("scenario", "layer")}
     if "scenario" in study.options:
@@ -260,7 +260,7 @@ def _asked(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> 
         if name in own:
             own[name] = _listed(own[name])
     own = {name: value for name, value in own.items() if value is not None}
-    return Asked(**own, given=frozenset(given), say=partial(typer.echo, err=True))
+    return StudyOptions(**own, given=frozenset(given), say=partial(typer.echo, err=True))
 
 
 def _listed(options: Sequence[str] | None) -> list[str]:
