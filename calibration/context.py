@@ -71,7 +71,7 @@ OpenContext = Callable[[Profile], AbstractContextManager[CalibrationContext]]
 
 
 def context_opener(opening: Opening, ask: Callable[[str], bool]) -> OpenContext:
-    """Opens contexts as the opening says, whatever the profile; they ask the person through ``ask``.
+    """Open contexts as the opening says, whatever the profile; they ask the person through ``ask``.
 
     After a yes, the game is in front again. If the person doesn't return to it in time, asking raises NotInFrontError.
     """

@@ -18,7 +18,7 @@ from sim.grid import GridGame, GridVectorEnv
 
 
 class Backend(str, Enum):
-    """The backend: the headless simulator, the virtual client on its own clock, or a running game's window."""
+    """A backend is the headless simulator, the virtual client on its own clock, or a running game's window."""
 
     SIM = "sim"
     VIRTUAL = "virtual"
@@ -26,14 +26,14 @@ class Backend(str, Enum):
 
 
 def where_words(backend: Backend) -> str:
-    """Where it is played, in words."""
+    """Say where it is played."""
     words = {Backend.SIM: "in the simulator", Backend.VIRTUAL: "on the virtual client"}
     return words.get(backend, "in the running game")
 
 
 @contextmanager
 def open_game(backend: Backend, scenario: Scenario, opening: Opening) -> Iterator[tuple[Game, Display | None]]:
-    """The backend's game, and its window, if it has one; both are closed after the block.
+    """Open the backend's game, and its window, if it has one; both are closed after the block.
 
     ``opening`` says how a live game is opened; of it, a game on the virtual client takes the journal alone.
 
@@ -56,7 +56,7 @@ def open_game(backend: Backend, scenario: Scenario, opening: Opening) -> Iterato
 def open_arenas(
     backend: Backend, scenarios: Sequence[Scenario], opening: Opening, seed: int = 0
 ) -> Iterator[tuple[GridVectorEnv | ArenaVectorEnv, PlayLog | None]]:
-    """The backend's arenas, one per scenario, and the log of playing them, if any; closed after the block.
+    """Open the backend's arenas, one per scenario, and the log of playing them, if any; closed after the block.
 
     ``seed`` is of the virtual clients' random numbers. RunError if a live game should be several arenas; otherwise as
     ``open_game``.
@@ -77,13 +77,16 @@ def open_arenas(
 
 
 def check_window(states: str, has_window: bool) -> None:
-    """UserError if such states need a window, and there is none."""
+    """Raise UserError if such states need a window, and there is none."""
     if states == SCREEN and not has_window:
         raise UserError(NEEDS_A_WINDOW)
 
 
 def as_shown(arenas: GridVectorEnv | ArenaVectorEnv, states: str) -> GridVectorEnv | ArenaVectorEnv | ScreenArenas:
-    """The arenas, or what their windows show of them, as an agent of such states sees them; UserError without one."""
+    """Return the arenas, or what their windows show of them, as an agent of such states sees them.
+
+    UserError if the states need a window, and there is none.
+    """
     if states != SCREEN:
         return arenas
     if isinstance(arenas, GridVectorEnv):

@@ -63,7 +63,7 @@ def app_for(words: Sequence[str]) -> TyperCommand | TyperGroup:
             return cast("TyperCommand", typer.main.get_command(quick))
         words = typed_words()
     if words and words[0] in MOVED:
-        raise UserError(f"{NAME} {words[0]} is now: {NAME} {MOVED[words[0]]}")
+        raise UserError(f"{words[0]} is now {NAME} {MOVED[words[0]]}")
     app = typer.Typer(name=NAME, rich_markup_mode=None, pretty_exceptions_enable=False)
     app.callback(invoke_without_command=True)(version)
     named = words[:1] if words and words[0] in (*VERBS, *HIDDEN) else [*VERBS, *HIDDEN]

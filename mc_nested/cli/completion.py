@@ -27,7 +27,7 @@ Complete = Callable[[str], list[str]]
 
 
 def complete_runs(incomplete: str) -> list[str]:
-    """Folders of runs: those in runs/, and those where the typed path leads."""
+    """List folders of runs: those in runs/, and those where the typed path leads."""
     path = Path(incomplete)
     there = RUNS if incomplete in ("", ".", "./") else path if incomplete.endswith("/") else path.parent
     found = (str(entry) for place in dict.fromkeys((RUNS, there)) for entry in _inside(place))
@@ -35,13 +35,13 @@ def complete_runs(incomplete: str) -> list[str]:
 
 
 def complete_profiles(incomplete: str) -> list[str]:
-    """Names of one's profiles."""
+    """List names of one's profiles."""
     names = [file.stem for file in _inside(profile_folder()) if file.suffix == ".toml"]
     return [name for name in names if name.startswith(incomplete)]
 
 
 def complete_of(names: Callable[[], Iterable[str]]) -> Complete:
-    """Some of these; after a comma, the same with what stands before it."""
+    """Complete some of these; after a comma, the same with what stands before it."""
 
     def complete(incomplete: str) -> list[str]:
         before, comma, last = incomplete.rpartition(",")
@@ -63,7 +63,7 @@ QUICK: dict[str, Complete] = {
 
 
 def quick_app(verbs: Iterable[str]) -> typer.Typer | None:
-    """What answers the shell at once; None where a verb's module is needed to know what can stand there."""
+    """Make what answers the shell at once; None where a verb's module is needed to know what can stand there."""
     *before, incomplete = typed_words()
     complete = None
     if not incomplete.startswith("-"):
@@ -81,7 +81,7 @@ def quick_app(verbs: Iterable[str]) -> typer.Typer | None:
 
 
 def typed_words() -> list[str]:
-    """The words that are typed behind mc-nested; the last one is what the shell asks to complete, or empty."""
+    """List the words typed behind mc-nested; the last one is what the shell asks to complete, or empty."""
     text = os.environ.get("_TYPER_COMPLETE_ARGS") or os.environ.get("COMP_WORDS", "")
     words = [*text.split(), *([""] if text.endswith((" ", "\n")) else [])]
     index = os.environ.get("COMP_CWORD")

@@ -4,7 +4,7 @@ Plans go out to them, and whole episodes come back.
 """
 
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -32,21 +32,22 @@ LOOK_EVERY_S = 0.2
 """Seconds that a Ctrl+C may go unnoticed while no game answers."""
 
 
-OF_THIS_GAME = ("profile", "server_allowed", "record")
+OF_THIS_GAME = ("--profile", "--server-allowed", "--record")
 """Options of this computer's own game, which doesn't play."""
 
 
-def games_of(
-    games: str | None, keys: Path | None, insecure: bool, options: Mapping[str, Any]
-) -> SchedulerAddress | None:
-    """The scheduler whose games play, None for this computer's; ClusterError or UserError if that can't be."""
+def games_of(games: str | None, keys: Path | None, insecure: bool, options: Collection[str]) -> SchedulerAddress | None:
+    """The scheduler whose games play, None for this computer's; ``options`` are those that were given.
+
+    ClusterError or UserError if that can't be.
+    """
     if games is None:
         if keys is not None or insecure:
             raise ClusterError("--keys and --insecure say how games are spoken to: name their scheduler with --games")
         return None
-    for name in OF_THIS_GAME:
-        if options[name]:
-            raise UserError(f"--games play with profiles of their own: leave out --{name.replace('_', '-')}")
+    for option in OF_THIS_GAME:
+        if option in options:
+            raise UserError(f"--games play with profiles of their own: leave out {option}")
     return scheduler_address(games, keys, insecure=insecure)
 
 

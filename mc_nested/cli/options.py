@@ -57,13 +57,8 @@ RecordOption = Annotated[
 ]
 
 PresetOption = Annotated[
-    str | None,
-    typer.Option(
-        metavar=NAME_OR_FILE,
-        help="hyper-parameters",
-        show_default="paper",
-        autocompletion=complete_of(shipped_presets),
-    ),
+    str,
+    typer.Option(metavar=NAME_OR_FILE, help="hyper-parameters", autocompletion=complete_of(shipped_presets)),
 ]
 EngineOption = Annotated[
     str | None,
@@ -120,18 +115,18 @@ StandingOption = Annotated[
 
 
 def given(context: typer.Context) -> list[str]:
-    """The options that were given, as ``--out``."""
+    """List the options that were given, as ``--out``."""
     return [each.opts[0] for each in context.command.params if each.name and is_given(context, each.name)]
 
 
 def is_given(context: typer.Context, name: str) -> bool:
-    """Whether the parameter of that name was given, and doesn't have its default."""
+    """Say whether the parameter of that name was given on the command line."""
     source = context.get_parameter_source(name)
     return source is not None and source.name == "COMMANDLINE"
 
 
 def check_nothing_before(context: typer.Context) -> None:
-    """UserError if an option stands before the verb of a verb: it would be ignored."""
+    """Raise UserError if an option stands before the verb of a verb, where it would be ignored."""
     verb = f"{context.command_path} {context.invoked_subcommand}"
     below = getattr(context.command, "commands", {})[context.invoked_subcommand]
     for option in given(context):
@@ -143,7 +138,7 @@ def check_nothing_before(context: typer.Context) -> None:
 def opening_of(
     profile: str, what: str, record: str | None, *, server_allowed: bool = False, evidence: Path | None = None
 ) -> Opening:
-    """How a live run is opened, by its options; ``what`` it is, in a word or two, names its recording.
+    """Say how a live run is opened, by its options; ``what`` it is, in a word or two, names its recording.
 
     RecordingError if the recording's folder holds something already.
     """

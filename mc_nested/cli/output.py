@@ -41,7 +41,7 @@ def prints(result: type) -> Callable[[Verb], Verb]:
 
 
 def json_fields(verb: Any) -> dict[str, str]:
-    """What each field of a verb's result means; empty for a verb without --json."""
+    """Say what each field of a verb's result means; nothing for a verb without --json."""
     result = getattr(verb, "prints", None)
     if result is None:
         return {}
@@ -50,7 +50,7 @@ def json_fields(verb: Any) -> dict[str, str]:
 
 
 def epilog_of(verb: Any) -> str | None:
-    """The last paragraph of a verb's --help; None for one without --json."""
+    """Write the last paragraph of a verb's --help; None for one without --json."""
     fields = json_fields(verb)
     if not fields:
         return None

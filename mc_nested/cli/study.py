@@ -25,6 +25,7 @@ from mc_nested.cli.options import (
     DeviceOption,
     EngineOption,
     LayerOption,
+    PresetOption,
     ScenariosOption,
     is_given,
     named_scenarios,
@@ -62,10 +63,7 @@ OPTIONS: Mapping[str, Any] = {
             autocompletion=complete_of(lambda: AGENT_SPECS),
         ),
     ],
-    "preset": Annotated[
-        str,
-        typer.Option(metavar="NAME|FILE", help="hyper-parameters", autocompletion=complete_of(shipped_presets)),
-    ],
+    "preset": PresetOption,
     "engine": EngineOption,
     "device": DeviceOption,
     "longer": Annotated[

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
@@ -11,20 +11,24 @@ from mc_nested.arena.cooperative.team import MOST_BUILDERS, Team, spread_starts
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import shipped_scenarios, table_of
 from mc_nested.cli.cluster_options import InsecureOption, KeysOption
-from mc_nested.cli.completion import complete_of, complete_profiles, complete_runs
+from mc_nested.cli.completion import complete_of, complete_runs
 from mc_nested.cli.games_at_play import games_of
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
     FILES,
     NAME_OR_FILE,
+    PRESETS,
     DeviceOption,
     EngineOption,
     LayerOption,
     PresetOption,
+    ProfileOption,
     RecordOption,
     ServerOption,
     StatesOption,
     check_nothing_before,
+    given,
+    is_given,
     named_scenario,
     opening_of,
 )
@@ -48,32 +52,22 @@ MOST_TRIALS = 1000
 """More at once would only run out of memory."""
 
 BESIDE_RESUME = (
-    "resume",
-    "device",
-    "profile",
-    "server_allowed",
-    "record",
-    "view",
-    "games",
-    "keys",
-    "insecure",
-    "quiet",
-    "as_json",
+    "--resume",
+    "--device",
+    "--profile",
+    "--server-allowed",
+    "--record",
+    "--view",
+    "--games",
+    "--keys",
+    "--insecure",
+    "--quiet",
+    "--json",
 )
 """The options that a run can be resumed with; all others are in its config.toml."""
 
 BUILDERS = 2
 """Builders in one arena, unless their number is given."""
-
-DEFAULTS: dict[str, Any] = {
-    "scenario": "line",
-    "agent": "nested",
-    "backend": Backend.SIM,
-    "preset": "paper",
-    "trials": 1,
-    "seed": 0,
-}
-
 
 app = typer.Typer()
 
@@ -83,51 +77,52 @@ app = typer.Typer()
 def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     scenario: Annotated[
-        str | None,
+        str,
         typer.Option(
             metavar=NAME_OR_FILE,
-            help=f"the design to build: {FILES} [line]",
+            help=f"the design to build: {FILES}",
             autocompletion=complete_of(shipped_scenarios),
         ),
-    ] = None,
+    ] = "line",
     layer: LayerOption = None,
-    agent: Annotated[str | None, typer.Option(help=f"the agent: {', '.join(AGENT_SPECS)} [nested]")] = None,
+    agent: Annotated[
+        str,
+        typer.Option(help=f"the agent: {', '.join(AGENT_SPECS)}", autocompletion=complete_of(lambda: AGENT_SPECS)),
+    ] = "nested",
     builders: Annotated[
         int | None, typer.Option(help=f"let 1 to {MOST_BUILDERS} build in one simulated arena, not one agent alone")
     ] = None,
     start: Annotated[
         list[str] | None,
-        typer.Option(metavar="X,Y", help="a builder's start cell, once for each [spread along the scenario's start]"),
+        typer.Option(
+            metavar="X,Y",
+            help="a builder's start cell, once for each",
+            show_default="spread along the scenario's start",
+        ),
     ] = None,
     networks: Annotated[
         str | None,
         typer.Option(
             help="of several builders; shared: one nested agent plays every builder; own: each has one of its own; "
-            "single: independent single agents [shared]"
+            "single: independent single agents",
+            show_default=NETWORKS[0],
+            autocompletion=complete_of(lambda: NETWORKS),
         ),
     ] = None,
-    backend: Annotated[Backend | None, typer.Option(help="where [sim]")] = None,
-    preset: PresetOption = None,
+    backend: Annotated[Backend, typer.Option(help="where")] = Backend.SIM,
+    preset: PresetOption = "paper",
     engine: EngineOption = None,
     device: DeviceOption = None,
     states: StatesOption = None,
-    episodes: Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial [the preset's]")] = None,
-    trials: Annotated[
-        int | None, typer.Option(min=1, max=MOST_TRIALS, help="independent trials, trained as one batch [1]")
+    episodes: Annotated[
+        int | None, typer.Option(min=1, max=MOST, help="episodes a trial", show_default=PRESETS)
     ] = None,
-    seed: Annotated[int | None, typer.Option(min=0, help="the same seed gives the same training [0]")] = None,
+    trials: Annotated[int, typer.Option(min=1, max=MOST_TRIALS, help="independent trials, trained as one batch")] = 1,
+    seed: Annotated[int, typer.Option(min=0, help="the same seed gives the same training")] = 0,
     stop_at_optimum: Annotated[
         bool, typer.Option("--stop-at-optimum", help="end a trial at its first greedy evaluation at the optimum")
     ] = False,
-    profile: Annotated[
-        str | None,
-        typer.Option(
-            metavar=NAME_OR_FILE,
-            help="the profile of your game and screen",
-            show_default=DEFAULT_PROFILE,
-            autocompletion=complete_profiles,
-        ),
-    ] = None,
+    profile: ProfileOption = DEFAULT_PROFILE,
     server_allowed: ServerOption = False,
     record: RecordOption = None,
     games: Annotated[
@@ -146,7 +141,8 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         ),
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="a new or empty folder for the run [runs/DESIGN-AGENT-DATE]")
+        Path | None,
+        typer.Option(metavar="DIR", help="a new or empty folder for the run", show_default="runs/DESIGN-AGENT-DATE"),
     ] = None,
     resume: Annotated[
         Path | None,
@@ -160,43 +156,39 @@ def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     if context.invoked_subcommand is not None:
         check_nothing_before(context)
         return
-    served = games_of(games, keys, insecure, context.params)
-    named = DEFAULT_PROFILE if profile is None else profile
-    opening = opening_of(named, "train", record, server_allowed=server_allowed)
+    served = games_of(games, keys, insecure, given(context))
+    opening = opening_of(profile, "train", record, server_allowed=server_allowed)
     how = HowToRun(Output(quiet, as_json), opening, view, served)
     if resume is not None:
-        given = [name for name, value in context.params.items() if value not in (None, (), []) and value is not False]
-        beside = [name for name in given if name not in BESIDE_RESUME]
-        if beside:
-            option = "--from" if beside[0] == "begin_from" else "--" + beside[0].replace("_", "-")
-            raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
+        for option in given(context):
+            if option not in BESIDE_RESUME:
+                raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
         folder = RunFolder.open(resume)
         if device:
             folder = RunFolder(resume, folder.config.on_device(device))
-        if profile is None and folder.config.profile:
-            how = replace(how, opening=replace(opening, profile=folder.config.profile))
+        if not is_given(context, "profile"):
+            how = replace(how, opening=replace(opening, profile=folder.config.profile or profile))
         with folder_lock(resume):
             run_training(folder, not folder.only_begun, how)
         return
-    if agent not in (None, *AGENT_SPECS):
+    if agent not in AGENT_SPECS:
         raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENT_SPECS)}")
-    chosen = load_preset(DEFAULTS["preset"] if preset is None else preset)
-    chosen = chosen.changed(engine=engine, device=device, states=states)
-    where = backend or DEFAULTS["backend"]
-    check_window(chosen.states, where is not Backend.SIM)
-    design = named_scenario(DEFAULTS["scenario"] if scenario is None else scenario, layer)
+    chosen = load_preset(preset).changed(engine=engine, device=device, states=states)
+    check_window(chosen.states, backend is not Backend.SIM)
+    design = named_scenario(scenario, layer)
     team = _team(design, builders, start, networks)
-    if team and (agent or where is not Backend.SIM):
-        wrong = "--agent: --networks says who they are" if agent else "--backend: they train in the simulator"
+    names_agent = is_given(context, "agent")
+    if team and (names_agent or backend is not Backend.SIM):
+        wrong = "--agent: --networks says who they are" if names_agent else "--backend: they train in the simulator"
         raise UserError(f"several builders don't go with {wrong}: leave it out")
     config = RunConfig(
-        agent=team.builders.agent if team else agent or DEFAULTS["agent"],
-        backend=where.value,
-        profile=named if where is Backend.LIVE and not games else None,
-        trials=trials or DEFAULTS["trials"],
-        seed=seed or DEFAULTS["seed"],
+        agent=team.builders.agent if team else agent,
+        backend=backend.value,
+        profile=profile if backend is Backend.LIVE and not games else None,
+        trials=trials,
+        seed=seed,
         stop_at_optimum=stop_at_optimum,
-        preset_name=DEFAULTS["preset"] if preset is None else preset,
+        preset_name=preset,
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
         scenario=table_of(design),
         team=team,

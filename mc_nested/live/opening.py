@@ -1,4 +1,4 @@
-"""Opening: all that opens a game's window for a live run or a calibration, as one value that is handed on."""
+"""An Opening is all that opens a game's window for a live run or a calibration, as one value that is handed on."""
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
@@ -35,7 +35,7 @@ def open_desktops_panic_switch(key: str, stop: Stop) -> AbstractContextManager[N
 
 @dataclass(frozen=True)
 class Opening:
-    """How a game's window is opened, who is told what happens there, and what is kept of it.
+    """An opening says how a game's window is opened, who is told what happens there, and what is kept of it.
 
     Args:
         profile: the profile's name or file.
@@ -110,13 +110,13 @@ class Opening:
 
 @dataclass(frozen=True)
 class OpenWindow:
-    """A game's open window, and its panic switch, which isn't open yet."""
+    """A game's window is open; its panic switch isn't yet."""
 
     connection: GameConnection
     panic_switch: Callable[[], AbstractContextManager[None]]
 
     @contextmanager
     def guarded(self) -> Iterator[None]:
-        """For the block, a watchdog releases keys that are held too long, and the panic switch stops all input."""
+        """Guard the block: a watchdog releases keys that are held too long, and the panic switch stops all input."""
         with watched(self.connection.controller), self.panic_switch():
             yield

@@ -1,4 +1,4 @@
-"""``mc-nested evaluate``: the scores of a training's greedy policies."""
+"""``mc-nested runs evaluate``: the scores of a training's greedy policies."""
 
 import json
 import shutil

@@ -57,6 +57,10 @@ def test_of_a_run(verb: str, trained: Path, capsys: pytest.CaptureFixture[str]) 
 def test_of_a_training(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     found = printed(capsys, "train", "--episodes", "2", "--out", tmp_path / "run")
     assert found.keys() == fields_of("train").keys()
+    assert (found["builders"], found["live"]) == (None, None)
+    found = printed(capsys, "train", "--builders", "2", "--episodes", "2", "--out", tmp_path / "team")
+    assert found.keys() == fields_of("train").keys()
+    assert found["builders"] == 2
 
 
 def test_of_a_list_of_runs(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:

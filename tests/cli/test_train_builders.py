@@ -126,11 +126,6 @@ def test_another_training_begins_from_it(
     assert "its networks don't fit this training" in capsys.readouterr().err
 
 
-def test_the_former_verb_says_where_it_is_now(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("cooperate", "--builders", "2") == 2
-    assert capsys.readouterr().err == "mc-nested: mc-nested cooperate is now: mc-nested train, with --builders\n"
-
-
 @pytest.mark.parametrize(
     ("words", "says"),
     [

@@ -132,7 +132,8 @@ def verbs_below(words: str, command: Any) -> Iterator[tuple[str, TyperCommand | 
     """A verb's words and its command, and those of the verbs below it."""
     yield words, command
     for name, below in getattr(command, "commands", {}).items():
-        yield from verbs_below(f"{words} {name}", below)
+        if not below.hidden:
+            yield from verbs_below(f"{words} {name}", below)
 
 
 def test_readme_is_one_page_that_says_how_to_stop() -> None:
