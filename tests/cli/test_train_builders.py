@@ -128,7 +128,7 @@ def test_another_training_begins_from_it(
 
 def test_the_former_verb_says_where_it_is_now(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("cooperate", "--builders", "2") == 2
-    assert capsys.readouterr().err == "mc-nested: mc-nested cooperate is now: mc-nested train --builders\n"
+    assert capsys.readouterr().err == "mc-nested: mc-nested cooperate is now: mc-nested train --builders 2\n"
 
 
 @pytest.mark.parametrize(
