@@ -173,7 +173,7 @@ def _wine(cache: Path) -> Iterator[dict[str, str]]:
         }
         command = [WINESERVER.required(), "--foreground", "--persistent"]
         server = running(command, env=env, log=logs / "wineserver.log", ended_with=_ENDED_WITH_THIS_PROCESS)
-        with adopting(lambda name: name.endswith(".exe")), server:
+        with adopting(lambda name: name.endswith(".exe") or name.startswith("wine")), server:
             try:
                 yield env
             finally:

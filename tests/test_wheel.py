@@ -28,7 +28,7 @@ from importlib import resources
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
 from mc_nested.studies import ablation
 from mc_nested.studies.benchmark import baseline
-from mc_nested.studies.study import Asked
+from mc_nested.studies.study import StudyOptions
 from mc_nested.studies.sweep import varied
 from mc_nested.learn.preset import load_preset, shipped_presets
 from sim.client.drawing.letters import drawn_atlas
@@ -37,7 +37,7 @@ scenarios = [load_scenario(name) for name in shipped_scenarios()]
 presets = {name: load_preset(name) for name in shipped_presets()}
 print(len(scenarios), sorted(presets), len(varied(presets["paper"], scenarios[:1])) > 20)
 print("<html" in (resources.files("calibration.report") / "page.html.jinja").read_text("utf-8"))
-parts = ablation.arms(Asked(trials=1, scenarios=scenarios[:1]))
+parts = ablation.arms(StudyOptions(trials=1, scenarios=scenarios[:1]))
 print(len(parts) > 5, baseline().episodes, drawn_atlas().shape)
 """
 """Reads every file beside the code that a verb can need."""

@@ -9,13 +9,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import fmin
 
+from mc_nested.arrays import Float64s
 from mc_nested.errors import NotConfirmedError
 from mc_nested.live.model.kinematics import TICK_S, Gait, hold_path, hold_paths
-
-Float64Array = NDArray[np.float64]
 
 OUTLIER_BLOCKS = 0.01
 """Blocks off its path at which a hold is no hold of whole ticks: lag, a lost key or a push came in between."""
@@ -153,11 +151,11 @@ def _first_guesses(problem: "_FitProblem", steady: float, inertia: float | None)
 
 
 def _refined(problem: "_FitProblem", model: GaitModel, inertia: float | None) -> GaitModel:
-    def model_of(unknowns: Float64Array) -> GaitModel:
+    def model_of(unknowns: Float64s) -> GaitModel:
         left = min(0.99, max(0.01, float(unknowns[1]))) if inertia is None else inertia
         return GaitModel(float(unknowns[0]) * (1 - left), left)
 
-    def cost(unknowns: Float64Array) -> float:
+    def cost(unknowns: Float64s) -> float:
         return problem.cost(model_of(unknowns))
 
     start = [model.steady, model.inertia] if inertia is None else [model.steady]

@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from calibration.walk.gait_fit import FEWEST, GaitModel, HoldTrace, MatchedHold, fit_gait, match_hold, rms
 from calibration.walk.round_trip import HoldTiming, disagreeing, latencies, round_trip_of
@@ -180,8 +179,6 @@ SHORTEST_STEP = 0.01
 MAX_ERROR_OF_LINE = 0.05
 """Blocks (RMS) that holds may end off the line: Minecraft's own, of whole ticks, end 0.06 off and more."""
 
-_Float64Array = NDArray[np.float64]
-
 
 @dataclass(frozen=True)
 class EmpiricalWalk:
@@ -233,7 +230,7 @@ def empirical_walk(holds: Sequence[SurveyHold], usual: WalkTable) -> EmpiricalWa
 
 def _line(traces: Sequence[HoldTrace]) -> tuple[float, float]:
     """The speed, in blocks a second, and the blocks at a hold of no length, of the line nearest the holds' ends."""
-    held: _Float64Array = np.array([trace.held_s for trace in traces])
-    ends: _Float64Array = np.array([trace.covered[-1] for trace in traces])
+    held = np.array([trace.held_s for trace in traces], np.float64)
+    ends = np.array([trace.covered[-1] for trace in traces], np.float64)
     slope, start = np.polyfit(held, ends, 1)
     return float(slope), float(start)

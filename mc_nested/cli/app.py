@@ -47,7 +47,7 @@ MOVED = {
     "bug-report": "doctor bug-report",
     "sweep": "study sweep, or study ablation for sweep --ablation",
     "benchmark": "study benchmark",
-    "cooperate": "train --builders",
+    "cooperate": "train, with --builders",
 }
 """What a verb of an earlier version is called now."""
 

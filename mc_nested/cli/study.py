@@ -22,7 +22,6 @@ from mc_nested.arena.scenario_file import paper_scenarios
 from mc_nested.cli.cluster_options import ClusterOption, InsecureOption, KeysOption, cluster_of
 from mc_nested.cli.completion import complete_of, complete_runs
 from mc_nested.cli.options import (
-    PRESETS,
     DeviceOption,
     EngineOption,
     LayerOption,
@@ -42,7 +41,7 @@ from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.arm import AGENTS
 from mc_nested.studies.config import config_of
 from mc_nested.studies.folder import StudyFolder
-from mc_nested.studies.study import SHIPPED, Asked, Study, write_report
+from mc_nested.studies.study import SHIPPED, Study, StudyOptions, write_report
 from mc_nested.studies.table import Table
 from mc_nested.workers.cluster.address import SchedulerAddress
 from sim.worlds import check_window
@@ -52,7 +51,7 @@ MOST_TRIALS = 1000
 
 OPTIONS: Mapping[str, Any] = {
     "trials": Annotated[int, typer.Option(min=1, max=MOST_TRIALS, help="of each arm on each design")],
-    "episodes": Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial", show_default=PRESETS)],
+    "episodes": Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial, if not the preset's")],
     "seed": Annotated[int, typer.Option(min=0, help="the same seed gives the same results")],
     "scenario": ScenariosOption,
     "layer": LayerOption,
@@ -229,28 +228,28 @@ def _resume(verbs: Sequence[str], values: Mapping[str, Any]) -> None:
 
 def _begin(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> None:
     output, scheduler = Output(values["quiet"], values["as_json"]), _scheduler(values)
-    asked = _asked(study, values, given)
-    arms = study.arms(asked)
+    options = _options_of(study, values, given)
+    arms = study.arms(options)
     for arm in arms:
         check_window(arm.preset.states, has_window=False)
         arm.check()
-    if asked.device:
+    if options.device:
         from mc_nested.learn.dqn.torch_engine.engine import device_named  # torch takes seconds to load
 
-        device_named(asked.device)
+        device_named(options.device)
     config = config_of(
         study.name,
         arms,
-        trials=asked.trials,
-        seed=asked.seed,
+        trials=options.trials,
+        seed=options.seed,
         jobs=values["jobs"] or jobs_at_once(scheduler, output),
-        notes=study.notes(asked),
+        notes=study.notes(options),
     )
     with output_folder(values["out"], study.folder or study.name) as path:
         _run(study, StudyFolder.new(path, config), values)
 
 
-def _asked(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> Asked:
+def _options_of(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> StudyOptions:
     """Return what was asked for, with the designs and the names of lists loaded and taken apart."""
     own = {name: values[name] for name in study.options if name not in ("scenario", "layer")}
     if "scenario" in study.options:
@@ -259,7 +258,7 @@ def _asked(study: Study, values: Mapping[str, Any], given: AbstractSet[str]) -> 
         if name in own:
             own[name] = _listed(own[name])
     own = {name: value for name, value in own.items() if value is not None}
-    return Asked(**own, given=frozenset(given), say=partial(typer.echo, err=True))
+    return StudyOptions(**own, given=frozenset(given), say=partial(typer.echo, err=True))
 
 
 def _listed(options: Sequence[str] | None) -> list[str]:

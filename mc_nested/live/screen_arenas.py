@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv, taken_apart
-from mc_nested.arrays import Bools, Float64s, Int64s
+from mc_nested.arrays import Bools, Float32s, Float64s, Int64s
 from mc_nested.errors import LiveError, UserError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Frame, Region
@@ -44,8 +44,6 @@ food (FACTS: Screens and their buttons)."""
 
 _OFF_HAND = 29
 """GUI pixels of a slot beside the hotbar."""
-
-Floats = NDArray[np.float32]
 
 
 def world_greys(frame: Frame, scales: Scales) -> NDArray[np.uint8]:
@@ -75,7 +73,7 @@ def hidden_regions(size: tuple[int, int], scale: int) -> tuple[Region, ...]:
     return (messages_region(size, scale), *(Region(*(max(0, part) * scale for part in each)) for each in (bar, cross)))
 
 
-def _look_through(frame: Frame, greys: Floats, seen: Floats, box: Region, scale: int, grey: int = GREY) -> None:
+def _look_through(frame: Frame, greys: Float32s, seen: Float32s, box: Region, scale: int, grey: int = GREY) -> None:
     """Undo a box's grey; what its letters hide isn't seen, nor what a line under them does, just below the box."""
     part, below = _part(box), _part(Region(box.left, box.top + box.height, box.width, scale))
     # Where two boxes meet, what is left of the first one's world is not known.
@@ -88,7 +86,7 @@ def _part(region: Region) -> tuple[slice, slice]:
     return slice(region.top, region.top + region.height), slice(region.left, region.left + region.width)
 
 
-def _smaller(picture: Floats) -> Floats:
+def _smaller(picture: Float32s) -> Float32s:
     return np.asarray(cv2.resize(picture, (SIDE, SIDE), interpolation=cv2.INTER_AREA), np.float32)
 
 

@@ -24,7 +24,7 @@ from mc_nested.studies.change import changed_tables
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import RESAMPLES, Interval, percentiles
 from mc_nested.studies.profiles import played_by
-from mc_nested.studies.study import Asked, Report, Study, with_episodes
+from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
 from mc_nested.studies.table import episodes, markdown, number_of_trials
 from mc_nested.studies.trial import Trial, on_each, optimum_of, trial_table
 from mc_nested.toml_file import parse_toml
@@ -62,24 +62,24 @@ class AblationFile(BaseModel):
     rows: list[AblatedPart]
 
 
-def arms(asked: Asked) -> list[Arm]:
+def arms(options: StudyOptions) -> list[Arm]:
     """Return the shipped parts. A trial of what practises trains alone, since nothing is quicker in a batch."""
     text = (resources.files("mc_nested.studies") / FILE).read_text("utf-8")
     shipped = parse_toml(AblationFile, text, FILE, PresetError)
     found = []
     for part in shipped.rows:
-        most = asked.episodes or (shipped.live_episodes if part.base == LIVE else None)
+        most = options.episodes or (shipped.live_episodes if part.base == LIVE else None)
         preset = with_episodes(part.whole_preset(), most)
         found.append(
             Arm(
                 name=part.name,
                 preset=preset,
                 preset_name=part.base,
-                scenarios=asked.scenarios,
-                trials=asked.trials,
+                scenarios=options.scenarios,
+                trials=options.trials,
                 labels={"part": part.name, "base": part.base, "what": part.what},
                 stop_at_optimum=True,
-                together=1 if preset.imagination else asked.trials,
+                together=1 if preset.imagination else options.trials,
             )
         )
     return found

@@ -25,7 +25,7 @@ from mc_nested.studies.arm import AGENTS, LIBRARY, SB3, Arm
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.profiles import Measures, PlayedDesigns, measures_of, played_designs, profile, profile_band
 from mc_nested.studies.sb3 import HOW_TO_INSTALL, is_installed
-from mc_nested.studies.study import Asked, Report, Study
+from mc_nested.studies.study import Report, Study, StudyOptions
 from mc_nested.studies.table import Table, markdown, number_of_trials
 from mc_nested.studies.trial import Trial, trial_table
 
@@ -52,17 +52,19 @@ COLUMNS = (
 )
 
 
-def arms(asked: Asked) -> list[Arm]:
+def arms(options: StudyOptions) -> list[Arm]:
     """Return every agent with every preset that it can take, on every design; sb3's trials train one by one."""
-    if asked.corpus is not None and "designs" in asked.given:
+    if options.corpus is not None and "designs" in options.given:
         raise UserError("--designs is how many are drawn at random: leave it out, or leave out --corpus")
-    chosen = [(name, load_preset(name)) for name in asked.presets or DEFAULT_PRESETS]
-    contestants, left_out = contestants_of(_agents(asked), chosen)
+    chosen = [(name, load_preset(name)) for name in options.presets or DEFAULT_PRESETS]
+    contestants, left_out = contestants_of(_agents(options), chosen)
     for line in left_out:
-        asked.say(line)
+        options.say(line)
     like = load_scenario(LIKE)
-    drawn = [random_scenario(asked.seed, number, like) for number in range(asked.designs if not asked.corpus else 0)]
-    scenarios = load_corpus(asked.corpus, like) if asked.corpus else drawn
+    if options.corpus is None:
+        scenarios = [random_scenario(options.seed, number, like) for number in range(options.designs)]
+    else:
+        scenarios = load_corpus(options.corpus, like)
     return [
         Arm(
             name=f"{agent}, {Path(name).stem}",
@@ -70,29 +72,29 @@ def arms(asked: Asked) -> list[Arm]:
             preset=preset,
             preset_name=name,
             scenarios=scenarios,
-            trials=asked.trials,
+            trials=options.trials,
             stop_at_optimum=True,
             differs_by_design=True,
-            together=1 if agent == SB3 else asked.trials,
+            together=1 if agent == SB3 else options.trials,
         )
         for agent, name, preset in contestants
     ]
 
 
-def _agents(asked: Asked) -> list[str]:
+def _agents(options: StudyOptions) -> list[str]:
     """Return the agents; UserError if one doesn't exist, or can't take part as it was asked for."""
-    for name in asked.agents:
+    for name in options.agents:
         if name not in AGENTS:
             raise UserError(f"no agent {name!r}: choose of {', '.join(AGENTS)}")
-    if SB3 in asked.agents and not is_installed():
+    if SB3 in options.agents and not is_installed():
         raise UserError(f"{LIBRARY} isn't installed: {HOW_TO_INSTALL}, or leave {SB3} out of --agents")
-    if list(asked.agents) == [SB3] and asked.presets:
+    if list(options.agents) == [SB3] and options.presets:
         raise UserError(f"{SB3} takes no preset: leave out --presets, or name another agent, too")
-    if asked.agents:
-        return list(asked.agents)
+    if options.agents:
+        return list(options.agents)
     if is_installed():
         return list(DEFAULT_AGENTS)
-    asked.say(f"{SB3} is left out, since {LIBRARY} isn't installed: {HOW_TO_INSTALL}")
+    options.say(f"{SB3} is left out, since {LIBRARY} isn't installed: {HOW_TO_INSTALL}")
     return [name for name in DEFAULT_AGENTS if name != SB3]
 
 
@@ -323,5 +325,5 @@ STUDY = Study(
     arms=arms,
     report=report,
     files={"report": "benchmark.md", "plot": "benchmark.png", "rows": "benchmark.csv"},
-    notes=lambda asked: {"corpus": asked.corpus.name} if asked.corpus else {},
+    notes=lambda options: {"corpus": options.corpus.name} if options.corpus else {},
 )

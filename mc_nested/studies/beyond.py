@@ -24,7 +24,7 @@ from mc_nested.studies.inference import ALPHA, mean_interval, share_interval
 from mc_nested.studies.job import Builders
 from mc_nested.studies.power import MOST_TRIALS, POWER, deciding_trials
 from mc_nested.studies.reproduce import found_of
-from mc_nested.studies.study import Asked, Report, Study, with_episodes
+from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
 from mc_nested.studies.table import NONE, Table, interval, markdown, mean, number_of_trials
 from mc_nested.studies.trial import Trial, greedy_table
 from mc_nested.studies.verdicts import JudgedClaim
@@ -60,20 +60,20 @@ def team_name(builders: int, networks: Networks) -> str:
     return "1 builder" if builders == 1 else f"{builders} builders, {networks}"
 
 
-def arms(asked: Asked) -> list[Arm]:
+def arms(options: StudyOptions) -> list[Arm]:
     """Return all arms; of images on the zigzag and the diamond only a few trials, unless so many were asked for.
 
     No training has more episodes than were asked for, and some have fewer. PresetError if the device isn't there.
     """
     image, tuned, paper = (load_preset(name) for name in ("image", "tuned", "paper"))
-    few = asked.trials if "trials" in asked.given else min(FEW, asked.trials)
+    few = options.trials if "trials" in options.given else min(FEW, options.trials)
     found = [
-        *_images(image.changed(device=asked.device), paper, asked.trials, few),
-        *_parts(paper, tuned, asked.trials),
-        *_materials(paper, asked.trials),
-        *_cooperation(paper, asked.trials),
+        *_images(image.changed(device=options.device), paper, options.trials, few),
+        *_parts(paper, tuned, options.trials),
+        *_materials(paper, options.trials),
+        *_cooperation(paper, options.trials),
     ]
-    most = asked.episodes
+    most = options.episodes
     return [
         replace(arm, preset=with_episodes(arm.preset, min(most, arm.preset.episodes))) if most else arm for arm in found
     ]

@@ -13,7 +13,7 @@ from mc_nested.errors import PresetError, ScenarioError
 from mc_nested.learn.agents import AGENT_SPECS, AgentName, check_exploration
 from mc_nested.learn.preset import Preset, parse_preset
 from mc_nested.studies.arm import Arm, spec_of
-from mc_nested.studies.study import Asked
+from mc_nested.studies.study import StudyOptions
 from mc_nested.toml_file import parse_toml
 
 
@@ -72,15 +72,15 @@ class Change(BaseModel):
             return False
         return is_other or is_elsewhere or specs != [AGENT_SPECS[agent] for agent in agents]
 
-    def arm(self, name: str, agent: str, asked: Asked, preset: Preset) -> Arm:
+    def arm(self, name: str, agent: str, options: StudyOptions, preset: Preset) -> Arm:
         """Return the arm of that name and agent: what was asked for, with this change."""
         return Arm(
             name=name,
             agent=agent,
             preset=self.preset_from(preset),
-            preset_name=asked.preset,
-            scenarios=[self.scenario_from(scenario) for scenario in asked.scenarios],
-            trials=asked.trials,
+            preset_name=options.preset,
+            scenarios=[self.scenario_from(scenario) for scenario in options.scenarios],
+            trials=options.trials,
             labels={"agent": agent, "choice": self.choice, "value": self.value},
             sees_choice=self.sees_choice,
         )

@@ -18,7 +18,7 @@ from mc_nested.studies.figure5 import figure5
 from mc_nested.studies.inference import mean_interval, share_interval
 from mc_nested.studies.measures import Curve, early_limit
 from mc_nested.studies.results import Cost, Results, results_of
-from mc_nested.studies.study import Asked, Report, Study, with_episodes
+from mc_nested.studies.study import Report, Study, StudyOptions, with_episodes
 from mc_nested.studies.table import NONE, Table, interval, markdown, mean, number_of_trials
 from mc_nested.studies.trial import Trial, greedy_table
 from mc_nested.studies.verdicts import JudgedClaim
@@ -30,25 +30,25 @@ LONGER = "-longer"
 """Ends the names of the longer arms."""
 
 
-def arms(asked: Asked) -> list[Arm]:
+def arms(options: StudyOptions) -> list[Arm]:
     """Return an arm of each agent, and of some that are trained for longer."""
-    for name in asked.agent:
+    for name in options.agent:
         if name not in AGENT_SPECS:
             raise UserError(f"no agent {name!r}: choose one of {', '.join(AGENT_SPECS)}")
-    preset = asked.loaded_preset()
-    agents = [agent for agent in AGENT_SPECS if agent in (asked.agent or AGENT_SPECS)]
-    usual = [Arm(agent, preset, asked.scenarios, asked.trials, agent, asked.preset) for agent in agents]
-    if not asked.longer:
+    preset = options.loaded_preset()
+    agents = [agent for agent in AGENT_SPECS if agent in (options.agent or AGENT_SPECS)]
+    usual = [Arm(agent, preset, options.scenarios, options.trials, agent, options.preset) for agent in agents]
+    if not options.longer:
         return usual
-    scenarios = [scenario for scenario in asked.scenarios if scenario.name in LONGER_SCENARIOS]
+    scenarios = [scenario for scenario in options.scenarios if scenario.name in LONGER_SCENARIOS]
     whose = [agent for agent in agents if agent in LONGER_AGENTS]
     if not (whose and scenarios):
         raise UserError(
             f"--longer is for {' and '.join(LONGER_AGENTS)} on {' and '.join(LONGER_SCENARIOS)}: "
             f"leave it out, or name one of each"
         )
-    longer = with_episodes(preset, min(asked.longer * preset.episodes, MOST))
-    return usual + [Arm(agent + LONGER, longer, scenarios, asked.trials, agent, asked.preset) for agent in whose]
+    longer = with_episodes(preset, min(options.longer * preset.episodes, MOST))
+    return usual + [Arm(agent + LONGER, longer, scenarios, options.trials, agent, options.preset) for agent in whose]
 
 
 COLUMNS = ("agent", "scenario", "trial", "episode", "score", "material", "steps")

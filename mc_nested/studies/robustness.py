@@ -17,7 +17,7 @@ from mc_nested.studies.claims.judge import judge
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import ALPHA
 from mc_nested.studies.results import Results, results_of
-from mc_nested.studies.study import Asked, Report, Study
+from mc_nested.studies.study import Report, Study, StudyOptions
 from mc_nested.studies.table import Table, markdown, mean, number_of_trials
 from mc_nested.studies.trial import Trial
 from mc_nested.studies.verdicts import JudgedClaim, Verdict
@@ -26,12 +26,12 @@ LEFT_OUT = ("f", "i1", "i2")
 """Claims that are not judged again: of a longer training, and of seconds, which a batch of many choices shares."""
 
 
-def arms(asked: Asked) -> list[Arm]:
+def arms(options: StudyOptions) -> list[Arm]:
     """Return all agents under each choice, the base first."""
-    preset = asked.loaded_preset()
+    preset = options.loaded_preset()
     return [
-        choice.arm(f"{choice.name}, {agent}", agent, asked, preset)
-        for choice in open_choices(preset, asked.scenarios)
+        choice.arm(f"{choice.name}, {agent}", agent, options, preset)
+        for choice in open_choices(preset, options.scenarios)
         for agent in AGENT_SPECS
     ]
 

@@ -24,8 +24,8 @@ SHIPPED = ("reproduce", "robustness", "beyond", "sweep", "ablation", "benchmark"
 
 
 @dataclass(frozen=True)
-class Asked:
-    """What a study was asked for, by the options that it takes; a study leaves the others as they are.
+class StudyOptions:
+    """What a study was asked for: the values of the options that it takes, and of the others what they are here.
 
     Args:
         trials: of each arm on each design.
@@ -105,11 +105,11 @@ class Study:
     name: str
     what: str
     options: Mapping[str, Any]
-    arms: Callable[[Asked], Sequence[Arm]]
+    arms: Callable[[StudyOptions], Sequence[Arm]]
     report: Callable[[StudyConfig, Sequence[Trial]], Report]
     files: Mapping[str, str]
     further_files: Sequence[str] = ()
-    notes: Callable[[Asked], dict[str, str]] = lambda _: {}
+    notes: Callable[[StudyOptions], dict[str, str]] = lambda _: {}
     folder: str = ""
 
     def report_on(self, config: StudyConfig, outcomes: Outcomes) -> Report:

@@ -15,7 +15,7 @@ from mc_nested.studies.arm import Arm
 from mc_nested.studies.change import Change, shipped_changes
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import Interval, difference_interval
-from mc_nested.studies.study import Asked, Report, Study
+from mc_nested.studies.study import Report, Study, StudyOptions
 from mc_nested.studies.table import markdown, number_of_trials
 from mc_nested.studies.trial import Trial, on_each, optimum_of, trial_table
 
@@ -32,11 +32,13 @@ COLUMNS = (
 )
 
 
-def arms(asked: Asked) -> list[Arm]:
+def arms(options: StudyOptions) -> list[Arm]:
     """Return the base of each agent, and the changes."""
-    preset = asked.loaded_preset()
-    found = varied(preset, asked.scenarios)
-    return [each.arm(each.name if each.choice else f"base, {each.agent}", each.agent, asked, preset) for each in found]
+    preset = options.loaded_preset()
+    found = varied(preset, options.scenarios)
+    return [
+        each.arm(each.name if each.choice else f"base, {each.agent}", each.agent, options, preset) for each in found
+    ]
 
 
 def varied(preset: Preset, scenarios: Sequence[Scenario]) -> list[Change]:

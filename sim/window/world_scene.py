@@ -5,12 +5,12 @@ from collections.abc import Mapping
 import moderngl
 import numpy as np
 
+from mc_nested.arrays import Float32s
 from mc_nested.live.model.reading import Block
 from sim.client.drawing import world_shapes
 from sim.client.drawing.world_shapes import (
     FAR,
     GRAIN_BLOCKS,
-    Floats,
     Matrix,
     block_colour,
     cubes,
@@ -122,7 +122,7 @@ class WorldScene:
             self._render(self._blocks, unit_cube(), row_of((0.0, 0.0, 0.0), block_colour(stack.block)))
             self._context.disable(moderngl.CULL_FACE)
 
-    def _cubes_of(self, built: Mapping[Block, str], origin: Block) -> Floats:
+    def _cubes_of(self, built: Mapping[Block, str], origin: Block) -> Float32s:
         """What ``cubes`` makes of it, made anew only for another mapping or origin."""
         if built is not self._built[0] or origin != self._built[1]:
             self._built, self._cubes = (built, origin), cubes(built, origin)
@@ -136,7 +136,9 @@ class WorldScene:
         self._blocks["origin"] = tuple(float(part % GRAIN_BLOCKS) for part in origin)
         self._grain.use(0)
 
-    def _render(self, program: moderngl.Program, shape: Floats, rows: Floats, mode: int = moderngl.TRIANGLES) -> None:
+    def _render(
+        self, program: moderngl.Program, shape: Float32s, rows: Float32s, mode: int = moderngl.TRIANGLES
+    ) -> None:
         """Draw a shape (corners, 6) once a row (x, y, z, red, green, blue)."""
         if not len(rows):
             return

@@ -10,14 +10,14 @@ from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.ablation import arms
 from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
-from mc_nested.studies.study import Asked
+from mc_nested.studies.study import StudyOptions
 from tests.cli.running import run
 from tests.learn.made_experiments import BAR, DOT, scenario_text
 
 
 def config(*names: str) -> StudyConfig:
     """The named parts on two designs, two trials of 20 episodes."""
-    shipped = arms(Asked(trials=2, episodes=20, scenarios=[DOT, BAR]))
+    shipped = arms(StudyOptions(trials=2, episodes=20, scenarios=[DOT, BAR]))
     return config_of("ablation", [arm for arm in shipped if arm.name in names], trials=2, seed=0, jobs=1)
 
 
@@ -64,5 +64,5 @@ def test_an_ablation_has_a_row_for_each_trial_of_each_part(tmp_path: Path) -> No
     assert run(*words, "--episodes", "3", "--out", out) == 0
     with (out / "ablation.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    expected = arms(Asked(trials=2, scenarios=[DOT]))
+    expected = arms(StudyOptions(trials=2, scenarios=[DOT]))
     assert [(row["part"], row["trial"]) for row in rows] == [(arm.name, trial) for arm in expected for trial in "01"]

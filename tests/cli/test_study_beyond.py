@@ -13,7 +13,7 @@ from mc_nested.studies.beyond import STUDY, arms
 from mc_nested.studies.config import config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.run_facts import facts_of
-from mc_nested.studies.study import Asked
+from mc_nested.studies.study import StudyOptions
 from tests.cli.running import run
 from tests.learn.made_experiments import small_preset
 
@@ -22,7 +22,7 @@ FILES = STUDY.files
 
 def small_arms() -> list[Arm]:
     """All arms with small networks over numbers."""
-    return [replace(arm, preset=small_preset(10)) for arm in arms(Asked(trials=2))]
+    return [replace(arm, preset=small_preset(10)) for arm in arms(StudyOptions(trials=2))]
 
 
 @pytest.fixture(scope="module")

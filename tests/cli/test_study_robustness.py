@@ -12,7 +12,7 @@ from mc_nested.studies.change import Change
 from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.robustness import STUDY, open_choices
-from mc_nested.studies.study import Asked
+from mc_nested.studies.study import StudyOptions
 from tests.cli.running import run
 from tests.learn.made_experiments import BAR, DOT, scenario_text, small_preset, small_preset_text
 
@@ -22,9 +22,9 @@ START = Change(choice="start", value="beside", start=[6, 13])
 
 
 def config(*choices: Change) -> StudyConfig:
-    asked = Asked(trials=2, scenarios=[DOT, BAR])
+    options = StudyOptions(trials=2, scenarios=[DOT, BAR])
     arms = [
-        choice.arm(f"{choice.name}, {agent}", agent, asked, small_preset(20))
+        choice.arm(f"{choice.name}, {agent}", agent, options, small_preset(20))
         for choice in (Change(), *choices)
         for agent in AGENT_SPECS
     ]

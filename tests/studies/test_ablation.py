@@ -8,12 +8,12 @@ from mc_nested.learn.preset import load_preset
 from mc_nested.studies.ablation import arms
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.config import StudyConfig, config_of
-from mc_nested.studies.study import Asked
+from mc_nested.studies.study import StudyOptions
 from tests.learn.made_experiments import BAR, DOT
 
 
 def shipped(*scenarios: Scenario, episodes: int | None = None) -> dict[str, Arm]:
-    return {arm.name: arm for arm in arms(Asked(trials=2, episodes=episodes, scenarios=scenarios))}
+    return {arm.name: arm for arm in arms(StudyOptions(trials=2, episodes=episodes, scenarios=scenarios))}
 
 
 PARTS = shipped(DOT)

@@ -10,11 +10,11 @@ from mc_nested.studies.arm import Arm
 from mc_nested.studies.beyond import arms, with_materials
 from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
-from mc_nested.studies.study import Asked
+from mc_nested.studies.study import StudyOptions
 
 
 def found(trials: int = 10, episodes: int | None = None, device: str | None = None) -> list[Arm]:
-    return arms(Asked(trials=trials, episodes=episodes, device=device))
+    return arms(StudyOptions(trials=trials, episodes=episodes, device=device))
 
 
 def config(trials: int = 10, jobs: int = 2) -> StudyConfig:
@@ -51,7 +51,7 @@ def test_images_have_few_trials_where_they_take_long_unless_so_many_are_asked_fo
         ("diamond", "images"): 3,
         ("diamond", "numbers"): 3,
     }
-    assert {arm.trials for arm in arms(Asked(trials=10, given=frozenset({"trials"})))} == {10}
+    assert {arm.trials for arm in arms(StudyOptions(trials=10, given=frozenset({"trials"})))} == {10}
 
 
 def test_numbers_explore_as_long_as_images() -> None:

@@ -4,14 +4,14 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.job import Run
 from mc_nested.studies.reproduce import LONGER_AGENTS, LONGER_SCENARIOS, arms
-from mc_nested.studies.study import Asked
+from mc_nested.studies.study import StudyOptions
 
 THREE = ["line", "zigzag", "diamond"]
 
 
 def asked(agents: list[str], scenarios: list[str], longer: int = 0) -> list[Arm]:
     loaded = [load_scenario(name) for name in scenarios]
-    return arms(Asked(trials=10, episodes=30, scenarios=loaded, agent=agents, longer=longer))
+    return arms(StudyOptions(trials=10, episodes=30, scenarios=loaded, agent=agents, longer=longer))
 
 
 def runs_of(found: list[Arm]) -> list[Run]:

@@ -12,7 +12,7 @@ from mc_nested.studies.arm import spec_of
 from mc_nested.studies.change import Change
 from mc_nested.studies.job import Run, side_by_side
 from mc_nested.studies.robustness import arms, open_choices
-from mc_nested.studies.study import Asked
+from mc_nested.studies.study import StudyOptions
 from tests.learn.made_experiments import BAR, DOT
 
 SCENARIOS = [load_scenario(name) for name in ("line", "zigzag", "diamond")]
@@ -21,7 +21,7 @@ CHOICES = open_choices(PAPER, SCENARIOS)
 
 
 def runs_of() -> list[Run]:
-    return side_by_side([run for arm in arms(Asked(trials=2, scenarios=SCENARIOS)) for run in arm.runs()])
+    return side_by_side([run for arm in arms(StudyOptions(trials=2, scenarios=SCENARIOS)) for run in arm.runs()])
 
 
 def test_the_base_comes_first_and_every_other_changes_one_thing() -> None:

@@ -14,17 +14,17 @@ from mc_nested.studies.arm import Arm
 from mc_nested.studies.beyond import with_materials
 from mc_nested.studies.config import StudyConfig, config_of
 from mc_nested.studies.folder import StudyFolder
-from mc_nested.studies.study import Asked, Report, Study
+from mc_nested.studies.study import Report, Study, StudyOptions
 from mc_nested.studies.table import markdown
 from mc_nested.studies.trial import Trial, on_each, trial_table
 
 HEADER = ("agent", "scenario", "trial", "best_score", "optimum")
 
 
-def arms(asked: Asked) -> list[Arm]:
+def arms(options: StudyOptions) -> list[Arm]:
     line = [with_materials(load_scenario("line"), 3)]
-    preset = asked.loaded_preset()
-    return [Arm(agent, preset, line, asked.trials, agent, asked.preset) for agent in AGENT_SPECS]
+    preset = options.loaded_preset()
+    return [Arm(agent, preset, line, options.trials, agent, options.preset) for agent in AGENT_SPECS]
 
 
 def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
@@ -47,7 +47,7 @@ THREE_MATERIALS = Study(
 
 
 def test_a_study_of_ones_own_trains_and_reports(tmp_path: Path) -> None:
-    declared = THREE_MATERIALS.arms(Asked(trials=1, episodes=2))
+    declared = THREE_MATERIALS.arms(StudyOptions(trials=1, episodes=2))
     folder = StudyFolder.new(tmp_path / "run", config_of("three-materials", declared, trials=1, seed=0, jobs=1))
     run_study(THREE_MATERIALS, folder, Output(quiet=True))
     text = (tmp_path / "run" / "three.md").read_text("utf-8")

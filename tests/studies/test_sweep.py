@@ -12,7 +12,7 @@ from mc_nested.learn.preset import load_preset, shipped_presets
 from mc_nested.studies.arm import spec_of
 from mc_nested.studies.change import Change
 from mc_nested.studies.job import Run, side_by_side
-from mc_nested.studies.study import Asked
+from mc_nested.studies.study import StudyOptions
 from mc_nested.studies.sweep import arms, varied
 
 SCENARIOS = [load_scenario(name) for name in ("line", "zigzag", "diamond")]
@@ -20,7 +20,7 @@ PAPER = load_preset("paper")
 
 
 def runs_of(preset: str = "paper") -> list[Run]:
-    found = arms(Asked(trials=2, scenarios=SCENARIOS, preset=preset))
+    found = arms(StudyOptions(trials=2, scenarios=SCENARIOS, preset=preset))
     return side_by_side([run for arm in found for run in arm.runs()])
 
 
@@ -32,7 +32,10 @@ def test_each_choice_that_the_paper_leaves_open_is_varied() -> None:
 
 def test_the_base_of_each_agent_comes_first() -> None:
     variants = varied(PAPER, SCENARIOS)
-    assert [arm.name for arm in arms(Asked(trials=1, scenarios=SCENARIOS))][:2] == ["base, nested", "base, single"]
+    assert [arm.name for arm in arms(StudyOptions(trials=1, scenarios=SCENARIOS))][:2] == [
+        "base, nested",
+        "base, single",
+    ]
     assert all(variant.choice for variant in variants[2:])
     for variant in variants[:2]:
         assert variant.preset_from(PAPER) == PAPER

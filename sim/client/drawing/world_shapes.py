@@ -14,6 +14,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from mc_nested.arrays import Float32s
 from mc_nested.live.model.reading import Block
 from sim.client.game.widgets import Colour
 from sim.client.game.world import AIR, direction
@@ -42,8 +43,6 @@ def block_colour(block: str) -> Colour:
     return 60 + shade % 120, 60 + (shade >> 8) % 120, 60 + (shade >> 16) % 120
 
 
-Floats = NDArray[np.float32]
-
 FAR = 96
 """Blocks from the player within which anything is drawn; the fog hides the rest."""
 
@@ -56,7 +55,7 @@ FACES = (((0, 1, 2), 1), ((0, 2, 1), 0), ((1, 2, 0), 1), ((2, 1, 0), 0), ((2, 0,
 
 
 @lru_cache(1)
-def unit_cube() -> Floats:
+def unit_cube() -> Float32s:
     """The 36 corners of the triangles of a cube between 0 and 1."""
     corners = []
     for (one, other, axis), side in FACES:
@@ -70,14 +69,14 @@ def unit_cube() -> Floats:
 
 
 @lru_cache(1)
-def floor_square() -> Floats:
+def floor_square() -> Float32s:
     """The six corners of a level square that reaches FAR in each direction."""
     corners = ((-1, -1), (1, 1), (1, -1), (-1, -1), (-1, 1), (1, 1))
     return np.array([(FAR * x, 0, FAR * z, 0, 1, 0) for x, z in corners], np.float32)
 
 
 @lru_cache(1)
-def outline() -> Floats:
+def outline() -> Float32s:
     """The 24 ends of the edges of a cube that is a little larger than a block."""
     low, high = -_STANDS_OFF, 1 + _STANDS_OFF
     ends = []
@@ -90,12 +89,12 @@ def outline() -> Floats:
     return np.array(ends, np.float32)
 
 
-def row_of(position: tuple[float, float, float], colour: Colour) -> Floats:
+def row_of(position: tuple[float, float, float], colour: Colour) -> Float32s:
     """The one row that draws a shape at a position in a colour."""
     return np.array([(*position, *(part / 255 for part in colour))], np.float32)
 
 
-def cubes(built: Mapping[Block, str], origin: Block) -> Floats:
+def cubes(built: Mapping[Block, str], origin: Block) -> Float32s:
     """One row for each block that differs from the bare floor, in blocks from ``origin``; those beyond FAR left out.
 
     A missing block of the floor is black.
@@ -115,7 +114,7 @@ DOTS = 16
 RIM = 0.84
 
 
-def grain() -> Floats:
+def grain() -> Float32s:
     """Brightness from 0 to 1, an array (64, 64): GRAIN_BLOCKS faces in each direction."""
     side = GRAIN_BLOCKS * DOTS
     dots = np.random.default_rng(0).uniform(0.84, 1.0, (side, side)).astype(np.float32)

@@ -1,0 +1,35 @@
+"""``mc-nested study``: it lists the studies, and each has the options and defaults that it declares."""
+
+import re
+
+import pytest
+
+from mc_nested.cli.study import EVERY_STUDY, declared
+from mc_nested.studies.study import SHIPPED
+from tests.cli.running import run
+
+
+def test_alone_it_lists_the_studies(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("study") == 0
+    listed = re.findall(r"^  ([a-z]+)  ", capsys.readouterr().out, re.MULTILINE)
+    assert listed == list(SHIPPED)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_study_takes_the_options_that_it_declares_and_those_of_every_study(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run("study", name, "--help") == 0
+    shown = re.findall(r"^ +(?:-q, )?--([a-z-]+)", capsys.readouterr().out, re.MULTILINE)
+    options = {option.replace("-", "_") for option in shown if not option.startswith("json-")}
+    assert options - {"help"} == {*declared(name).options, *EVERY_STUDY} - {"as_json"} | {"json"}
+
+
+def test_help_says_a_studys_own_default(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("study", "sweep", "--help") == 0
+    assert "1000; 1<=x" in capsys.readouterr().out
+
+
+def test_an_option_of_another_study_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run("study", "sweep", "--designs", "3") == 2
+    assert capsys.readouterr().err == "mc-nested: No such option: --designs\n"
