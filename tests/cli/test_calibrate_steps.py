@@ -17,7 +17,7 @@ from mc_nested.live.profile.tables import Profile
 from mc_nested.view.board import Board
 from mc_nested.view.publisher import Publisher
 from sim.client.client import VirtualClient
-from tests.calibration.contexts import context_of, font_file_in, profile_in, started
+from tests.calibration.contexts import font_file_in, profile_in, started
 from tests.calibration.virtual_context import context_on, profile_of
 from tests.cli.running import run
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
     """The game on this desktop."""
     client = started(VirtualClient(pitch=65.0))
-    monkeypatch.setattr(calibrate_steps, "context_opener", lambda _opening, ask: context_of(client, ask))
+    monkeypatch.setattr(calibrate_steps, "context_opener", lambda opening, ask: context_on(client, opening.say, ask))
     return client
 
 
