@@ -10,18 +10,13 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 
-from mc_nested.live.connection import GameConnection, prepare_keyboard
-from mc_nested.live.desktop import open_desktop
+from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Devices, Frame
 from mc_nested.live.input.input_controller import InputController
-from mc_nested.live.input.stops import watched
-from mc_nested.live.journal import Journal, Journals
 from mc_nested.live.menus.click_points import ClickPoint
 from mc_nested.live.menus.wait_for_player import wait_for_front
-from mc_nested.live.model.versions import later_version_line
-from mc_nested.live.profile.fingerprint import game_in
+from mc_nested.live.opening import Opening
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.recording.run_recorder import OpenRecorder, no_recorder
 
 
 @dataclass(frozen=True)
@@ -75,42 +70,17 @@ OpenContext = Callable[[Profile], AbstractContextManager[CalibrationContext]]
 """Opens the context of a profile's window. When it ends, every key is released."""
 
 
-def context_opener(
-    say: Callable[[str], None],
-    ask: Callable[[str], bool],
-    *,
-    is_server_allowed: bool = False,
-    open_recorder: OpenRecorder = no_recorder,
-    journal: Journal | None = None,
-) -> OpenContext:
-    """Opens contexts on this desktop that speak to the person through ``say`` and ``ask``. DesktopError if no window.
-
-    ``open_recorder`` opens what records the calibration; ``journal`` is told what it does.
+def context_opener(opening: Opening, ask: Callable[[str], bool]) -> OpenContext:
+    """Open contexts as the opening says, whatever the profile; they ask the person through ``ask``.
 
     After a yes, the game is in front again. If the person doesn't return to it in time, asking raises NotInFrontError.
     """
 
     @contextmanager
     def opened(profile: Profile) -> Iterator[CalibrationContext]:
-        with open_desktop(profile.window.title) as window, open_recorder(profile, window) as recording:
-            # Imported here, since it needs the display that is open only now.
-            from mc_nested.live.desktop.panic import open_panic_switch
-
-            prepare_keyboard(profile, window)
-            devices = recording.devices(window)
-            controller = InputController(devices, profile.input)
-            connection = GameConnection(
-                devices,
-                controller,
-                is_server_allowed=is_server_allowed,
-                journal=Journals(*([journal] if journal else []), recording),
-                on_screen=recording.screen,
-            )
-            stop = recording.stopping(controller.stop)
-            if line := later_version_line(game_in(devices.display.title(), profile.game).version):
-                say(line)
-            with connection, watched(controller), open_panic_switch(profile.keys.panic, stop):
-                yield CalibrationContext(connection, say, ask_in_terminal(ask, say, devices))
+        with opening.connection(profile) as window, window.connection as connection, window.guarded():
+            asks = ask_in_terminal(ask, opening.say, connection.devices)
+            yield CalibrationContext(connection, opening.say, asks)
 
     return opened
 

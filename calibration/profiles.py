@@ -11,15 +11,14 @@ from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 from calibration.arena.undo import note_path
 from mc_nested.errors import ProfileError
-from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.fingerprint import Fingerprint, mismatch
 from mc_nested.live.profile.folder import profile_folder
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.profile.tables import Profile
-from mc_nested.live.vision.layout import Scales
 
 BESIDE_FILE = (".toml.before", ".toml.undone", ".toml.ground", ".toml")
 """The file itself comes last: whatever is interrupted before can be done again."""
@@ -105,21 +104,19 @@ Look = Callable[[str], Fingerprint | None]
 
 @dataclass(frozen=True)
 class ProfileFacts:
-    """The facts of a profile; a damaged one has no more than a name.
+    """The facts of a profile, each with its meaning; a damaged one has no more than a name."""
 
-    ``fits`` is None where nothing is known to compare it with; ``why`` says so, or what doesn't fit, or is damaged.
-    """
-
-    name: str
-    file: Path
-    is_damaged: bool = False
-    fits: bool | None = None
-    why: str = ""
-    version: str | None = None
-    window: tuple[int, int] | None = None
-    scales: Scales | None = None
-    arena: Arena | None = None
-    date: str | None = None
+    name: Annotated[str, "its name"]
+    file: Annotated[Path, "its file"]
+    is_damaged: Annotated[bool, "whether it can't be read"] = False
+    fits: Annotated[bool | None, "whether it fits the open window and its font is there"] = None
+    why: Annotated[str | None, "what doesn't fit, or is damaged or unknown"] = None
+    version: Annotated[str | None, "of Minecraft"] = None
+    window: Annotated[tuple[int, int] | None, "width and height in pixels"] = None
+    gui_scale: Annotated[int | None, "screen pixels to a dot of the menus' and the chat's font"] = None
+    debug_scale: Annotated[int | None, "screen pixels to a dot of the debug screen's font"] = None
+    arena_size: Annotated[int | None, "cells along each side"] = None
+    date: Annotated[str | None, "day of the calibration"] = None
 
 
 def facts_of(file: Path, look: Look) -> ProfileFacts:
@@ -130,6 +127,7 @@ def facts_of(file: Path, look: Look) -> ProfileFacts:
         return ProfileFacts(file.stem, file, is_damaged=True, why=str(error))
     fits, why = _fit(file.stem, profile, look)
     calibrated = profile.calibrated
+    scales = calibrated.scales if calibrated else None
     return ProfileFacts(
         file.stem,
         file,
@@ -137,13 +135,14 @@ def facts_of(file: Path, look: Look) -> ProfileFacts:
         why=why,
         version=(calibrated.version if calibrated else None) or profile.game.version,
         window=calibrated.window if calibrated else None,
-        scales=calibrated.scales if calibrated else None,
-        arena=profile.arena,
+        gui_scale=scales.gui if scales else None,
+        debug_scale=scales.debug if scales else None,
+        arena_size=profile.arena.size if profile.arena else None,
         date=calibrated.date if calibrated else None,
     )
 
 
-def _fit(name: str, profile: Profile, look: Look) -> tuple[bool | None, str]:
+def _fit(name: str, profile: Profile, look: Look) -> tuple[bool | None, str | None]:
     """Whether it fits, and why not."""
     if profile.screen.font is not None and not profile.screen.font_path().is_file():
         return False, f"its font {profile.screen.font} is gone: mc-nested calibrate font --profile {name} --font JAR"
@@ -153,4 +152,4 @@ def _fit(name: str, profile: Profile, look: Look) -> tuple[bool | None, str]:
     if window is None:
         return None, "no window of the game is open to compare it with"
     problem = mismatch(profile.calibrated, window, name)
-    return problem is None, problem or ""
+    return problem is None, problem

@@ -97,3 +97,11 @@ class _CacheFiles(CompileResultCacheImpl):
 
 class _Cache(FunctionCache):
     _impl_class = _CacheFiles
+
+    def load_overload(self, signature: Any, target_context: Any) -> Any:
+        """Load what was compiled for that signature, if it is still there; forget all where a kept class is gone."""
+        try:
+            return super().load_overload(signature, target_context)  # type: ignore[no-untyped-call]  # Numba's
+        except (ModuleNotFoundError, AttributeError):  # its file was renamed since
+            self.flush()  # type: ignore[no-untyped-call]  # Numba's
+            return None

@@ -71,8 +71,7 @@ class MadeArenaEnv(ArenaEnv):
         self._close = weakref.finalize(self, opened.close)
         game: Game = GridGame(loaded)
         if _is_live(backend):
-            live = _live(loaded, profile, record, server_allowed=server_allowed, open_live=open_live)
-            game, _ = opened.enter_context(live)
+            game, _ = opened.enter_context(_live(loaded, profile, record, open_live, server_allowed=server_allowed))
         super().__init__(game, loaded, render_mode)
 
     def close(self) -> None:
@@ -142,15 +141,14 @@ def _is_live(backend: str) -> bool:
 
 
 def _live(
-    scenario: Scenario, profile: str, record: str | Path | None, *, server_allowed: bool, open_live: OpenLive | None
+    scenario: Scenario, profile: str, record: str | Path | None, open_live: OpenLive | None, *, server_allowed: bool
 ) -> AbstractContextManager[tuple[Game, Any]]:
     # Imported here: who learns in the simulator needs nothing that reads a screen.
-    from mc_nested.live.recording.run_recorder import run_recorder
+    from mc_nested.live.opening import Opening
     from mc_nested.live.session import open_live_game
 
-    recorder = run_recorder(record, f"env-{scenario.name}", _say, scenario, server_allowed=server_allowed)
-    opener = open_live or open_live_game
-    return opener(scenario, profile, _say, is_server_allowed=server_allowed, open_recorder=recorder)
+    opening = Opening(profile, _say, f"env-{scenario.name}", record, is_server_allowed=server_allowed)
+    return (open_live or open_live_game)(scenario, opening)
 
 
 def _say(line: str) -> None:

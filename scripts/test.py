@@ -35,7 +35,6 @@ KERNELS = [
     "tests/learn/dqn/compiled_engine/test_products.py",
     "tests/learn/imagination/test_arena_step.py",
     "tests/learn/imagination/test_built_values.py",
-    "tests/learn/imagination/test_imagined_task.py",
     "tests/learn/imagination/test_practice_kernel.py",
     "tests/learn/imagination/test_table_learner.py",
     "tests/sim/test_grid.py",

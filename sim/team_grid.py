@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.cooperative.team import Team, resolved
+from mc_nested.arena.cooperative.team_env import TeamVectorEnv
 from mc_nested.arena.game import Outcome, Resumable
 from mc_nested.arena.rules import cells_of, grid_of
 from mc_nested.arrays import Arrays
@@ -49,3 +50,8 @@ class TeamGrid:
         """Put the builders and the blocks back as they stood at ``snapshot``."""
         self._cells = tuple((x, y) for x, y in snapshot["team_game_cells"].tolist())
         self._placed = set(cells_of(snapshot["team_game_placed"]))
+
+
+def team_arenas(team: Team, runs: int) -> TeamVectorEnv:
+    """So many simulated arenas, each with all builders of that team."""
+    return TeamVectorEnv([TeamGrid(team) for _ in range(runs)], team)

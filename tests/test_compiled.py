@@ -36,7 +36,7 @@ import numpy as np
 from mc_nested.learn.dqn.compiled_engine.engine import CompiledEngine
 from mc_nested.learn.dqn.engine import Batch, UpdateRule
 from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
-from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.states import StateSpace
 
 space = StateSpace(np.array([[3, 3]]), actions=2)
 sizes = space.network([4])
@@ -143,3 +143,30 @@ def test_a_compiled_function_takes_the_flags_of_its_own() -> None:
     assert doubled(np.ones(2)).tolist() == [2.0, 2.0]
     flags = doubled.targetoptions  # type: ignore[attr-defined]  # a dispatcher's
     assert (flags["fastmath"], flags["nogil"], flags["error_model"]) == ({"contract"}, True, "numpy")
+
+
+PAIR = """
+from typing import NamedTuple
+
+class Pair(NamedTuple):
+    first: float
+    second: float
+"""
+
+SUM = """
+from mc_nested.compiled import compiled
+from mc_nested.learn.{module} import Pair
+
+@compiled()
+def both(pair):
+    return pair.first + pair.second
+
+print(both(Pair(1.0, 2.0)), sum(both.stats.cache_hits.values()))
+"""
+
+
+def test_what_was_compiled_for_a_class_whose_file_was_renamed_is_compiled_again(copy: Path) -> None:
+    (copy / "learn" / "pair.py").write_text(PAIR)
+    assert [run(copy, SUM.format(module="pair")) for _ in range(2)] == ["3.0 0", "3.0 1"]
+    (copy / "learn" / "pair.py").rename(copy / "learn" / "two.py")
+    assert [run(copy, SUM.format(module="two")) for _ in range(2)] == ["3.0 0", "3.0 1"]

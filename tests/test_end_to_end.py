@@ -53,7 +53,7 @@ def test_a_policy_learnt_in_the_simulator_builds_its_design_in_a_real_window(
 ) -> None:
     run, scenario = tmp_path / "run", load_scenario(design)
     mc_nested("train", "--scenario", design, "--preset", preset, "--stop-at-optimum", "--out", run)
-    found = json.loads(mc_nested("evaluate", run, "--json"))
+    found = json.loads(mc_nested("runs", "evaluate", run, "--json"))
     assert found["scores"] == [scenario.optimum]
 
     played = completed(

@@ -20,6 +20,7 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import LiveError, ProfileError, RecordingError, ScenarioError, UserError
+from mc_nested.live.opening import Opening
 from mc_nested.live.recording.replayed_run import replay
 from sim.client.client import VirtualClient
 from sim.grid import GridGame, GridVectorEnv
@@ -47,11 +48,8 @@ class Opened:
         self.asked: tuple[object, ...] = ()
 
     @contextmanager
-    def open(
-        self, scenario: Any, profile: str, _say: object, *, is_server_allowed: bool, open_recorder: object
-    ) -> Iterator[tuple[Any, None]]:
-        assert callable(open_recorder)
-        self.asked = (scenario.name, profile, is_server_allowed)
+    def open(self, scenario: Any, opening: Opening) -> Iterator[tuple[Any, None]]:
+        self.asked = (scenario.name, opening.profile, opening.is_server_allowed)
         self.is_open = True
         try:
             yield GridGame(scenario), None

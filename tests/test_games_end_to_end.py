@@ -149,7 +149,7 @@ class Ends:
 
     def game(self, profile: str | Path | None = None) -> Program:
         """The window's game, served."""
-        words = ["serve-game", "--scheduler", self.window.url, "--name", "pc", "--backend", "live"]
+        words = ["train", "serve", "--scheduler", self.window.url, "--name", "pc", "--backend", "live"]
         return self._program([*words, "--profile", str(profile or self.window.profile)])
 
     def learner(self, scenario: Scenario = DOT) -> Program:
@@ -232,7 +232,7 @@ def test_the_panic_key_ends_the_game_and_its_learner_waits_for_another(
     learner.says(f"pc: {PANIC}" if paused else f"pc: {PANIC}, its episode is lost")
     learner.says("pc is gone")
     assert stops_and_saves(learner)
-    assert "waiting for a game (mc-nested serve-game), 1 episode lost" in learner.lines()[-2]
+    assert "waiting for a game (mc-nested train serve), 1 episode lost" in learner.lines()[-2]
     assert ends.counted_and_lost() == (played(game), 1)
 
 

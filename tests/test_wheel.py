@@ -26,18 +26,19 @@ PLACES = "import mc_nested, sim, calibration; print(*mc_nested.__path__, *sim.__
 READS_ALL = """
 from importlib import resources
 from mc_nested.arena.scenario_file import load_scenario, shipped_scenarios
-from mc_nested.cli.completion.verbs import shipped
-from mc_nested.studies.ablation import shipped_parts
+from mc_nested.studies import ablation
 from mc_nested.studies.benchmark import baseline
-from mc_nested.studies.sweep import shipped_variants
+from mc_nested.studies.study import Asked
+from mc_nested.studies.sweep import varied
 from mc_nested.learn.preset import load_preset, shipped_presets
 from sim.client.drawing.letters import drawn_atlas
 
 scenarios = [load_scenario(name) for name in shipped_scenarios()]
 presets = {name: load_preset(name) for name in shipped_presets()}
-print(len(scenarios), sorted(presets), len(shipped_variants(presets["paper"], scenarios[:1])) > 20)
+print(len(scenarios), sorted(presets), len(varied(presets["paper"], scenarios[:1])) > 20)
 print("<html" in (resources.files("calibration.report") / "page.html.jinja").read_text("utf-8"))
-print(len(shipped_parts()) > 5, baseline().agent, drawn_atlas().shape, "train" in shipped().verbs)
+parts = ablation.arms(Asked(trials=1, scenarios=scenarios[:1]))
+print(len(parts) > 5, baseline().episodes, drawn_atlas().shape)
 """
 """Reads every file beside the code that a verb can need."""
 
@@ -133,7 +134,7 @@ def test_it_is_what_is_installed_and_reads_all_its_files(installed: Installed) -
     assert installed.python(READS_ALL).splitlines() == [
         "7 ['image', 'live', 'paper', 'tuned'] True",
         "True",
-        "True sb3 (128, 128, 4) True",
+        "True 500 (128, 128, 4)",
     ]
 
 

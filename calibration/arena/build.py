@@ -9,7 +9,7 @@ from pathlib import Path
 
 from calibration.arena.ground_survey import BlockQueries, GroundSurvey, is_copy_gone, survey_ground, teleport_and_look
 from calibration.arena.mark import arena_from_reading, load_profile_with_font
-from calibration.arena.plan import FLOOR, border_block, box_at, box_of, build_commands, copy_command, do_overlap
+from calibration.arena.plan import box_at, build_commands, copy_command, do_overlap
 from calibration.arena.undo import (
     read_copy_note,
     remove_saved_copy_note,
@@ -29,6 +29,7 @@ from mc_nested.live.menus.wait_for_player import wait_until_standing_still
 from mc_nested.live.model.debug_entries import why_none_is_named
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena, near_middle
+from mc_nested.live.profile.built_arena import FLOOR, border_block, box_of
 from mc_nested.live.profile.fingerprint import game_in
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile

@@ -1,9 +1,4 @@
-"""The blocks and commands that build an arena. Pure. A box is two corners, the lowest and the highest, both inside.
-
-border       a ring of blocks on the ground around the arena's cells
-. . . . . . . . .     the marked region: two blocks of air above the floor
-# # # # # # # # #     the floor, under the cells and the border
-"""
+"""The commands that build an arena. Pure."""
 
 from collections.abc import Sequence
 
@@ -11,16 +6,8 @@ from mc_nested.live.menus.reset import clear_command, item_command
 from mc_nested.live.model.reading import Block
 from mc_nested.live.model.versions import version_numbers
 from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.built_arena import FLOOR, Box, border_block, border_of, box_of, floor_of
 from mc_nested.live.profile.tables import Profile
-
-Box = tuple[Block, Block]
-
-FLOOR = "obsidian"
-"""Plain to walk on, with one name in every version, and not a material of a shipped scenario."""
-
-BORDERS = ("lapis_block", "mossy_cobblestone")
-"""One name in every version; no white, since text would be unreadable on it; and not to be mistaken for a placed block.
-The first that is not a material is used."""
 
 BAD_FLOORS = (
     "ice",
@@ -39,18 +26,6 @@ BAD_FLOORS = (
 
 HEIGHTS = (64, 32, 16)
 """Blocks above the floor at which the copy may lie, out of the way and in the same chunks."""
-
-
-def box_of(arena: Arena) -> Box:
-    """Everything that a build changes: the region, the border around it, and the floor under both."""
-    (x, y, z), (other_x, other_y, other_z) = arena.region
-    return (x - 1, y - 1, z - 1), (other_x + 1, other_y, other_z + 1)
-
-
-def floor_of(arena: Arena) -> Box:
-    """The floor under the cells and the border."""
-    low, high = box_of(arena)
-    return low, (high[0], low[1], high[2])
 
 
 def copy_positions(arena: Arena, version: str) -> list[Block]:
@@ -75,11 +50,6 @@ def do_overlap(one: Box, other: Box) -> bool:
 def is_good_floor(floor_id: str) -> bool:
     """Whether a block, as the debug screen names it, makes a good floor."""
     return not any(part in floor_id for part in BAD_FLOORS)
-
-
-def border_block(materials: Sequence[str]) -> str:
-    """The border's block, given the scenario's materials."""
-    return next(block for block in BORDERS if block not in materials)
 
 
 def fill_command(box: Box, block: str) -> str:
@@ -108,13 +78,6 @@ def build_commands(profile: Profile, arena: Arena, materials: Sequence[str], *, 
     ]
 
 
-def border_of(arena: Arena) -> list[Box]:
-    """The four sides of the ring."""
-    size = arena.size
-    corners = [arena.block_of(cell) for cell in ((-1, -1), (size, -1), (size, size), (-1, size))]
-    return [_ordered(one, other) for one, other in zip(corners, [*corners[1:], corners[0]], strict=True)]
-
-
 def gamerules(version: str) -> tuple[str, ...]:
     """The gamerules for time, weather and mobs, by their names in that version."""
     if version_numbers(version) >= (1, 21, 11):
@@ -131,10 +94,3 @@ def volume(box: Box) -> int:
     """Blocks in a box."""
     low, high = box
     return (high[0] - low[0] + 1) * (high[1] - low[1] + 1) * (high[2] - low[2] + 1)
-
-
-def _ordered(one: Block, other: Block) -> Box:
-    return (
-        (min(one[0], other[0]), min(one[1], other[1]), min(one[2], other[2])),
-        (max(one[0], other[0]), max(one[1], other[1]), max(one[2], other[2])),
-    )

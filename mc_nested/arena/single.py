@@ -7,6 +7,9 @@ ends the episode with score 0. A later material action does nothing, and counts 
 
 With parts, a later material action takes that material in hand, and counts as a step. What a material is worth is
 earned block by block: a step earns what it adds to r_M, the last one also the share of the blocks that are missing.
+
+Several single agents may share an arena (arena/cooperative), a row each. It is cleared for one material, so that one
+choice has to count: that of its first builder, at the first tick. What the others do at that tick does nothing.
 """
 
 from collections.abc import Mapping, Sequence
@@ -35,12 +38,14 @@ class SingleAgentVectorEnv(VectorWrapper):
 
     Args:
         env: the arenas, autoreset disabled.
-        scenarios: each run's scenario; all with the same number of materials.
+        scenarios: each row's scenario; all with the same number of materials.
+        builders: how many rows in turn share an arena.
     """
 
-    def __init__(self, env: VectorEnv[Int64s, Int64s, Any], scenarios: Sequence[Scenario]) -> None:
+    def __init__(self, env: VectorEnv[Int64s, Int64s, Any], scenarios: Sequence[Scenario], builders: int = 1) -> None:
         super().__init__(env)
         runs = env.num_envs
+        self._builders = builders
         self._resumable = resumable_arenas(env)
         self._scenarios = tuple(scenarios)
         self._tally = tally_of(scenarios)
@@ -53,6 +58,7 @@ class SingleAgentVectorEnv(VectorWrapper):
         self.single_action_space = Discrete(self._materials + len(Action))
         self.observation_space = batch_space(self.single_observation_space, runs)
         self.action_space = batch_space(self.single_action_space, runs)
+        self._first_builder = np.arange(runs) % builders == 0
         self._start = np.array([scenario.start_state for scenario in scenarios])
         self._observations = self._start.copy()
         self._chosen = np.zeros(runs, dtype=np.int64)
@@ -79,13 +85,15 @@ class SingleAgentVectorEnv(VectorWrapper):
         """One of the ten actions in every running arena; ``info["score"]`` is as that of the arenas within."""
         running = ~(self._terminated | self._truncated)
         first = running & (self._chosen == 0)
-        chooses = first & (actions < self._materials)
+        chooses = first & (self._of_first_builder(actions) < self._materials)
         acts = running & ~first & (actions >= self._materials)
         rewards = np.zeros(self.num_envs)
         if chooses.any():
-            self.env.reset(options={"reset_mask": chooses, "material": np.where(chooses, actions, 0)})
-            self._chosen[chooses] = actions[chooses] + 1
-            rewards[chooses] = self._worth[chooses, actions[chooses]]
+            materials = self._of_first_builder(actions)
+            self.env.reset(options={"reset_mask": chooses, "material": np.where(chooses, materials, 0)})
+            self._chosen[chooses] = materials[chooses] + 1
+            earns = chooses & self._first_builder
+            rewards[earns] = self._worth[earns, actions[earns]]
             if self._tally:
                 self._tally.begin(chooses, actions)
         if self._tally:
@@ -94,15 +102,16 @@ class SingleAgentVectorEnv(VectorWrapper):
             self._tally.take(takes, actions)
         if acts.any():
             observations, earned, terminated = self._step_within(acts, actions - self._materials)
-            self._observations[acts] = observations[acts]
+            seen = running & ~first  # where another builder acts, the blocks left change
+            self._observations[seen] = observations[seen]
             rewards[acts] = earned[acts]
-            self._terminated |= terminated & acts
+            self._terminated |= terminated & seen
         self._terminated |= first & ~chooses
         self._steps += running
         self._truncated |= running & ~self._terminated & (self._steps >= self._step_limit)
         ended = running & (self._terminated | self._truncated)
         before = self._score.copy()
-        self._score += rewards
+        self._score += self._of_all_builders(rewards)
         if self._tally:
             by_block = running & self._in_parts & (self._chosen > 0)
             self._score = np.where(by_block, self._tally.total(ended), self._score)
@@ -147,6 +156,16 @@ class SingleAgentVectorEnv(VectorWrapper):
             self._resumable.restore(snapshot)
 
     _STATE = ("_observations", "_chosen", "_steps", "_score", "_terminated", "_truncated")
+
+    def _of_first_builder(self, actions: Int64s) -> Int64s:
+        """In each row, what the first builder of its arena does."""
+        return actions if self._builders == 1 else np.repeat(actions[:: self._builders], self._builders)
+
+    def _of_all_builders(self, rewards: Float64s) -> Float64s:
+        """In each row, the sum over the builders of its arena."""
+        if self._builders == 1:
+            return rewards
+        return np.repeat(rewards.reshape(-1, self._builders).sum(axis=1), self._builders)
 
     def _seen(self) -> Int64s:
         return np.concatenate((self._observations, self._chosen[:, None]), axis=1)

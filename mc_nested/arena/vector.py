@@ -3,8 +3,8 @@
 Autoreset is disabled. ``reset(options={"reset_mask": bool (R,), "material": int (R,)})`` begins an episode in the
 masked arenas; a material may also be the name of one, for all. An arena whose episode has ended does nothing until
 then: its reward is 0 and its flags stay set. With parts, actions are (R, 2): each beside the index of the material to
-take in hand; or (R,), where the one in hand stays there. NextStepAutoreset begins the next episode by itself, as
-Gymnasium's own vector envs do by default.
+take in hand; or (R,), where the one in hand stays there. NextStepAutoreset has them begin their next episode by
+themselves, as Gymnasium's own vector envs do by default.
 """
 
 from collections.abc import Mapping, Sequence

@@ -6,84 +6,83 @@ import importlib.metadata
 import os
 import sys
 from collections.abc import Sequence
-from typing import Annotated
+from typing import Annotated, Any, cast
 
 import typer
+from typer.core import TyperCommand, TyperGroup
 
+from mc_nested.cli.completion import COMPLETES, quick_app, typed_words
 from mc_nested.cli.interrupt import INTERRUPTED, Stopped
-from mc_nested.cli.json_fields import epilog_of
+from mc_nested.cli.output import epilog_of
 from mc_nested.errors import McNestedError, UserError
 from mc_nested.live.input.signals import EndedBySignal
 
 NAME = "mc-nested"
 
-COMPLETES = "_MC_NESTED_COMPLETE"
-"""The environment variable by which a shell asks for completions, as Typer names it."""
-
-COMPLETION_OPTIONS = ("--install-completion", "--show-completion")
-
 VERBS = (
     "train",
-    "cooperate",
     "reproduce",
     "study",
-    "evaluate",
     "play",
     "build",
     "scenarios",
-    "read",
     "runs",
     "view",
     "calibrate",
     "profiles",
     "doctor",
-    "serve-game",
     "rehearse",
     "recordings",
     "replay",
-    "bug-report",
-    "cluster-keys",
 )
 """Each is a module of this package; in the order of the help."""
 
+HIDDEN = {"read": "doctor"}
+"""Verbs that have a name of their own, too, outside the help: the verb that has them."""
 
 MOVED = {
+    "evaluate": "runs evaluate",
+    "serve-game": "train serve",
+    "cluster-keys": "train keys",
+    "bug-report": "doctor bug-report",
     "sweep": "study sweep, or study ablation for sweep --ablation",
     "benchmark": "study benchmark",
+    "cooperate": "train --builders",
 }
-"""Verbs that have another name now."""
+"""What a verb of an earlier version is called now."""
 
 
-def app_for(words: Sequence[str]) -> typer.Typer:
+def app_for(words: Sequence[str]) -> TyperCommand | TyperGroup:
     """The command with the verb that the words begin with, or with all verbs if they begin with none.
 
-    A verb's module is loaded only if it is needed: together they take seconds and hundreds of megabytes. To complete a
-    command line none is.
+    A verb's module is loaded only if it is needed: together they take seconds and hundreds of megabytes. UserError for
+    a verb's former name.
     """
+    if COMPLETES in os.environ:
+        if quick := quick_app(VERBS):
+            return cast("TyperCommand", typer.main.get_command(quick))
+        words = typed_words()
     if words and words[0] in MOVED:
-        raise UserError(f"{words[0]} is now mc-nested {MOVED[words[0]]}")
-    if COMPLETES in os.environ or (words and words[0] in COMPLETION_OPTIONS):
-        return _completing_app()
+        raise UserError(f"{words[0]} is now {NAME} {MOVED[words[0]]}")
     app = typer.Typer(name=NAME, rich_markup_mode=None, pretty_exceptions_enable=False)
     app.callback(invoke_without_command=True)(version)
-    for verb in words[:1] if words and words[0] in VERBS else VERBS:
-        name = verb.replace("-", "_")
-        module = importlib.import_module(f"mc_nested.cli.{name}")
-        if hasattr(module, "app"):  # verbs of its own
+    named = words[:1] if words and words[0] in (*VERBS, *HIDDEN) else [*VERBS, *HIDDEN]
+    for verb in named:
+        module = importlib.import_module(f"mc_nested.cli.{HIDDEN.get(verb, verb)}")
+        if verb not in HIDDEN and hasattr(module, "app"):  # verbs of its own
             app.add_typer(module.app, name=verb)
         else:
-            app.command(verb, epilog=epilog_of(verb))(getattr(module, name))
-    return app
+            app.command(verb, hidden=verb in HIDDEN)(getattr(module, verb))
+    command = cast("TyperGroup", typer.main.get_command(app))
+    command.commands = {verb: command.commands[verb] for verb in named}  # Typer puts those with verbs of their own last
+    _end_help_with_json_fields(command)
+    return command
 
 
-def _completing_app() -> typer.Typer:
-    from mc_nested.cli.completion.app import completing_app
-    from mc_nested.cli.completion.shell import check_shell
-    from mc_nested.cli.completion.verbs import shipped
-
-    if COMPLETES not in os.environ:
-        check_shell()
-    return completing_app(shipped())
+def _end_help_with_json_fields(command: Any) -> None:
+    command.epilog = epilog_of(command.callback)
+    for below in getattr(command, "commands", {}).values():
+        _end_help_with_json_fields(below)
 
 
 def version(show: Annotated[bool, typer.Option("--version", help="print the version")] = False) -> None:
@@ -102,10 +101,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
     130 after Ctrl+C.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
-    if words in ([], ["calibrate"]):
+    if words in ([], ["calibrate"], ["study"]):
         words.append("--help")
     try:
-        code = app_for(words)(args=words, prog_name=NAME, standalone_mode=False)
+        code = app_for(words).main(args=words, prog_name=NAME, standalone_mode=False)
         if code == INTERRUPTED:  # typer's code for a KeyboardInterrupt, and for nothing else
             code = _say("stopped", INTERRUPTED)
     except typer.TyperException as error:

@@ -1,8 +1,10 @@
 """``mc-nested build``: a known design, built by the scripted builder, in the simulator or in a running game."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import groupby
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -16,30 +18,45 @@ from mc_nested.arena.game import Game
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
-    Backend,
+    FILES,
     BackendOption,
+    LayerOption,
     ProfileOption,
+    RecordOption,
     ServerOption,
-    open_game,
-    where_words,
+    named_scenario,
+    opening_of,
 )
-from mc_nested.cli.output import JsonOption, Output, QuietOption
-from mc_nested.cli.recording_options import RecordOption, live_recorder
-from mc_nested.cli.scenario_options import FILES, LayerOption, named_scenario
-from mc_nested.cli.video import VideoOption, filmed
-from mc_nested.cli.viewing import Viewed, ViewOption, viewed
-from mc_nested.cli.watching import started_over, watched
+from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
+from mc_nested.cli.view import Viewed, ViewOption, viewed
+from mc_nested.cli.watching import VideoOption, filmed, started_over, watched
 from mc_nested.errors import ScenarioError, UserError
 from mc_nested.live.profile.store import load_profile, profile_path
 from mc_nested.report.film import check_film
+from sim.worlds import Backend, open_game, where_words
 
 
+@dataclass(frozen=True)
+class Built:
+    """What ``build`` prints."""
+
+    scenario: Annotated[str, "the design's name"]
+    blocks: Annotated[int, "of the design"]
+    built: Annotated[int, "of them, as seen"]
+    material: Annotated[str, "what it is built of"]
+    steps: Annotated[int, "that it took"]
+    film: Annotated[Path | None, "its file"]
+
+
+@prints(Built)
 def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     design: Annotated[str, typer.Argument(metavar="NAME|FILE", help=f"the design: {FILES}")],
     layer: LayerOption = None,
-    material: Annotated[str | None, typer.Option(help="what it is built of [the one worth most, in each part]")] = None,
+    material: Annotated[
+        str | None, typer.Option(help="what it is built of", show_default="the one worth most, in each part")
+    ] = None,
     backend: BackendOption = Backend.SIM,
-    profile: ProfileOption = None,
+    profile: ProfileOption = DEFAULT_PROFILE,
     server_allowed: ServerOption = False,
     yes: Annotated[
         bool, typer.Option("--yes", help="build even where what stands in the game's arena can't be put back")
@@ -64,33 +81,18 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             f"scenario {scenario.name}: the scripted builder takes {steps} steps, and its step_limit is "
             f"{scenario.step_limit}: raise it"
         )
-    afterwards = _how_to_put_back(profile or DEFAULT_PROFILE, yes=yes) if backend is Backend.LIVE else None
+    afterwards = _how_to_put_back(profile, yes=yes) if backend is Backend.LIVE else None
     output = Output(quiet, as_json)
     if afterwards and not quiet:
         typer.echo(f"  building clears the arena first; {afterwards}", err=True)
-    recorder = live_recorder(record, f"build-{scenario.name}", scenario, server_allowed=server_allowed)
+    opening = opening_of(profile, f"build-{scenario.name}", record, server_allowed=server_allowed)
     with viewed(view, "build", f"{scenario.name}, {where_words(backend)}") as viewing:
-        opened = open_game(
-            backend,
-            profile,
-            scenario,
-            server_allowed=server_allowed,
-            open_recorder=recorder,
-            journal=viewing.publisher.board,
-        )
+        opened = open_game(backend, scenario, replace(opening, journal=viewing.publisher.board))
         with opened as (played, display), filmed(played, display, scenario, video) as game:
             built = started_over(partial(_built, game, scenario, chosen, viewing, quiet=quiet or as_json))
     name = ", then ".join(scenario.materials[index].name for index, _ in groupby(index for _, index in chosen))
-    found = {
-        "scenario": scenario.name,
-        "blocks": scenario.blocks,
-        "built": built,
-        "material": name,
-        "steps": steps,
-        "film": video,
-    }
     output.result(
-        found,
+        Built(scenario.name, scenario.blocks, built, name, steps, video),
         f"  built {built} of {scenario.blocks} blocks, of {name}, in {steps} steps",
         *([f"  film: {video}"] if video else []),
     )

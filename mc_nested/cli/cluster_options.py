@@ -17,7 +17,7 @@ ClusterOption = Annotated[
     typer.Option(metavar="ADDRESS", help="let the workers of a Dask scheduler train, as tcp://127.0.0.1:8786"),
 ]
 KeysOption = Annotated[
-    Path | None, typer.Option(metavar="DIR", help="this machine's keys, for tls:// (mc-nested cluster-keys)")
+    Path | None, typer.Option(metavar="DIR", help="this machine's keys, for tls:// (mc-nested train keys)")
 ]
 InsecureOption = Annotated[
     bool, typer.Option("--insecure", help="speak plain TCP with another computer: in a network that is yours alone")

@@ -1,8 +1,9 @@
-"""``mc-nested doctor``: one table of all that keeps an agent from playing on this computer, and what to do."""
+"""``mc-nested doctor``: what keeps an agent from playing here, what a picture says, and a report for others."""
 
-import dataclasses
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -10,13 +11,23 @@ from rich.constrain import Constrain
 from rich.table import Table
 from rich.text import Text
 
+from calibration.bug_report import write_bug_report
 from calibration.doctor.check import Check, Status
 from calibration.doctor.examination import Examination, examine
 from calibration.doctor.repair import repair
 from calibration.installation.folders import System
-from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption
-from mc_nested.cli.output import JsonOption, Output
+from calibration.report.privacy import names_here
+from mc_nested.cli.options import DEFAULT_PROFILE, ProfileOption, check_nothing_before
+from mc_nested.cli.output import JsonOption, Output, prints
+from mc_nested.cli.recordings import last_recording, recording_path
+from mc_nested.errors import FontError, PictureError, RecordingError
 from mc_nested.live.desktop import open_clipboard
+from mc_nested.live.model.debug_entries import GROUND_PITCH_DEG, switch_on
+from mc_nested.live.profile.overlay import overlay_of
+from mc_nested.live.profile.store import load_profile, profile_path
+from mc_nested.live.recording.run_recorder import kept_recordings
+from mc_nested.live.vision.font import load_font
+from mc_nested.live.vision.read_pictures import PictureReading, read_picture
 
 STYLES: dict[Status, str] = {"pass": "green", "warn": "yellow", "fail": "bold red", "skip": "bright_black"}
 
@@ -26,9 +37,21 @@ WIDTH = 100
 FAILED = 1
 """The exit code if a row fails."""
 
+app = typer.Typer()
 
+
+@dataclass(frozen=True)
+class Examined:
+    """What ``doctor`` prints."""
+
+    checks: Annotated[Sequence[Check], "of each: name, status (pass, warn, fail or skip), detail, and the fix"]
+
+
+@app.callback(invoke_without_command=True)
+@prints(Examined)
 def doctor(
-    profile: ProfileOption = None,
+    context: typer.Context,
+    profile: ProfileOption = DEFAULT_PROFILE,
     as_json: JsonOption = False,
     fix: Annotated[
         bool,
@@ -36,15 +59,93 @@ def doctor(
     ] = False,
 ) -> None:
     """Look at this computer, the game's window and its options: each row with the one thing to do."""
-    say = partial(typer.echo, err=True)
+    if context.invoked_subcommand is not None:
+        check_nothing_before(context)
+        return
     found = _examined(profile)
-    if fix and repair(found, say):
+    if fix and repair(found, partial(typer.echo, err=True)):
         found = _examined(profile)
-    rows = [dataclasses.asdict(check) for check in found.checks]
     table = Constrain(table_of(found.checks), WIDTH)
-    Output(as_json=as_json).result({"checks": rows}, table, summary_of(found.checks))
+    Output(as_json=as_json).result(Examined(found.checks), table, summary_of(found.checks))
     if any(check.status == "fail" for check in found.checks):
         raise typer.Exit(FAILED)
+
+
+@app.command("bug-report")
+def bug_report(
+    out: Annotated[Path, typer.Option(metavar="FILE", help="the file to write")] = Path("mc-nested-report.zip"),
+    profile: ProfileOption = DEFAULT_PROFILE,
+    recording: Annotated[
+        Path | None, typer.Option(metavar="REC", help="which recording", show_default="the last one")
+    ] = None,
+    no_recording: Annotated[bool, typer.Option("--no-recording", help="leave the recording out")] = False,
+    minutes: Annotated[float, typer.Option(min=0.1, help="how much of the recording's end")] = 5.0,
+) -> None:
+    """Put the doctor's table, the profile, versions and a recording's end into one file, and say what is in it."""
+    if out.exists():
+        raise RecordingError(f"{out}: is there already: name a new file with --out FILE")
+    kept = None
+    if not no_recording and (recording is not None or kept_recordings()):
+        kept = last_recording() if recording is None else recording_path(recording)
+    checks = _examined(profile).checks
+    path = profile_path(profile)
+    text = path.read_text("utf-8-sig") if path.is_file() else None
+    said = write_bug_report(out, checks, text, kept, minutes * 60, names_here())
+    typer.echo(f"{out} holds:")
+    for line in said:
+        typer.echo(f"  {line}")
+    typer.echo("Names of accounts and home folders are taken out. Look through it before you share it.")
+
+
+@app.command()
+@prints(PictureReading)
+def read(
+    images: Annotated[list[Path], typer.Argument(metavar="IMAGE...", help="screenshots with the debug screen on")],
+    font: Annotated[
+        Path | None, typer.Option(metavar="PNG|JAR", help="the game's ascii.png, client jar or a resource pack")
+    ] = None,
+    profile: Annotated[
+        str | None, typer.Option(metavar="NAME|FILE", help="take font and overlay from a profile")
+    ] = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Read pictures of the debug screen: position, view and the block looked at; with --json a line a picture.
+
+    A file that is no picture ends it with exit code 2, once the others are read.
+    """
+    output = Output(as_json=as_json)
+    known = load_profile(profile) if profile else None
+    if font is None:
+        if known is None:
+            raise FontError(
+                "name the game's font: --font with its client jar or ascii.png, or --profile with one that has it"
+            )
+        font = known.screen.font_path()
+    glyphs = load_font(font.expanduser())
+    overlay = overlay_of(known) if known else None
+    unusable: list[PictureError] = []
+    for image in images:
+        try:
+            found = read_picture(image, glyphs, overlay)
+        except PictureError as error:
+            unusable.append(error)
+            continue
+        output.result(found, _line(found))
+    if unusable:
+        count = len(unusable) - 1
+        others = f"; {count} other file{'s' if count > 1 else ''} can't be read either" if count else ""
+        raise PictureError(f"{unusable[0]}{others}")
+
+
+def _line(found: PictureReading) -> str:
+    if found.xyz is None or found.pitch is None:
+        return f"{found.file}: unread: {found.problem}"
+    position = " ".join(f"{value:.3f}" for value in found.xyz)
+    target = found.target
+    target_block = f"looks at {target.id} {target.pos and list(target.pos)}" if target else "looks at no block"
+    if target is None and found.pitch >= GROUND_PITCH_DEG:
+        target_block += f": if the ground is in view, that line is off: {switch_on(None)}"
+    return f"{found.file}: at {position}, yaw {found.yaw}, pitch {found.pitch}, {target_block}"
 
 
 def table_of(checks: Sequence[Check]) -> Table:
@@ -64,8 +165,6 @@ def summary_of(checks: Sequence[Check]) -> str:
     return ", ".join(f"{count} {status}" for status, count in counts.items() if count)
 
 
-def _examined(profile: str | None) -> Examination:
+def _examined(profile: str) -> Examination:
     say = partial(typer.echo, err=True)
-    return examine(
-        DEFAULT_PROFILE if profile is None else profile, say=say, system=System.here(), clipboard=open_clipboard()
-    )
+    return examine(profile, say=say, system=System.here(), clipboard=open_clipboard())

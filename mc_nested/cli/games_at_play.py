@@ -1,29 +1,54 @@
-"""The games that play for one training: plans go out to them, and whole episodes come back."""
+"""``mc-nested train --games``: games on other computers play a training's episodes.
+
+Plans go out to them, and whole episodes come back.
+"""
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.rules import landing
 from mc_nested.arena.scenario import Scenario
 from mc_nested.cli.interrupt import Interrupt, Stopped
-from mc_nested.errors import ClusterError
+from mc_nested.errors import ClusterError, UserError
 from mc_nested.learn.games.episode import PlayedEpisode
 from mc_nested.learn.games.games_trainer import GamesTrainer
-from mc_nested.workers.cluster.address import SchedulerAddress
+from mc_nested.learn.runs.run_folder import RunFolder
+from mc_nested.workers.cluster.address import SchedulerAddress, scheduler_address
 from mc_nested.workers.cluster.connection import connected
 from mc_nested.workers.cluster.workers_seen import counted
 from mc_nested.workers.games.dask_games import Answered, DaskGames, GameEvent, Joined, NameTaken, Unreachable
 from mc_nested.workers.games.order import GameAnswer, GameOrder
+from sim.worlds import Backend
 
 if TYPE_CHECKING:  # the cluster extra's
     from distributed import Client
 
 LOOK_EVERY_S = 0.2
 """Seconds that a Ctrl+C may go unnoticed while no game answers."""
+
+
+OF_THIS_GAME = ("--profile", "--server-allowed", "--record")
+"""Options of this computer's own game, which doesn't play."""
+
+
+def games_of(games: str | None, keys: Path | None, insecure: bool, options: Collection[str]) -> SchedulerAddress | None:
+    """The scheduler whose games play, None for this computer's; ``options`` are those that were given.
+
+    ClusterError or UserError if that can't be.
+    """
+    if games is None:
+        if keys is not None or insecure:
+            raise ClusterError("--keys and --insecure say how games are spoken to: name their scheduler with --games")
+        return None
+    for option in OF_THIS_GAME:
+        if option in options:
+            raise UserError(f"--games play with profiles of their own: leave out {option}")
+    return scheduler_address(games, keys, insecure=insecure)
 
 
 @dataclass
@@ -39,12 +64,15 @@ class GamesAtPlay:
     """The games of one training, and its trainer: gives each free game its next episode, and takes what comes back.
 
     Args:
-        trainer: the learner.
+        training: the learner.
         games: the games.
+        scenario: what is built.
     """
 
-    def __init__(self, trainer: GamesTrainer, games: DaskGames) -> None:
-        self._trainer = trainer
+    def __init__(self, training: GamesTrainer, games: DaskGames, scenario: Scenario) -> None:
+        self.training = training
+        choices = 0 if training.agent.main else len(scenario.materials)
+        self.arenas = LastEpisode(self, scenario, choices)
         self._games = games
         self._records: dict[str, GameRecord] = {}
         self._refused: dict[str, str] = {}
@@ -54,7 +82,7 @@ class GamesAtPlay:
         self._problems: list[str] = []
         self.last: PlayedEpisode | None = None
 
-    def look(self) -> list[str]:
+    def play_on(self) -> list[str]:
         """Deal with what has happened, or wait for a moment; lines about who came and what was lost.
 
         ClusterError if the only games that ever came have refused.
@@ -64,7 +92,7 @@ class GamesAtPlay:
             raise ClusterError("; ".join(f"{game} can't play: {why}" for game, why in self._refused.items()))
         return lines
 
-    def take_the_last(self) -> None:
+    def end(self) -> None:
         """Take what has come back by now; nobody is asked for anything any more."""
         self._is_over = True
         for event in self._games.events(0):
@@ -75,7 +103,7 @@ class GamesAtPlay:
         """How many games there are, and what is lost."""
         records = self._records.values()
         here, playing = sum(each.is_here for each in records), sum(each.playing is not None for each in records)
-        words = f"{counted(here, 'game')}, {playing} playing" if here else "waiting for a game (mc-nested serve-game)"
+        words = f"{counted(here, 'game')}, {playing} playing" if here else "waiting for a game (mc-nested train serve)"
         return words + (f", {counted(self._lost, 'episode')} lost" if self._lost else "")
 
     def summary(self) -> dict[str, Any]:
@@ -113,12 +141,12 @@ class GamesAtPlay:
             return self._refuse(game, answer.problem)
         said = f"{game}: {answer.problem}{self._lose(record, answer.problem)}" if answer.problem else ""
         self._has_played = self._has_played or not answer.problem
-        if answer.episode and self._trainer.take(answer.episode):
+        if answer.episode and self.training.take(answer.episode):
             self.last = answer.episode
         record.playing = None
-        if not (self._is_over or self._trainer.finished or answer.leaves):
+        if not (self._is_over or self.training.finished or answer.leaves):
             # After a mishap it says first when it is ready again: its player may be away.
-            plan = None if answer.problem else self._trainer.plan(game)
+            plan = None if answer.problem else self.training.plan(game)
             record.playing = plan.number if plan else None
             self._games.ask(game, plan)
         return said
@@ -134,7 +162,7 @@ class GamesAtPlay:
         """Leave out the episode that the game was playing; says so. Nothing if it played none."""
         if record.playing is None:
             return ""
-        self._trainer.abandon(record.playing)
+        self.training.abandon(record.playing)
         record.playing = None
         self._lost += 1
         self._problems.append(why)
@@ -153,14 +181,23 @@ ASK_AGAIN_S = 1.0
 
 @contextmanager
 def games_at_play(
-    cluster: SchedulerAddress, order: GameOrder, trainer: GamesTrainer, interrupt: Interrupt, say: Callable[[str], None]
+    folder: RunFolder, cluster: SchedulerAddress, interrupt: Interrupt, say: Callable[[str], None]
 ) -> Iterator[GamesAtPlay]:
-    """The games of that scheduler, for a training.
+    """The games of that scheduler, for an untrained learner of that folder's training.
 
-    ClusterError if it can't be reached, or another one has them; Stopped if somebody asks to stop while that is seen.
+    UserError if games can't play it; ClusterError if the scheduler can't be reached, or another training has its games;
+    Stopped if somebody asks to stop while that is seen.
     """
+    config = folder.config
+    if config.backend == Backend.SIM.value:
+        raise UserError("--games are live, or on the virtual client: begin a training with --backend live, or virtual")
+    if config.trials != 1:
+        raise UserError(f"games teach one trial together, and this training has {config.trials}: leave out --trials")
+    agent = folder.new_agent(1, config.preset.device)
+    trainer = GamesTrainer(folder.scenario, agent, config.preset, config.seed, config.stop_at_optimum)
+    order = GameOrder(config.backend, folder.scenario, config.agent, config.preset, config.seed)
     with connected(cluster) as client, _alone(client, cluster, interrupt, say), DaskGames(client, order) as games:
-        yield GamesAtPlay(trainer, games)
+        yield GamesAtPlay(trainer, games, folder.scenario)
 
 
 @contextmanager

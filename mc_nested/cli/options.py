@@ -1,151 +1,186 @@
-"""Options that several verbs share, and opening a backend."""
+"""Options that several verbs share: what is built, where it is played, with which profile, whether it is recorded."""
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
-from enum import Enum
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
 import typer
 
-from mc_nested.arena.env import ArenaEnv
-from mc_nested.arena.game import Game, PlayLog
-from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.vector import ArenaVectorEnv
-from mc_nested.errors import RunError
+from mc_nested.arena.game import PlayLog
+from mc_nested.arena.scenario import DEFAULT_SIZE, Scenario
+from mc_nested.arena.scenario_file import shipped_scenarios
+from mc_nested.cli.completion import complete_of, complete_profiles, complete_runs
+from mc_nested.design_files.load import Loaded, load_any_scenario
+from mc_nested.errors import UserError
+from mc_nested.learn.preset import shipped_presets
 from mc_nested.live.action_log import FailureBudget
-from mc_nested.live.devices import Display
-from mc_nested.live.journal import Journal
-from mc_nested.live.recording.run_recorder import OpenRecorder, no_recorder
-from mc_nested.live.session import open_live_game
-from sim.grid import GridGame, GridVectorEnv
+from mc_nested.live.opening import Opening
+from mc_nested.live.profile.arena import size_for
+from sim.worlds import Backend
 
+DEFAULT_PROFILE = "default"
+NAME_OR_FILE = "NAME|FILE"
 
-class Backend(str, Enum):
-    """The backend: the headless simulator, the virtual client on its own clock, or a running game's window."""
+FILES = "a shipped one, a TOML file, .schem, .schematic, .litematic, .nbt or .png"
+"""What a scenario can be, for help texts."""
 
-    SIM = "sim"
-    VIRTUAL = "virtual"
-    LIVE = "live"
+PRESETS = "the preset's"
+"""The default of what a preset says."""
 
-
-def where_words(backend: Backend) -> str:
-    """Where it is played, in words."""
-    words = {Backend.SIM: "in the simulator", Backend.VIRTUAL: "on the virtual client"}
-    return words.get(backend, "in the running game")
-
-
-RunArgument = Annotated[Path, typer.Argument(metavar="RUN", help="the folder of a training (its --out)")]
+RunArgument = Annotated[
+    Path, typer.Argument(metavar="RUN", help="the folder of a training (its --out)", autocompletion=complete_runs)
+]
 BackendOption = Annotated[
     Backend, typer.Option(help="the headless simulator, the virtual client, or a running game's window")
 ]
 ProfileOption = Annotated[
-    str | None, typer.Option(metavar="NAME|FILE", help="the profile of your game and screen (default: 'default')")
+    str,
+    typer.Option(metavar=NAME_OR_FILE, help="the profile of your game and screen", autocompletion=complete_profiles),
 ]
-
-EngineOption = Annotated[
-    str | None, typer.Option(metavar="NAME", help="what computes: compiled, or torch [the preset's]")
+ProfileToWrite = Annotated[
+    str,
+    typer.Option(
+        metavar=NAME_OR_FILE, help="the profile to write; new if there is none", autocompletion=complete_profiles
+    ),
 ]
-DeviceOption = Annotated[
-    str | None, typer.Option(metavar="NAME", help="where torch computes: cpu, cuda or mps [the preset's]")
-]
-StatesOption = Annotated[
-    str | None,
-    typer.Option(metavar="NAME", help="what the agent sees: numbers, an image, or the screen [the preset's]"),
-]
-
 ServerOption = Annotated[
     bool, typer.Option("--server-allowed", help="play even where the window's title says Multiplayer")
 ]
-ProfileToWrite = Annotated[str, typer.Option(metavar="NAME|FILE", help="the profile to write; new if there is none")]
+RecordOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="DIR|off",
+        help="a new folder for the recording of a running game, or none",
+        show_default="one among mc-nested recordings",
+    ),
+]
 
-DEFAULT_PROFILE = "default"
+PresetOption = Annotated[
+    str,
+    typer.Option(metavar=NAME_OR_FILE, help="hyper-parameters", autocompletion=complete_of(shipped_presets)),
+]
+EngineOption = Annotated[
+    str | None,
+    typer.Option(metavar="NAME", help="what computes: compiled, or torch", show_default=PRESETS),
+]
+DeviceOption = Annotated[
+    str | None, typer.Option(metavar="NAME", help="where torch computes: cpu, cuda or mps", show_default=PRESETS)
+]
+StatesOption = Annotated[
+    str | None,
+    typer.Option(metavar="NAME", help="what the agent sees: numbers, an image, or the screen", show_default=PRESETS),
+]
+
+ScenariosOption = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--scenario",
+        metavar=NAME_OR_FILE,
+        help=f"a design, as often as you like: {FILES}",
+        show_default="the paper's three",
+        autocompletion=complete_of(shipped_scenarios),
+    ),
+]
+LayerOption = Annotated[
+    int | None,
+    typer.Option(
+        min=0,
+        metavar="N",
+        help="the layer of a schematic, 0 the lowest",
+        show_default="the lowest with blocks; build needs it",
+    ),
+]
+SizeOption = Annotated[
+    int | None,
+    typer.Option(metavar="CELLS", help="cells along each side, up to 32", show_default=f"{DEFAULT_SIZE}"),
+]
+ForScenarioOption = Annotated[
+    str | None,
+    typer.Option(
+        "--scenario",
+        metavar=NAME_OR_FILE,
+        help="as large as this scenario needs",
+        autocompletion=complete_of(shipped_scenarios),
+    ),
+]
+StandingOption = Annotated[
+    tuple[int, int] | None,
+    typer.Option(
+        metavar="X Y",
+        help="the cell you stand on",
+        show_default="the middle of the near edge: 7 0 of 15 cells",
+    ),
+]
 
 
-@contextmanager
-def open_game(
-    backend: Backend,
-    profile: str | None,
-    scenario: Scenario,
-    *,
-    server_allowed: bool = False,
-    evidence: Path | None = None,
-    open_recorder: OpenRecorder = no_recorder,
-    journal: Journal | None = None,
-) -> Iterator[tuple[Game, Display | None]]:
-    """The backend's game, and its window, if it has one; both are closed after the block.
+def given(context: typer.Context) -> list[str]:
+    """List the options that were given, as ``--out``."""
+    return [each.opts[0] for each in context.command.params if each.name and is_given(context, each.name)]
 
-    ``evidence`` is the folder for the last frames of a live game that was given up; ``open_recorder`` opens what
-    records it; ``journal`` is told what it does.
 
-    DesktopError or ProfileError, one line each if a live game can't be played.
+def is_given(context: typer.Context, name: str) -> bool:
+    """Say whether the parameter of that name was given on the command line."""
+    source = context.get_parameter_source(name)
+    return source is not None and source.name == "COMMANDLINE"
+
+
+def check_nothing_before(context: typer.Context) -> None:
+    """Raise UserError if an option stands before the verb of a verb, where it would be ignored."""
+    verb = f"{context.command_path} {context.invoked_subcommand}"
+    below = getattr(context.command, "commands", {})[context.invoked_subcommand]
+    for option in given(context):
+        if any(option in each.opts for each in below.params):
+            raise UserError(f"write {option} at the end: {verb} {option}")
+        raise UserError(f"{verb} takes no {option}: leave it out")
+
+
+def opening_of(
+    profile: str, what: str, record: str | None, *, server_allowed: bool = False, evidence: Path | None = None
+) -> Opening:
+    """Say how a live run is opened, by its options; ``what`` it is, in a word or two, names its recording.
+
+    RecordingError if the recording's folder holds something already.
     """
-    if backend is Backend.SIM:
-        yield GridGame(scenario), None
-        return
-    if backend is Backend.VIRTUAL:
-        # Imported here: no other backend needs it, and every verb would wait for it.
-        from mc_nested.cli.virtual_games import open_virtual_games
-
-        with open_virtual_games([scenario], journal=journal) as (game,):
-            yield game, game.connection.devices.display
-        return
     say = partial(typer.echo, err=True)
-    with open_live_game(
-        scenario,
-        DEFAULT_PROFILE if profile is None else profile,
-        say,
-        evidence=evidence,
-        is_server_allowed=server_allowed,
-        open_recorder=open_recorder,
-        journal=journal,
-    ) as live:
-        yield live
-
-
-@contextmanager
-def open_arenas(
-    backend: Backend,
-    profile: str | None,
-    scenarios: Sequence[Scenario],
-    *,
-    server_allowed: bool = False,
-    evidence: Path | None = None,
-    open_recorder: OpenRecorder = no_recorder,
-    journal: Journal | None = None,
-    seed: int = 0,
-) -> Iterator[tuple[GridVectorEnv | ArenaVectorEnv, PlayLog | None]]:
-    """The backend's arenas, one per scenario, and the log of playing them, if any; closed after the block.
-
-    ``seed`` is of the virtual clients' random numbers. RunError if a live game should be several arenas; otherwise as
-    ``open_game``.
-    """
-    if backend is Backend.SIM:
-        yield GridVectorEnv(scenarios), None
-        return
-    if backend is Backend.VIRTUAL:
-        from mc_nested.cli.virtual_games import VirtualPlay, open_virtual_games
-
-        with open_virtual_games(scenarios, seed, journal) as games:
-            envs = [ArenaEnv(game, scenario) for game, scenario in zip(games, scenarios, strict=True)]
-            yield ArenaVectorEnv(envs), VirtualPlay(games)
-        return
-    if len(scenarios) != 1:
-        raise RunError(f"a live game is one arena, not {len(scenarios)}: train one trial at a time, --trials 1")
-    opened = open_game(
-        backend,
-        profile,
-        scenarios[0],
-        server_allowed=server_allowed,
-        evidence=evidence,
-        open_recorder=open_recorder,
-        journal=journal,
-    )
-    with opened as (game, _):
-        yield ArenaVectorEnv([ArenaEnv(game, scenarios[0])]), game.log
+    return Opening(profile, say, what, record, is_server_allowed=server_allowed, evidence=evidence)
 
 
 def played_live(log: PlayLog | None, failure_budget: FailureBudget) -> dict[str, Any]:
     """What playing in a running game, or on the virtual client, took, for a summary; nothing for the simulator."""
     return {"live": {**log.summary(), **failure_budget.summary()}} if log else {}
+
+
+def named_scenario(name: str, layer: int | None, *, must_choose: bool = False) -> Scenario:
+    """The scenario of that name or file; what a person should know about it is printed, a line each.
+
+    ``must_choose``: a file with several layers needs ``layer``. ScenarioError, one line, if it can't be used.
+    """
+    loaded = load_any_scenario(name, layer, must_choose=must_choose)
+    print_notes(loaded)
+    return loaded.scenario
+
+
+def print_notes(loaded: Loaded) -> None:
+    """Print what a person should know about a scenario, on standard error."""
+    for note in loaded.notes:
+        typer.echo(note, err=True)
+
+
+def named_scenarios(names: Sequence[str], layer: int | None) -> list[Scenario]:
+    """The scenarios of several names and files, each as ``named_scenario``."""
+    return [named_scenario(name, layer) for name in names]
+
+
+def arena_size(size: int | None, scenario: str | None, layer: int | None = None) -> int:
+    """Cells along each side of the arena to calibrate; ``layer`` is the scenario file's.
+
+    UserError if a size and a scenario are given, or a layer alone; ScenarioError if the scenario can't be used.
+    """
+    if size is not None and scenario is not None:
+        raise UserError("--size and --scenario both say how large the arena is: give one of them")
+    if scenario is not None:
+        return size_for(named_scenario(scenario, layer))
+    if layer is not None:
+        raise UserError("--layer is a layer of a schematic: name its file with --scenario")
+    return DEFAULT_SIZE if size is None else size

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from mc_nested.cli.runs_folder import RUNS
+from mc_nested.cli.completion import RUNS
 from mc_nested.errors import RunError
 from mc_nested.learn.runs.folder_kind import check_free
 from mc_nested.learn.runs.folder_lock import folder_lock

@@ -1,5 +1,6 @@
 """``mc-nested play``: watch a trained agent build, in the simulator or in a running game."""
 
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated
 
@@ -9,38 +10,52 @@ import typer
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.game import Game
 from mc_nested.arena.vector import ArenaVectorEnv
-from mc_nested.cli.evaluate import greedy_episodes, load_agent
 from mc_nested.cli.options import (
-    Backend,
+    DEFAULT_PROFILE,
     BackendOption,
     ProfileOption,
+    RecordOption,
     RunArgument,
     ServerOption,
-    open_game,
-    where_words,
+    opening_of,
 )
-from mc_nested.cli.output import JsonOption, Output, QuietOption
-from mc_nested.cli.recording_options import RecordOption, live_recorder
-from mc_nested.cli.screen_states import as_shown, check_window
-from mc_nested.cli.video import VideoOption, filmed
-from mc_nested.cli.viewing import Viewed, ViewOption, viewed
-from mc_nested.cli.watching import started_over, watched
+from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
+from mc_nested.cli.runs import greedy_episodes
+from mc_nested.cli.view import Viewed, ViewOption, viewed
+from mc_nested.cli.watching import VideoOption, filmed, started_over, watched
 from mc_nested.errors import RunError, UserError
 from mc_nested.learn.agents import Agent
-from mc_nested.learn.engine_fit import SCREEN
+from mc_nested.learn.dqn.engines import SCREEN
 from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.live.devices import Display
 from mc_nested.report.film import check_film
+from sim.worlds import Backend, as_shown, check_window, open_game, where_words
 
 
+@dataclass(frozen=True)
+class Played:
+    """What ``play`` prints."""
+
+    folder: Annotated[Path, "the run's folder"]
+    trial: Annotated[int, "which one played"]
+    scenario: Annotated[str, "the design's name"]
+    score: Annotated[float, "of the episode"]
+    optimum: Annotated[float, "the highest score possible"]
+    material: Annotated[str, "that was chosen"]
+    steps: Annotated[int, "of the episode"]
+    screenshots: Annotated[Path | None, "their folder"]
+    film: Annotated[Path | None, "its file"]
+
+
+@prints(Played)
 def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     run: RunArgument,
     backend: BackendOption = Backend.SIM,
-    profile: ProfileOption = None,
+    profile: ProfileOption = DEFAULT_PROFILE,
     server_allowed: ServerOption = False,
     record: RecordOption = None,
-    trial: Annotated[int | None, typer.Option(min=0, help="which trial plays (default: the best one)")] = None,
+    trial: Annotated[int | None, typer.Option(min=0, help="which trial plays", show_default="the best one")] = None,
     screenshots: Annotated[
         bool, typer.Option("--screenshots", help="keep a picture of the window after each step, under RUN/screenshots")
     ] = False,
@@ -55,39 +70,38 @@ def play(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         check_film(video)
     folder = RunFolder.open(run)
     scenario = folder.scenario
+    if folder.team:
+        raise UserError(f"several builders play in the simulator alone: mc-nested runs evaluate {run} has them build")
     if screenshots and backend is Backend.SIM:
         raise UserError("the simulator has no window to picture: leave out --screenshots, or play --backend live")
     states = folder.config.preset.states
     check_window(states, backend is not Backend.SIM)
     agent, which = _choose(folder, trial)
-    evidence = folder.path / "evidence"
-    recorder = live_recorder(record, f"play-{scenario.name}", scenario, server_allowed=server_allowed)
+    opening = opening_of(
+        profile,
+        f"play-{scenario.name}",
+        record,
+        server_allowed=server_allowed,
+        evidence=folder.path / "evidence",
+    )
     with viewed(view, "play", f"{scenario.name}, trial {which}, {where_words(backend)}") as viewing:
-        window = open_game(
-            backend,
-            profile,
-            scenario,
-            server_allowed=server_allowed,
-            evidence=evidence,
-            open_recorder=recorder,
-            journal=viewing.publisher.board,
-        )
+        window = open_game(backend, scenario, replace(opening, journal=viewing.publisher.board))
         with window as (opened, display), filmed(opened, display, scenario, video) as game:
             pictures = _Screenshots(folder.path / "screenshots", display) if screenshots and display else None
             is_quiet = output.quiet or output.as_json
             episode = started_over(lambda: _watch(game, folder, agent, which, pictures, viewing, is_quiet=is_quiet))
     material = episode.material_name(scenario)
-    found = {
-        "folder": folder.path,
-        "trial": which,
-        "scenario": scenario.name,
-        "score": episode.score,
-        "optimum": scenario.optimum,
-        "material": material,
-        "steps": len(episode.actions),
-        "screenshots": pictures.folder if pictures else None,
-        "film": video,
-    }
+    found = Played(
+        folder=folder.path,
+        trial=which,
+        scenario=scenario.name,
+        score=episode.score,
+        optimum=scenario.optimum,
+        material=material,
+        steps=len(episode.actions),
+        screenshots=pictures.folder if pictures else None,
+        film=video,
+    )
     lines = [f"  score {episode.score:g} of {scenario.optimum:g}, in {material}, {len(episode.actions)} steps"]
     if pictures:
         lines.append(f"  screenshots: {pictures.folder}")
@@ -127,17 +141,17 @@ def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
 
     One that sees a window is the best by the scores that it was kept for: the simulator has no window.
     """
-    agent = load_agent(folder)
+    agent = folder.trained_agent()
     if trial is None:
         if folder.config.preset.states == SCREEN:
-            scores = folder.kept()["scores"].tolist()
+            scores = folder.policies()["scores"].tolist()
         else:
             scores = [episode.score for episode in greedy_episodes(folder, agent)]
         trial = scores.index(max(scores))
     if trial >= folder.config.trials:
         raise RunError(f"{folder.path}: has no trial {trial}: choose 0 to {folder.config.trials - 1}")
     alone = folder.new_agent(1)
-    alone.load_networks(agent.networks_of(trial))
+    alone.load_online(folder.policy_of(trial))
     return alone, trial
 
 

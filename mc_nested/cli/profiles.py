@@ -1,7 +1,9 @@
 """``mc-nested profiles``: list your profiles, look at one, rename it, delete it."""
 
 from collections.abc import Sequence
-from typing import Annotated, Any
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
 
 import typer
 from rich.text import Text
@@ -17,18 +19,34 @@ from calibration.profiles import (
     names_of,
     rename_profile,
 )
-from mc_nested.cli.fitting_table import FittingTable, facts_table
-from mc_nested.cli.json_fields import epilog_of
-from mc_nested.cli.output import JsonOption, Output
-from mc_nested.errors import DesktopError, UserError
+from mc_nested.cli.completion import complete_profiles
+from mc_nested.cli.options import check_nothing_before
+from mc_nested.cli.output import FittingTable, JsonOption, Output, facts_table, prints
+from mc_nested.errors import DesktopError
 from mc_nested.live.desktop.display import WindowDisplay
 from mc_nested.live.desktop.system import open_camera, this_system
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.folder import profile_folder
+from mc_nested.live.vision.layout import Scales
 
-app = typer.Typer(help="List your profiles, look at one, rename it, delete it.")
+app = typer.Typer()
 
-NameArgument = Annotated[str, typer.Argument(metavar="PROFILE", help="its name")]
+NameArgument = Annotated[str, typer.Argument(metavar="PROFILE", help="its name", autocompletion=complete_profiles)]
+
+
+@dataclass(frozen=True)
+class ProfileList:
+    """What ``profiles list`` prints."""
+
+    folder: Annotated[Path, "of all profiles"]
+    profiles: Annotated[Sequence[ProfileFacts], "as of profiles show, without files"]
+
+
+@dataclass(frozen=True)
+class ProfileShown(ProfileFacts):
+    """What ``profiles show`` prints."""
+
+    files: Annotated[Sequence[Path], "all that belong to it"] = ()
 
 
 @app.callback(invoke_without_command=True)
@@ -36,27 +54,29 @@ def profiles(context: typer.Context, as_json: JsonOption = False) -> None:
     """List your profiles, look at one, rename it, delete it; alone it lists them."""
     if context.invoked_subcommand is None:
         list_profiles(as_json)
-    elif as_json:
-        raise UserError(f"write --json at the end: mc-nested profiles {context.invoked_subcommand} --json")
+    else:
+        check_nothing_before(context)
 
 
-@app.command("list", epilog=epilog_of("profiles list"))
+@app.command("list")
+@prints(ProfileList)
 def list_profiles(as_json: JsonOption = False) -> None:
     """List your profiles, with what each was calibrated on, and whether it fits the open window."""
     found = [facts_of(file, window_of) for file in named_profiles()]
     lines = [f"{each.name}: {each.why}" for each in found if each.is_damaged or each.fits is False]
     folder = profile_folder()
     shown = [_table(found), *lines] if found else [f"no profiles in {folder}: mc-nested calibrate all makes one"]
-    Output(as_json=as_json).result({"folder": folder, "profiles": [_fields(each) for each in found]}, *shown)
+    Output(as_json=as_json).result(ProfileList(folder, found), *shown)
 
 
-@app.command(epilog=epilog_of("profiles show"))
+@app.command()
+@prints(ProfileShown)
 def show(profile: NameArgument, as_json: JsonOption = False) -> None:
     """Show one profile: its file, what it was calibrated on, whether it fits the open window."""
     file = named_profile(profile)
-    facts, files = facts_of(file, window_of), names_of(files_of(file))
-    rows = (*_facts(facts), ("why", facts.why), ("file", str(file)), ("all files", files))
-    Output(as_json=as_json).result({**_fields(facts), "files": files_of(file)}, facts_table(rows))
+    facts, files = facts_of(file, window_of), files_of(file)
+    rows = (*_facts(facts), ("why", facts.why or ""), ("file", str(file)), ("all files", names_of(files)))
+    Output(as_json=as_json).result(ProfileShown(**vars(facts), files=files), facts_table(rows))
 
 
 @app.command()
@@ -68,7 +88,9 @@ def rename(profile: NameArgument, name: Annotated[str, typer.Argument(metavar="N
 
 @app.command()
 def delete(
-    profiles: Annotated[list[str], typer.Argument(metavar="PROFILE...", help="their names")],
+    profiles: Annotated[
+        list[str], typer.Argument(metavar="PROFILE...", help="their names", autocompletion=complete_profiles)
+    ],
     yes: Annotated[bool, typer.Option("--yes", help="delete without asking")] = False,
 ) -> None:
     """Delete profiles with all their files, after a question for each."""
@@ -105,31 +127,14 @@ def _style(name: str, value: str) -> str:
 
 def _facts(facts: ProfileFacts) -> list[tuple[str, str]]:
     """The facts in words, by what they are."""
-    arena = facts.arena
+    gui, debug, cells = facts.gui_scale, facts.debug_scale, facts.arena_size
     fits = "damaged" if facts.is_damaged else {True: "yes", False: "no", None: "unknown"}[facts.fits]
     return [
         ("profile", facts.name),
         ("version", facts.version or ""),
         ("window", f"{facts.window[0]} x {facts.window[1]}" if facts.window else ""),
-        ("GUI scale", str(facts.scales or "")),
-        ("arena", f"{arena.size} x {arena.size}" if arena else ""),
+        ("GUI scale", str(Scales(gui, debug)) if gui and debug else ""),
+        ("arena", f"{cells} x {cells}" if cells else ""),
         ("calibrated", facts.date or ""),
         ("fits", fits),
     ]
-
-
-def _fields(facts: ProfileFacts) -> dict[str, Any]:
-    """The facts for a program."""
-    return {
-        "name": facts.name,
-        "file": facts.file,
-        "is_damaged": facts.is_damaged,
-        "fits": facts.fits,
-        "why": facts.why or None,
-        "version": facts.version,
-        "window": facts.window,
-        "gui_scale": facts.scales and facts.scales.gui,
-        "debug_scale": facts.scales and facts.scales.debug,
-        "arena_size": facts.arena.size if facts.arena else None,
-        "date": facts.date,
-    }

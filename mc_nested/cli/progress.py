@@ -16,7 +16,7 @@ from rich.table import Column
 from rich.text import Text
 
 from mc_nested.arena.scenario import Scenario
-from mc_nested.cli.progress_line import print_line
+from mc_nested.cli.output import print_line
 from mc_nested.learn.imagination.imagination import Imagination
 from mc_nested.learn.training import Training
 from mc_nested.report.terminal_map import map_view
@@ -150,7 +150,7 @@ class TrainingProgress:
         if episodes == self._looked_at and now < self._look_again:
             return
         self._looked_at, self._look_again = episodes, now + LOOK_S
-        seen = imagination.seen(0)
+        seen = imagination.known_arena(0)
         of_several = "trial 0: " if len(self._trainer.episodes_done) > 1 else ""
         doing = "probing" if seen.explores else "building"
         self._found_out = (

@@ -1,22 +1,27 @@
 """``mc-nested recordings``: the recordings of live runs: list, verify, trim and cut them."""
 
 import datetime
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from rich.table import Table
 
 from calibration.report.privacy import names_here
-from mc_nested.cli.json_fields import epilog_of
-from mc_nested.cli.output import JsonOption, Output
-from mc_nested.cli.recording_options import RecordingArgument, recording_path
-from mc_nested.errors import RecordingError, UserError
+from mc_nested.cli.options import check_nothing_before
+from mc_nested.cli.output import JsonOption, Output, prints
+from mc_nested.errors import RecordingError
 from mc_nested.live.recording.cut import cut, trim
 from mc_nested.live.recording.recording_file import Overview, overview_of
-from mc_nested.live.recording.run_recorder import kept_recordings, recordings_folder
+from mc_nested.live.recording.run_recorder import is_recording, kept_recordings, recordings_folder
 
-app = typer.Typer(help="The recordings of live runs: list, verify, trim and cut them.")
+app = typer.Typer()
+
+RecordingArgument = Annotated[
+    Path, typer.Argument(metavar="REC", help="a recording: its name in mc-nested recordings, its folder or its file")
+]
 
 WHOLE = "whole"
 """The state of a recording of which nothing is lost."""
@@ -25,41 +30,80 @@ DAMAGED = 1
 """The exit code of verify where something of it is lost."""
 
 
+@dataclass(frozen=True)
+class RecordingFound:
+    """What ``recordings verify`` prints."""
+
+    recording: Annotated[Path, "its folder or file"]
+    what: Annotated[str | None, "what was recorded, as build-house"] = None
+    version: Annotated[str | None, "of mc-nested that wrote it"] = None
+    began: Annotated[datetime.datetime | None, "local time"] = None
+    seconds: Annotated[float | None, "its length"] = None
+    calls: Annotated[int | None, "of devices, screen and journal"] = None
+    actions: Annotated[int | None, "in it"] = None
+    pictures: Annotated[int | None, "in it"] = None
+    size: Annotated[int | None, "bytes of all its files"] = None
+    damage: Annotated[Sequence[str], "what of it is lost"] = ()
+
+    @classmethod
+    def of(cls, path: Path, seen: Overview) -> "RecordingFound":
+        """A recording at a glance."""
+        return cls(
+            path,
+            seen.what,
+            seen.version,
+            None if seen.began is None else _local(seen.began),
+            seen.seconds,
+            seen.calls,
+            seen.actions,
+            seen.pictures,
+            seen.size,
+            seen.damage,
+        )
+
+
+@dataclass(frozen=True)
+class RecordingList:
+    """What ``recordings list`` prints."""
+
+    folder: Annotated[Path, "where they are kept"]
+    recordings: Annotated[Sequence[RecordingFound], "for each, the fields of recordings verify"]
+
+
 @app.callback(invoke_without_command=True)
 def recordings(context: typer.Context, as_json: JsonOption = False) -> None:
     """List the recordings that are kept; verify, trim and cut them."""
     if context.invoked_subcommand is None:
         list_recordings(as_json)
-    elif as_json:
-        raise UserError("write --json at the end, behind list or verify: the others have none")
+    else:
+        check_nothing_before(context)
 
 
-@app.command("list", epilog=epilog_of("recordings list"))
+@app.command("list")
+@prints(RecordingList)
 def list_recordings(as_json: JsonOption = False) -> None:
     """List the recordings that are kept, the newest last."""
-    found = [(path, *_seen(path)) for path in kept_recordings()]
+    found = [_found(path) for path in kept_recordings()]
     table = Table(show_edge=False, pad_edge=False)
     for name in ("recording", "of", "began", "lasts", "actions", "size", "state"):
         table.add_column(name, overflow="fold")
-    for path, seen, damage in found:
-        table.add_row(path.name, *_row(seen), "; ".join(damage) or WHOLE)
+    for each in found:
+        table.add_row(each.recording.name, *_row(each), "; ".join(each.damage) or WHOLE)
     Output(as_json=as_json).result(
-        {
-            "folder": recordings_folder(),
-            "recordings": [{"recording": path, **_fields(seen), "damage": damage} for path, seen, damage in found],
-        },
+        RecordingList(recordings_folder(), found),
         *([table] if found else []),
         f"{'1 recording' if len(found) == 1 else f'{len(found)} recordings'} in {recordings_folder()}",
     )
 
 
-@app.command(epilog=epilog_of("recordings verify"))
+@app.command()
+@prints(RecordingFound)
 def verify(recording: RecordingArgument, as_json: JsonOption = False) -> None:
     """Read a recording as a whole, and say whether anything of it is lost: exit code 0 if all is there, 1 if not."""
     path = recording_path(recording)
     seen = overview_of(path)
     Output(as_json=as_json).result(
-        {"recording": path, **_fields(seen), "damage": seen.damage},
+        RecordingFound.of(path, seen),
         f"{path}: {seen.calls:,} calls, {seen.actions:,} actions, {seen.pictures:,} pictures, {_state(seen)}",
     )
     if seen.damage:
@@ -82,7 +126,9 @@ def cut_out(
     recording: RecordingArgument,
     out: Annotated[Path, typer.Argument(metavar="FILE", help="a new file, as part.mcap")],
     first: Annotated[float, typer.Option("--from", min=0, help="seconds from its beginning")] = 0.0,
-    last: Annotated[float | None, typer.Option("--to", min=0, help="seconds from its beginning [its end]")] = None,
+    last: Annotated[
+        float | None, typer.Option("--to", min=0, help="seconds from its beginning", show_default="its end")
+    ] = None,
     no_pictures: Annotated[bool, typer.Option("--no-pictures", help="leave the window's pictures out")] = False,
 ) -> None:
     """Write a part of a recording as one file, without names, from a reset on; in tests/recordings/ it is a test."""
@@ -98,35 +144,19 @@ def cut_out(
     typer.echo(f"{out}: {calls:,} calls, {_state(overview_of(out))}")
 
 
-def _seen(path: Path) -> tuple[Overview | None, tuple[str, ...]]:
-    """A recording at a glance, and what is wrong with it; None where it can't be read."""
+def _found(path: Path) -> RecordingFound:
+    """A recording at a glance; of one that can't be read, only what is wrong with it."""
     try:
-        seen = overview_of(path)
+        return RecordingFound.of(path, overview_of(path))
     except RecordingError as error:
-        return None, (str(error).split(": ", 1)[-1],)
-    return seen, seen.damage
+        return RecordingFound(path, damage=(str(error).split(": ", 1)[-1],))
 
 
-def _row(seen: Overview | None) -> tuple[str, ...]:
-    if seen is None:
+def _row(found: RecordingFound) -> tuple[str, ...]:
+    if found.what is None or found.size is None:
         return "", "", "", "", ""
-    began = "" if seen.began is None else f"{_local(seen.began):%Y-%m-%d %H:%M:%S}"
-    return seen.what, began, f"{seen.seconds:.0f} s", str(seen.actions), f"{seen.size / 1e6:.1f} MB"
-
-
-def _fields(seen: Overview | None) -> dict[str, Any]:
-    if seen is None:
-        return dict.fromkeys(("what", "version", "began", "seconds", "calls", "actions", "pictures", "size"))
-    return {
-        "what": seen.what,
-        "version": seen.version,
-        "began": None if seen.began is None else _local(seen.began).isoformat(timespec="seconds"),
-        "seconds": seen.seconds,
-        "calls": seen.calls,
-        "actions": seen.actions,
-        "pictures": seen.pictures,
-        "size": seen.size,
-    }
+    began = "" if found.began is None else f"{found.began:%Y-%m-%d %H:%M:%S}"
+    return found.what, began, f"{found.seconds:.0f} s", str(found.actions), f"{found.size / 1e6:.1f} MB"
 
 
 def _local(time_ns: int) -> datetime.datetime:
@@ -135,3 +165,21 @@ def _local(time_ns: int) -> datetime.datetime:
 
 def _state(seen: Overview) -> str:
     return f"{seen.seconds:.0f} s, {seen.size / 1e6:.1f} MB, {'; '.join(seen.damage) or WHOLE}"
+
+
+def recording_path(named: Path) -> Path:
+    """The recording of that name, or at that path; RecordingError if there is none."""
+    kept = recordings_folder() / named
+    for path in (named, kept):
+        if path.exists():
+            return path
+    known = ", ".join(path.name for path in kept_recordings()[-3:]) or "none yet"
+    raise RecordingError(f"no recording {str(named)!r}: the last ones kept are: {known}")
+
+
+def last_recording() -> Path:
+    """The newest recording that is kept; RecordingError if there is none."""
+    kept = [path for path in kept_recordings() if is_recording(path)]
+    if not kept:
+        raise RecordingError("no recording is kept yet: play, train or calibrate in a running game first")
+    return kept[-1]

@@ -1,12 +1,8 @@
 """``mc-nested rehearse``: a window to learn in and to test in, without Minecraft."""
 
-import os
 import re
 import secrets
-import sys
-import tempfile
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -14,19 +10,17 @@ import cv2
 import typer
 from platformdirs import user_data_path
 
-from mc_nested.errors import DesktopError, SeveralWindowsError, UserError
-from mc_nested.file_lock import file_lock
-from mc_nested.live.desktop.system import this_system
+from mc_nested.errors import DesktopError, UserError
 from mc_nested.live.input.signals import signals_as_exit
 from mc_nested.live.model.debug_entries import on_button, target_entry
 from mc_nested.live.model.versions import is_minecrafts
-from mc_nested.live.profile.tables import WindowTable
 from mc_nested.live.vision.font import font_of, load_font
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.debug_entries import GAME_DEFAULT, DebugEntries, names_block, read_profile
 from sim.client.game.edition import Edition
 from sim.client.game.options import LARGEST_SCALE, parse_options
 from sim.client.settings import ClientSettings, Size
+from sim.window.alone import alone_on_this_desktop
 
 SMALLEST: Size = (320, 240)
 """A smaller window has no room for the GUI, at any scale."""
@@ -49,7 +43,7 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     gui_scale: Annotated[
         int | None,
         typer.Option(
-            min=0, max=LARGEST_SCALE, help="the GUI scale, if it fits; 0 is auto (default: what guiScale says)"
+            min=0, max=LARGEST_SCALE, help="the GUI scale, if it fits; 0 is auto", show_default="what guiScale says"
         ),
     ] = None,
     option: Annotated[
@@ -60,10 +54,13 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     ] = None,
     debug_profile: Annotated[
         Path | None,
-        typer.Option(help="a debug-profile.json: what the debug screen shows from 1.21.9 on (default: the game's own)"),
+        typer.Option(
+            help="a debug-profile.json: what the debug screen shows from 1.21.9 on", show_default="the game's own"
+        ),
     ] = None,
     fps: Annotated[
-        float | None, typer.Option(min=LOWEST_FPS, max=HIGHEST_FPS, help="frames a second (default: the monitor's)")
+        float | None,
+        typer.Option(min=LOWEST_FPS, max=HIGHEST_FPS, help="frames a second", show_default="the monitor's"),
     ] = None,
     lag: Annotated[
         float, typer.Option(min=0.0, max=LONGEST_LAG_MS, help="milliseconds that keys, and pictures, come late")
@@ -72,10 +69,10 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
         float, typer.Option(min=0.0, max=60.0, help="how often a minute something goes wrong: a death, a menu, lag ...")
     ] = 0.0,
     seed: Annotated[
-        int | None, typer.Option(min=0, help="the same seed draws the same mishaps (default: a new one)")
+        int | None, typer.Option(min=0, help="the same seed draws the same mishaps", show_default="a new one")
     ] = None,
     font: Annotated[
-        Path | None, typer.Option(help="a font picture ascii.png, or a client jar (default: a font of our own)")
+        Path | None, typer.Option(help="a font picture ascii.png, or a client jar", show_default="a font of our own")
     ] = None,
     truth: Annotated[
         Path | None, typer.Option(help="keep the world as it truly is in this JSON file, for tests")
@@ -115,7 +112,7 @@ def rehearse(  # noqa: PLR0913 - a Typer verb: a parameter for each option
             typer.echo(f"To draw the same mishaps again: --mishaps {mishaps:g} --seed {settings.seed}")
         typer.echo("Close the window to end.")
 
-    with _alone(), signals_as_exit():
+    with alone_on_this_desktop(), signals_as_exit():
         rehearse(Rehearsal(settings, fps, lag / 1000, mishaps, truth), explain)
 
 
@@ -160,33 +157,6 @@ def _size(text: str) -> Size:
     if width > LARGEST[0] or height > LARGEST[1]:
         raise UserError(f"no screen is as large as {text}: at most {LARGEST[0]}x{LARGEST[1]}")
     return width, height
-
-
-@contextmanager
-def _alone() -> Iterator[None]:
-    """UserError where a window of the game is open already, or opening: an agent could not tell the two apart."""
-    with file_lock(_lock_file()) as lock:
-        if not lock.is_mine or _has_window():
-            raise UserError("a window of Minecraft, or another rehearsal, is open: close it first")
-        yield
-
-
-def _lock_file() -> Path:
-    """The lock file of this user's rehearsals on this desktop: one at a time holds it."""
-    user = "" if sys.platform == "win32" else f"-{os.getuid()}"  # Windows has a temporary folder for each
-    display = os.environ.get("DISPLAY", "") if sys.platform.startswith("linux") else ""
-    server = re.sub(r"[^A-Za-z0-9]+", "-", re.sub(r"\.[0-9]+$", "", display))  # a server's screens are one desktop
-    return Path(tempfile.gettempdir()) / f"mc-nested-rehearsal{user}{server}.lock"
-
-
-def _has_window() -> bool:
-    try:
-        with this_system().open_window(WindowTable().title):
-            return True
-    except SeveralWindowsError:
-        return True
-    except DesktopError:  # none, or one that can't be used: the window itself says why, if it can't be opened
-        return False
 
 
 def _font_picture() -> Path:

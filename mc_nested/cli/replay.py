@@ -1,18 +1,19 @@
 """``mc-nested replay``: today's reader and body on a recording, and where they would do otherwise."""
 
-import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import cv2
 import typer
-from rich.console import Console
+from rich.console import RenderableType
 from rich.table import Table
 
 from calibration.font.sources import font_of_recording
 from calibration.installation.folders import System
-from mc_nested.cli.output import JsonOption
-from mc_nested.cli.recording_options import RecordingArgument, recording_path
+from mc_nested.cli.output import JsonOption, Output, prints
+from mc_nested.cli.recordings import RecordingArgument, recording_path
 from mc_nested.errors import RecordingError
 from mc_nested.live.recording.replayed_run import Difference, Replayed
 from mc_nested.live.recording.replayed_run import replay as replayed
@@ -22,16 +23,30 @@ DIFFERENT = 1
 """The exit code if anything is read or decided otherwise."""
 
 MOST_ROWS, MOST_PICTURES = 40, 40
-LINE_WIDTH = 120
 
 
+@dataclass(frozen=True)
+class ReplayFound:
+    """What ``replay`` prints."""
+
+    actions: Annotated[int, "in the recording"]
+    followed: Annotated[int, "to their end"]
+    readings: Annotated[int, "in the recording"]
+    read_anew: Annotated[int, "whose picture was kept"]
+    damaged: Annotated[Sequence[str], "what of the recording is lost"]
+    differences: Annotated[Sequence[object], "of each: the action, what differs, then and now"]
+    font: Annotated[Path, "what it was read with"]
+
+
+@prints(ReplayFound)
 def replay(
     recording: RecordingArgument,
     font: Annotated[
         Path | None,
         typer.Option(
             metavar="JAR|PNG",
-            help="the game's font [its profile's, or that of a game on this computer]",
+            help="the game's font",
+            show_default="its profile's, or that of a game on this computer",
         ),
     ] = None,
     pictures: Annotated[
@@ -45,28 +60,26 @@ def replay(
     seen = replayed(path, load_font(used))
     if pictures is not None:
         _write_pictures(seen, pictures)
-    if as_json:
-        print(json.dumps({**_plain(seen), "font": str(used)}))
-    else:
-        _print(seen, used, pictures)
+    differences = [
+        {"action": each.action, "what": each.kind, "then": each.then, "now": each.now} for each in seen.differences
+    ]
+    found = ReplayFound(seen.actions, seen.followed, seen.readings, seen.read_anew, seen.damaged, differences, used)
+    Output(as_json=as_json).result(found, *_lines(seen, used, pictures))
     if seen.differences:
         raise typer.Exit(DIFFERENT)
 
 
-def _print(seen: Replayed, font: Path, pictures: Path | None) -> None:
-    console = Console()
-    console = Console(width=console.width if console.is_terminal else LINE_WIDTH)
+def _lines(seen: Replayed, font: Path, pictures: Path | None) -> Iterator[RenderableType]:
     if seen.differences:
         table = Table(show_edge=False, pad_edge=False)
         for name in ("action", "what", "then", "now"):
             table.add_column(name, overflow="fold")
         for each in seen.differences[:MOST_ROWS]:
             table.add_row(str(each.action), each.kind, each.then, each.now)
-        console.print(table)
+        yield table
         if len(seen.differences) > MOST_ROWS:
-            console.print(f"and {len(seen.differences) - MOST_ROWS} more")
-    for line in seen.damaged:
-        console.print(line, soft_wrap=True)
+            yield f"and {len(seen.differences) - MOST_ROWS} more"
+    yield from seen.damaged
     not_kept = seen.readings - seen.read_anew
     parts = [
         f"{seen.followed} of {seen.actions} actions followed to their end",
@@ -74,21 +87,8 @@ def _print(seen: Replayed, font: Path, pictures: Path | None) -> None:
         f"{len(seen.differences)} differences",
         *([f"pictures in {pictures}"] if pictures else []),
     ]
-    console.print("; ".join(parts), soft_wrap=True)
-    console.print(f"read with the font {font}", soft_wrap=True)
-
-
-def _plain(seen: Replayed) -> dict[str, object]:
-    return {
-        "actions": seen.actions,
-        "followed": seen.followed,
-        "readings": seen.readings,
-        "read_anew": seen.read_anew,
-        "damaged": seen.damaged,
-        "differences": [
-            {"action": each.action, "what": each.kind, "then": each.then, "now": each.now} for each in seen.differences
-        ],
-    }
+    yield "; ".join(parts)
+    yield f"read with the font {font}"
 
 
 def _write_pictures(seen: Replayed, folder: Path) -> None:

@@ -1,41 +1,78 @@
-"""``mc-nested runs``: list the runs and experiments in a folder, look at one, rename it, delete it."""
+"""``mc-nested runs``: list the runs and experiments in a folder, look at one, evaluate it, rename it, delete it."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 from rich.filesize import decimal
+from rich.table import Table
 from rich.text import Text
 
-from mc_nested.cli.fitting_table import FittingTable, facts_table
-from mc_nested.cli.json_fields import epilog_of
-from mc_nested.cli.output import JsonOption, Output
-from mc_nested.cli.runs_folder import RUNS
-from mc_nested.errors import RunError, UserError
+from mc_nested.cli.completion import RUNS, complete_runs
+from mc_nested.cli.options import RunArgument, check_nothing_before
+from mc_nested.cli.output import FittingTable, JsonOption, Output, facts_table, prints
+from mc_nested.errors import RunError
+from mc_nested.learn.agents import Agent
+from mc_nested.learn.evaluation import GreedyEpisode, play_greedily
 from mc_nested.learn.runs.folder_changes import delete_folder, rename_folder
+from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.studies.run_facts import RunFacts, facts_of, runs_in
+from sim.grid import GridVectorEnv
+from sim.team_grid import team_arenas
+from sim.worlds import check_window
 
 MOST_NAMED = 3
 """Designs, agents or presets that a row names; of more it says how many."""
 
 STYLES = {"finished": "green", "can be resumed": "yellow", "in use": "cyan", "damaged": "bold red"}
 
-app = typer.Typer(help="List your runs, look at one, rename it, delete it.")
+app = typer.Typer()
 
-NameArgument = Annotated[str, typer.Argument(metavar="RUN", help=f"a folder, or its name in {RUNS}")]
+NameArgument = Annotated[
+    str, typer.Argument(metavar="RUN", help=f"a folder, or its name in {RUNS}", autocompletion=complete_runs)
+]
+
+
+@dataclass(frozen=True)
+class RunList:
+    """What ``runs list`` prints."""
+
+    folder: Annotated[Path, "that was looked at"]
+    runs: Annotated[Sequence[RunFacts], "as of runs show, without files"]
+
+
+@dataclass(frozen=True)
+class RunShown(RunFacts):
+    """What ``runs show`` prints."""
+
+    files: Annotated[Sequence[str], "names of its files"] = ()
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """What ``runs evaluate`` prints."""
+
+    folder: Annotated[Path, "the run's folder"]
+    scenario: Annotated[str, "the design's name"]
+    optimum: Annotated[float, "the highest score possible"]
+    scores: Annotated[Sequence[float], "of each trial"]
+    materials: Annotated[Sequence[str], "that each trial chose"]
+    steps: Annotated[Sequence[int], "that each trial took"]
 
 
 @app.callback(invoke_without_command=True)
 def runs(context: typer.Context, as_json: JsonOption = False) -> None:
-    """List your runs, look at one, rename it, delete it; alone it lists those in runs/."""
+    """List your runs, look at one, evaluate it, rename it, delete it; alone it lists those in runs/."""
     if context.invoked_subcommand is None:
         list_runs(RUNS, as_json)
-    elif as_json:
-        raise UserError(f"write --json at the end: mc-nested runs {context.invoked_subcommand} --json")
+    else:
+        check_nothing_before(context)
 
 
-@app.command("list", epilog=epilog_of("runs list"))
+@app.command("list")
+@prints(RunList)
 def list_runs(
     folder: Annotated[Path, typer.Argument(metavar="[FOLDER]", help="where they are", show_default=False)] = RUNS,
     as_json: JsonOption = False,
@@ -44,16 +81,48 @@ def list_runs(
     found = runs_in(folder)
     lines = [f"{each.folder}: {each.why}" for each in found if each.state == "damaged"]
     shown = [_table(found), *lines] if found else [f"no runs in {folder}: mc-nested train makes one"]
-    Output(as_json=as_json).result({"folder": folder, "runs": [_fields(each) for each in found]}, *shown)
+    Output(as_json=as_json).result(RunList(folder, found), *shown)
 
 
-@app.command(epilog=epilog_of("runs show"))
+@app.command()
+@prints(RunShown)
 def show(run: NameArgument, as_json: JsonOption = False) -> None:
     """Show one run: what it trains, how far it is, its files."""
     facts = _known(run)
     files = sorted(entry.name + ("/" if entry.is_dir() else "") for entry in facts.folder.iterdir())
-    rows = (*_facts(facts), ("why", facts.why), ("folder", str(facts.folder)), ("files", ", ".join(files)))
-    Output(as_json=as_json).result({**_fields(facts), "files": files}, facts_table(rows))
+    rows = (*_facts(facts), ("why", facts.why or ""), ("folder", str(facts.folder)), ("files", ", ".join(files)))
+    Output(as_json=as_json).result(RunShown(**vars(facts), files=files), facts_table(rows))
+
+
+@app.command()
+@prints(Evaluated)
+def evaluate(run: RunArgument, as_json: JsonOption = False) -> None:
+    """Replay the greedy policy of every trial in the simulator and print the scores."""
+    folder = RunFolder.open(run)
+    episodes = greedy_episodes(folder, folder.trained_agent())
+    scenario = folder.scenario
+    materials = [episode.material_name(scenario) for episode in episodes]
+    found = Evaluated(
+        folder=folder.path,
+        scenario=scenario.name,
+        optimum=scenario.optimum,
+        scores=[episode.score for episode in episodes],
+        materials=materials,
+        steps=[len(episode.actions) for episode in episodes],
+    )
+    table = Table("trial", "score", "optimum", "material", "steps", title=Text(f"{scenario.name}, greedy"))
+    for trial, (score, material, steps) in enumerate(zip(found.scores, materials, found.steps, strict=True)):
+        table.add_row(f"{trial}", f"{score:g}", f"{scenario.optimum:g}", Text(material), f"{steps}")
+    Output(as_json=as_json).result(found, table)
+
+
+def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:
+    """One greedy episode of every trial in the simulator; UserError if it sees what the simulator can't show."""
+    check_window(folder.config.preset.states, has_window=False)
+    trials = folder.config.trials
+    arenas = team_arenas(folder.team, trials) if folder.team else GridVectorEnv(folder.scenarios)
+    env = agent.view_of(arenas, folder.scenarios)
+    return play_greedily(env, folder.scenarios, agent)
 
 
 @app.command()
@@ -66,7 +135,10 @@ def rename(
 
 @app.command()
 def delete(
-    runs: Annotated[list[str], typer.Argument(metavar="RUN...", help=f"folders, or their names in {RUNS}")],
+    runs: Annotated[
+        list[str],
+        typer.Argument(metavar="RUN...", help=f"folders, or their names in {RUNS}", autocompletion=complete_runs),
+    ],
     yes: Annotated[bool, typer.Option("--yes", help="delete without asking")] = False,
 ) -> None:
     """Delete runs, after a question for each."""
@@ -105,7 +177,7 @@ def _facts(facts: RunFacts) -> list[tuple[str, str]]:
     done, most = facts.episodes_done, facts.episodes
     return [
         ("run", facts.folder.name),
-        ("what", facts.verb),
+        ("what", facts.verb or ""),
         ("design", _named(facts.designs, "designs")),
         ("agent", _named(facts.agents, "agents")),
         ("preset", _named(facts.presets, "presets")),
@@ -120,23 +192,3 @@ def _facts(facts: RunFacts) -> list[tuple[str, str]]:
 
 def _named(names: Sequence[str], what: str) -> str:
     return ", ".join(names) if len(names) <= MOST_NAMED else f"{len(names)} {what}"
-
-
-def _fields(facts: RunFacts) -> dict[str, Any]:
-    """The facts for a program."""
-    return {
-        "folder": facts.folder,
-        "verb": facts.verb or None,
-        "state": facts.state,
-        "why": facts.why or None,
-        "designs": facts.designs,
-        "agents": facts.agents,
-        "presets": facts.presets,
-        "trials": facts.trials,
-        "episodes_done": facts.episodes_done,
-        "episodes": facts.episodes,
-        "score": facts.score,
-        "optimum": facts.optimum,
-        "size": facts.size,
-        "begun": facts.begun.isoformat(timespec="seconds") if facts.begun else None,
-    }

@@ -1,6 +1,8 @@
 """``mc-nested scenarios``: the designs as drawings, with their optimum and the fewest steps; a file's layers."""
 
 import dataclasses
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,8 +14,9 @@ from mc_nested.arena.builder import build
 from mc_nested.arena.scenario import Part, Scenario
 from mc_nested.arena.scenario_file import draw_grid, shipped_scenarios
 from mc_nested.arena.search import EXACT_UP_TO, fewest_steps
-from mc_nested.cli.output import JsonOption, Output
-from mc_nested.cli.scenario_options import LayerOption, named_scenario, print_notes
+from mc_nested.cli.completion import complete_of
+from mc_nested.cli.options import LayerOption, named_scenario, print_notes
+from mc_nested.cli.output import JsonOption, Output, prints
 from mc_nested.design_files.layer_scenario import kinds_in_words
 from mc_nested.design_files.load import is_design_file, load_layer, read_volume
 from mc_nested.design_files.volume import Volume
@@ -23,9 +26,28 @@ MOST_LISTED = 100
 """Layers of a file that are listed."""
 
 
+@dataclass(frozen=True)
+class ScenarioList:
+    """What ``scenarios`` prints."""
+
+    scenarios: Annotated[
+        Sequence[object],
+        "of each: name, size, blocks, materials, optimum, fewest_steps (is_exact: by search), builder_steps, "
+        "step_limit, parts (cells as rows, worth by material), choose_every (None: once a part) and the design as "
+        "rows, the far edge first",
+    ]
+
+
+@prints(ScenarioList)
 def scenarios(
     names: Annotated[
-        list[str] | None, typer.Argument(metavar="[NAME|FILE]...", help="which (default: all that are shipped)")
+        list[str] | None,
+        typer.Argument(
+            metavar="[NAME|FILE]...",
+            help="which",
+            show_default="all that are shipped",
+            autocompletion=complete_of(shipped_scenarios),
+        ),
     ] = None,
     layer: LayerOption = None,
     as_json: JsonOption = False,
@@ -33,7 +55,7 @@ def scenarios(
     """List the designs with a drawing, the optimum and the fewest steps; of a schematic its layers, too."""
     if as_json:
         found = [_fields(named_scenario(name, layer)) for name in names or shipped_scenarios()]
-        Output(as_json=True).result({"scenarios": found})
+        Output(as_json=True).result(ScenarioList(found))
         return
     console = Console()
     for name in names or shipped_scenarios():

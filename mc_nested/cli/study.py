@@ -6,6 +6,7 @@ A study's options and their defaults are its declaration's; what each means stan
 import importlib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
+from dataclasses import dataclass
 from functools import partial
 from inspect import Parameter, Signature
 from pathlib import Path
@@ -19,16 +20,23 @@ from rich.text import Text
 from mc_nested.arena.corpus_file import MOST_DESIGNS
 from mc_nested.arena.scenario_file import paper_scenarios
 from mc_nested.cli.cluster_options import ClusterOption, InsecureOption, KeysOption, cluster_of
-from mc_nested.cli.json_fields import epilog_of
-from mc_nested.cli.options import DeviceOption, EngineOption
-from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.completion import complete_of, complete_runs
+from mc_nested.cli.options import (
+    PRESETS,
+    DeviceOption,
+    EngineOption,
+    LayerOption,
+    PresetOption,
+    ScenariosOption,
+    is_given,
+    named_scenarios,
+)
+from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
-from mc_nested.cli.scenario_options import LayerOption, ScenariosOption, named_scenarios
-from mc_nested.cli.screen_states import check_window
 from mc_nested.cli.study_run import MOST_JOBS, jobs_at_once, train_all
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS
-from mc_nested.learn.preset import MOST
+from mc_nested.learn.preset import MOST, shipped_presets
 from mc_nested.learn.runs.folder_kind import verb_of_study
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.arm import AGENTS
@@ -37,26 +45,32 @@ from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.study import SHIPPED, Asked, Study, write_report
 from mc_nested.studies.table import Table
 from mc_nested.workers.cluster.address import SchedulerAddress
+from sim.worlds import check_window
 
 MOST_TRIALS = 1000
 """More would only run out of memory."""
 
 OPTIONS: Mapping[str, Any] = {
     "trials": Annotated[int, typer.Option(min=1, max=MOST_TRIALS, help="of each arm on each design")],
-    "episodes": Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial [the preset's]")],
+    "episodes": Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial", show_default=PRESETS)],
     "seed": Annotated[int, typer.Option(min=0, help="the same seed gives the same results")],
     "scenario": ScenariosOption,
     "layer": LayerOption,
     "agent": Annotated[
-        list[str] | None, typer.Option(help=f"an agent, as often as you like [{', '.join(AGENT_SPECS)}]")
+        list[str] | None,
+        typer.Option(
+            help="an agent, as often as you like",
+            show_default=", ".join(AGENT_SPECS),
+            autocompletion=complete_of(lambda: AGENT_SPECS),
+        ),
     ],
-    "preset": Annotated[str, typer.Option(metavar="NAME|FILE", help="hyper-parameters")],
+    "preset": PresetOption,
     "engine": EngineOption,
     "device": DeviceOption,
     "longer": Annotated[
         int | None,
         typer.Option(
-            min=2, max=1000, help="also train nested and hierarchical on zigzag and diamond so many times as long [no]"
+            min=2, max=1000, help="also train nested and hierarchical on zigzag and diamond so many times as long"
         ),
     ],
     "designs": Annotated[int, typer.Option(min=1, max=MOST_DESIGNS, help="random designs, drawn from the seed")],
@@ -65,10 +79,21 @@ OPTIONS: Mapping[str, Any] = {
     ],
     "agents": Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME,...", help=f"of {', '.join(AGENTS)} [nested, and sb3 where it is installed]"),
+        typer.Option(
+            metavar="NAME,...",
+            help=f"of {', '.join(AGENTS)}",
+            show_default="nested, and sb3 where it is installed",
+            autocompletion=complete_of(lambda: AGENTS),
+        ),
     ],
     "presets": Annotated[
-        list[str] | None, typer.Option(metavar="NAME|FILE,...", help="of each agent [live,tuned,paper]")
+        list[str] | None,
+        typer.Option(
+            metavar="NAME|FILE,...",
+            help="of each agent",
+            show_default="live,tuned,paper",
+            autocompletion=complete_of(shipped_presets),
+        ),
     ],
 }
 """What a study's options are, by the names that its declaration gives them."""
@@ -77,7 +102,9 @@ EVERY_STUDY: Mapping[str, tuple[Any, Any]] = {
     "jobs": (
         Annotated[
             int | None,
-            typer.Option(min=1, max=MOST_JOBS, help="processes to train in; for a cluster, jobs [its cores]"),
+            typer.Option(
+                min=1, max=MOST_JOBS, help="processes to train in; for a cluster, jobs", show_default="its cores"
+            ),
         ],
         None,
     ),
@@ -87,11 +114,21 @@ EVERY_STUDY: Mapping[str, tuple[Any, Any]] = {
     "out": (
         Annotated[
             Path | None,
-            typer.Option(metavar="DIR", help="a new or empty folder for all of it [one under runs, with the date]"),
+            typer.Option(
+                metavar="DIR",
+                help="a new or empty folder for all of it",
+                show_default="one under runs, with the date",
+            ),
         ],
         None,
     ),
-    "resume": (Annotated[Path | None, typer.Option(metavar="DIR", help="go on where it was stopped or killed")], None),
+    "resume": (
+        Annotated[
+            Path | None,
+            typer.Option(metavar="DIR", help="go on where it was stopped or killed", autocompletion=complete_runs),
+        ],
+        None,
+    ),
     "quiet": (QuietOption, False),
     "as_json": (JsonOption, False),
 }
@@ -99,6 +136,41 @@ EVERY_STUDY: Mapping[str, tuple[Any, Any]] = {
 
 BESIDE_RESUME = ("resume", "cluster", "keys", "insecure", "quiet", "as_json")
 """The options that a study can be resumed with."""
+
+
+@dataclass(frozen=True)
+class Studied:
+    """What a study prints."""
+
+    folder: Annotated[Path, "its folder"]
+    files: Annotated[Mapping[str, Path], "what was written, by what it is"]
+
+
+@dataclass(frozen=True)
+class Judged(Studied):
+    """What a study prints that judges the paper's claims."""
+
+    claims: Annotated[
+        Sequence[object],
+        "letter, claim and verdict of each; of robustness also choices, each with its verdict; of beyond also trials, "
+        "that would decide it, null of more than 1,000 or of what is counted",
+    ]
+
+
+@dataclass(frozen=True)
+class Measured(Studied):
+    """What a benchmark prints."""
+
+    measures: Annotated[Sequence[object], "of each contestant: trials, solved, and its episodes to the optimum"]
+
+
+RESULTS: Mapping[str, type[Studied]] = {
+    "reproduce": Judged,
+    "robustness": Judged,
+    "beyond": Judged,
+    "benchmark": Measured,
+}
+"""What a study prints that has more than its files to show."""
 
 app = typer.Typer(help="Train and report on one of several studies; Ctrl+C saves, and --resume goes on from there.")
 
@@ -114,7 +186,7 @@ def command_of(study: Study, instead: Mapping[str, str] | None = None) -> Callab
     others = instead or {}
 
     def command(context: typer.Context, **values: Any) -> None:
-        given = {name for name in values if getattr(context.get_parameter_source(name), "name", "") == "COMMANDLINE"}
+        given = {name for name in values if is_given(context, name)}
         chosen = next((name for name in others if values[name]), None)
         verbs = [verb_of_study(name) for name in (study.name, *others)]
         if values["resume"] is not None:
@@ -139,7 +211,7 @@ def command_of(study: Study, instead: Mapping[str, str] | None = None) -> Callab
     command.__annotations__ = {parameter.name: parameter.annotation for parameter in parameters}
     writes = ", ".join(study.files.values())
     command.__doc__ = f"{study.what}\n\nCtrl+C saves, and --resume goes on from there. Writes {writes}."
-    return command
+    return prints(RESULTS.get(study.name, Studied))(command)
 
 
 def _check_given(given: Iterable[str], beside: Sequence[str], why: str) -> None:
@@ -211,7 +283,7 @@ def run_study(study: Study, folder: StudyFolder, output: Output, scheduler: Sche
     paths = {what: folder.path / name for what, name in study.files.items()}
     lines = [f"{what + ':':8}{path}" for what, path in paths.items()]
     shown = [_shown(report.shown)] if report.shown else []
-    output.result({"folder": folder.path, "files": paths, **report.found}, *shown, *lines)
+    output.result(RESULTS.get(study.name, Studied)(folder.path, paths, **report.found), *shown, *lines)
     output.hint(f"next:   open {next(iter(paths.values()))}")
 
 
@@ -224,4 +296,4 @@ def _shown(table: Table) -> RichTable:
 
 
 for _name in SHIPPED:
-    app.command(_name, epilog=epilog_of(f"study {_name}"))(command_of(declared(_name)))
+    app.command(_name)(command_of(declared(_name)))

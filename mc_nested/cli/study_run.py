@@ -7,8 +7,7 @@ from contextlib import ExitStack, contextmanager
 from mc_nested.cli.cluster_options import workers_of
 from mc_nested.cli.interrupt import Stopped, catch_interrupts
 from mc_nested.cli.output import Output
-from mc_nested.cli.study_progress import StudyProgress
-from mc_nested.cli.study_status import StudyStatus
+from mc_nested.cli.study_progress import StudyProgress, StudyStatus
 from mc_nested.errors import RunError
 from mc_nested.studies.folder import StudyFolder
 from mc_nested.studies.trial import Outcomes

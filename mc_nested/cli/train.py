@@ -1,149 +1,231 @@
 """``mc-nested train``: begin a training, or resume one."""
 
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
-from mc_nested.arena.scenario_file import table_of
+from mc_nested.arena.action import Cell
+from mc_nested.arena.cooperative.team import MOST_BUILDERS, Team, spread_starts
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arena.scenario_file import shipped_scenarios, table_of
 from mc_nested.cli.cluster_options import InsecureOption, KeysOption
-from mc_nested.cli.games_training import games_of, run_games_training
+from mc_nested.cli.completion import complete_of, complete_runs
+from mc_nested.cli.games_at_play import games_of
 from mc_nested.cli.options import (
     DEFAULT_PROFILE,
-    Backend,
+    FILES,
+    NAME_OR_FILE,
+    PRESETS,
     DeviceOption,
     EngineOption,
+    LayerOption,
+    PresetOption,
     ProfileOption,
+    RecordOption,
     ServerOption,
     StatesOption,
+    check_nothing_before,
+    given,
+    is_given,
+    named_scenario,
+    opening_of,
 )
-from mc_nested.cli.output import JsonOption, Output, QuietOption
+from mc_nested.cli.output import JsonOption, Output, QuietOption, prints
 from mc_nested.cli.output_folder import output_folder
-from mc_nested.cli.recording_options import RecordOption
-from mc_nested.cli.scenario_options import FILES, NAME_OR_FILE, LayerOption, named_scenario
-from mc_nested.cli.screen_states import check_window
+from mc_nested.cli.serve import keys as make_keys
+from mc_nested.cli.serve import serve
 from mc_nested.cli.training import HowToRun, run_training
-from mc_nested.cli.viewing import ViewOption
+from mc_nested.cli.training_end import Trained
+from mc_nested.cli.view import ViewOption
 from mc_nested.errors import UserError
 from mc_nested.learn.agents import AGENT_SPECS
+from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.learn.preset import MOST, load_preset
 from mc_nested.learn.runs.folder_lock import folder_lock
-from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
+from mc_nested.learn.runs.run_config import RunConfig, TeamTable
+from mc_nested.learn.runs.run_folder import RunFolder
+from sim.worlds import Backend, check_window
 
 MOST_TRIALS = 1000
 """More at once would only run out of memory."""
 
 BESIDE_RESUME = (
-    "resume",
-    "device",
-    "profile",
-    "server_allowed",
-    "record",
-    "view",
-    "games",
-    "keys",
-    "insecure",
-    "quiet",
-    "as_json",
+    "--resume",
+    "--device",
+    "--profile",
+    "--server-allowed",
+    "--record",
+    "--view",
+    "--games",
+    "--keys",
+    "--insecure",
+    "--quiet",
+    "--json",
 )
 """The options that a run can be resumed with; all others are in its config.toml."""
 
-DEFAULTS: dict[str, Any] = {
-    "scenario": "line",
-    "agent": "nested",
-    "backend": Backend.SIM,
-    "preset": "paper",
-    "trials": 1,
-    "seed": 0,
-}
+BUILDERS = 2
+"""Builders in one arena, unless their number is given."""
+
+app = typer.Typer()
 
 
+@app.callback(invoke_without_command=True)
+@prints(Trained)
 def train(  # noqa: PLR0913 - a Typer verb: a parameter for each option
     context: typer.Context,
     scenario: Annotated[
-        str | None, typer.Option(metavar=NAME_OR_FILE, help=f"the design to build: {FILES} [line]")
-    ] = None,
+        str,
+        typer.Option(
+            metavar=NAME_OR_FILE,
+            help=f"the design to build: {FILES}",
+            autocompletion=complete_of(shipped_scenarios),
+        ),
+    ] = "line",
     layer: LayerOption = None,
-    agent: Annotated[str | None, typer.Option(help=f"the agent: {', '.join(AGENT_SPECS)} [nested]")] = None,
-    backend: Annotated[Backend | None, typer.Option(help="where [sim]")] = None,
-    preset: Annotated[str | None, typer.Option(metavar="NAME|FILE", help="hyper-parameters [paper]")] = None,
+    agent: Annotated[
+        str,
+        typer.Option(help=f"the agent: {', '.join(AGENT_SPECS)}", autocompletion=complete_of(lambda: AGENT_SPECS)),
+    ] = "nested",
+    builders: Annotated[
+        int | None, typer.Option(help=f"let 1 to {MOST_BUILDERS} build in one simulated arena, not one agent alone")
+    ] = None,
+    start: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="X,Y",
+            help="a builder's start cell, once for each",
+            show_default="spread along the scenario's start",
+        ),
+    ] = None,
+    networks: Annotated[
+        str | None,
+        typer.Option(
+            help="of several builders; shared: one nested agent plays every builder; own: each has one of its own; "
+            "single: independent single agents",
+            show_default=NETWORKS[0],
+            autocompletion=complete_of(lambda: NETWORKS),
+        ),
+    ] = None,
+    backend: Annotated[Backend, typer.Option(help="where")] = Backend.SIM,
+    preset: PresetOption = "paper",
     engine: EngineOption = None,
     device: DeviceOption = None,
     states: StatesOption = None,
-    episodes: Annotated[int | None, typer.Option(min=1, max=MOST, help="episodes a trial [the preset's]")] = None,
-    trials: Annotated[
-        int | None, typer.Option(min=1, max=MOST_TRIALS, help="independent trials, trained as one batch [1]")
+    episodes: Annotated[
+        int | None, typer.Option(min=1, max=MOST, help="episodes a trial", show_default=PRESETS)
     ] = None,
-    seed: Annotated[int | None, typer.Option(min=0, help="the same seed gives the same training [0]")] = None,
+    trials: Annotated[int, typer.Option(min=1, max=MOST_TRIALS, help="independent trials, trained as one batch")] = 1,
+    seed: Annotated[int, typer.Option(min=0, help="the same seed gives the same training")] = 0,
     stop_at_optimum: Annotated[
         bool, typer.Option("--stop-at-optimum", help="end a trial at its first greedy evaluation at the optimum")
     ] = False,
-    profile: ProfileOption = None,
+    profile: ProfileOption = DEFAULT_PROFILE,
     server_allowed: ServerOption = False,
     record: RecordOption = None,
     games: Annotated[
         str | None,
-        typer.Option(metavar="ADDRESS", help="let the games of a Dask scheduler play (mc-nested serve-game)"),
+        typer.Option(metavar="ADDRESS", help="let the games of a Dask scheduler play (mc-nested train serve)"),
     ] = None,
     keys: KeysOption = None,
     insecure: InsecureOption = False,
     begin_from: Annotated[
         Path | None,
         typer.Option(
-            "--from", metavar="RUN", help="begin with the best policy of an earlier training, and its learnt game"
+            "--from",
+            metavar="RUN",
+            help="begin with the best policy of an earlier training, and its learnt game",
+            autocompletion=complete_runs,
         ),
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="a new or empty folder for the run [runs/DESIGN-AGENT-DATE]")
+        Path | None,
+        typer.Option(metavar="DIR", help="a new or empty folder for the run", show_default="runs/DESIGN-AGENT-DATE"),
     ] = None,
-    resume: Annotated[Path | None, typer.Option(metavar="DIR", help="go on from a run's last checkpoint")] = None,
+    resume: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help="go on from a run's last checkpoint", autocompletion=complete_runs),
+    ] = None,
     view: ViewOption = False,
     quiet: QuietOption = False,
     as_json: JsonOption = False,
 ) -> None:
     """Train an agent; Ctrl+C saves, and --resume goes on from there."""
-    served = games_of(games, keys, insecure, context.params)
-    how = HowToRun(Output(quiet, as_json), server_allowed, record, view, served)
+    if context.invoked_subcommand is not None:
+        check_nothing_before(context)
+        return
+    served = games_of(games, keys, insecure, given(context))
+    opening = opening_of(profile, "train", record, server_allowed=server_allowed)
+    how = HowToRun(Output(quiet, as_json), opening, view, served)
     if resume is not None:
-        given = [name for name, value in context.params.items() if value is not None and value is not False]
-        beside = [name for name in given if name not in BESIDE_RESUME]
-        if beside:
-            option = "--from" if beside[0] == "begin_from" else "--" + beside[0].replace("_", "-")
-            raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
+        for option in given(context):
+            if option not in BESIDE_RESUME:
+                raise UserError(f"--resume goes on with the run's own config.toml: leave out {option}")
         folder = RunFolder.open(resume)
         if device:
             folder = RunFolder(resume, folder.config.on_device(device))
-        where_played = profile or folder.config.profile
+        if not is_given(context, "profile"):
+            how = replace(how, opening=replace(opening, profile=folder.config.profile or profile))
         with folder_lock(resume):
-            train_run(folder, where_played, not folder.only_begun, how)
+            run_training(folder, not folder.only_begun, how)
         return
-    if agent not in (None, *AGENT_SPECS):
+    if agent not in AGENT_SPECS:
         raise UserError(f"no agent {agent!r}: choose one of {', '.join(AGENT_SPECS)}")
-    chosen = load_preset(DEFAULTS["preset"] if preset is None else preset)
-    chosen = chosen.changed(engine=engine, device=device, states=states)
-    where = backend or DEFAULTS["backend"]
-    check_window(chosen.states, where is not Backend.SIM)
+    chosen = load_preset(preset).changed(engine=engine, device=device, states=states)
+    check_window(chosen.states, backend is not Backend.SIM)
+    design = named_scenario(scenario, layer)
+    team = _team(design, builders, start, networks)
+    names_agent = is_given(context, "agent")
+    if team and (names_agent or backend is not Backend.SIM):
+        wrong = "--agent: --networks says who they are" if names_agent else "--backend: they train in the simulator"
+        raise UserError(f"several builders don't go with {wrong}: leave it out")
     config = RunConfig(
-        agent=agent or DEFAULTS["agent"],
-        backend=where.value,
-        profile=(DEFAULT_PROFILE if profile is None else profile) if where is Backend.LIVE and not games else None,
-        trials=trials or DEFAULTS["trials"],
-        seed=seed or DEFAULTS["seed"],
+        agent=team.builders.agent if team else agent,
+        backend=backend.value,
+        profile=profile if backend is Backend.LIVE and not games else None,
+        trials=trials,
+        seed=seed,
         stop_at_optimum=stop_at_optimum,
-        preset_name=DEFAULTS["preset"] if preset is None else preset,
+        preset_name=preset,
         preset=chosen.model_copy(update={"episodes": episodes or chosen.episodes}),
-        scenario=table_of(named_scenario(DEFAULTS["scenario"] if scenario is None else scenario, layer)),
+        scenario=table_of(design),
+        team=team,
     )
-    with output_folder(out, f"{config.scenario.name}-{config.agent}") as path:
-        folder = RunFolder.new(path, config)
-        train_run(folder, config.profile, False, how, begin_from)
+    who = f"{len(team.starts)}-builders" if team else config.agent
+    with output_folder(out, f"{design.name}-{who}") as path:
+        run_training(RunFolder.new(path, config), False, how, begin_from)
 
 
-def train_run(
-    folder: RunFolder, profile: str | None, resumed: bool, how: HowToRun, begin_from: Path | None = None
-) -> None:
-    """Train in this computer's game, in the simulator, or with the games of a scheduler."""
-    if how.games:
-        run_games_training(folder, how.games, resumed, how, begin_from)
+app.command()(serve)
+app.command("keys")(make_keys)
+
+
+def _team(scenario: Scenario, builders: int | None, starts: list[str] | None, networks: str | None) -> TeamTable | None:
+    """The builders that were asked for, None for one agent; UserError or ScenarioError if there can't be such."""
+    if builders is None and not starts and networks is None:
+        return None
+    if not starts:
+        cells = spread_starts(scenario, BUILDERS if builders is None else builders)
+    elif builders in (None, len(starts)):
+        cells = tuple(_cell(text) for text in starts)
     else:
-        run_training(folder, profile, resumed, how, begin_from)
+        raise UserError(f"--builders {builders} and {len(starts)} times --start: give each builder one start, or none")
+    team = Team(scenario, cells)
+    return TeamTable(networks=_networks(networks), starts=[list(cell) for cell in team.starts])
+
+
+def _cell(text: str) -> Cell:
+    x, _, y = text.partition(",")
+    try:
+        return int(x), int(y)
+    except ValueError:
+        raise UserError(f"--start {text!r} is no cell: name it as X,Y, like 7,14") from None
+
+
+def _networks(name: str | None) -> Networks:
+    for networks in NETWORKS:
+        if name in (networks, None):
+            return networks
+    raise UserError(f"no networks {name!r}: choose one of {', '.join(NETWORKS)}")

@@ -9,14 +9,14 @@ import numpy as np
 
 from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario import Scenario
-from mc_nested.cli.options import Backend, where_words
 from mc_nested.learn.episode_log import EpisodeRow
-from mc_nested.learn.runs.run_folder import RunConfig
+from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.training import Training
 from mc_nested.report.game_time import expected
 from mc_nested.report.terminal_map import belief_rows
 from mc_nested.view.board import Board
 from mc_nested.view.status import MOST_SCORES, ArenaSeen, Learning, Standing
+from sim.worlds import Backend, where_words
 
 SHOW_EVERY_S = 0.3
 
@@ -25,11 +25,11 @@ LOOK_EVERY_S = 2.0
 
 
 class Arenas(Protocol):
-    """What a view sees of the arenas, by trial."""
+    """What a view sees of the arenas, by trial; where several builders share one, by trial and builder."""
 
-    def cell(self, run: int) -> Cell: ...
+    def cell(self, place: int) -> Cell: ...
 
-    def placed(self, run: int) -> frozenset[Cell]: ...
+    def placed(self, place: int) -> frozenset[Cell]: ...
 
 
 class TrainingView:
@@ -89,11 +89,12 @@ class TrainingView:
             self._board.show(detail=self._pace())
 
     def _arena(self) -> ArenaSeen:
-        trials = range(self._trials)
+        builders = self._trainer.agent.builders
+        places = range(self._trials * builders)
         return ArenaSeen.of(self._scenario).model_copy(
             update={
-                "stands": _counted(cell for trial in trials for cell in self._arenas.placed(trial)),
-                "agents": _counted(self._arenas.cell(trial) for trial in trials),
+                "stands": _counted(cell for first in places[::builders] for cell in self._arenas.placed(first)),
+                "agents": _counted(self._arenas.cell(place) for place in places),
                 "beliefs": self._beliefs,
             }
         )
@@ -110,7 +111,7 @@ class TrainingView:
             score=float(np.mean([row.score for row in last])) if last else None,
             best=self._best.after(trainer),
             optimum=self._scenario.optimum,
-            at_optimum=int((trainer.kept_scores >= self._scenario.optimum).sum()),
+            at_optimum=int((trainer.policy_scores >= self._scenario.optimum).sum()),
             scores=scores,
             exploring=self._exploring,
             game_minutes_left=self._minutes_left(),
@@ -134,7 +135,7 @@ class TrainingView:
             self._exploring = f"ε {main:.2f}, {nested:.2f} (main agent, nested agent)"
         elif now >= self._next_look:
             self._next_look = now + LOOK_EVERY_S
-            seen = trainer.imagination.seen(0)
+            seen = trainer.imagination.known_arena(0)
             doing = "probing" if seen.explores else "building"
             of_several = "trial 0: " if self._trials > 1 else ""
             self._exploring = f"{of_several}{doing}, {seen.known_to_pay} of {self._scenario.blocks} cells known"

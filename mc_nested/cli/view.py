@@ -1,24 +1,48 @@
-"""``mc-nested view``: a run of this computer in a terminal, while it goes on and afterwards."""
+"""``mc-nested view``, and --view: a run that is published while it goes on, and shown in a terminal.
+
+A finished run is shown the same way. Where there is no terminal to draw in, what it does is printed as lines.
+"""
 
 import signal
+import tempfile
 import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from mc_nested.cli.runs_folder import RUNS
-from mc_nested.cli.terminal_view import can_draw
+from mc_nested.cli.completion import RUNS, complete_runs
+from mc_nested.view.board import Board
 from mc_nested.view.panels import plain_end, plain_line
+from mc_nested.view.publisher import Publisher
 from mc_nested.view.status_files import FOLDER, is_published, status_now
+from mc_nested.view.terminal_view import TerminalView, can_draw
 from mc_nested.view.words import StatusShown, life_of
+
+ViewOption = Annotated[
+    bool,
+    typer.Option("--view", help="show it in the terminal as it goes on: keys to pause, to go on, to stop"),
+]
+
+StepViewOption = Annotated[
+    bool, typer.Option("--view", help="show it in the terminal as it goes on: keys to stop, and to answer")
+]
+"""Of what can't be paused."""
 
 LOOK_EVERY_S = 0.5
 
 
 def view(
     run: Annotated[
-        Path, typer.Argument(metavar="RUN", help="the folder of a training (its --out), or its name in runs/")
+        Path,
+        typer.Argument(
+            metavar="RUN",
+            help="the folder of a training (its --out), or its name in runs/",
+            autocompletion=complete_runs,
+        ),
     ],
     close_at_end: Annotated[
         bool, typer.Option("--close-at-end", help="close by itself once the run has ended")
@@ -51,3 +75,52 @@ def _follow(folder: Path) -> None:
                 typer.echo(line)
             return
         time.sleep(LOOK_EVERY_S)
+
+
+@dataclass(frozen=True)
+class Viewed:
+    """A run with its publisher, and the view in this terminal, if it has one."""
+
+    publisher: Publisher
+    view: TerminalView | None = None
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether it is shown in this terminal, which has no room for anything else then."""
+        return self.view is not None and self.view.is_open
+
+    def ask(self, question: str, otherwise: Callable[[str], bool]) -> bool:
+        """A person's yes or no, by the view; by ``otherwise`` where there is none, or it is closed meanwhile."""
+        answer = self.publisher.answer(question, lambda: self.is_shown) if self.is_shown else None
+        return otherwise(question) if answer is None else answer
+
+
+@contextmanager
+def viewed(is_viewed: bool, what: str, title: str, folder: Path | None = None) -> Iterator[Viewed]:
+    """A run that can be viewed, for the block; where there is no terminal, it prints its lines as without a view.
+
+    Args:
+        is_viewed: whether it is shown in this terminal.
+        what: its verb.
+        title: what it does, in a line.
+        folder: the run's folder, where ``mc-nested view`` finds it; without one it is published for this view alone.
+    """
+    board = Board(what, title)
+    is_shown = is_viewed and can_draw()
+    with ExitStack() as left:
+        if folder is None:
+            if not is_shown:
+                yield Viewed(Publisher(board, Path()))  # never entered: it publishes nothing
+                return
+            folder = Path(left.enter_context(tempfile.TemporaryDirectory(prefix="mc-nested-view-")))
+        if not is_shown:
+            yield Viewed(left.enter_context(Publisher(board, folder)))
+            return
+        view = TerminalView(folder)
+        left.callback(view.close)
+        publisher = left.enter_context(Publisher(board, folder, view.lines))
+        try:
+            view.open()
+        except (OSError, RuntimeError) as error:
+            typer.echo(f"no view, the run goes on without it: {error}", err=True)
+        yield Viewed(publisher, view)

@@ -1,20 +1,39 @@
-"""An episode that a person watches: the arena as it is built, and a new start after a mishap."""
+"""An episode that a person watches: the arena as it is built, a film of it, and a new start after a mishap."""
 
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TypeVar
+from pathlib import Path
+from typing import Annotated, TypeVar
 
 import typer
 from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
+from mc_nested.arena.drawing import Picture
 from mc_nested.arena.env import ArenaEnv
-from mc_nested.cli.viewing import Viewed
-from mc_nested.errors import LiveError, NotInFrontError, StoppedError
+from mc_nested.arena.game import Game
+from mc_nested.arena.scenario import Scenario
+from mc_nested.cli.view import Viewed
+from mc_nested.errors import FilmError, LiveError, NotInFrontError, StoppedError
+from mc_nested.live.devices import Display
+from mc_nested.live.live_game import LiveGame
+from mc_nested.live.vision.chat_region import blanked_share, without_chat
+from mc_nested.live.vision.game_screen import seen_gui_scale
+from mc_nested.report.arena_picture import ARENA_PX, SMALL_ARENA_PX
+from mc_nested.report.film import is_gif, open_film
+from mc_nested.report.filmed_game import FilmedGame, Window
 from mc_nested.report.terminal import arena_view
 from mc_nested.view.status import ArenaSeen, Standing
+
+VideoOption = Annotated[
+    Path | None,
+    typer.Option("--video", metavar="FILE", help="film the episode: the arena, and the game's window, as .mp4 or .gif"),
+]
+
+HALF = 0.5
+"""A window of which more is blanked shows little."""
 
 STEP_S = 0.25
 """Seconds of a simulated step in a view."""
@@ -72,3 +91,44 @@ def started_over(episode: Callable[[], Played]) -> Played:
                 raise
             typer.echo(f"  {error}; the episode starts over", err=True)
     raise AssertionError("the last try returned or raised")
+
+
+@contextmanager
+def filmed(game: Game, display: Display | None, scenario: Scenario, video: Path | None) -> Iterator[Game]:
+    """The game, filmed if there is a file for it; however the block ends, the film shows what was played until then.
+
+    FilmError, one line, where it can't be written.
+    """
+    if video is None:
+        yield game
+        return
+    window = _window_of(game, display) if display else None
+    arena_px = SMALL_ARENA_PX if is_gif(video) else ARENA_PX
+    try:
+        with open_film(video) as film:
+            yield FilmedGame(game, scenario, film, window, arena_px)
+    except FilmError:
+        raise
+    except BaseException:
+        typer.echo(f"  film of what was played: {video}" if film.is_whole else "  there is no film", err=True)
+        raise
+
+
+def _window_of(game: Game, display: Display) -> Window:
+    """The window's pictures, the chat blanked: a film is there to be shown to others."""
+
+    def seen_scale() -> int | None:
+        return seen_gui_scale(game.connection.screen) if isinstance(game, LiveGame) else None
+
+    share = blanked_share(display.size(), seen_scale())
+    if share > HALF:
+        typer.echo(
+            f"  {share:.0%} of the window is where the chat may be, and stays grey in the film: "
+            "a smaller GUI Scale, or a larger window, shows more",
+            err=True,
+        )
+
+    def picture() -> Picture:
+        return without_chat(display.grab(), seen_scale())[..., ::-1]
+
+    return Window(picture, time.monotonic)

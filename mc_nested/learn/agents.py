@@ -4,9 +4,11 @@ nested        a main agent sees (x, y, b) and chooses the material; one nested a
 hierarchical  a top agent sees (x, y, b) and chooses the material, and with it the low-level agent, which sees
               (x, y, b) and builds
 single        one agent sees (x, y, b, m) and does all of it, in ten actions (arena/single.py)
+
+Where several builders share an arena (builders.py), each has a row beside the others of its run.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -22,13 +24,12 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arrays import Arrays, Bytes, Float64s, Int64s
 from mc_nested.errors import PresetError
+from mc_nested.learn.builders import Builders, check_builders
 from mc_nested.learn.dqn.engine import NetworkForm
+from mc_nested.learn.dqn.engines import NUMBERS, SCREEN
 from mc_nested.learn.dqn.replay import ReplayMark
-from mc_nested.learn.dqn.state_space import StateSpace
-from mc_nested.learn.dqn.states import PlaneStates, States
-from mc_nested.learn.engine_fit import NUMBERS, SCREEN
-from mc_nested.learn.imagination.imagination import Imagination, Surroundings
-from mc_nested.learn.learner import Learner, summed_by_run
+from mc_nested.learn.dqn.states import PlaneStates, States, StateSpace
+from mc_nested.learn.learner import CHOICE_NUMBERS, Learner, summed_by_run
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import initial_stream
@@ -95,7 +96,8 @@ class Agent:
     """One of the paper's agents in R runs, one scenario a run.
 
     ``main`` is the main or top agent, None for the single agent. ``low_level`` is the nested agent, the low-level
-    agents of the hierarchy (a row for each run and material), or the single agent. ``size`` is the largest arena's.
+    agents of the hierarchy (a row for each run and material), or the single agent; builders that don't share a network
+    have a row each. ``size`` is the largest arena's, ``builders`` how many share an arena.
 
     Args:
         spec: which agent.
@@ -103,9 +105,10 @@ class Agent:
         preset: the hyper-parameters of all its learners.
         seed: of the initial parameters.
         runs: each run's number (streams.py); from 0 on unless named.
+        team: who builds in each run's arena; one builder, from the scenario's start, unless given.
 
     Raises:
-        PresetError: the preset explores in a way that such an agent can't.
+        PresetError: the preset explores in a way that such an agent, or several builders, can't.
     """
 
     def __init__(
@@ -115,7 +118,10 @@ class Agent:
         preset: Preset,
         seed: int,
         runs: Sequence[int] | None = None,
+        team: Builders | None = None,
     ) -> None:
+        if team:
+            check_builders(preset)
         check_exploration(spec, preset)
         check_parts(scenarios, preset)
         self.runs = tuple(range(len(scenarios)) if runs is None else runs)
@@ -124,31 +130,47 @@ class Agent:
         self.size = max(scenario.size for scenario in scenarios)
         self.spec = spec
         self._sees = preset.states
+        self._team = team
+        self.builders = team.count if team else 1
+        self._low_levels = self._materials if spec.low_level_per_material else 1
+        self._numbered = spec.appends_material and self.builders > 1
+        self._share_a_row = self.builders if team and team.networks == "shared" else 1
         if self._sees == NUMBERS:
-            chooses, builds = _numbers(spec, scenarios, preset.encoding)
+            chooses, builds = self._numbers(scenarios, preset.encoding)
         else:
             shape = SCREEN_SHAPE if self._sees == SCREEN else (PLANES, *(common_size(scenarios),) * 2)
-            chooses, builds = _planes(spec, scenarios, shape)
+            chooses, builds = self._planes(len(scenarios), shape)
         self.main = Learner(chooses, preset.for_main(), streams) if spec.has_main else None
-        self._low_levels = self._materials if spec.low_level_per_material else 1
-        self._longest = max(scenario.step_limit for scenario in scenarios)
+        self._longest = self._share_a_row * max(scenario.step_limit for scenario in scenarios)
         self.low_level = Learner(
             builds,
             preset,
-            [stream for stream in streams for _ in range(self._low_levels)],
+            [stream for stream in streams for _ in range(self._rows_a_run)],
             (preset.imitation, self._longest) if preset.imitation else None,
         )
 
-    def low_level_states(self, observations: NDArray[Any], materials: Int64s) -> NDArray[Any]:
-        """The low-level agents' states, (runs, …): the nested agent's is s_N = [s_M, a_M] (paper, section 4.1).
+    @property
+    def _rows_a_run(self) -> int:
+        return self._low_levels * self.builders // self._share_a_row
 
-        To numbers, a_M is one number more. To planes, it is one plane more: "one extra dimension".
+    def low_level_states(self, observations: NDArray[Any], materials: Int64s) -> NDArray[Any]:
+        """The low-level agents' states, (runs * builders, …): the nested agent's is s_N = [s_M, a_M] (section 4.1).
+
+        ``materials`` are (runs,). To numbers, a_M is one number more. To planes, it is one plane more: "one extra
+        dimension".
         """
         if self._sees != NUMBERS:
             return self._with_material(observations, materials)
         if not self.spec.appends_material:
             return observations[:, : BLOCKS_LEFT + 1 + self.spec.sees_choice]
-        return np.concatenate((observations, materials[:, None]), axis=1)
+        if not self._numbered:
+            return np.concatenate((observations, materials[:, None]), axis=1)
+        numbers = np.tile(np.arange(self.builders), len(materials))
+        return np.column_stack((observations, numbers, self._of_builders(materials)))
+
+    def _of_builders(self, of_runs: NDArray[Any]) -> NDArray[Any]:
+        """What is said of each run, for each of its builders: (runs * builders,)."""
+        return of_runs if self.builders == 1 else np.repeat(of_runs, self.builders)
 
     def _with_material(self, planes: Bytes, materials: Int64s) -> Bytes:
         if not self.spec.appends_material:
@@ -160,7 +182,8 @@ class Agent:
 
         For states "screen" the arenas have to show their windows already (live/screen_arenas.py).
         """
-        view = env if self.spec.has_main else SingleAgentVectorEnv(env, scenarios)
+        each = self._team.scenarios_of(scenarios) if self._team else scenarios
+        view = env if self.spec.has_main else SingleAgentVectorEnv(env, each, self.builders)
         return PlanesVectorEnv(view, scenarios) if self._sees == IMAGE else view
 
     def start_states(self, scenarios: Sequence[Scenario]) -> NDArray[Any]:
@@ -169,7 +192,8 @@ class Agent:
             return start_planes(scenarios)
         if self._sees == SCREEN:  # it chooses before there is a window to look at
             return np.zeros((len(scenarios), *SCREEN_SHAPE), np.uint8)
-        return np.array([each.start_state for each in scenarios])
+        first = self._team.scenarios_of(scenarios)[:: self.builders] if self._team else scenarios
+        return np.array([each.start_state for each in first])
 
     def chosen_materials(self, observations: NDArray[Any]) -> Int64s:
         """The materials that the single agent's observations show as chosen, in their last part; -1 before that."""
@@ -178,29 +202,23 @@ class Agent:
         shown = observations[:, -1, 0, 0].astype(np.int64)
         return np.round(shown * self._materials / FULL).astype(np.int64) - 1
 
-    def low_level_rows(self, runs: Int64s, materials: Int64s) -> Int64s:
-        """The rows of ``low_level`` that act in the named runs (k,), for the materials of all runs (runs,)."""
-        if self._low_levels == 1:
-            return runs
-        return runs * self._low_levels + materials[runs]
+    def builders_of(self, runs: Int64s) -> list[Int64s]:
+        """For each builder's number its places (k,) among all builders, in the named runs (k,)."""
+        if self.builders == 1:
+            return [runs]
+        return [runs * self.builders + number for number in range(self.builders)]
+
+    def low_level_rows(self, places: Int64s, materials: Int64s) -> Int64s:
+        """The rows of ``low_level`` that act for builders at these places (k,), with the materials of all runs."""
+        acting = places if self._share_a_row == 1 else places // self._share_a_row
+        return acting if self._low_levels == 1 else acting * self._low_levels + materials[places]
 
     def act(self, states: NDArray[Any], materials: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:
-        """The low-level agents' ε-greedy actions in every run, (runs,)."""
-        rows = None if self._low_levels == 1 else self.low_level_rows(np.arange(len(states)), materials)
-        return self.low_level.act(states, epsilon, uniforms, rows)
-
-    def imagination(self, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> Imagination | None:
-        """The learnt games of its runs, one scenario a run; None if the preset has no [imagination].
-
-        Of a scenario it gets what every reset shows, and how large the arena and how long an episode is.
-        """
-        if preset.imagination is None or self.main is None:
-            return None
-        known = [
-            Surroundings(scenario.start_state, scenario.size, scenario.step_limit, len(scenario.materials))
-            for scenario in scenarios
-        ]
-        return Imagination(self.main, self.low_level, known, preset, preset.imagination, seed, self.runs)
+        """The low-level agents' ε-greedy actions for every builder, (runs * builders,); ε is (runs,)."""
+        is_a_row_each = self._low_levels == self._share_a_row == 1
+        rows = None if is_a_row_each else self.low_level_rows(np.arange(len(states)), materials)
+        numbers = uniforms.reshape(-1, CHOICE_NUMBERS)
+        return self.low_level.act(states, self._of_builders(epsilon), numbers, rows)
 
     @property
     def forms(self) -> dict[str, NetworkForm]:
@@ -210,13 +228,13 @@ class Agent:
     @property
     def networks(self) -> int:
         """Networks that one run trains: 2 nested, 3 hierarchical with two materials, 1 single (paper, section 6)."""
-        return self._low_levels + (self.main is not None)
+        return self._rows_a_run + (self.main is not None)
 
     @property
     def parameters(self) -> int:
         """Parameters of one run's networks, target networks not counted."""
         main = self.main.parameters if self.main else 0
-        return main + self._low_levels * self.low_level.parameters
+        return main + self._rows_a_run * self.low_level.parameters
 
     @property
     def updates(self) -> int:
@@ -251,59 +269,34 @@ class Agent:
 
     def state(self) -> Arrays:
         """What later choices and updates depend on, by name; without the transitions."""
-        return {k: v for role, learner in self._learners().items() for k, v in named_for(role, learner.state()).items()}
+        return self._named(lambda _, learner: learner.state())
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if the shape differs."""
         for role, learner in self._learners().items():
             learner.load(part_of(state, role))
 
-    def networks_state(self) -> Arrays:
-        """The networks and their optimisers, by name: enough to act with."""
-        return {
-            k: v
-            for role, learner in self._learners().items()
-            for k, v in named_for(role, learner.engine.state()).items()
-        }
-
-    def load_networks(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Load the networks; KeyError or ValueError if their shape differs."""
-        for role, learner in self._learners().items():
-            learner.engine.load(part_of(state, role))
-
     def online(self) -> Arrays:
         """The online networks' parameters, by role: what acting needs."""
         return {role: learner.engine.online for role, learner in self._learners().items()}
 
     def load_online(self, online: Mapping[str, NDArray[Any]]) -> None:
-        """Load one run's online networks, by role, into every run; ValueError if their shape differs."""
+        """Load the online networks of every run, by role, or one run's into each; ValueError if their shape differs."""
         for role, learner in self._learners().items():
-            learner.engine.load_online(np.tile(online[role], (len(self.runs), 1)))
-
-    def load_every_online(self, online: Mapping[str, NDArray[Any]]) -> None:
-        """Load every run's online networks, by role; ValueError if their shape differs."""
-        for role, learner in self._learners().items():
-            learner.engine.load_online(online[role])
+            times = len(learner.engine.online) // max(len(online[role]), 1)
+            learner.engine.load_online(np.tile(online[role], (times, 1)))
 
     def rows_of(self, run: int) -> dict[str, slice]:
         """A run's rows, by role."""
-        return {"main": slice(run, run + 1), "low": slice(run * self._low_levels, (run + 1) * self._low_levels)}
+        return {"main": slice(run, run + 1), "low": slice(run * self._rows_a_run, (run + 1) * self._rows_a_run)}
 
     def marks(self) -> Arrays:
         """Where a journal of the transitions ends now, for ``transitions_since``."""
-        return {
-            k: v
-            for role, learner in self._learners().items()
-            for k, v in named_for(role, learner.replay.marks()).items()
-        }
+        return self._named(lambda _, learner: learner.replay.marks())
 
     def transitions_since(self, marks: Mapping[str, NDArray[Any]] | None) -> Arrays:
         """What ``store_again`` needs to know since those marks; everything if there are none."""
-        return {
-            k: v
-            for role, learner in self._learners().items()
-            for k, v in named_for(role, learner.replay.added_since(part_of(marks, role) if marks else None)).items()
-        }
+        return self._named(lambda role, learner: learner.replay.added_since(part_of(marks, role) if marks else None))
 
     def store_again(self, transitions: Mapping[str, NDArray[Any]]) -> None:
         """Store what ``transitions_since`` returned; KeyError or ValueError if the shape differs."""
@@ -319,43 +312,31 @@ class Agent:
         for role, learner in self._learners().items():
             learner.replay.take_back(marks[role])
 
-    def networks_of(self, run: int) -> Arrays:
-        """One run's networks, for ``load_networks`` of an agent in that run alone."""
-        rows = self.rows_of(run)
-        return {name: kept[rows[name.split(".")[0]]] for name, kept in self.networks_state().items()}
+    def _named(self, of_learner: Callable[[str, Learner], Arrays]) -> Arrays:
+        """The arrays that each learner gives, under names that begin with its role."""
+        each = (named_for(role, of_learner(role, learner)) for role, learner in self._learners().items())
+        return {name: array for of_role in each for name, array in of_role.items()}
 
     def _learners(self) -> dict[str, Learner]:
         return {"main": self.main, "low": self.low_level} if self.main else {"low": self.low_level}
 
+    def _numbers(self, scenarios: Sequence[Scenario], encoding: str) -> tuple[States, States]:
+        """The main agent's states, and the low-level agents', as numbers."""
+        spec, materials = self.spec, self._materials
+        observed = np.stack([highest_observation(scenario) for scenario in scenarios])
+        number = [self.builders - 1] * self._numbered
+        # The single agent's m is 0 before the choice: it has one more value than there are materials.
+        material = [materials - 1] * spec.appends_material + [materials] * spec.sees_choice
+        highest = np.hstack((observed, np.tile(np.array([*number, *material], dtype=np.int64), (len(scenarios), 1))))
+        builds = StateSpace(np.repeat(highest, self._rows_a_run, axis=0), self._low_level_actions, encoding)
+        return StateSpace(observed, materials, encoding), builds
 
-def _numbers(spec: AgentSpec, scenarios: Sequence[Scenario], encoding: str) -> tuple[States, States]:
-    """The main agent's states, and the low-level agents', as numbers."""
-    materials = len(scenarios[0].materials)
-    observed = np.stack([highest_observation(scenario) for scenario in scenarios])
-    highest = np.hstack([observed, *_highest_appended(spec, len(scenarios), materials)])
-    low_levels = materials if spec.low_level_per_material else 1
-    builds = StateSpace(np.repeat(highest, low_levels, axis=0), _low_level_actions(spec, materials), encoding)
-    return StateSpace(observed, materials, encoding), builds
+    def _planes(self, runs: int, shape: tuple[int, ...]) -> tuple[States, States]:
+        """The main agent's states, and the low-level agents', as planes of that shape; these have the material, too."""
+        more = self.spec.appends_material or self.spec.sees_choice
+        builds = PlaneStates(runs * self._rows_a_run, self._low_level_actions, (shape[0] + more, *shape[1:]))
+        return PlaneStates(runs, self._materials, shape), builds
 
-
-def _planes(spec: AgentSpec, scenarios: Sequence[Scenario], shape: tuple[int, ...]) -> tuple[States, States]:
-    """The main agent's states, and the low-level agents', as planes of that shape, to which the material is added."""
-    materials = len(scenarios[0].materials)
-    low_levels = materials if spec.low_level_per_material else 1
-    more = spec.appends_material or spec.sees_choice
-    builds = PlaneStates(
-        len(scenarios) * low_levels, _low_level_actions(spec, materials), (shape[0] + more, *shape[1:])
-    )
-    return PlaneStates(len(scenarios), materials, shape), builds
-
-
-def _low_level_actions(spec: AgentSpec, materials: int) -> int:
-    return len(Action) + (0 if spec.has_main else materials)
-
-
-def _highest_appended(spec: AgentSpec, runs: int, materials: int) -> list[Int64s]:
-    """The highest material in the low-level agents' states, as a column (runs, 1); none if they don't have it."""
-    if spec.appends_material:
-        return [np.full((runs, 1), materials - 1)]
-    # The single agent's m is 0 before the choice: it has one more value than there are materials.
-    return [np.full((runs, 1), materials)] if spec.sees_choice else []
+    @property
+    def _low_level_actions(self) -> int:
+        return len(Action) + (0 if self.spec.has_main else self._materials)

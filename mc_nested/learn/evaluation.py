@@ -16,7 +16,10 @@ from mc_nested.learn.learner import CHOICE_NUMBERS
 
 @dataclass
 class GreedyEpisode:
-    """One greedy episode: the material in hand at each step (-1 for none), the actions of the agent's own set, r_M."""
+    """One greedy episode: the material in hand at each step (-1 for none), the actions of the agent's own set, r_M.
+
+    Of several builders they are the first one's actions.
+    """
 
     materials: list[int] = field(default_factory=list)
     actions: list[int] = field(default_factory=list)
@@ -40,28 +43,31 @@ def play_greedily(
     after_step: Callable[[], None] = lambda: None,
 ) -> list[GreedyEpisode]:
     """One greedy episode of every run, from a reset on; ``after_step`` is called after each step of all runs."""
-    runs = len(scenarios)
+    runs, builders = len(scenarios), agent.builders
+    first = slice(None, None, builders)
     has_parts = any(scenario.parts for scenario in scenarios)
     never, unused = np.zeros(runs), np.ones((runs, CHOICE_NUMBERS))
+    of_builders = np.ones((runs, CHOICE_NUMBERS * builders))
     start = agent.start_states(scenarios)
     materials = agent.main.act(start, never, unused) if agent.main else np.zeros(runs, dtype=np.int64)
-    observations, _ = env.reset(options={"material": materials})
+    observations, _ = env.reset(options={"material": np.repeat(materials, builders)})
     episodes = [GreedyEpisode() for _ in scenarios]
     running = np.ones(runs, dtype=np.bool_)
     while running.any():
-        actions = agent.act(agent.low_level_states(observations, materials), materials, never, unused)
+        actions = agent.act(agent.low_level_states(observations, materials), materials, never, of_builders)
         takes = np.stack((actions, materials), axis=1) if agent.main and has_parts else actions
         observations, _, terminated, truncated, info = env.step(takes)
-        in_hand = materials if agent.main else agent.chosen_materials(observations)
+        in_hand = materials if agent.main else agent.chosen_materials(observations[first])
+        is_last, scores = info["_score"][first], info["score"][first]
         for run in np.flatnonzero(running):
-            episodes[run].actions.append(int(actions[run]))
+            episodes[run].actions.append(int(actions[run * builders]))
             episodes[run].materials.append(int(in_hand[run]))
-            if info["_score"][run]:
-                episodes[run].score = float(info["score"][run])
+            if is_last[run]:
+                episodes[run].score = float(scores[run])
         if agent.main and has_parts:
             due = np.flatnonzero(info["chooses"])
             materials = materials.copy()
             materials[due] = agent.main.act(observations[due], never[due], unused[due], due)
-        running = ~(terminated | truncated)
+        running = ~(terminated | truncated)[first]
         after_step()
     return episodes

@@ -7,8 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from mc_nested.errors import PresetError
-from mc_nested.learn.dqn.engines import EngineChoice
-from mc_nested.learn.engine_fit import Computing, misfit
+from mc_nested.learn.dqn.engines import Computing, EngineChoice, misfit
 from mc_nested.toml_file import parse_toml, read_shipped_or_named
 
 MOST = 1_000_000_000

@@ -12,7 +12,7 @@ from mc_nested.arrays import Float64s
 TICKS_A_CHUNK = 256
 """Ticks whose numbers are drawn at once; another value changes the numbers of every seed."""
 
-INITIAL, TICKS, MAIN_UPDATES, PRACTICE, CHOICES, PLANS, LESSONS = 0, 1, 2, 3, 4, 5, 6
+INITIAL, TICKS, MAIN_UPDATES, PRACTICE, CHOICES, PLANS, EPISODES = 0, 1, 2, 3, 4, 5, 6
 """What a stream is for: initial parameters, ticks, the main agent's updates after an episode, practice before one,
 the main agent's choices within an episode; an episode that a game plays by itself, and what is learnt from it."""
 
@@ -42,9 +42,9 @@ def plan_stream(seed: int, run: int, number: int) -> np.random.Generator:
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, PLANS, number))))
 
 
-def lesson_stream(seed: int, run: int, number: int) -> np.random.Generator:
+def episode_stream(seed: int, run: int, number: int) -> np.random.Generator:
     """The generator of the batches that are learnt from once that run's episode of that number has been played."""
-    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, LESSONS, number))))
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, EPISODES, number))))
 
 
 class Streams:

@@ -1,83 +1,190 @@
-"""Training: what a run's folder, its summary and its views need of a training of agents, whoever trains."""
+"""Training: R runs of an agent while they train, and all that a folder, a summary, a view and a resume need of them.
+
+Who trains has the episodes played: tick by tick in arenas of this process (trainer.py), or whole, by games (games/).
+"""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Protocol
+from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
+from mc_nested.arena.scenario import Scenario
+from mc_nested.arrays import Arrays, Float64s, Int64s
 from mc_nested.learn.agents import Agent
-from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.learn.choices import choices_of
+from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow, rows_of_table, table_of_rows
+from mc_nested.learn.exploration.excursions import Excursions
+from mc_nested.learn.exploration.schedules import decays_of
+from mc_nested.learn.imagination.background_practice import Background
 from mc_nested.learn.imagination.imagination import Imagination
+from mc_nested.learn.learnt_game import LearntGame, LearntGameBesideIt, imagination_of
+from mc_nested.learn.practice import Practice
 from mc_nested.learn.preset import Preset
+from mc_nested.learn.state_dict import named_for, part_of
 
 
-class Training(Protocol):
-    """R runs of an agent while they train: all in one process (trainer.py), or one with many games (games/)."""
+class Training:
+    """What R runs of an agent have come to.
 
-    @property
-    def agent(self) -> Agent:
-        """What is trained."""
+    ``env_steps`` and ``evaluation_steps`` count the steps of training episodes and of greedy evaluations, of all runs;
+    ``episode_rows`` and ``evaluation_rows`` have a row for each. ``episodes_done`` are training episodes, (runs,), and
+    ``runs_finished`` says which runs are finished. ``policies`` are the networks that the runs keep, by
+    role: what plays afterwards; and their ``scores``, (runs,), at the greedy evaluations that they are from, -inf
+    before the first one.
 
-    @property
-    def preset(self) -> Preset:
-        """The hyper-parameters."""
+    Args:
+        scenarios: each run's scenario.
+        agent: what is trained.
+        preset: the hyper-parameters; ``episodes`` as in the preset or as asked for.
+        seed: of all random choices.
+        stop_at_optimum: finish a run at its first greedy evaluation at its scenario's optimum.
+        background: where practice runs beside a live game; None where the game waits for it.
+    """
 
-    @property
-    def env_steps(self) -> int:
-        """Steps of training episodes so far, of all runs."""
-
-    @property
-    def evaluation_steps(self) -> int:
-        """Steps of greedy evaluations so far, of all runs."""
-
-    @property
-    def episode_rows(self) -> list[EpisodeRow]:
-        """A row for each finished training episode."""
-
-    @property
-    def evaluation_rows(self) -> list[EvaluationRow]:
-        """A row for each greedy evaluation."""
+    def __init__(
+        self,
+        scenarios: Sequence[Scenario],
+        agent: Agent,
+        preset: Preset,
+        seed: int,
+        stop_at_optimum: bool = False,
+        background: Background | None = None,
+    ) -> None:
+        runs = len(scenarios)
+        self.agent = agent
+        self.preset = preset
+        self.ticks = self.env_steps = self.evaluation_steps = 0
+        self.episode_rows: list[EpisodeRow] = []
+        self.evaluation_rows: list[EvaluationRow] = []
+        self.episodes_done = np.zeros(runs, dtype=np.int64)
+        self.runs_finished = np.zeros(runs, dtype=np.bool_)
+        self.policies: Arrays = {**_copied(agent.online()), "scores": np.full(runs, -np.inf)}
+        self.practice = practice_of(agent, scenarios, preset, seed, background)
+        self._choices = choices_of(agent, scenarios, preset, seed)
+        self._decays = decays_of(preset)
+        self._epsilon = self._epsilon_now()
+        self._evaluated_at = np.zeros(runs, dtype=np.int64)
+        self._optimum = np.array([scenario.optimum for scenario in scenarios])
+        self._stop_at_optimum = stop_at_optimum
 
     @property
     def finished(self) -> bool:
         """Whether every run is finished."""
+        return bool(self.runs_finished.all())
 
     @property
-    def episodes_done(self) -> Int64s:
-        """Training episodes completed, (runs,)."""
-
-    @property
-    def runs_finished(self) -> Bools:
-        """Which runs are finished, (runs,)."""
-
-    @property
-    def kept_scores(self) -> Float64s:
-        """The greedy score of the policy that each run keeps, (runs,); -inf before the first evaluation."""
-
-    @property
-    def kept(self) -> Arrays:
-        """The networks of the policies that the runs keep, by role, and their ``scores``: what plays afterwards."""
+    def policy_scores(self) -> Float64s:
+        """The greedy score of the policy that each run keeps, (runs,)."""
+        scores: Float64s = self.policies["scores"]
+        return scores
 
     @property
     def epsilon(self) -> tuple[Float64s, Float64s]:
         """The main and the nested agent's ε of the training episodes now, (runs,) each."""
+        return self._epsilon
 
     @property
     def imagination(self) -> Imagination | None:
         """What the runs have learnt of their games; None if the preset has no [imagination]."""
+        return self.practice.imagination
 
     def begin_from(self, online: Mapping[str, NDArray[Any]], *, evaluated_first: bool = True) -> None:
-        """Begin with one run's networks, by role, in every run; evaluated before the first episode if so wished."""
+        """Begin with one run's networks, by role, in every run.
+
+        They are evaluated before the first episode if so wished; with an imagination, if they build all of a design
+        that is known (``Imagination.begin_from``).
+        """
+        self.agent.load_online(online)
+        self.policies |= _copied(self.agent.online())
+        self._evaluated_at[:] = -1 if evaluated_first else 0
 
     def state(self) -> Arrays:
         """What the rest of the training depends on, without the journal."""
+        runs = {"episodes": self.episodes_done, "evaluated_at": self._evaluated_at, "finished": self.runs_finished}
+        return {
+            "counts": np.array([self.ticks, self.env_steps, self.evaluation_steps]),
+            **named_for("runs", runs),
+            **named_for("agent", self.agent.state()),
+            **named_for("policies", self.policies),
+            **named_for("choices", self._choices.state()),
+            **named_for("practice", self.practice.state()),
+        }
 
     def marks(self) -> Arrays:
         """The length of the journal now: how many rows there are, and how many transitions."""
+        rows = np.array([len(self.episode_rows), len(self.evaluation_rows)])
+        return {"rows": rows, **named_for("agent", self.agent.marks())}
 
     def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
         """The rows and transitions since those marks; all of them if there are none."""
+        episodes, evaluations = since["rows"] if since else (0, 0)
+        transitions = self.agent.transitions_since(part_of(since, "agent") if since else None)
+        return {
+            "rows.episodes": table_of_rows(self.episode_rows[episodes:], EpisodeRow),
+            "rows.evaluations": table_of_rows(self.evaluation_rows[evaluations:], EvaluationRow),
+            **named_for("agent", transitions),
+        }
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: Sequence[Mapping[str, NDArray[Any]]]) -> None:
         """Continue from what ``state`` and ``journal`` returned; KeyError or ValueError if the shape differs."""
+        self.ticks, self.env_steps, self.evaluation_steps = (int(count) for count in state["counts"])
+        self.episodes_done[:] = state["runs.episodes"]
+        self._evaluated_at[:] = state["runs.evaluated_at"]
+        self.runs_finished[:] = state["runs.finished"]
+        self._epsilon = self._epsilon_now()
+        self.agent.load(part_of(state, "agent"))
+        for name, array in self.policies.items():
+            array[:] = state[f"policies.{name}"]
+        self._choices.load(part_of(state, "choices"))
+        self.practice.load(part_of(state, "practice"))
+        for journal in journals:
+            self.episode_rows += rows_of_table(journal["rows.episodes"], EpisodeRow)
+            self.evaluation_rows += rows_of_table(journal["rows.evaluations"], EvaluationRow)
+            self.agent.store_again(part_of(journal, "agent"))
+
+    def _count_episodes(
+        self, runs: Int64s, scores: Float64s, materials: Int64s, steps: Int64s, epsilons: Sequence[Float64s]
+    ) -> None:
+        """Count a training episode of the named runs (k,), played with these ε; every array is of all runs."""
+        self.episodes_done[runs] += 1
+        self._epsilon = self._epsilon_now()
+        columns = self.episodes_done, scores, materials, steps, *epsilons
+        self.episode_rows += map(EpisodeRow, runs.tolist(), *(column[runs].tolist() for column in columns))
+
+    def _count_evaluation(self, row: EvaluationRow, online: Mapping[str, NDArray[Any]]) -> None:
+        """Count a greedy evaluation of these networks: its run may keep them, and may be finished."""
+        run = row.trial
+        self.evaluation_rows.append(row)
+        self._evaluated_at[run] = row.episode
+        if self.preset.keep == "last" or row.score > self.policy_scores[run]:
+            self.policy_scores[run] = row.score
+            of_run = self.agent.rows_of(run)
+            for role, networks in online.items():
+                self.policies[role][of_run[role]] = networks[of_run[role]]
+        reached = self._stop_at_optimum and row.score >= self._optimum[run]
+        self.runs_finished[run] = row.episode >= self.preset.episodes or reached
+
+    def _epsilon_now(self) -> tuple[Float64s, Float64s]:
+        """``epsilon``, for as long as no training episode ends: every tick needs it."""
+        main, nested = self._decays
+        done, episodes = self.episodes_done, self.preset.episodes
+        return main.epsilon(done, episodes), nested.epsilon(done, episodes)
+
+
+def practice_of(
+    agent: Agent, scenarios: Sequence[Scenario], preset: Preset, seed: int, background: Background | None
+) -> Practice:
+    """The preset's practice, for the agent's runs; in the background, if there is one, where it can be."""
+    if preset.excursions:
+        return Excursions(agent, preset, preset.excursions, scenarios)
+    imagination = imagination_of(agent, scenarios, preset, seed)
+    if imagination is None:
+        return Practice(agent, preset)
+    if background:
+        return LearntGameBesideIt(agent, preset, imagination, background)
+    return LearntGame(agent, preset, imagination)
+
+
+def _copied(arrays: Mapping[str, NDArray[Any]]) -> Arrays:
+    return {name: array.copy() for name, array in arrays.items()}

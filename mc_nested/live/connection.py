@@ -98,27 +98,13 @@ def prepare_keyboard(profile: Profile, devices: Devices) -> None:
         devices.keyboard.go_by_symbols(profile.keys.pressed())
 
 
-def connect(
-    profile: Profile,
-    devices: Devices,
-    *,
-    is_server_allowed: bool = False,
-    journal: Journal | None = None,
-    on_screen: Callable[[GameScreen], GameScreen] = lambda screen: screen,
-) -> GameConnection:
+def connect(profile: Profile, devices: Devices, *, is_server_allowed: bool = False) -> GameConnection:
     """A connection to the game in that window, read with the profile's font and layout.
 
     Raises ProfileError or FontError where the profile names no font that can be used.
     """
-    screen = screen_for(profile, devices)
-    return GameConnection(
-        devices,
-        InputController(devices, profile.input),
-        screen,
-        is_server_allowed=is_server_allowed,
-        journal=journal,
-        on_screen=on_screen,
-    )
+    controller = InputController(devices, profile.input)
+    return GameConnection(devices, controller, is_server_allowed=is_server_allowed).for_profile(profile)
 
 
 def screen_for(profile: Profile, devices: Devices) -> WindowScreen:

@@ -26,7 +26,7 @@ from mc_nested.errors import LiveError, UserError
 from mc_nested.live.connection import GameConnection
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.chat_region import messages_region
-from mc_nested.live.vision.debug_boxes import ALPHA, BRIGHTEST, GREY, ground_parts, ink_of, line_boxes
+from mc_nested.live.vision.debug_boxes import ALPHA, BRIGHTEST, GREY, ground_parts, has_letters, line_boxes
 from mc_nested.live.vision.layout import Scales
 
 SIDE = 84
@@ -80,7 +80,7 @@ def _look_through(frame: Frame, greys: Floats, seen: Floats, box: Region, scale:
     part, below = _part(box), _part(Region(box.left, box.top + box.height, box.width, scale))
     # Where two boxes meet, what is left of the first one's world is not known.
     seen[part] *= (cv2.inRange(frame[part], (0, 0, 0), (BRIGHTEST,) * 3) > 0) & (greys[part] >= grey * ALPHA - 1)
-    seen[below] *= ~ink_of(frame[below])
+    seen[below] *= ~has_letters(frame[below])
     greys[part] = np.maximum(0, (greys[part] - grey * ALPHA) / (1 - ALPHA))
 
 

@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from mc_nested.learn.imagination.beliefs import Belief
-from mc_nested.learn.imagination.seen import Seen
+from mc_nested.learn.imagination.known_arena import KnownArena
 
 COLORS = {Belief.UNKNOWN: "#ececec", Belief.BELIEVED: "#f2d16b", Belief.PAYS: "#3a7d44", Belief.PAYS_NOT: "#9aa5b1"}
 
@@ -32,7 +32,7 @@ SPENDING = {
 }
 
 
-def draw_map(path: Path, title: str, seen: Seen) -> None:
+def draw_map(path: Path, title: str, seen: KnownArena) -> None:
     """Write a PNG: the arena from above, the far edge on top, and beside it a bar for each remembered episode."""
     figure = Figure(figsize=(12, 6.2), dpi=120, layout="constrained")
     arena, spent = figure.subplots(1, 2)
@@ -42,7 +42,7 @@ def draw_map(path: Path, title: str, seen: Seen) -> None:
     figure.savefig(path, format="png", metadata={"Software": None})
 
 
-def _draw_arena(axes: Axes, seen: Seen) -> None:
+def _draw_arena(axes: Axes, seen: KnownArena) -> None:
     size = len(seen.cells)
     axes.imshow(
         seen.cells.T,
@@ -66,7 +66,7 @@ def _draw_arena(axes: Axes, seen: Seen) -> None:
     axes.legend(handles=legend, loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3, frameon=False)
 
 
-def _draw_spent(axes: Axes, seen: Seen) -> None:
+def _draw_spent(axes: Axes, seen: KnownArena) -> None:
     numbers = [spent.episode for spent in seen.spent]
     heights = {
         "built": [spent.built for spent in seen.spent],

@@ -6,7 +6,7 @@ from rich.padding import Padding
 from rich.text import Text
 
 from mc_nested.learn.imagination.beliefs import Belief
-from mc_nested.learn.imagination.seen import Seen
+from mc_nested.learn.imagination.known_arena import KnownArena
 
 SIGNS = {Belief.UNKNOWN: ".", Belief.BELIEVED: "?", Belief.PAYS: "o", Belief.PAYS_NOT: "-"}
 BUILT_SIGNS = {True: "#", False: "x"}
@@ -24,13 +24,13 @@ STYLES = {
 NAMES = {"o": "pays", "-": "doesn't", "?": "believed", ".": "unknown", "#": "built, pays", "x": "built elsewhere"}
 
 
-def belief_rows(seen: Seen) -> tuple[str, ...]:
+def belief_rows(seen: KnownArena) -> tuple[str, ...]:
     """The sign of each cell's belief, a text a row, the nearest row first."""
     size = len(seen.cells)
     return tuple("".join(SIGNS[Belief(int(seen.cells[x, y]))] for x in range(size)) for y in range(size))
 
 
-def map_view(seen: Seen) -> Group:
+def map_view(seen: KnownArena) -> Group:
     """The arena from above, the far edge on top, and what each sign means."""
     size = len(seen.cells)
     rows = []

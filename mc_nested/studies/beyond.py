@@ -11,7 +11,7 @@ from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.scenario_file import load_scenario, paper_scenarios
 from mc_nested.arrays import Float64s
 from mc_nested.learn.agents import AGENT_SPECS
-from mc_nested.learn.cooperation.team_agent import KINDS, Kind
+from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.learn.preset import Preset, load_preset
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.beyond_figure import beyond_figure
@@ -45,9 +45,9 @@ NAMES = ("wood", "dirt", "clay", "glass", "sandstone", "cobblestone", "bricks", 
 BLOCKS = ("oak_planks", "dirt", "clay", "glass", "sandstone", "cobblestone", "bricks", "stone")
 """The most materials of the family; wood and stone are the paper's."""
 
-TEAMS: list[tuple[int, Kind]] = [
+TEAMS: list[tuple[int, Networks]] = [
     (1, "shared"),
-    *((count, kind) for count in range(2, MOST_BUILDERS + 1) for kind in KINDS),
+    *((count, kind) for count in range(2, MOST_BUILDERS + 1) for kind in NETWORKS),
 ]
 """Numbers of builders, and how they learn."""
 
@@ -55,7 +55,7 @@ TUNED = "nested, tuned"
 """The nested agent with settings that solve the flag."""
 
 
-def team_name(builders: int, networks: Kind) -> str:
+def team_name(builders: int, networks: Networks) -> str:
     """Return the name of a team's arm."""
     return "1 builder" if builders == 1 else f"{builders} builders, {networks}"
 

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from mc_nested.arrays import Float64s
-from mc_nested.learn.cooperation.team_agent import KINDS
+from mc_nested.learn.builders import NETWORKS
 from mc_nested.report.curve import align_trials, t_interval
 from mc_nested.studies.claims.arm_results import ArmResults, Arms
 from mc_nested.studies.claims.beyond import alone_among, designs_of, equal_budget, of_topic, teams_of
@@ -88,7 +88,7 @@ def _draw_teams(axes: Axes, own: Sequence[ArmResults]) -> None:
     axes.axhline(own[0].optimum, zorder=1, **OPTIMUM)
     alone = alone_among(own)
     _draw_means(axes, [1.0], [alone.last_ten], alone.optimum, "alone", "1 builder")
-    for number, kind in enumerate(KINDS):
+    for number, kind in enumerate(NETWORKS):
         teams = teams_of(own, kind)
         counts = [count + 0.06 * (number - 1) for count in teams]
         _draw_means(axes, counts, [arm.last_ten for arm in teams.values()], alone.optimum, kind, f"networks: {kind}")

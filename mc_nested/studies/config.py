@@ -10,7 +10,7 @@ from mc_nested.arena.cooperative.team import MOST_BUILDERS
 from mc_nested.arena.corpus_file import MOST_DESIGNS
 from mc_nested.arena.scenario_file import ScenarioTable, scenario_of, table_of
 from mc_nested.errors import RunError
-from mc_nested.learn.cooperation.team_agent import Kind
+from mc_nested.learn.builders import Networks
 from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.folder_kind import FORMAT
 from mc_nested.studies.arm import AGENTS, Arm
@@ -37,7 +37,7 @@ class ArmTable(BaseModel):
     labels: dict[str, str] = Field(default_factory=dict)
     sees_choice: bool | None = None
     builders: Annotated[int, Field(ge=1, le=MOST_BUILDERS)] | None = None
-    networks: Kind = "shared"
+    networks: Networks = "shared"
     stop_at_optimum: bool = False
     differs_by_design: bool = False
     together: Annotated[int, Field(ge=1)] | None = None

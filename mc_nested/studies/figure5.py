@@ -10,7 +10,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator, StrMethodFormatter
 
 from mc_nested.report.curve import t_interval
-from mc_nested.studies.measures import Curve, curves_of
+from mc_nested.studies.measures import Curve
 from mc_nested.studies.results import Results
 
 CURVES: dict[str, dict[str, Any]] = {
@@ -32,7 +32,6 @@ COLUMNS = 3
 
 def figure5(results: Results) -> Figure:
     """Draw it; the same results give the same bytes with the same matplotlib."""
-    curves = curves_of(results)
     columns = min(COLUMNS, len(results.scenarios))
     rows = -(-len(results.scenarios) // columns)
     figure = Figure(figsize=(max(6.0, 4.3 * columns), 3.8 * rows + 0.5), dpi=160, layout="constrained")
@@ -40,7 +39,7 @@ def figure5(results: Results) -> Figure:
     for axes, scenario in zip(panels, results.scenarios, strict=False):
         _draw_levels(axes, results, scenario)
         for agent in results.agents:
-            _draw_curve(axes, agent, curves[agent, scenario], results.optimum[scenario])
+            _draw_curve(axes, agent, results.curves[agent, scenario], results.optimum[scenario])
         axes.set_title(scenario, parse_math=False)  # users name scenarios, so dollar signs may appear
         axes.set_xlabel("training episodes")
         axes.set_xlim(0, results.episodes)

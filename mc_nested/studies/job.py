@@ -11,17 +11,17 @@ from typing import Any
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.learn.agents import AgentSpec
-from mc_nested.learn.cooperation.team_agent import Kind
-from mc_nested.learn.engine_fit import NUMBERS
+from mc_nested.learn.builders import Networks
+from mc_nested.learn.dqn.engines import NUMBERS
 from mc_nested.learn.preset import Preset
 
 
 @dataclass(frozen=True)
 class Builders:
-    """Several builders in one arena, spread along the scenario's start, and how they learn (team_agent.py)."""
+    """Several builders in one arena, spread along the scenario's start, and how they learn (builders.py)."""
 
     count: int
-    networks: Kind
+    networks: Networks
 
 
 IMAGE_WORK = 100

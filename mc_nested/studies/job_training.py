@@ -9,10 +9,12 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from mc_nested.arrays import Arrays, Float64s, Int64s
-from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.arrays import Arrays, Int64s
+from mc_nested.learn.episode_log import EvaluationRow
 from mc_nested.learn.runs.checkpoint import Checkpoint, fingerprint
 from mc_nested.learn.state_dict import named_for, part_of
+from mc_nested.learn.trainer import Trainer
+from mc_nested.learn.training import Training
 from mc_nested.studies.job import Job
 from mc_nested.studies.outcome import Evaluated, JobOutcome, RunOutcome, evaluated, write_outcome, writing
 
@@ -55,55 +57,6 @@ class TrainedJob(Protocol):
         ...
 
 
-class UpdatedAgents(Protocol):
-    """The agents of some runs, as they are updated."""
-
-    @property
-    def updates_by_run(self) -> Int64s: ...
-
-
-class CountedAgents(UpdatedAgents, Protocol):
-    """The agents of some runs, and what they take."""
-
-    @property
-    def networks(self) -> int: ...
-    @property
-    def parameters(self) -> int: ...
-    @property
-    def updates(self) -> int: ...
-    @property
-    def replay_bytes(self) -> Int64s: ...
-
-
-class LoggedTrainer(Protocol):
-    """A trainer, as far as what it spends is counted."""
-
-    @property
-    def agent(self) -> UpdatedAgents: ...
-    @property
-    def episode_rows(self) -> Sequence[EpisodeRow]: ...
-    @property
-    def evaluation_rows(self) -> Sequence[EvaluationRow]: ...
-
-
-class JobTrainer(LoggedTrainer, Protocol):
-    """A trainer of this project's: of agents (trainer.py), or of teams (cooperation/team_trainer.py)."""
-
-    @property
-    def agent(self) -> CountedAgents: ...
-    @property
-    def finished(self) -> bool: ...
-    @property
-    def episodes_done(self) -> Int64s: ...
-    @property
-    def kept_scores(self) -> Float64s: ...
-    def tick(self) -> None: ...
-    def state(self) -> Arrays: ...
-    def marks(self) -> Arrays: ...
-    def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays: ...
-    def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None: ...
-
-
 class SpendingCount:
     """Counts what each of so many runs has spent, beside their trainer.
 
@@ -115,7 +68,7 @@ class SpendingCount:
         self._steps = np.zeros(runs, dtype=np.int64)
         self._episodes = 0
 
-    def count(self, trainer: LoggedTrainer) -> None:
+    def count(self, trainer: Training) -> None:
         """Count what the trainer did since the last call; to be called after each of its ticks.
 
         No run is updated while it is evaluated, and an evaluation takes a tick at least.
@@ -132,7 +85,7 @@ class SpendingCount:
         """Return what a checkpoint keeps."""
         return {"at": np.array(self.at, dtype=np.int64).reshape(-1, 2)}
 
-    def load(self, state: Mapping[str, NDArray[Any]], trainer: LoggedTrainer) -> None:
+    def load(self, state: Mapping[str, NDArray[Any]], trainer: Training) -> None:
         """Go on from what ``state`` returned, beside the trainer as it was then."""
         self.at = [(steps, updates) for steps, updates in state["at"].tolist()]
         self._steps[:] = 0
@@ -149,7 +102,7 @@ class JobTraining:
         trainer: an untrained one for the job's runs (job_trainers.py).
     """
 
-    def __init__(self, job: Job, folder: Path, trainer: JobTrainer) -> None:
+    def __init__(self, job: Job, folder: Path, trainer: Trainer) -> None:
         self.job = job
         self.trainer = trainer
         self._spent = SpendingCount(len(job.trials))
@@ -242,7 +195,7 @@ class JobTraining:
             runs=[
                 RunOutcome(
                     evaluations=evaluations[run],
-                    score=float(self.trainer.kept_scores[run]),
+                    score=float(self.trainer.policy_scores[run]),
                     updates=int(updates[run]),
                     env_steps=int(steps[run]),
                     replay_bytes=None if held is None else int(held[run]),

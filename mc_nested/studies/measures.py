@@ -1,13 +1,13 @@
 """What is measured per trial: its early score, its final score, the mean of its last ten, and its late spread."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from mc_nested.arrays import Bools, Float64s, Int64s
 from mc_nested.report.curve import align_trials
-from mc_nested.studies.results import Results
+from mc_nested.studies.trial import Trial
 
 EARLY_EPISODES = 1000
 """Early is the first 1,000 episodes, or the first third of a training of fewer than 3,000."""
@@ -72,15 +72,9 @@ class Curve:
         return is_late
 
 
-def curves_of(results: Results) -> Mapping[tuple[str, str], Curve]:
-    """Return the curve of every agent and scenario that was trained."""
-    rows: dict[tuple[str, str], list[tuple[int, int, float]]] = {
-        (agent, scenario): [] for agent in results.agents for scenario in results.scenarios
-    }
-    for row in results.evaluations:
-        rows[row.agent, row.scenario].append((row.trial, row.episode, row.score))
-    curves = {}
-    for key, own in rows.items():
-        episodes, scores = align_trials(own, results.trials)
-        curves[key] = Curve(np.array(episodes, dtype=np.int64), scores, results.episodes, results.keeps_best)
-    return curves
+def curve_of(trials: Sequence[Trial]) -> Curve:
+    """Return the curve of an arm's trials on a scenario."""
+    preset = trials[0].arm.preset
+    rows = [(trial.number, row.episode, row.score) for trial in trials for row in trial.outcome.evaluations]
+    episodes, scores = align_trials(rows, len(trials))
+    return Curve(np.array(episodes, dtype=np.int64), scores, preset.episodes, preset.keep == "best")

@@ -16,7 +16,7 @@ from mc_nested.studies.claims.longer import trials_solved
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.figure5 import figure5
 from mc_nested.studies.inference import mean_interval, share_interval
-from mc_nested.studies.measures import Curve, curves_of, early_limit
+from mc_nested.studies.measures import Curve, early_limit
 from mc_nested.studies.results import Cost, Results, results_of
 from mc_nested.studies.study import Asked, Report, Study, with_episodes
 from mc_nested.studies.table import NONE, Table, interval, markdown, mean, number_of_trials
@@ -131,11 +131,10 @@ def _what_was_run(results: Results, longer: Results | None) -> str:
 
 
 def _scores(results: Results) -> str:
-    curves = curves_of(results)
     rows = []
     for scenario in results.scenarios:
         for agent in results.agents:
-            curve, optimum = curves[agent, scenario], results.optimum[scenario]
+            curve, optimum = results.curves[agent, scenario], results.optimum[scenario]
             rows.append(
                 (
                     scenario,
@@ -161,19 +160,16 @@ def _solved(curve: Curve, optimum: float) -> tuple[str, str]:
 
 
 def _costs(results: Results) -> str:
-    by_agent = {agent: [cost for cost in results.costs if cost.agent == agent] for agent in results.agents}
-    reference = {cost.scenario: cost for cost in by_agent.get("nested", [])}
+    keys = [(agent, scenario) for scenario in results.scenarios for agent in results.agents]
+    costs = {key: results.costs[key] for key in keys if key in results.costs}
     rows = [
         (
-            cost.scenario,
-            cost.agent,
-            *(_ratio(cost, reference.get(cost.scenario), of) for of in COUNTS),
+            scenario,
+            agent,
+            *(_ratio(cost, costs.get((NESTED, scenario)), of) for of in COUNTS),
             mean(np.array(cost.replay_bytes) / MEGA),
         )
-        for scenario in results.scenarios
-        for agent in results.agents
-        for cost in by_agent[agent]
-        if cost.scenario == scenario
+        for (agent, scenario), cost in costs.items()
     ]
     header = (
         "scenario",
@@ -184,7 +180,10 @@ def _costs(results: Results) -> str:
         "steps, all trials",
         "replays, MB a trial",
     )
-    seconds = ", ".join(f"{agent} {sum(cost.seconds for cost in own):.1f}" for agent, own in by_agent.items() if own)
+    spent: dict[str, float] = {}
+    for (agent, _), cost in costs.items():
+        spent[agent] = spent.get(agent, 0.0) + cost.seconds
+    seconds = ", ".join(f"{agent} {own:.1f}" for agent, own in spent.items())
     return (
         f"{markdown(header, rows)}\n\nIn brackets: times the nested agent's. Networks and parameters are one trial's, "
         f"target networks not counted.\n\nSeconds of training, which another run won't repeat: {seconds}."

@@ -11,19 +11,8 @@ from mc_nested.arena.builder import build_with_materials
 from mc_nested.arena.rules import PLACES, front_of, moved
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.tally import THE_ARENA, Tally
+from mc_nested.studies.measures import Curve, curve_of
 from mc_nested.studies.trial import Trial, on_each
-
-
-class Evaluation(NamedTuple):
-    """One greedy episode after ``episode`` training episodes; trials count from 0, ``score`` is r_M."""
-
-    agent: str
-    scenario: str
-    trial: int
-    episode: int
-    score: float
-    material: str
-    steps: int
 
 
 class Cost(NamedTuple):
@@ -34,8 +23,6 @@ class Cost(NamedTuple):
     ``replay_bytes``: of what each trial's replays hold at its end; empty where it wasn't measured.
     """
 
-    agent: str
-    scenario: str
     networks: int
     parameters: int
     updates: int
@@ -59,8 +46,8 @@ class Results:
         keeps_best: whether a trial keeps its best policy, not its last: what its final score is then.
         optimum: each scenario's highest score.
         builder: each scenario's score of the scripted builder.
-        evaluations: of all trials, in any order.
-        costs: one for each agent and scenario.
+        curves: the greedy scores of each agent on each scenario.
+        costs: of each agent on each scenario.
     """
 
     agents: Sequence[str]
@@ -73,14 +60,15 @@ class Results:
     keeps_best: bool
     optimum: Mapping[str, float]
     builder: Mapping[str, float]
-    evaluations: Sequence[Evaluation]
-    costs: Sequence[Cost]
+    curves: Mapping[tuple[str, str], Curve]
+    costs: Mapping[tuple[str, str], Cost]
 
 
 def results_of(trials: Sequence[Trial], seed: int) -> Results:
     """Return the results of some arms, one of each agent, that are trained in the same way on the same scenarios."""
     arm = trials[0].arm
     scenarios = {trial.scenario.name: trial.scenario for trial in trials}
+    by_agent = {(own[0].arm.agent, scenario): own for (_, scenario), own in on_each(trials).items()}
     return Results(
         agents=list(dict.fromkeys(trial.arm.agent for trial in trials)),
         scenarios=list(scenarios),
@@ -92,22 +80,14 @@ def results_of(trials: Sequence[Trial], seed: int) -> Results:
         keeps_best=arm.preset.keep == "best",
         optimum={name: scenario.optimum for name, scenario in scenarios.items()},
         builder={name: builders_score(scenario) for name, scenario in scenarios.items()},
-        evaluations=[
-            Evaluation(
-                trial.arm.agent, trial.scenario.name, trial.number, row.episode, row.score, row.material, row.steps
-            )
-            for trial in trials
-            for row in trial.outcome.evaluations
-        ],
-        costs=[_cost(own) for own in on_each(trials).values()],
+        curves={key: curve_of(own) for key, own in by_agent.items()},
+        costs={key: _cost(own) for key, own in by_agent.items()},
     )
 
 
 def _cost(trials: Sequence[Trial]) -> Cost:
     held = [trial.outcome.replay_bytes for trial in trials]
     return Cost(
-        agent=trials[0].arm.agent,
-        scenario=trials[0].scenario.name,
         networks=trials[0].networks,
         parameters=trials[0].parameters,
         updates=sum(trial.outcome.updates for trial in trials),

@@ -16,7 +16,6 @@ from mc_nested.studies.change import Change, shipped_changes
 from mc_nested.studies.claims.judge import judge
 from mc_nested.studies.config import StudyConfig
 from mc_nested.studies.inference import ALPHA
-from mc_nested.studies.measures import curves_of
 from mc_nested.studies.results import Results, results_of
 from mc_nested.studies.study import Asked, Report, Study
 from mc_nested.studies.table import Table, markdown, mean, number_of_trials
@@ -172,7 +171,7 @@ def _claims(choices: Sequence[JudgedChoice]) -> str:
 def _scores(choices: Sequence[JudgedChoice]) -> str:
     rows = []
     for each in choices:
-        curves = curves_of(each.results)
+        curves = each.results.curves
         cells = [
             ", ".join(mean(curves[agent, scenario].last_ten) for agent in each.results.agents)
             + f" of {each.results.optimum[scenario]:g}"

@@ -5,12 +5,11 @@ import os
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from mc_nested.errors import McNestedError, RunError
-from mc_nested.learn.cooperation.team_run import TeamRun
 from mc_nested.learn.runs.folder_kind import verb_in, verb_of_study
 from mc_nested.learn.runs.folder_lock import holder_of
 from mc_nested.learn.runs.run_folder import RunFolder
@@ -27,39 +26,22 @@ OUR_OWN = (JOBS_FOLDER, "checkpoint", "episodes.csv")
 
 @dataclass(frozen=True)
 class RunFacts:
-    """The facts of one folder; what a damaged one doesn't say is empty or None.
+    """The facts of one folder, each with its meaning; what a damaged one doesn't say is empty or None."""
 
-    Args:
-        folder: its path.
-        verb: the command that made it; empty where its config.toml can't be read.
-        state: whether it is finished, or what can be done with it.
-        why: for a damaged one the reason, for one in use the process.
-        designs: the names of what is built.
-        agents: who learns.
-        presets: with which hyper-parameters.
-        trials: independent trainings of each agent on each design.
-        episodes_done: of all trials; a study counts those of finished jobs.
-        episodes: as many there will be at most.
-        score: the mean of a finished training's scores.
-        optimum: the highest score that it could have.
-        begun: when, in local time.
-        size: of all its files, in bytes.
-    """
-
-    folder: Path
-    verb: str
-    state: State
-    why: str = ""
-    designs: Sequence[str] = ()
-    agents: Sequence[str] = ()
-    presets: Sequence[str] = ()
-    trials: int | None = None
-    episodes_done: int | None = None
-    episodes: int | None = None
-    score: float | None = None
-    optimum: float | None = None
-    begun: datetime.datetime | None = None
-    size: int = 0
+    folder: Annotated[Path, "the run's folder"]
+    verb: Annotated[str | None, "the command that made it"]
+    state: Annotated[State, "finished, can be resumed, in use or damaged"]
+    why: Annotated[str | None, "what is damaged, or which process uses it"] = None
+    designs: Annotated[Sequence[str], "names of what is built"] = ()
+    agents: Annotated[Sequence[str], "names of who learns"] = ()
+    presets: Annotated[Sequence[str], "names of the hyper-parameters"] = ()
+    trials: Annotated[int | None, "trainings of each agent on each design"] = None
+    episodes_done: Annotated[int | None, "of all trials; a study counts finished jobs"] = None
+    episodes: Annotated[int | None, "how many there will be at most"] = None
+    score: Annotated[float | None, "mean of the final scores"] = None
+    optimum: Annotated[float | None, "the highest score possible"] = None
+    size: Annotated[int, "bytes of all its files"] = 0
+    begun: Annotated[datetime.datetime | None, "local time"] = None
 
 
 class _Summary(BaseModel):
@@ -91,11 +73,11 @@ def facts_of(folder: Path) -> RunFacts | None:
         if found is None:
             return None
         verb = found
-        facts = {"train": _training, "cooperate": _cooperation}.get(verb, _study)(folder)
+        facts = _training(folder) if verb == "train" else _study(folder)
     except McNestedError as error:
         if not verb and not any((folder / name).exists() for name in OUR_OWN):
             return None
-        facts = RunFacts(folder, verb, "damaged", str(error))
+        facts = RunFacts(folder, verb or None, "damaged", str(error))
     facts = replace(facts, begun=datetime.datetime.fromtimestamp(file.stat().st_mtime), size=_size(folder))
     holder = holder_of(folder)
     return replace(facts, state="in use", why=holder) if holder and facts.state != "damaged" else facts
@@ -109,7 +91,7 @@ def _training(path: Path) -> RunFacts:
         "train",
         "can be resumed",
         designs=[config.scenario.name],
-        agents=[config.agent],
+        agents=[f"{len(config.team.starts)} {config.team.networks}" if config.team else config.agent],
         presets=[Path(config.preset_name).stem],
         trials=config.trials,
         episodes_done=0,
@@ -118,32 +100,14 @@ def _training(path: Path) -> RunFacts:
     )
     if folder.only_begun:
         return facts
-    return _as_far_as_trained(facts, folder.kept, config.trials)
-
-
-def _cooperation(path: Path) -> RunFacts:
-    run = TeamRun.open(path)
-    config = run.config
-    facts = RunFacts(
-        path,
-        "cooperate",
-        "can be resumed",
-        designs=[config.scenario.name],
-        agents=[f"{config.builders} {config.networks}"],
-        presets=[Path(config.preset_name).stem],
-        trials=config.trials,
-        episodes_done=0,
-        episodes=config.preset.episodes * config.trials,
-        optimum=run.team.scenario.optimum,
-    )
-    return facts if run.only_begun else _as_far_as_trained(facts, run.checkpoint.state, config.trials)
+    return _as_far_as_trained(facts, folder.policies, config.trials)
 
 
 def _as_far_as_trained(facts: RunFacts, read_checkpoint: Callable[[], object], trials: int) -> RunFacts:
     """Return the facts of a training that was saved: how far it is, or what is damaged."""
     try:
         read_checkpoint()  # it may be gone, or damaged
-        summary = _summary(facts.folder / SUMMARY, facts.verb)
+        summary = _summary(facts.folder / SUMMARY, facts.verb or "train")
     except RunError as error:
         return replace(facts, state="damaged", why=str(error), episodes_done=None)
     facts = replace(facts, episodes_done=sum(summary.episodes_done))

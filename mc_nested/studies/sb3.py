@@ -5,9 +5,9 @@ That library takes one gymnasium Env: ten actions, the state (x, y, b, m), Multi
 
 import importlib.util
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -136,24 +136,6 @@ class Sb3Dqn:
         return int(action)
 
 
-class Model(Protocol):
-    """What learns: Sb3Dqn says what each does."""
-
-    @property
-    def updates(self) -> int: ...
-
-    @property
-    def parameters(self) -> int: ...
-
-    def learn_a_step(self, epsilon: float) -> None: ...
-
-    def greedy(self, observation: Int64s) -> int: ...
-
-
-MakeModel = Callable[[gymnasium.Env[Int64s, np.int64], Preset, int, int], Model]
-"""A model from its Env, the preset, the capacity of its replay and a seed."""
-
-
 class Sb3Training:
     """Trains a job of one run. A stopped run starts over, and goes the same way: its seed decides all.
 
@@ -162,7 +144,7 @@ class Sb3Training:
         folder: the job's own; made when it is finished.
         arenas: the one arena to learn in.
         others: another of the same, to evaluate in.
-        make_model: what learns.
+        model: what learns.
     """
 
     def __init__(
@@ -171,7 +153,7 @@ class Sb3Training:
         folder: Path,
         arenas: VectorEnv[Int64s, Int64s, Any],
         others: VectorEnv[Int64s, Int64s, Any],
-        make_model: MakeModel = Sb3Dqn,
+        model: type[Sb3Dqn] = Sb3Dqn,
     ) -> None:
         (scenario,), (run,), preset = job.scenarios, job.trials, job.preset
         explore = preset.explore_nested or preset.explore_main
@@ -185,7 +167,7 @@ class Sb3Training:
         self._env, self._evaluation_env = Sb3Env(arenas, job.scenarios), Sb3Env(others, job.scenarios)
         seed = int(np.random.SeedSequence(job.seed, spawn_key=(run,)).generate_state(1)[0])
         capacity = min(preset.replay_capacity, preset.episodes * scenario.step_limit)
-        self._model = make_model(self._env, preset, capacity, seed)
+        self._model = model(self._env, preset, capacity, seed)
         self._decay = LinearDecay(explore.start, explore.floor, explore.share)
         self._steps = 0
 

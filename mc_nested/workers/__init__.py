@@ -1,1 +1,1 @@
-"""Who does an experiment's work: processes of this computer, or the workers of a cluster (Dask)."""
+"""Who does a study's work: processes of this computer, or the workers of a cluster (Dask)."""

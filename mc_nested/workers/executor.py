@@ -1,4 +1,4 @@
-"""JobExecutor: the seam between an experiment and whoever trains its jobs, and the loop that waits for them all."""
+"""JobExecutor: the seam between a study and whoever trains its jobs, and the loop that waits for them all."""
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import CancelledError, Future

@@ -1,4 +1,4 @@
-"""A process of this computer that trains an experiment's jobs, one after the other, until it has to stop.
+"""A process of this computer that trains a study's jobs, one after the other, until it has to stop.
 
 It talks to its parent through a pipe. The parent sends jobs; any message while a job trains, and the pipe's end, mean:
 save and stop. The process sends JobReports, and one JobEnded for each job.

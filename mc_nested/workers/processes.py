@@ -1,4 +1,4 @@
-"""Processes of this computer that train an experiment's jobs; each takes the next job as soon as it is free."""
+"""Processes of this computer that train a study's jobs; each takes the next job as soon as it is free."""
 
 import multiprocessing
 import os

@@ -5,21 +5,16 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from mc_nested.arena.cooperative.team import Team
-from mc_nested.arena.cooperative.team_env import TeamEnv
 from mc_nested.errors import UserError
-from mc_nested.learn.cooperation.team_agent import Kind
-from mc_nested.learn.cooperation.team_trainer import TeamArena, arena_of
 from mc_nested.learn.runs.folder_lock import folder_lock
-from mc_nested.learn.trainer import Trainer
 from mc_nested.report.tensorboard import FOLDER, TensorBoard, is_installed
 from mc_nested.studies.job import Job
-from mc_nested.studies.job_trainers import agents_trainer, team_trainer
+from mc_nested.studies.job_trainers import agents_trainer, team_of_job
 from mc_nested.studies.job_training import JobTraining, TrainedJob
 from mc_nested.studies.outcome import writing
 from mc_nested.workers.messages import JobEnded, JobReport
 from sim.grid import GridVectorEnv
-from sim.team_grid import TeamGrid
+from sim.team_grid import team_arenas
 
 PATIENCE_S = 10.0
 """Seconds that a process whose parent was killed may take to save the job that another goes on with."""
@@ -50,8 +45,8 @@ def train_job(job: Job, folder: Path, report: Report, report_every_s: float) -> 
 
 
 def _training_of(job: Job, folder: Path) -> TrainedJob:
-    if job.builders:
-        return JobTraining(job, folder, team_trainer(job, _team_arenas))
+    if team := team_of_job(job):
+        return JobTraining(job, folder, agents_trainer(job, team_arenas(team, len(job.trials))))
     arenas = GridVectorEnv(job.scenarios)
     if job.library is None:
         return JobTraining(job, folder, agents_trainer(job, arenas))
@@ -60,12 +55,8 @@ def _training_of(job: Job, folder: Path) -> TrainedJob:
     return Sb3Training(job, folder, arenas, GridVectorEnv(job.scenarios))
 
 
-def _team_arenas(team: Team, networks: Kind, runs: int) -> list[TeamArena]:
-    return [arena_of(TeamEnv(TeamGrid(team), team), networks) for _ in range(runs)]
-
-
 def _events(training: TrainedJob, folder: Path) -> TensorBoard | None:
-    if not (isinstance(training, JobTraining) and isinstance(training.trainer, Trainer) and is_installed()):
+    if not (isinstance(training, JobTraining) and is_installed()):
         return None
     job = training.job
     names = (

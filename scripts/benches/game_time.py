@@ -169,7 +169,7 @@ def train(scenario: Scenario, seed: int, preset: Preset, rate: float) -> Trial:
             wrong_cells=counts.wrong_cells,
             wrong_blocks=counts.wrong_blocks,
             unnoticed=counts.unnoticed,
-            wrongly_learnt=wrongly_learnt(trainer.state()["imagination.0.steps"][:, :7].tolist(), game.episodes),
+            wrongly_learnt=wrongly_learnt(trainer.state()["practice.0.steps"][:, :7].tolist(), game.episodes),
         )
 
 

@@ -24,6 +24,7 @@ from rich.progress import track
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import UserError
 from mc_nested.live.input.signals import signals_as_exit
+from mc_nested.live.opening import Opening
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.session import open_live_game
 from scripts.bench import Figures
@@ -95,7 +96,7 @@ def play_here(profile: str, truth: str, actions: str, seed: str) -> None:
     """Play so many random actions on this process's display, and print the figures as one JSON object."""
     scenario = load_scenario("diamond")
     seen = RehearsalTruth(Path(truth), load_profile(profile).marked_arena())
-    with open_live_game(scenario, profile, lambda line: print(line, file=sys.stderr)) as (game, _):
+    with open_live_game(scenario, Opening(profile, lambda line: print(line, file=sys.stderr))) as (game, _):
         steps = track(range(int(actions)), "actions", console=Console(stderr=True))
         played = play_in(game, seen, scenario, steps, np.random.default_rng(int(seed)))
     print(json.dumps(figures_of(played)))

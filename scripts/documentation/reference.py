@@ -2,7 +2,6 @@
 
 import typer
 from typer.cli import get_docs_for_click
-from typer.main import get_command
 
 from mc_nested import errors
 from mc_nested.cli.app import app_for
@@ -11,7 +10,7 @@ from scripts.documentation.markdown_text import code, of_docstring, table
 
 def command_line() -> str:
     """Describe every verb, argument and option, as Typer does it."""
-    command = get_command(app_for(()))
+    command = app_for(())
     return get_docs_for_click(obj=command, ctx=typer.Context(command), name="mc-nested", indent=1)
 
 

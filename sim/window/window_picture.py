@@ -1,16 +1,111 @@
-"""The window's picture: the world below, the GUI above."""
+"""The window's picture: the world below, the GUI above.
 
+The GUI is drawn over the world to the pixel: what the client's painter draws, drawn by OpenGL.
+"""
+
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import moderngl
+import numpy as np
 
+from mc_nested.live.devices import Frame
 from mc_nested.live.model.reading import Block
 from sim.client.client import VirtualClient
+from sim.client.drawing.layers import LayeredPicture, Rect
+from sim.client.drawing.painter import ViewLayers
 from sim.client.game.screens import IN_WORLD
 from sim.client.game.view import Eye, View
 from sim.window.frame_pacer import SmoothEye
-from sim.window.gui_overlay import GuiOverlay
+from sim.window.tiles import triangles
 from sim.window.world_scene import WorldScene
+
+_VERTEX = """
+#version 330
+in vec2 corner;
+void main() { gl_Position = vec4(corner, 0.0, 1.0); }
+"""
+
+# Drawn over black and over white, a layer shows how much of what is behind it can be seen: 1 - (white - black).
+_FRAGMENT = """
+#version 330
+uniform sampler2D over_black; uniform sampler2D over_white; uniform int height;
+out vec4 pixel;
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.x, height - 1 - int(gl_FragCoord.y));
+    vec3 black = texelFetch(over_black, at, 0).rgb, white = texelFetch(over_white, at, 0).rgb;
+    pixel = vec4(black, 1.0 - clamp(white.g - black.g, 0.0, 1.0));
+}
+"""
+
+
+class GuiOverlay:
+    """The GUI of a window of one size; it draws over what the framebuffer in use shows.
+
+    Args:
+        context: the window's.
+        size: width and height in framebuffer pixels.
+        layers: what a view's GUI is made of.
+    """
+
+    def __init__(self, context: moderngl.Context, size: tuple[int, int], layers: ViewLayers) -> None:
+        self._context, self._layers = context, layers
+        width, height = size
+        self._backgrounds = [np.full((height, width, 3), shade, np.uint8) for shade in (0, 255)]
+        self._pictures = [LayeredPicture(background) for background in self._backgrounds]
+        self._textures = [context.texture(size, 3, alignment=1) for _ in self._backgrounds]
+        for texture in self._textures:
+            texture.swizzle = "BGR1"
+        program = context.program(vertex_shader=_VERTEX, fragment_shader=_FRAGMENT)
+        program["over_black"], program["over_white"], program["height"] = 0, 1, height
+        self._program, self._size = program, size
+        self._corners = context.buffer(reserve=8, dynamic=True)
+        self._array = context.vertex_array(program, [(self._corners, "2f", "corner")])
+        self._count = 0
+        self._shown: View | None = None
+
+    def show(self, view: View) -> None:
+        """Show the GUI of a view; the world behind it stays visible."""
+        if view == self._shown:
+            return
+        self._shown = view
+        layers = self._layers.of(view)
+        self._cover([layer.rect for layer in layers])
+        for picture, background, texture in zip(self._pictures, self._backgrounds, self._textures, strict=True):
+            picture.show(background, layers)
+            texture.write(picture.grab())
+
+    def show_picture(self, picture: Frame) -> None:
+        """Show a picture (height, width, 3), blue green red, that hides the world."""
+        self._shown = None
+        self._cover([(0, 0, *self._size)])
+        for texture in self._textures:
+            texture.write(np.ascontiguousarray(picture))
+
+    def draw(self) -> None:
+        """Draw it over the framebuffer in use."""
+        for unit, texture in enumerate(self._textures):
+            texture.use(unit)
+        self._context.enable(moderngl.BLEND)
+        self._context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
+        self._array.render(moderngl.TRIANGLES, self._count)
+        self._context.disable(moderngl.BLEND)
+
+    def _cover(self, rects: Sequence[Rect]) -> None:
+        """Draw only where these rectangles are: most of the world has nothing over it."""
+        corners = triangles(rects, self._size)
+        self._count = len(corners)
+        if len(corners):
+            self._corners.orphan(corners.nbytes)
+            self._corners.write(corners.tobytes())
+
+    def release(self) -> None:
+        """Free what OpenGL holds for it."""
+        for texture in self._textures:
+            texture.release()
+        self._array.release()
+        self._corners.release()
+        self._program.release()
 
 
 @dataclass(frozen=True)

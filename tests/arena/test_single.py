@@ -7,11 +7,14 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
+from mc_nested.arena.cooperative.team import team_of
+from mc_nested.arena.cooperative.team_env import TeamVectorEnv
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.single import SingleAgentVectorEnv
 from mc_nested.arena.vector import ArenaVectorEnv
 from sim.grid import GridVectorEnv, arena_env
+from sim.team_grid import TeamGrid
 from tests.arena.made_parts import STRIPES, scenarios_with_parts
 
 LINE = load_scenario("line")
@@ -170,3 +173,84 @@ def test_a_snapshot_brings_every_arena_back() -> None:
     first = [env.step(actions)[0].tolist() for actions in ahead]
     env.restore(kept)
     assert [env.step(actions)[0].tolist() for actions in ahead] == first
+
+
+def singles(builders: int, runs: int = 1) -> SingleAgentVectorEnv:
+    """Single agents that share an arena in each run."""
+    team = team_of(LINE, builders)
+    each = [team.scenario_of(number) for _ in range(runs) for number in range(builders)]
+    env = SingleAgentVectorEnv(TeamVectorEnv([TeamGrid(team) for _ in range(runs)], team), each, builders)
+    env.reset()
+    return env
+
+
+F, B, L, R, FD, LD, RD, BD = range(FIRST_MOVE, 10)
+
+
+def test_before_a_choice_each_of_several_sees_its_own_start() -> None:
+    assert singles(2).reset()[0].tolist() == [[7, 14, 11, 0], [14, 14, 11, 0]]
+
+
+@pytest.mark.parametrize("beside", [WOOD, BD])
+def test_the_first_of_several_chooses_for_all_and_earns_p_whatever_the_others_do(beside: int) -> None:
+    observations, rewards, terminated, truncated, _ = singles(2).step(np.array([STONE, beside]))
+    assert observations.tolist() == [[7, 14, 11, 2], [14, 14, 11, 2]]
+    assert rewards.tolist() == [10.0, 0.0]
+    assert not (terminated | truncated).any()
+
+
+def test_without_the_first_ones_choice_the_episode_of_all_ends_with_score_0() -> None:
+    env = singles(2, runs=2)
+    _, rewards, terminated, _, info = env.step(np.array([B, STONE, STONE, B]))
+    assert (terminated.tolist(), rewards.tolist()) == ([True, True, False, False], [0.0, 0.0, 10.0, 0.0])
+    assert (info["score"].tolist(), info["_score"].tolist()) == ([0.0] * 4, [True, True, False, False])
+    observations, rewards, *_ = env.step(np.array([STONE, STONE, L, L]))
+    assert observations.tolist() == [[7, 14, 11, 0], [14, 14, 11, 0], [6, 14, 11, 2], [13, 14, 11, 2]]
+    assert rewards.tolist() == [0.0] * 4
+
+
+def test_a_block_is_missing_to_all_and_counts_in_the_score_of_all() -> None:
+    env = singles(2)
+    env.step(np.array([STONE, STONE]))
+    observations, rewards, *_ = env.step(np.array([BD, WOOD]))
+    assert observations.tolist() == [[7, 13, 10, 2], [14, 14, 10, 2]]
+    assert rewards.tolist() == [0.0, 0.0], "the start is beside the design"
+    observations, rewards, *_ = env.step(np.array([B, L]))
+    _, rewards, *_ = env.step(np.array([BD, L]))
+    assert rewards.tolist() == [1.0, 0.0]
+    for _ in range(55):
+        assert not env.step(np.array([WOOD, WOOD]))[3].any()
+    _, _, terminated, truncated, info = env.step(np.array([WOOD, WOOD]))
+    assert (terminated.tolist(), truncated.tolist()) == ([False] * 2, [True] * 2)
+    assert info["score"].tolist() == [11.0, 11.0]
+
+
+def test_a_later_material_action_of_one_of_several_does_nothing_and_counts_as_a_step() -> None:
+    env = singles(2)
+    env.step(np.array([STONE, STONE]))
+    observations, *_ = env.step(np.array([WOOD, L]))
+    assert observations.tolist() == [[7, 14, 11, 2], [13, 14, 11, 2]]
+    for _ in range(57):
+        assert not env.step(np.array([WOOD, WOOD]))[3].any()
+    _, _, terminated, truncated, info = env.step(np.array([WOOD, WOOD]))
+    assert (terminated.tolist(), truncated.tolist()) == ([False] * 2, [True] * 2)
+    assert info["score"].tolist() == [10.0, 10.0]
+
+
+@given(st.lists(st.integers(0, 9), max_size=70))
+def test_one_builder_is_the_papers_single_agent(actions: list[int]) -> None:
+    ours, theirs = singles(1), single()
+    for action in actions:
+        own, other = ours.step(np.array([action])), theirs.step(np.array([action]))
+        for one, same in zip(own[:4], other[:4], strict=True):
+            np.testing.assert_array_equal(one, same)
+        assert own[4]["score"].tolist() == other[4]["score"].tolist()
+
+
+def test_an_episode_of_several_goes_on_where_it_was_saved() -> None:
+    env, other = singles(2), singles(2)
+    env.step(np.array([STONE, F]))
+    env.step(np.array([BD, LD]))
+    other.restore(env.snapshot())
+    for one, same in zip(env.step(np.array([BD, B]))[:4], other.step(np.array([BD, B]))[:4], strict=True):
+        np.testing.assert_array_equal(one, same)

@@ -1,7 +1,4 @@
-"""ArenaVectorEnv: its games say whether episodes can be saved half-way; gymnasium's wrappers fit over it.
-
-NextStepAutoreset: to a step, what Gymnasium's own vector env makes of single arenas.
-"""
+"""ArenaVectorEnv: its games say whether episodes can be saved half-way; gymnasium's wrappers fit over it; autoreset."""
 
 from typing import Any
 
@@ -96,6 +93,7 @@ def test_a_material_is_named_for_all_arenas_or_numbered_for_each() -> None:
             assert info["score"].tolist() == scores
 
 
+LINE = load_scenario("line")
 RUNS = 3
 
 

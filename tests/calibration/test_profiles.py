@@ -21,7 +21,7 @@ from calibration.profiles import (
     rename_profile,
 )
 from calibration.report.findings import findings_folder
-from mc_nested.cli.calibrate_report import report_path
+from calibration.report.write import report_path
 from mc_nested.errors import ProfileError
 from mc_nested.live.menus.click_points import picture_file
 from mc_nested.live.profile.arena import Arena
@@ -29,7 +29,6 @@ from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.folder import profile_folder
 from mc_nested.live.profile.store import earlier_path, save_profile
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable
-from mc_nested.live.vision.layout import Scales
 
 
 @pytest.fixture
@@ -171,8 +170,9 @@ def test_it_says_what_it_was_calibrated_on_and_that_it_fits_that(tmp_path: Path)
         fits=True,
         version="1.20.1",
         window=(854, 480),
-        scales=Scales(2, 2),
-        arena=ARENA,
+        gui_scale=2,
+        debug_scale=2,
+        arena_size=20,
         date="2026-11-21",
     )
 
@@ -190,7 +190,7 @@ def test_what_does_not_fit_or_is_not_known_is_said(
 ) -> None:
     found = facts(tmp_path, Profile(calibrated=CALIBRATED), window)
     assert found.fits is fits
-    assert why in found.why
+    assert why in (found.why or "")
 
 
 def test_one_that_was_marked_by_hand_fits_nothing_known(tmp_path: Path) -> None:
@@ -205,7 +205,7 @@ def test_a_font_that_is_gone_is_said_without_any_window(tmp_path: Path) -> None:
     profile = Profile(screen=ScreenTable(font=str(jar)), calibrated=CALIBRATED)
     found = facts(tmp_path, profile)
     assert found.fits is False
-    assert f"its font {jar} is gone: mc-nested calibrate font --profile laptop" in found.why
+    assert f"its font {jar} is gone: mc-nested calibrate font --profile laptop" in (found.why or "")
     jar.touch()
     assert facts(tmp_path, profile).fits is None
 
@@ -214,5 +214,5 @@ def test_a_damaged_one_says_why_in_a_line(tmp_path: Path) -> None:
     (tmp_path / "torn.toml").write_text("[keys]\nforward = 3\n")
     found = facts_of(tmp_path / "torn.toml", lambda _: None)
     assert found.is_damaged
-    assert found.why.startswith(f"{tmp_path / 'torn.toml'}: keys.forward: ")
-    assert "\n" not in found.why
+    assert (found.why or "").startswith(f"{tmp_path / 'torn.toml'}: keys.forward: ")
+    assert "\n" not in (found.why or "")

@@ -9,12 +9,13 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 
+import sim.worlds
 from mc_nested.arena.action import Action
 from mc_nested.arena.game import Outcome, Resumable
 from mc_nested.arena.scenario import Scenario
-from mc_nested.cli import options
 from mc_nested.errors import LiveError, McNestedError
 from mc_nested.live.devices import Frame, Region
+from mc_nested.live.opening import Opening
 from sim.grid import GridGame
 
 
@@ -62,11 +63,9 @@ def open_live(
     """From here on a live game is one that lasts so many actions."""
 
     @contextmanager
-    def opened(
-        scenario: Scenario, profile: str, _say: object, **live: object
-    ) -> Iterator[tuple[FragileGame, GreyDisplay]]:
-        assert profile == "mine"
-        assert live["is_server_allowed"] is False
+    def opened(scenario: Scenario, opening: Opening) -> Iterator[tuple[FragileGame, GreyDisplay]]:
+        assert opening.profile == "mine"
+        assert not opening.is_server_allowed
         yield FragileGame(scenario, lasts, error or LiveError("never raised"), failures), GreyDisplay()
 
-    monkeypatch.setattr(options, "open_live_game", opened)
+    monkeypatch.setattr(sim.worlds, "open_live_game", opened)

@@ -1,7 +1,9 @@
 """Runs the command in this process, and checks a mistake in its words."""
 
 import csv
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -40,3 +42,10 @@ def check_mistake(
     assert says.replace("NEW", str(new)) in printed.err
     assert list(tmp_path.iterdir()) == []
     assert (trained / "config.toml").read_bytes() == before
+
+
+def verbs_of(command: Any, name: str = "") -> Iterator[tuple[str, Any]]:
+    """Every verb's words, and its command."""
+    yield name, command
+    for verb, inner in getattr(command, "commands", {}).items():
+        yield from verbs_of(inner, f"{name} {verb}".strip())

@@ -5,23 +5,37 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 import typer
 
 from mc_nested.cli import app as app_module
 from mc_nested.cli import scenarios
-from mc_nested.cli.app import VERBS, app_for, main
+from mc_nested.cli.app import HIDDEN, MOVED, VERBS, app_for, main
 from mc_nested.cli.interrupt import Stopped
 from mc_nested.errors import PresetError
 from mc_nested.live.input.signals import EndedBySignal
 from tests.cli.running import check_mistake, run
 
 
+def commands_of(*words: str) -> dict[str, Any]:
+    commands: dict[str, Any] = getattr(app_for(words), "commands", {})
+    return commands
+
+
 def test_only_the_verb_that_is_named_is_loaded() -> None:
-    assert len(app_for(["scenarios", "line"]).registered_commands) == 1
-    every = app_for(["--help"])
-    assert len(every.registered_commands) + len(every.registered_groups) == len(VERBS)
+    assert list(commands_of("scenarios", "line")) == ["scenarios"]
+    assert list(commands_of("--help")) == [*VERBS, *HIDDEN]
+    assert [verb for verb, each in commands_of("--help").items() if each.hidden] == list(HIDDEN)
+
+
+@pytest.mark.parametrize("verb", MOVED)
+def test_a_former_name_is_refused_with_the_new_one(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(verb, "--help") == 2
+    assert capsys.readouterr().err == f"mc-nested: {verb} is now mc-nested {MOVED[verb]}\n"
+    words = [word for word in MOVED[verb].partition(",")[0].split() if not word.startswith("--")]
+    assert run(*words, "--help") == 0
 
 
 @pytest.mark.parametrize(
@@ -38,14 +52,14 @@ def test_only_the_verb_that_is_named_is_loaded() -> None:
 def test_an_error_is_one_line_and_its_exit_code(
     error: BaseException, code: int, said: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def app_that_fails(_: object) -> typer.Typer:
+    def app_that_fails(_: object) -> object:
         app = typer.Typer()
 
         @app.command()
         def verb() -> None:
             raise error
 
-        return app
+        return typer.main.get_command(app)
 
     monkeypatch.setattr(app_module, "app_for", app_that_fails)
     with pytest.raises(SystemExit) as ended:
@@ -64,7 +78,7 @@ def test_the_version_is_the_packages(capsys: pytest.CaptureFixture[str]) -> None
 def test_nothing_but_the_verb_asks_for_help(capsys: pytest.CaptureFixture[str]) -> None:
     assert run() == 0
     printed = capsys.readouterr().out
-    for verb in ("train", "evaluate", "play", "scenarios", "read", "calibrate"):
+    for verb in ("train", "play", "scenarios", "calibrate"):
         assert verb in printed
 
 
@@ -101,3 +115,22 @@ def test_a_mistake_is_one_line_and_exit_code_2(
     arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     check_mistake(arguments, says, trained, tmp_path, capsys)
+
+
+@pytest.mark.parametrize(
+    ("words", "says"),
+    [
+        (["runs", "--json", "list"], "write --json at the end: mc-nested runs list --json"),
+        (["recordings", "--json", "trim"], "mc-nested recordings trim takes no --json: leave it out"),
+        (["train", "--seed", "3", "serve"], "mc-nested train serve takes no --seed: leave it out"),
+        (
+            ["doctor", "--profile", "x", "bug-report"],
+            "write --profile at the end: mc-nested doctor bug-report --profile",
+        ),
+    ],
+)
+def test_an_option_before_the_verb_of_a_verb_is_refused(
+    words: list[str], says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(*words) == 2
+    assert capsys.readouterr().err == f"mc-nested: {says}\n"

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
+import sim.worlds
 from mc_nested.arena.scenario import Scenario
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.cli import options
-from mc_nested.cli.json_fields import JSON_FIELDS
+from mc_nested.cli.build import build
+from mc_nested.cli.output import json_fields
 from mc_nested.errors import LiveError, NotInFrontError, StoppedError
 from mc_nested.live.devices import Display
 from mc_nested.live.live_game import LiveGame
@@ -94,7 +95,7 @@ def test_for_a_program_it_prints_what_was_built(capsys: pytest.CaptureFixture[st
     assert run("build", "line", "--json") == 0
     printed = capsys.readouterr()
     found = json.loads(printed.out)
-    assert found.keys() == JSON_FIELDS["build"].keys()
+    assert found.keys() == json_fields(build).keys()
     assert found == {"scenario": "line", "blocks": 11, "built": 11, "material": "stone", "steps": 13, "film": None}
     assert printed.err == ""
 
@@ -195,7 +196,7 @@ def test_a_layer_is_built_block_for_block_on_the_virtual_client(
         with play(client, scenario) as game:
             yield game, client.display
 
-    monkeypatch.setattr(options, "open_live_game", opened)
+    monkeypatch.setattr(sim.worlds, "open_live_game", opened)
     words: list[str | Path] = ["--layer", "0", "--backend", "live", "--profile", "mine"]
     assert run("build", tmp_path / "hut.schem", *words) == 0
     printed = capsys.readouterr()

@@ -1,23 +1,219 @@
-"""``mc-nested calibrate``: which profile it writes, and how a calibration is undone."""
+"""``mc-nested calibrate``: what the guided run says step by step, its exit codes, its report, and how it is undone."""
 
+import json
 from pathlib import Path
 
 import pytest
 
+from calibration.calibrate_all import CalibrationStep
+from calibration.context import CalibrationContext, OpenContext, StepResult
+from calibration.doctor.check import Check, CheckName
+from mc_nested.cli import calibrate, calibrate_steps
 from mc_nested.cli.app import main
+from mc_nested.cli.output import json_fields
+from mc_nested.errors import LiveError
+from mc_nested.live.opening import Opening
 from mc_nested.live.profile.store import load_profile, save_profile
-from mc_nested.live.profile.tables import GameVersion, Profile
+from mc_nested.live.profile.tables import GameVersion, Profile, ScreenTable
+from scripts.benches.calibration import context_opener_for, write_font
+from sim.client.client import VirtualClient
+from tests.cli.running import run
 
 
-def code_of(*words: str | Path) -> int | str | None:
+@pytest.fixture
+def client() -> VirtualClient:
+    client = VirtualClient(pitch=40.0)
+    client.clock.sleep(0.3)
+    return client
+
+
+def code_of(profile: Path, *options: str) -> int | str | None:
     with pytest.raises(SystemExit) as ended:
-        main(["calibrate", *map(str, words)])
+        main(["calibrate", "all", "--yes", "--profile", str(profile), *options])
     return ended.value.code
+
+
+def set_up(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, *steps: CalibrationStep, failing: str | None = None
+) -> None:
+    """From here on the desktop has that client's window alone, and these are the steps."""
+    rows = [
+        Check(name, "fail", "it is wrong", "mend it") if name == failing else Check(name, "pass", "")
+        for name in CheckName
+    ]
+    monkeypatch.setattr(calibrate_steps, "context_opener", lambda *_: context_opener_for(client))
+    monkeypatch.setattr(calibrate, "registered_steps", lambda *_, **__: list(steps))
+    monkeypatch.setattr(calibrate, "_examined", lambda _font, _name: rows)
+
+
+def with_font(folder: Path) -> CalibrationStep:
+    font = str(write_font(folder))
+
+    def step(context: CalibrationContext, profile: Profile) -> StepResult:
+        context.devices.clock.sleep_until(context.devices.clock.now() + 4)
+        return StepResult("font", profile.model_copy(update={"screen": ScreenTable(font=font)}), ("GUI scale 2",), 3)
+
+    return CalibrationStep("font", step)
+
+
+def failing(error: BaseException, *, is_needed: bool = True) -> CalibrationStep:
+    def step(_context: CalibrationContext, _profile: Profile) -> StepResult:
+        raise error
+
+    return CalibrationStep("clicks", step, is_needed)
+
+
+def test_each_step_is_said_with_what_it_found_and_the_report_is_made(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    profile = tmp_path / "mine.toml"
+    nothing = failing(LiveError("no button 'Back to Game' is to be seen"), is_needed=False)
+    set_up(monkeypatch, client, with_font(tmp_path), nothing, failing="autoJump")
+    assert code_of(profile) in (0, None)
+    said = capsys.readouterr().out.splitlines()
+    assert said[:6] == [
+        f"doctor: {len(CheckName) - 1} pass, 1 fail",
+        "    fail: autoJump: it is wrong; mend it",
+        "1/2 Font and screen",
+        "    GUI scale 2",
+        "    [4 s, 4 s in all]",
+        "2/2 Click points",
+    ]
+    assert "    warning: no button 'Back to Game' is to be seen; the run goes on without it" in said
+    assert "calibrated in 4 s, without: Click points" in said
+    assert f"profile: {profile}" in said
+    assert "GUI scale 2" in (tmp_path / "mine-calibration.html").read_text("utf-8")
+
+
+def test_for_a_program_it_prints_what_each_step_found_and_what_is_missing(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    nothing = failing(LiveError("no button is to be seen"), is_needed=False)
+    set_up(monkeypatch, client, with_font(tmp_path), nothing)
+    assert code_of(tmp_path / "mine.toml", "--json") in (0, None)
+    printed = capsys.readouterr()
+    found = json.loads(printed.out)
+    assert found == {
+        "profile": str(tmp_path / "mine.toml"),
+        "seconds": 4.0,
+        "steps": [{"step": "font", "lines": ["GUI scale 2"], "samples": 3}],
+        "left_out": {"clicks": "no button is to be seen"},
+        "report": str(tmp_path / "mine-calibration.html"),
+    }
+    assert found.keys() == json_fields(calibrate.calibrate_all).keys()
+    assert "1/2 Font and screen" in printed.err
+
+
+def test_quietly_it_says_only_what_became_of_it(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    set_up(monkeypatch, client, with_font(tmp_path))
+    assert code_of(tmp_path / "mine.toml", "--quiet") in (0, None)
+    printed = capsys.readouterr()
+    assert printed.out.splitlines()[:2] == ["calibrated in 4 s", f"profile: {tmp_path / 'mine.toml'}"]
+    assert printed.err == ""
+
+
+@pytest.mark.parametrize("words", [[], ["--quiet"], ["--json"]])
+def test_what_the_player_has_to_do_is_said_in_any_case(
+    words: list[str],
+    monkeypatch: pytest.MonkeyPatch,
+    client: VirtualClient,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def opener(opening: Opening, _ask: object) -> OpenContext:
+        opening.say("Switch to the game.")
+        return context_opener_for(client)
+
+    set_up(monkeypatch, client, with_font(tmp_path))
+    monkeypatch.setattr(calibrate_steps, "context_opener", opener)
+    assert code_of(tmp_path / "mine.toml", *words) in (0, None)
+    printed = capsys.readouterr()
+    assert "Switch to the game.\n" in (printed.err if words else printed.out)
+
+
+def test_what_fails_is_one_line_and_leaves_nothing(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    set_up(monkeypatch, client, with_font(tmp_path), failing(LiveError("no button is to be seen")))
+    assert code_of(tmp_path / "mine.toml") == 2
+    error = capsys.readouterr().err
+    assert error == "mc-nested: clicks: no button is to be seen (the profile is as it was)\n"
+    assert list(tmp_path.glob("mine*")) == []
+
+
+def test_ctrl_c_is_one_line_and_leaves_nothing(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    set_up(monkeypatch, client, with_font(tmp_path), failing(KeyboardInterrupt()))
+    assert code_of(tmp_path / "mine.toml") == 130
+    assert capsys.readouterr().err == "mc-nested: stopped\n"
+    assert list(tmp_path.glob("mine*")) == []
+
+
+def test_a_row_of_the_doctors_that_all_needs_ends_it_with_its_remedy(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    set_up(monkeypatch, client, with_font(tmp_path), failing="in front")
+    assert code_of(tmp_path / "mine.toml") == 2
+    said = capsys.readouterr()
+    assert (said.out, said.err) == ("", "mc-nested: in front: it is wrong: mend it\n")
+
+
+def test_a_cell_outside_the_arena_is_one_line_before_anything(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(calibrate_steps, "context_opener", lambda *_: context_opener_for(client))
+    with pytest.raises(SystemExit) as ended:
+        main(["calibrate", "all", "--yes", "--profile", str(tmp_path / "mine.toml"), "--standing", "-1", "0"])
+    assert ended.value.code == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert said.err == "mc-nested: cell (-1, 0) lies outside the arena: choose 0 to 14 for x and y\n"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_steps_know_the_profiles_file_and_the_game_whether_a_server_is_allowed(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path
+) -> None:
+    given: dict[str, object] = {}
+    allowed: list[bool] = []
+
+    def opener(opening: Opening, _ask: object) -> OpenContext:
+        allowed.append(opening.is_server_allowed)
+        return context_opener_for(client)
+
+    set_up(monkeypatch, client)
+    monkeypatch.setattr(calibrate_steps, "context_opener", opener)
+
+    def steps(*_: object, **options: object) -> list[CalibrationStep]:
+        given.update(options)
+        return [with_font(tmp_path)]
+
+    monkeypatch.setattr(calibrate, "registered_steps", steps)
+    assert code_of(tmp_path / "mine.toml") in (0, None)
+    assert given == {"size": 15, "standing": None, "path": tmp_path / "mine.toml"}
+    assert code_of(tmp_path / "mine.toml", "--size", "20", "--standing", "3", "4") in (0, None)
+    assert given == {"size": 20, "standing": (3, 4), "path": tmp_path / "mine.toml"}
+    assert code_of(tmp_path / "mine.toml", "--server-allowed") in (0, None)
+    assert allowed == [False, False, True]
+
+
+def test_a_report_that_can_not_be_made_is_a_warning(
+    monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    set_up(monkeypatch, client, with_font(tmp_path))
+    (tmp_path / "mine-calibration").mkdir()
+    (tmp_path / "mine-calibration" / "found.json").write_text("broken", "utf-8")
+    assert code_of(tmp_path / "mine.toml") in (0, None)
+    assert "warning: no report: " in capsys.readouterr().out
+    assert (tmp_path / "mine.toml").is_file()
 
 
 @pytest.mark.parametrize("verb", ["all", "undo", "report", "walk", "font", "clicks"])
 def test_an_empty_name_is_never_another_profile(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert code_of(verb, "--profile", "") == 2
+    assert run("calibrate", verb, "--profile", "") == 2
     assert capsys.readouterr().err == "mc-nested: '' names no profile: give a name, or a file that ends in .toml\n"
 
 
@@ -29,13 +225,13 @@ def test_undo_puts_the_earlier_profile_back_and_a_second_time_the_later_one(
     save_profile(earlier, file)
     save_profile(later, file)
     for profile in (earlier, later):
-        assert code_of("undo", "--profile", file) in (0, None)
+        assert run("calibrate", "undo", "--profile", file) == 0
         assert load_profile(file) == profile
         assert capsys.readouterr().out == f"{file} is as it was before\n"
 
 
 def test_undo_without_an_earlier_profile_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert code_of("undo", "--profile", tmp_path / "new.toml") == 2
+    assert run("calibrate", "undo", "--profile", tmp_path / "new.toml") == 2
     error = capsys.readouterr().err
     assert "there is no earlier profile" in error
     assert error.count("\n") == 1
@@ -48,6 +244,6 @@ def test_undo_says_where_a_file_that_can_not_be_read_is_kept(
     save_profile(Profile(), file)
     save_profile(Profile(points={"other": (0.5, 0.5)}), file)
     file.write_text("[walking]\n", "utf-8")
-    assert code_of("undo", "--profile", file) in (0, None)
+    assert run("calibrate", "undo", "--profile", file) == 0
     said = f"{file} is as it was before\nwhat stood there is no profile that can be read: it is kept in {file}.broken\n"
     assert capsys.readouterr().out == said

@@ -1,4 +1,4 @@
-"""``mc-nested evaluate``: the scores of a training's greedy policies."""
+"""``mc-nested runs evaluate``: the scores of a training's greedy policies."""
 
 import json
 import shutil
@@ -14,7 +14,7 @@ from tests.learn.runs.changed_arrays import change_arrays
 
 def test_evaluate_prints_the_scores_of_the_summary(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """In a process of its own: test_without_torch.py."""
-    assert run("evaluate", trained, "--json") == 0
+    assert run("runs", "evaluate", trained, "--json") == 0
     found = json.loads(capsys.readouterr().out)
     assert found["scores"] == json.loads((trained / "summary.json").read_text())["final_scores"]
     assert found["optimum"] == 21.0
@@ -25,7 +25,7 @@ def test_names_are_shown_as_they_are_written(tmp_path: Path, capsys: pytest.Capt
     odd = text.replace('"line"', '"[/b] $x_{$"').replace('"wood"', '"[/w]"').replace('name = "stone"', 'name = "[/s]"')
     (tmp_path / "odd.toml").write_text(odd)
     assert run("train", "--episodes", "1", "--scenario", tmp_path / "odd.toml", "--out", tmp_path / "run") == 0
-    assert run("evaluate", tmp_path / "run") == 0
+    assert run("runs", "evaluate", tmp_path / "run") == 0
     printed = capsys.readouterr().out
     assert "[/b] $x_{$, greedy" in printed
     assert "[/s]" in printed or "[/w]" in printed
@@ -34,8 +34,8 @@ def test_names_are_shown_as_they_are_written(tmp_path: Path, capsys: pytest.Capt
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["evaluate", "NEW" + "x" * 300], "File name too long"),
-        (["evaluate", "NEW"], "no config.toml there"),
+        (["runs", "evaluate", "NEW" + "x" * 300], "File name too long"),
+        (["runs", "evaluate", "NEW"], "no config.toml there"),
     ],
 )
 def test_a_mistake_is_one_line_and_exit_code_2(
@@ -44,14 +44,16 @@ def test_a_mistake_is_one_line_and_exit_code_2(
     check_mistake(arguments, says, trained, tmp_path, capsys)
 
 
-@pytest.mark.parametrize("words", [["play", "RUN"], ["evaluate", "RUN"], ["train", "--from", "RUN", "--out", "NEW"]])
+@pytest.mark.parametrize(
+    "words", [["play", "RUN"], ["runs", "evaluate", "RUN"], ["train", "--from", "RUN", "--out", "NEW"]]
+)
 def test_policies_that_do_not_fit_the_run_are_one_line(
     words: list[str], trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     copy, new = tmp_path / "copy", tmp_path / "new"
     shutil.copytree(trained, copy)
     file = copy / "checkpoint" / FILE
-    change_arrays(file, lambda state: state.pop("kept.low"))
+    change_arrays(file, lambda state: state.pop("policies.low"))
     assert run(*(word.replace("RUN", str(copy)).replace("NEW", str(new)) for word in words)) == 2
     printed = capsys.readouterr()
     assert printed.out == ""

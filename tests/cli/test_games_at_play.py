@@ -42,11 +42,11 @@ class Play:
         self.games = MadeGames()
         self.trainer = new_trainer()
         made: Any = self.games
-        self.at_play = GamesAtPlay(self.trainer, made)
+        self.at_play = GamesAtPlay(self.trainer, made, DOT)
 
     def happens(self, *events: GameEvent) -> list[str]:
         self.games.coming += events
-        return self.at_play.look()
+        return self.at_play.play_on()
 
     def begin(self, *names: str) -> list[EpisodePlan]:
         """Let these games join and be ready; the plans that they get."""
@@ -94,7 +94,7 @@ def test_what_has_come_back_when_it_is_stopped_counts_and_nobody_is_asked_any_mo
         Answered("two", GameAnswer(played(second))),
         Left("one"),
     ]
-    play.at_play.take_the_last()
+    play.at_play.end()
     assert len(play.trainer.episode_rows) == 2
     assert len(play.games.asked) == asked
 
@@ -179,7 +179,7 @@ def test_a_game_that_leaves_is_not_asked_again(play: Play) -> None:
 
 def test_without_a_game_it_waits_and_says_so(play: Play) -> None:
     assert play.happens() == []
-    assert play.at_play.in_words() == "waiting for a game (mc-nested serve-game)"
+    assert play.at_play.in_words() == "waiting for a game (mc-nested train serve)"
 
 
 def test_a_second_game_of_a_name_is_said(play: Play) -> None:

@@ -1,4 +1,4 @@
-"""``mc-nested train --games`` and ``serve-game``: processes of their own, over a real scheduler."""
+"""``mc-nested train --games`` and ``train serve``: processes of their own, over a real scheduler."""
 
 import csv
 import json
@@ -18,8 +18,7 @@ import pytest
 
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.vector import ArenaVectorEnv
-from mc_nested.cli import games_at_play, serve_game
-from mc_nested.cli.virtual_games import VirtualPlay, open_virtual_games
+from mc_nested.cli import games_at_play, serve
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.preset import load_preset
 from mc_nested.learn.runs.checkpoint import FILE
@@ -34,6 +33,7 @@ from mc_nested.workers.games.desk import Desk
 from mc_nested.workers.games.game_server import GameServer, OpenGame
 from mc_nested.workers.games.game_worker import GameWorker
 from mc_nested.workers.games.order import GameAnswer, GameOrder
+from sim.virtual_games import VirtualPlay, open_virtual_games
 from tests.cli.running import run
 from tests.dask_fixture import LEFTOVERS, leftovers
 from tests.learn.made_experiments import DOT, scenario_text
@@ -57,7 +57,7 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 def own_desk(monkeypatch: pytest.MonkeyPatch) -> None:
     """A desk that is closed stays so: each test has its own."""
     made = Desk()
-    for module in (game_task, serve_game):
+    for module in (game_task, serve):
         monkeypatch.setattr(module, "desk", made)
 
 
@@ -76,7 +76,7 @@ class Served:
         self._stack = stack
 
     def begin(self, name: str, *words: str) -> subprocess.Popen[bytes]:
-        program = [sys.executable, "-m", "mc_nested.cli", "serve-game", "--scheduler", self._url, "--name", name]
+        program = [sys.executable, "-m", "mc_nested.cli", "train", "serve", "--scheduler", self._url, "--name", name]
         with (self._folder / f"{name}.log").open("wb") as log:
             game = subprocess.Popen([*program, *(words or ("--backend", "virtual"))], stdout=log, stderr=log)
         self._stack.callback(game.wait)
@@ -151,7 +151,7 @@ def test_a_game_is_served_until_its_player_ends_it(url: str, capsys: pytest.Capt
 
     thread = threading.Thread(target=learn)
     thread.start()
-    assert run("serve-game", "--scheduler", url, "--backend", "virtual", "--name", "mine") == 130
+    assert run("train", "serve", "--scheduler", url, "--backend", "virtual", "--name", "mine") == 130
     thread.join()
     (answer,) = came
     assert answer.episode
@@ -176,7 +176,7 @@ def test_one_game_in_lockstep_learns_what_train_learns_by_itself(
         np.load(alone / "checkpoint" / FILE) as ours,
         np.load(together / "checkpoint" / FILE) as its,
     ):
-        assert all((ours[name] == its[name]).all() for name in ours.files if name.startswith("kept."))
+        assert all((ours[name] == its[name]).all() for name in ours.files if name.startswith("policies."))
     game.send_signal(signal.SIGINT)
     assert game.wait(20) == 130
     assert served.said("one").splitlines()[-1].endswith("no key is held, and the learner goes on without this game")
@@ -228,10 +228,10 @@ def test_a_game_of_another_kind_refuses_at_both_ends(
         ([*TRAIN, "--games", "127.0.0.1", "--trials", "2", "--out", "OUT"], "games teach one trial together"),
         ([*TRAIN, "--insecure", "--out", "OUT"], "name their scheduler with --games"),
         ([*TRAIN, "--preset", "tuned", "--games", "127.0.0.1", "--out", "OUT"], "[excursions] need the learner"),
-        (["serve-game", "--scheduler", "127.0.0.1:PORT", "--backend", "virtual"], "no scheduler answered at"),
-        (["serve-game", "--scheduler", "10.0.0.1", "--backend", "virtual"], "needs this machine's keys"),
-        (["serve-game", "--scheduler", "127.0.0.1:PORT", "--profile", "nobody"], "nobody"),
-        (["serve-game", "--scheduler", "127.0.0.1:PORT", "--backend", "sim"], "the simulator needs no game"),
+        (["train", "serve", "--scheduler", "127.0.0.1:PORT", "--backend", "virtual"], "no scheduler answered at"),
+        (["train", "serve", "--scheduler", "10.0.0.1", "--backend", "virtual"], "needs this machine's keys"),
+        (["train", "serve", "--scheduler", "127.0.0.1:PORT", "--profile", "nobody"], "nobody"),
+        (["train", "serve", "--scheduler", "127.0.0.1:PORT", "--backend", "sim"], "the simulator needs no game"),
     ],
 )
 def test_a_mistake_is_one_line_and_writes_nothing(
@@ -258,7 +258,7 @@ def test_two_games_of_one_name_are_refused_at_both_ends(url: str, served: Served
     while training.poll() is None and "episode" not in served.said("one"):
         time.sleep(0.05)
     log = tmp_path / "second.log"
-    program = [sys.executable, "-m", "mc_nested.cli", "serve-game", "--scheduler", url, "--name", "one"]
+    program = [sys.executable, "-m", "mc_nested.cli", "train", "serve", "--scheduler", url, "--name", "one"]
     with log.open("wb") as file:
         assert subprocess.run([*program, "--backend", "virtual"], stderr=file, check=False).returncode == 2
     assert log.read_text("utf-8") == f"mc-nested: another game at {url} is named one: give this one another --name\n"

@@ -8,11 +8,10 @@ import cv2
 import numpy as np
 import platformdirs
 import pytest
-import typer
 
 from mc_nested.cli import profiles
 from mc_nested.cli.app import app_for
-from mc_nested.cli.json_fields import JSON_FIELDS, epilog_of
+from mc_nested.cli.output import epilog_of, json_fields
 from mc_nested.live.profile.folder import profile_folder
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile
@@ -20,27 +19,27 @@ from mc_nested.live.vision.font import font_of
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.f3_screen import F3Screen
-from tests.cli.running import run
+from tests.cli.running import run, verbs_of
+
+VERBS = dict(verbs_of(app_for(["--help"])))
 
 
-def verbs_with_json(command: Any, name: str = "") -> set[str]:
-    """The names of all verbs of a command that have --json; of a group that lists, its list has it."""
-    found: set[str] = set()
-    for verb, inner in getattr(command, "commands", {}).items():
-        found |= verbs_with_json(inner, f"{name} {verb}".strip())
-    has_it = any("--json" in parameter.opts for parameter in command.params)
-    return found | ({name} if has_it and not found else set())
+def fields_of(verb: str) -> dict[str, str]:
+    return json_fields(VERBS[verb].callback)
 
 
 def test_every_verb_that_has_json_says_what_it_prints() -> None:
-    assert verbs_with_json(typer.main.get_command(app_for(["--help"]))) == set(JSON_FIELDS)
+    has_json = {verb for verb, each in VERBS.items() if any("--json" in option.opts for option in each.params)}
+    lists = {"runs", "profiles", "recordings"}
+    assert {verb for verb in VERBS if fields_of(verb)} == has_json - lists
+    assert {f"{verb} list" for verb in lists} < has_json
 
 
 def test_help_ends_with_the_fields(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("evaluate", "--help") == 0
+    assert run("runs", "evaluate", "--help") == 0
     shown = " ".join(capsys.readouterr().out.split())
     assert shown.endswith("materials: that each trial chose; steps: that each trial took.")
-    assert epilog_of("rehearse") is None
+    assert epilog_of(VERBS["rehearse"].callback) is None
 
 
 def printed(capsys: pytest.CaptureFixture[str], *words: str | Path) -> dict[str, Any]:
@@ -50,20 +49,24 @@ def printed(capsys: pytest.CaptureFixture[str], *words: str | Path) -> dict[str,
     return found
 
 
-@pytest.mark.parametrize("verb", ["evaluate", "play", "runs show"])
+@pytest.mark.parametrize("verb", ["runs evaluate", "play", "runs show"])
 def test_of_a_run(verb: str, trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert printed(capsys, *verb.split(), trained).keys() == JSON_FIELDS[verb].keys()
+    assert printed(capsys, *verb.split(), trained).keys() == fields_of(verb).keys()
 
 
 def test_of_a_training(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     found = printed(capsys, "train", "--episodes", "2", "--out", tmp_path / "run")
-    assert found.keys() == JSON_FIELDS["train"].keys() - {"live"}
+    assert found.keys() == fields_of("train").keys()
+    assert (found["builders"], found["live"]) == (None, None)
+    found = printed(capsys, "train", "--builders", "2", "--episodes", "2", "--out", tmp_path / "team")
+    assert found.keys() == fields_of("train").keys()
+    assert found["builders"] == 2
 
 
 def test_of_a_list_of_runs(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
     found = printed(capsys, "runs", "list", trained.parent)
-    assert found.keys() == JSON_FIELDS["runs list"].keys()
-    assert {*found["runs"][0], "files"} == JSON_FIELDS["runs show"].keys()
+    assert found.keys() == fields_of("runs list").keys()
+    assert {*found["runs"][0], "files"} == fields_of("runs show").keys()
 
 
 def test_of_profiles(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
@@ -71,14 +74,14 @@ def test_of_profiles(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: py
     monkeypatch.setattr(profiles, "window_of", lambda _: None)
     save_profile(Profile(), profile_folder() / "mine.toml")
     found = printed(capsys, "profiles")
-    assert found.keys() == JSON_FIELDS["profiles list"].keys()
-    assert printed(capsys, "profiles", "show", "mine").keys() == JSON_FIELDS["profiles show"].keys()
-    assert {*found["profiles"][0], "files"} == JSON_FIELDS["profiles show"].keys()
+    assert found.keys() == fields_of("profiles list").keys()
+    assert printed(capsys, "profiles", "show", "mine").keys() == fields_of("profiles show").keys()
+    assert {*found["profiles"][0], "files"} == fields_of("profiles show").keys()
 
 
 def test_of_designs(capsys: pytest.CaptureFixture[str]) -> None:
     (line,) = printed(capsys, "scenarios", "line")["scenarios"]
-    meaning = JSON_FIELDS["scenarios"]["scenarios"]
+    meaning = fields_of("scenarios")["scenarios"]
     assert [name for name in line if name not in meaning] == []
     assert (line["fewest_steps"], line["is_exact"], line["builder_steps"]) == (13, True, 13)
     assert [row.count("#") for row in line["design"]] == [0, 0, *[1] * 11, 0, 0]
@@ -90,12 +93,12 @@ def test_of_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     cv2.imwrite(str(tmp_path / "sky.png"), paint(grey, screen, font_of(drawn_atlas())))
     cv2.imwrite(str(tmp_path / "font.png"), drawn_atlas())
     found = printed(capsys, "read", tmp_path / "sky.png", "--font", tmp_path / "font.png")
-    assert found.keys() == JSON_FIELDS["read"].keys()
+    assert found.keys() == fields_of("read").keys()
 
 
 def test_of_the_doctor(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
     found = printed(capsys, "doctor")
-    assert found.keys() == JSON_FIELDS["doctor"].keys()
+    assert found.keys() == fields_of("doctor").keys()
     assert found["checks"][0].keys() == {"name", "status", "detail", "fix"}

@@ -3,20 +3,30 @@
 import io
 import json
 import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
-from mc_nested.cli.output import Output
-from mc_nested.cli.progress_line import print_line
+from mc_nested.cli.output import FittingTable, Output, facts_table, print_line
+
+
+@dataclass
+class Found:
+    folder: Path
+    scores: list[float]
+    is_done: bool
+    why: str | None
 
 
 def said(output: Output, capsys: pytest.CaptureFixture[str]) -> tuple[str, str]:
     """What a verb prints on both streams."""
     output.note("begins")
     print_line(output.progress, "half of it")
-    output.result({"folder": Path("runs/x"), "scores": [21.0, float("inf")], "is_done": True, "why": None}, "done")
+    output.result(Found(Path("runs/x"), [21.0, float("inf")], True, None), "done")
     output.hint("look at it")
     printed = capsys.readouterr()
     return printed.out, printed.err
@@ -46,7 +56,7 @@ def test_quiet_json_is_the_object_alone(capsys: pytest.CaptureFixture[str]) -> N
 def test_a_table_is_shown_to_a_person_as_wide_as_it_needs(capsys: pytest.CaptureFixture[str]) -> None:
     table = Table("head")
     table.add_row("x" * 100)
-    Output().result({}, table)
+    Output().result(None, table)
     assert "x" * 100 in capsys.readouterr().out
 
 
@@ -57,3 +67,35 @@ def test_a_note_that_nobody_reads_any_more_stops_nothing(monkeypatch: pytest.Mon
 
     monkeypatch.setattr(sys, "stdout", Gone())
     Output().note("begins")
+
+
+ROWS = [
+    {"run": Text("line"), "episodes": Text("3,000"), "size": Text("19 MB")},
+    {"run": Text("zigzag"), "episodes": Text("20"), "size": Text("1 MB")},
+]
+TABLE = FittingTable(ROWS, left_out=("size", "episodes"), numbers=("episodes",))
+
+
+def shown(width: int) -> list[str]:
+    text = io.StringIO()
+    Console(file=text, width=width).print(TABLE)
+    return [line.rstrip() for line in text.getvalue().splitlines()]
+
+
+def test_where_there_is_room_every_column_is_shown_numbers_to_the_right() -> None:
+    assert shown(80) == ["run     episodes  size", "line       3,000  19 MB", "zigzag        20  1 MB"]
+
+
+def test_where_there_is_none_the_least_needed_are_left_out_first() -> None:
+    assert shown(20) == ["run     episodes", "line       3,000", "zigzag        20"]
+    assert shown(10) == ["run", "line", "zigzag"]
+
+
+def test_what_still_does_not_fit_is_folded_and_nothing_is_lost() -> None:
+    assert "".join(shown(4)) == "runlinezigzag"
+
+
+def test_facts_that_say_nothing_are_left_out() -> None:
+    text = io.StringIO()
+    Console(file=text, width=80).print(facts_table([("state", "finished"), ("why", "")]))
+    assert text.getvalue().split() == ["state", "finished"]

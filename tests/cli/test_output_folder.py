@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from mc_nested.cli.completion import RUNS
 from mc_nested.cli.output_folder import output_folder
-from mc_nested.cli.runs_folder import RUNS
 from mc_nested.errors import RunError
 
 NOW = datetime.datetime(2026, 11, 23, 9, 45, 1)

@@ -9,8 +9,9 @@ import pytest
 from calibration.bug_report import write_bug_report
 from calibration.doctor.check import Check, CheckName
 from calibration.report.privacy import Names
+from mc_nested.cli import recordings
 from mc_nested.cli.app import main
-from mc_nested.cli.json_fields import JSON_FIELDS
+from mc_nested.cli.output import json_fields
 from mc_nested.live.recording.recording_file import facts_of
 from mc_nested.live.recording.run_recorder import MOST_RECORDINGS, kept_recordings, recordings_folder
 from sim.client.drawing.letters import drawn_atlas
@@ -69,15 +70,15 @@ def test_for_a_program_they_are_listed_as_json(kept: Path, capsys: pytest.Captur
     (kept.parent / "broken" / "00001.mcap").write_bytes(b"nothing")
     code, said = run(capsys, "recordings", "list", "--json")
     found = json.loads(said)
-    assert (code, found.keys()) == (0, JSON_FIELDS["recordings list"].keys())
-    assert {frozenset(each) for each in found["recordings"]} == {frozenset(JSON_FIELDS["recordings verify"])}
+    assert (code, found.keys()) == (0, json_fields(recordings.list_recordings).keys())
+    assert {frozenset(each) for each in found["recordings"]} == {frozenset(json_fields(recordings.verify))}
     by_name = {Path(each["recording"]).name: each for each in found["recordings"]}
     assert (by_name["play"]["actions"], by_name["play"]["damage"]) == (30, [])
     assert (by_name["broken"]["actions"], len(by_name["broken"]["damage"])) == (None, 1)
     assert json.loads(run(capsys, "recordings", "verify", "play", "--json")[1]) == by_name["play"]
     assert run(capsys, "recordings", "--json", "verify", "play") == (
         2,
-        "mc-nested: write --json at the end, behind list or verify: the others have none\n",
+        "mc-nested: write --json at the end: mc-nested recordings verify --json\n",
     )
 
 

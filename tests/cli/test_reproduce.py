@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 
 from mc_nested.cli import study as study_module
-from mc_nested.cli.json_fields import JSON_FIELDS
+from mc_nested.cli.output import json_fields
+from mc_nested.cli.reproduce import reproduce
 from mc_nested.learn.runs.checkpoint import FILE
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies.reproduce import STUDY
@@ -63,7 +64,9 @@ def test_a_preset_that_an_agent_can_not_use_is_refused_before_anything_is_traine
     assert not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize("verb", [("evaluate",), ("play",), ("train", "--resume"), ("study", "sweep", "--resume")])
+@pytest.mark.parametrize(
+    "verb", [("runs", "evaluate"), ("play",), ("train", "--resume"), ("study", "sweep", "--resume")]
+)
 def test_other_verbs_say_whose_folder_it_is(
     done: Path, verb: tuple[str, ...], capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -129,7 +132,7 @@ def test_for_a_program_it_prints_its_files_and_the_verdicts(done: Path, capsys: 
     assert run("reproduce", "--resume", done, "--json", "--quiet") == 0
     printed = capsys.readouterr()
     found = json.loads(printed.out)
-    assert found.keys() == JSON_FIELDS["reproduce"].keys()
+    assert found.keys() == json_fields(reproduce).keys()
     assert found["folder"] == str(done)
     assert found["files"] == {what: str(done / name) for what, name in FILES.items()}
     assert [claim["letter"] for claim in found["claims"]][:4] == ["a1", "a2", "a3", "b"]

@@ -78,7 +78,7 @@ def test_one_is_renamed(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("runs", "rename", "whole", "better") == 0
     assert capsys.readouterr().out == f"renamed to {Path('runs/better')}\n"
     assert (here / "runs" / "better" / "config.toml").exists()
-    assert run("evaluate", "runs/better") == 0
+    assert run("runs", "evaluate", "runs/better") == 0
 
 
 @pytest.mark.parametrize(("answer", "is_gone"), [(True, True), (False, False)])

@@ -9,7 +9,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.scenario_file import table_of
 from mc_nested.cli.progress import TrainingProgress
 from mc_nested.cli.training_view import TrainingView
-from mc_nested.learn.runs.run_folder import RunConfig
+from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.report.tensorboard import FILE, TensorBoard
 from mc_nested.view.board import Board
 from tests.learn.games.lockstep import finish, game_of, learner_of

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from mc_nested.cli import study as study_module
-from mc_nested.cli.json_fields import JSON_FIELDS
+from mc_nested.cli.output import json_fields
 from mc_nested.learn.runs.folder_lock import folder_lock
 from mc_nested.studies import benchmark
 from tests.cli.running import run, table
@@ -65,7 +65,7 @@ def test_it_leaves_the_same_files_for_any_number_of_processes_and_after_a_resume
     capsys.readouterr()
     assert run("study", "benchmark", "--resume", files / "1", "--json") == 0
     printed = json.loads(capsys.readouterr().out)
-    assert printed.keys() == JSON_FIELDS["study benchmark"].keys()
+    assert printed.keys() == json_fields(study_module.command_of(benchmark.STUDY)).keys()
     assert printed["files"]["report"] == str(files / "1" / "benchmark.md")
     solved = {each["contestant"]: (each["trials"], each["solved"]) for each in printed["measures"]}
     assert solved.keys() == {"nested, tiny", "nested, small", "single, tiny", "single, small"}

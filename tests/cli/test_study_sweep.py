@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from mc_nested.cli.app import main
-from mc_nested.cli.json_fields import JSON_FIELDS
+from mc_nested.cli.output import json_fields
+from mc_nested.cli.study import command_of, declared
 from mc_nested.learn.runs.folder_lock import folder_lock
 from tests.learn.made_experiments import DOT, scenario_text, small_preset_text
 
@@ -47,7 +48,7 @@ def test_a_sweep_leaves_a_row_for_each_trial_a_table_and_a_plot(
     capsys.readouterr()
     assert run("study", "sweep", "--resume", out, "--json") == 0
     files = {"table": str(out / "sweep.md"), "plot": str(out / "sweep.png"), "rows": str(out / "sweep.csv")}
-    assert set(JSON_FIELDS["study sweep"]) == {"folder", "files"}
+    assert set(json_fields(command_of(declared("sweep")))) == {"folder", "files"}
     assert json.loads(capsys.readouterr().out) == {"folder": str(out), "files": files}
     with folder_lock(out):
         assert run("study", "sweep", "--resume", out) == 2

@@ -9,7 +9,7 @@ import pytest
 from mc_nested.arena.scenario_file import load_scenario, table_of
 from mc_nested.cli.training_end import next_steps
 from mc_nested.learn.preset import load_preset
-from mc_nested.learn.runs.run_folder import RunConfig
+from mc_nested.learn.runs.run_config import RunConfig
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows quotes words otherwise")
 
@@ -36,7 +36,7 @@ def test_at_the_optimum_it_can_be_watched() -> None:
 
 def test_several_trials_can_be_evaluated() -> None:
     lines = next_steps(Path("my runs/x"), config(trials=3), is_at_optimum=True)
-    assert lines[1:] == ["            mc-nested evaluate 'my runs/x' plays each of its trials"]
+    assert lines[1:] == ["            mc-nested runs evaluate 'my runs/x' plays each of its trials"]
 
 
 def test_below_the_optimum_it_can_go_on_for_twice_as_long() -> None:

@@ -8,7 +8,7 @@ from mc_nested.cli.training_view import ScoreCurve, TrainingView
 from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.episode_log import EpisodeRow
 from mc_nested.learn.preset import load_preset
-from mc_nested.learn.runs.run_folder import RunConfig
+from mc_nested.learn.runs.run_config import RunConfig
 from mc_nested.learn.trainer import Trainer
 from mc_nested.report.game_time import expected
 from mc_nested.view.board import Board

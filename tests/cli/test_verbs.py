@@ -26,7 +26,7 @@ def test_the_other_agents_train_evaluate_and_play(
     summary = json.loads((out / "summary.json").read_text())
     assert (summary["agent"], summary["networks"]) == (agent, networks)
     capsys.readouterr()
-    assert run("evaluate", out, "--json") == 0
+    assert run("runs", "evaluate", out, "--json") == 0
     assert json.loads(capsys.readouterr().out)["scores"] == summary["final_scores"]
     assert run("play", out, "--trial", "1") == 0
     assert f"score {summary['final_scores'][1]:g} of 21" in capsys.readouterr().out
@@ -38,7 +38,7 @@ def test_a_checkpoint_of_another_scenario_is_refused(
     other = tmp_path / "other"
     assert run("train", "--episodes", "1", "--scenario", "zigzag", "--out", other) == 0
     (other / "checkpoint" / FILE).write_bytes((trained / "checkpoint" / FILE).read_bytes())
-    verbs: list[list[str | Path]] = [["evaluate", other], ["play", other], ["train", "--resume", other]]
+    verbs: list[list[str | Path]] = [["runs", "evaluate", other], ["play", other], ["train", "--resume", other]]
     for verb in verbs:
         capsys.readouterr()
         assert run(*verb) == 2

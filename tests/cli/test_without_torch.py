@@ -37,7 +37,7 @@ def test_a_training_is_saved_evaluated_and_played_without_torch(tmp_path: Path) 
     made = without_torch(COMMAND, "train", "--preset", "live", "--episodes", "3", "--out", out)
     assert made.returncode == 0, made.stderr
     (score,) = json.loads((out / "summary.json").read_text())["final_scores"]
-    evaluated = without_torch(COMMAND, "evaluate", out, "--json")
+    evaluated = without_torch(COMMAND, "runs", "evaluate", out, "--json")
     assert evaluated.returncode == 0, evaluated.stderr
     assert json.loads(evaluated.stdout)["scores"] == [score]
     played = without_torch(COMMAND, "play", out)

@@ -7,10 +7,11 @@ from collections.abc import Callable
 from tests.design_files import written
 
 SIZES = {
-    "mc-nested cooperate": "--trials 1 --episodes 20",
     "mc-nested reproduce": "--trials 1 --episodes 4 --scenario line",
     "mc-nested reproduce --robustness": "--trials 1 --episodes 1 --scenario line",
     "mc-nested reproduce --beyond": "--trials 1 --episodes 4",
+    "mc-nested study robustness": "--trials 1 --episodes 1 --scenario line",
+    "mc-nested study beyond": "--trials 1 --episodes 4",
     "mc-nested study ablation": "--trials 1 --episodes 1 --scenario line",
     "mc-nested study sweep": "--trials 1 --episodes 2 --scenario line",
     "mc-nested study benchmark": "--designs 1 --agents nested --presets live",
@@ -24,6 +25,7 @@ SIZES = {
     "mc-nested train --scenario flag --preset tuned": "--trials 1 --episodes 20",
     "mc-nested train --trials 10": "--trials 1 --episodes 30",
     "mc-nested train --scenario line --trials 10": "--episodes 1000",
+    "mc-nested train --scenario line --builders 2": "--trials 1 --episodes 20",
     "python scripts/examples/sb3_dqn.py": "--steps 100",
     "python scripts/examples/cleanrl_dqn.py": "--steps 300",
     "python scripts/bench.py calibration": "--clients 1 --actions 2",
@@ -46,8 +48,8 @@ BY_THE_SUITE = {
     "dask scheduler": "tests/workers/cluster, which start one, with keys and without",
     "dask worker": "tests/workers/cluster",
     "mc-nested reproduce --cluster": "tests/cli/test_cluster.py",
+    "mc-nested train serve": "tests/cli/test_games_training.py",
     "mc-nested study sweep --cluster": "tests/cli/test_cluster.py",
-    "mc-nested serve-game": "tests/cli/test_games_training.py",
     **dict.fromkeys(
         (
             "mc-nested train --backend live --preset live --scenario diamond --stop-at-optimum --games",
@@ -86,7 +88,10 @@ FILES: dict[str, Callable[[], bytes]] = {
 
 BEFORE = {
     "mc-nested calibrate arena": (CALIBRATE, "mc-nested calibrate arena --undo"),
-    "mc-nested cooperate --resume runs/two": ("mc-nested cooperate --builders 2 --out runs/two",),
+    **dict.fromkeys(
+        ("mc-nested train --resume runs/two", "mc-nested runs evaluate runs/two"),
+        ("mc-nested train --builders 2 --episodes 20 --out runs/two",),
+    ),
 }
 """What comes before a command that stands in a text."""
 
@@ -95,7 +100,7 @@ _OF_NO_MATTER = re.compile(r"--(?:trials|episodes|designs|seed) \d+|--out|runs/\
 STANDS_FOR = {"--scenario …": "--scenario line"}
 """What a reader puts in place of an ellipsis."""
 
-LIVE = ("bug-report", "calibrate", "doctor", "read", "recordings", "replay")
+LIVE = ("calibrate", "doctor", "read", "recordings", "replay")
 """Verbs that look at the game's window, or at what was written there."""
 
 LIVE_SNIPPET = 'backend="live"'

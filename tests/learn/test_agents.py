@@ -9,6 +9,7 @@ from mc_nested.arena.planes import start_planes
 from mc_nested.errors import PresetError
 from mc_nested.learn.agents import AGENT_SPECS, Agent, check_exploration
 from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
+from mc_nested.learn.learnt_game import imagination_of
 from mc_nested.learn.preset import load_preset
 from sim.grid import GridVectorEnv
 from tests.learn.made_experiments import BAR, DOT, small_preset
@@ -67,15 +68,16 @@ def test_a_single_agent_can_not_practise_in_a_learnt_game() -> None:
     live = load_preset("live")
     for spec in (NESTED, HIERARCHICAL):
         check_exploration(spec, live)
-        assert Agent(spec, [DOT], live, 0).imagination([DOT], live, 0) is not None
-        assert Agent(spec, [DOT], PRESET, 0).imagination([DOT], PRESET, 0) is None
+        assert imagination_of(Agent(spec, [DOT], live, 0), [DOT], live, 0) is not None
+        assert imagination_of(Agent(spec, [DOT], PRESET, 0), [DOT], PRESET, 0) is None
     with pytest.raises(PresetError, match=r"\[imagination\] is not for the single agent"):
         check_exploration(SINGLE, live)
 
 
 def test_one_runs_networks_play_alone_as_they_do_beside_others() -> None:
     agent, alone = Agent(HIERARCHICAL, [DOT, DOT], PRESET, 0), Agent(HIERARCHICAL, [DOT], PRESET, 9)
-    alone.load_networks(agent.networks_of(1))
+    rows = agent.rows_of(1)
+    alone.load_online({role: online[rows[role]] for role, online in agent.online().items()})
     np.testing.assert_array_equal(alone.low_level.engine.online, agent.low_level.engine.online[2:4])
     other = Agent(HIERARCHICAL, [DOT, DOT], PRESET, 5)
     other.load_online(alone.online())

@@ -176,14 +176,14 @@ def test_an_episode_that_a_mishap_ends_leaves_no_trace(episodes: int, breaks_in:
     while len(trainer.episode_rows) + len(trainer.evaluation_rows) < episodes:
         trainer.tick()
     game.acts_left = breaks_in
-    before = {name: kept.copy() for name, kept in trainer.state().items() if name.startswith("imagination.")}
+    before = {name: kept.copy() for name, kept in trainer.state().items() if name.startswith("practice.")}
     with pytest.raises(ConnectionError):
         finish(trainer)
     trainer.abandon_episodes()
     after = trainer.state()
     assert before
     for name, kept in before.items():
-        if name not in {"imagination.explores", "imagination.falls_short"}:  # a practice has been since
+        if name not in {"practice.explores", "practice.falls_short"}:  # a practice has been since
             np.testing.assert_array_equal(after[name], kept, err_msg=name)
     for each in (trainer, undisturbed):
         finish(each)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mc_nested.learn.dqn.replay import Transitions
-from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.states import StateSpace
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import Imitation, Prioritized, load_preset
 

@@ -5,8 +5,8 @@ import numpy as np
 from mc_nested.learn.streams import (
     TICKS_A_CHUNK,
     Streams,
+    episode_stream,
     initial_stream,
-    lesson_stream,
     main_updates_stream,
     plan_stream,
     practice_stream,
@@ -57,6 +57,6 @@ def test_practice_differs_by_seed_run_and_episode_and_from_all_else() -> None:
 
 def test_a_games_episode_and_what_is_learnt_from_it_differ_by_seed_run_and_number() -> None:
     ways = [(seed, run, number) for seed in (0, 1) for run in (0, 1) for number in (0, 1, 5000)]
-    drawn = [stream(*way).random() for stream in (plan_stream, lesson_stream, practice_stream) for way in ways]
+    drawn = [stream(*way).random() for stream in (plan_stream, episode_stream, practice_stream) for way in ways]
     assert len(set(drawn)) == 3 * len(ways)
-    assert drawn == [stream(*way).random() for stream in (plan_stream, lesson_stream, practice_stream) for way in ways]
+    assert drawn == [stream(*way).random() for stream in (plan_stream, episode_stream, practice_stream) for way in ways]

@@ -17,6 +17,7 @@ from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.arrays import Arrays, Float32s, Int64s
 from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
 from mc_nested.learn.evaluation import play_greedily
+from mc_nested.learn.exploration.excursions import Excursions
 from mc_nested.learn.learner import Learner
 from mc_nested.learn.preset import ExcursionRule, Imitation, MainUpdates, Preset, Prioritized, load_preset
 from mc_nested.learn.trainer import Trainer
@@ -311,12 +312,12 @@ def exploring() -> Trainer:
 def test_with_excursions_what_a_greedy_evaluation_did_is_remembered_but_not_stored() -> None:
     trainer = trainer_of([LINE], SCOUTING)
     trainer.begin_from({role: online[[0]] for role, online in trainer.agent.online().items()})
-    explorer = trainer._explorer
-    assert explorer is not None
+    excursions = trainer.practice
+    assert isinstance(excursions, Excursions)
     while not trainer.evaluation_rows:
         trainer.tick()
     assert not trainer.episode_rows, "the first episode is greedy: its policy was begun from"
-    assert (explorer._explorers[0]._effects != 0).any()
+    assert (excursions._explorers[0]._effects != 0).any()
     assert trainer.agent.low_level.replay.added.tolist() == [0]
     assert trainer.agent.updates == 0
 
@@ -342,14 +343,14 @@ class Slips(GridVectorEnv):
 
 def test_where_actions_slip_the_best_episode_is_followed_only_from_its_own_states() -> None:
     trainer = Trainer(Slips([LINE]), [LINE], Agent(NESTED, [LINE], SCOUTING, 0), SCOUTING, 0)
-    explorer = trainer._explorer
-    assert explorer is not None
-    one = explorer._explorers[0]
+    excursions = trainer.practice
+    assert isinstance(excursions, Excursions)
+    one = excursions._explorers[0]
     followed, left = 0, 0
     while not trainer.finished:
         best, walked, leaves_at = list(one.best), len(one._walk), one._leave_at
-        following, observation = one._following, trainer._runs.observations[0].copy()
-        between = bool(trainer._runs.between_episodes[0] or trainer._runs.evaluating[0])
+        following, observation = one._following, trainer._episodes.observations[0].copy()
+        between = bool(trainer._episodes.between_episodes[0] or trainer._episodes.evaluating[0])
         trainer.tick()
         if following is None or between or walked >= leaves_at:
             continue
@@ -365,10 +366,10 @@ def test_where_actions_slip_the_best_episode_is_followed_only_from_its_own_state
 
 def test_a_run_keeps_its_best_policy_where_the_preset_says_so(exploring: Trainer) -> None:
     scores = [max(row.score for row in exploring.evaluation_rows if row.trial == run) for run in (0, 1)]
-    assert exploring.kept_scores.tolist() == scores
+    assert exploring.policy_scores.tolist() == scores
     agent = Agent(NESTED, [LINE, DIAMOND], SCOUTING, seed=0)
     for role, online in agent.online().items():
-        online[:] = exploring.state()[f"kept.{role}"]
+        online[:] = exploring.state()[f"policies.{role}"]
     played = play_greedily(GridVectorEnv([LINE, DIAMOND]), [LINE, DIAMOND], agent)
     assert [episode.score for episode in played] == scores
 
@@ -378,7 +379,7 @@ def test_a_training_begun_from_a_policy_keeps_it_until_it_has_one_of_its_own(exp
     trainer = trainer_of([LINE, DIAMOND], SCOUTING)
     trainer.begin_from(online)
     for role, taken in online.items():
-        np.testing.assert_array_equal(trainer.state()[f"kept.{role}"], np.concatenate([taken, taken]))
+        np.testing.assert_array_equal(trainer.state()[f"policies.{role}"], np.concatenate([taken, taken]))
     while not trainer.evaluation_rows:
         trainer.tick()
     assert trainer.evaluation_rows[0].episode == 0

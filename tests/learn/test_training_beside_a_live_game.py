@@ -186,13 +186,13 @@ def test_a_spoiled_episode_leaves_what_was_practised_before_and_beside_it_and_no
     while len(trainer.episode_rows) < 2:
         trainer.tick()
     trainer.tick()
-    practised, known = networks(trainer), len(trainer.state()["imagination.0.steps"]) - 1
+    practised, known = networks(trainer), len(trainer.state()["practice.0.steps"]) - 1
     game.acts_left = 10
     with pytest.raises(LiveError):
         finish(trainer)
     trainer.abandon_episodes()
     assert are_the_same(networks(trainer), practised)
-    assert len(trainer.state()["imagination.0.steps"]) == known
+    assert len(trainer.state()["practice.0.steps"]) == known
     before = int(trainer.agent.low_level.engine.updates[0])
     assert before > 0
     assert [row.episode for row in finish(trainer).episode_rows] == [1, 2, 3, 4, 5]

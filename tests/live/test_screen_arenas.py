@@ -15,7 +15,6 @@ from mc_nested.arena.action import Action
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.scenario import Material, Scenario
 from mc_nested.arena.vector import NO_ACTION, ArenaVectorEnv
-from mc_nested.cli.virtual_games import open_virtual_games
 from mc_nested.errors import LiveError, UserError
 from mc_nested.live.devices import Frame
 from mc_nested.live.screen_arenas import FRAMES, NEEDS_A_WINDOW, SIDE, ScreenArenas, hidden_regions, world_greys
@@ -24,6 +23,7 @@ from sim.client.client import VirtualClient
 from sim.client.drawing.painter import SEEN
 from sim.client.game.realm import Stack
 from sim.grid import GridGame
+from sim.virtual_games import open_virtual_games
 from tests.sim.client.playing import command
 
 SMALL = Scenario("small", frozenset({(2, 2), (3, 2)}), (2, 0), 5, (Material("stone", 1.0, "stone"),), 5)

@@ -3,6 +3,7 @@
 import dataclasses
 import re
 from contextlib import AbstractContextManager, nullcontext, suppress
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ import pytest
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, FontError, LiveError, NotInFrontError, ProfileError, StoppedError
 from mc_nested.live.input.stops import Stop
+from mc_nested.live.opening import Opening
 from mc_nested.live.profile.fingerprint import Fingerprint
 from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable, WindowTable
 from mc_nested.live.session import fingerprint_of, open_live_game
@@ -18,7 +20,7 @@ from sim.client.client import VirtualClient
 from sim.client.drawing import gui_layers
 from sim.client.game.debug_entries import GAME_DEFAULT
 from sim.client.settings import ClientSettings
-from tests.live.virtual_session import ARENA, font_in, live_on, opener, profile_in, saved
+from tests.live.virtual_session import ARENA, font_in, opener, opening_on, profile_in, saved
 
 LINE = load_scenario("line")
 CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 480), gui_scale=2)
@@ -39,7 +41,7 @@ def test_a_game_that_does_not_fit_is_not_opened_and_nothing_is_pressed(
     profile = saved(Profile(screen=font_in(tmp_path), arena=ARENA, calibrated=CALIBRATED), tmp_path)
     with (
         pytest.raises(ProfileError, match=complaint) as caught,
-        open_live_game(LINE, profile, lambda _: None, open_devices=opener(client, [])),
+        open_live_game(LINE, opening_on(client, profile)),
     ):
         pass
     assert f"mc-nested calibrate all --profile {profile}" in str(caught.value)
@@ -51,9 +53,7 @@ def test_a_game_that_does_not_fit_is_not_opened_and_nothing_is_pressed(
 def test_a_version_later_than_all_known_ones_is_played_with_one_line_about_it(tmp_path: Path) -> None:
     profile, said = saved(Profile(screen=font_in(tmp_path), arena=ARENA), tmp_path), list[str]()
     client = VirtualClient(ClientSettings(version="27.1"))
-    opened = open_live_game(
-        LINE, profile, said.append, open_devices=opener(client, []), open_panic_switch=lambda *_: nullcontext()
-    )
+    opened = open_live_game(LINE, opening_on(client, profile, said.append))
     with suppress(LiveError, DesktopError), opened:
         pass
     assert said[0].startswith("Minecraft 27.1 is later than 26.4")
@@ -67,7 +67,10 @@ def test_a_hotbar_that_can_not_be_seen_is_refused_soon_and_nothing_is_pressed(
     monkeypatch.setattr(gui_layers, "_HOTBAR_FRAME", {0: 20, 1: 0x70, 2: 0x40, 19: 0x60, 20: 0x50, 21: 20})
     client = VirtualClient(version=version)
     began = client.clock.now()
-    with pytest.raises(LiveError, match="the hotbar isn't seen"), live_on(client)(LINE, profile_in(tmp_path), print):
+    with (
+        pytest.raises(LiveError, match="the hotbar isn't seen"),
+        open_live_game(LINE, opening_on(client, profile_in(tmp_path))),
+    ):
         pass
     assert client.clock.now() - began < 5.0
     assert (client.game.screen, client.window.down, client.window.strays) == ("world", set(), [])
@@ -79,14 +82,14 @@ def test_a_debug_screen_that_names_no_block_is_refused_and_nothing_is_pressed(
     client = VirtualClient(version="26.3", debug_entries=GAME_DEFAULT)
     monkeypatch.setattr(client.keyboard, "press", pytest.fail)
     says = r"^the debug screen names no block, .*: press F3\+F6 in the game"
-    with pytest.raises(LiveError, match=says), live_on(client)(LINE, profile_in(tmp_path), print):
+    with pytest.raises(LiveError, match=says), open_live_game(LINE, opening_on(client, profile_in(tmp_path))):
         pass
 
 
 def test_a_game_menu_that_hides_the_hotbar_is_not_refused_but_left_by_the_first_reset(tmp_path: Path) -> None:
     client = VirtualClient(version="26.4")
     client.game.open("pause")
-    with live_on(client)(LINE, profile_in(tmp_path), print) as (game, _):
+    with open_live_game(LINE, opening_on(client, profile_in(tmp_path))) as (game, _):
         game.reset(0)
     assert client.game.screen == "world"
 
@@ -100,7 +103,8 @@ def test_a_profile_that_can_not_be_played_with_opens_no_window(tmp_path: Path) -
         (Profile(arena=ARENA, screen=ScreenTable(font=str(tmp_path / "none.png"))), FontError),
     ]
     for profile, error in unusable:
-        opened = open_live_game(LINE, saved(profile, tmp_path), print, open_devices=opener(VirtualClient(), titles))
+        opening = Opening(saved(profile, tmp_path), print, open_devices=opener(VirtualClient(), titles))
+        opened = open_live_game(LINE, opening)
         with pytest.raises(error), opened:
             pass
     assert titles == []
@@ -112,7 +116,7 @@ def test_a_scenario_larger_than_the_calibrated_arena_opens_no_window_and_names_t
     titles: list[str] = []
     profile = saved(Profile(screen=font_in(tmp_path), arena=ARENA), tmp_path)
     large = dataclasses.replace(LINE, size=20)
-    opened = open_live_game(large, profile, print, open_devices=opener(VirtualClient(), titles))
+    opened = open_live_game(large, Opening(profile, print, open_devices=opener(VirtualClient(), titles)))
     with pytest.raises(ProfileError, match=rf"calibrate arena --size 20 --profile {re.escape(profile)}$"), opened:
         pass
     assert titles == []
@@ -128,7 +132,8 @@ def test_the_player_is_asked_to_switch_only_where_another_window_is_in_front(is_
     said: list[str] = []
     titles: list[str] = []
     error = ProfileError if is_in_front else NotInFrontError
-    with pytest.raises(error), open_live_game(LINE, profile, said.append, open_devices=opener(client, titles)):
+    opening = Opening(profile, said.append, open_devices=opener(client, titles))
+    with pytest.raises(error), open_live_game(LINE, opening):
         pass
     asked = (
         "Switch to the game now with Alt+Tab (Cmd+Tab on a Mac), not by a click, and have the debug screen on (F3). "
@@ -147,7 +152,7 @@ def test_a_fingerprint_is_the_window_as_it_is_now() -> None:
 
 def test_a_game_that_fits_is_opened_and_no_key_is_down_once_it_is_left(tmp_path: Path) -> None:
     client = VirtualClient()
-    with live_on(client)(LINE, profile_in(tmp_path), print) as (game, display):
+    with open_live_game(LINE, opening_on(client, profile_in(tmp_path))) as (game, display):
         assert display is client.display
         assert game.reset(LINE.best_material) == LINE.start == client.cell(ARENA)
         game.connection.controller.press(client.clock.now() + 1.0, "s")
@@ -163,8 +168,8 @@ def test_the_panic_switch_stops_the_game_by_the_profiles_key(tmp_path: Path) -> 
         switches.append((key, stop))
         return nullcontext()
 
-    opened = open_live_game(LINE, profile_in(tmp_path), print, open_devices=opener(client, []), open_panic_switch=noted)
-    with opened as (game, _):
+    opening = replace(opening_on(client, profile_in(tmp_path)), open_panic_switch=noted)
+    with open_live_game(LINE, opening) as (game, _):
         ((key, stop),) = switches
         assert key == "f12"
         stop("enough")

@@ -13,6 +13,7 @@ from mc_nested.arena.action import Cell
 from mc_nested.arena.builder import build_with_materials
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import NotConfirmedError, WrongScreenError
+from mc_nested.live.opening import Opening
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.session import open_live_game
 from scripts import standin_game
@@ -38,7 +39,7 @@ def test_the_contract_of_every_game_holds_in_a_real_window(standin: Standin) -> 
 def play_in_the_window(profile: str, oracle: str) -> None:
     """AssertionError or LiveError where the game in the profile's window doesn't keep the contract."""
     line, flag = load_scenario("line"), load_scenario("flag")
-    with open_live_game(line, profile, print) as (game, _):
+    with open_live_game(line, Opening(profile, print)) as (game, _):
         start_over_after_a_stall(lambda: check_game(game, line, BUMPS))
     arena = load_profile(profile).marked_arena()
 
@@ -47,7 +48,7 @@ def play_in_the_window(profile: str, oracle: str) -> None:
         cells = {arena.block_of((x, y)): (x, y) for x in range(flag.size) for y in range(flag.size)}
         return {cells[block]: name for block, name in standin_game.blocks(oracle, *arena.region).items()}
 
-    with open_live_game(flag, profile, print) as (game, _):
+    with open_live_game(flag, Opening(profile, print)) as (game, _):
         start_over_after_a_stall(lambda: check_materials(game, flag, build_with_materials(flag), kinds))
 
 

@@ -2,13 +2,15 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from functools import partial
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
 
+from mc_nested.arena.scenario import Scenario
 from mc_nested.live.devices import Devices, Display
 from mc_nested.live.live_game import LiveGame
+from mc_nested.live.opening import Opening
 from mc_nested.live.profile.arena import Arena
 from mc_nested.live.profile.store import save_profile
 from mc_nested.live.profile.tables import Profile, ScreenTable
@@ -51,6 +53,19 @@ def opener(client: VirtualClient, titles: list[str]) -> OpenDevices:
     return opened
 
 
+def opening_on(client: VirtualClient, profile: str, say: Callable[[str], None] = print) -> Opening:
+    """Opens that client's window, without a panic switch."""
+    return Opening(profile, say, open_devices=opener(client, []), open_panic_switch=lambda *_: nullcontext())
+
+
 def live_on(client: VirtualClient) -> Callable[..., AbstractContextManager[tuple[LiveGame, Display]]]:
-    """``open_live_game`` for that client's window, without a panic switch."""
-    return partial(open_live_game, open_devices=opener(client, []), open_panic_switch=lambda *_: nullcontext())
+    """``open_live_game`` for that client's window, whatever window the opening would open."""
+
+    def opened(scenario: Scenario, opening: Opening) -> AbstractContextManager[tuple[LiveGame, Display]]:
+        here = opening_on(client, opening.profile)
+        return open_live_game(
+            scenario,
+            replace(opening, open_devices=here.open_devices, open_panic_switch=here.open_panic_switch),
+        )
+
+    return opened

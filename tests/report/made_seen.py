@@ -3,14 +3,14 @@
 import numpy as np
 
 from mc_nested.learn.imagination.beliefs import Belief
-from mc_nested.learn.imagination.seen import Seen, Spent
+from mc_nested.learn.imagination.known_arena import KnownArena, Spent
 
 
-def made_seen(size: int = 4, episodes: int = 3) -> Seen:
+def made_seen(size: int = 4, episodes: int = 3) -> KnownArena:
     """Two cells pay, one of them built; one doesn't, and was built on; one is believed to."""
     cells = np.full((size, size), Belief.UNKNOWN, dtype=np.int8)
     cells[0, 0] = cells[1, 0] = Belief.PAYS
     cells[2, 0] = Belief.BELIEVED
     cells[3, 3] = Belief.PAYS_NOT
     spent = tuple(Spent(number, 2, 1, number, 1) for number in range(1, episodes + 1))
-    return Seen(cells, frozenset({(0, 0), (3, 3)}), spent, explores=True)
+    return KnownArena(cells, frozenset({(0, 0), (3, 3)}), spent, explores=True)

@@ -14,7 +14,7 @@ from scripts.windows import WHERE_WINDOWS_DIFFERS
 ROOT = Path(__file__).resolve().parents[2]
 ASKS = re.compile(r"sys\.platform|os\.name\b|import ctypes")
 ELSEWHERE = {
-    "mc_nested/cli/terminal_view.py": "tests/cli/test_viewing.py has a terminal of Linux",
+    "mc_nested/view/terminal_view.py": "its test has a terminal of Linux",
     "mc_nested/cli/training_end.py": "its test is of a Linux shell's quotes",
     "sim/window/glfw_window.py": "tests/windows/test_live_path.py plays in it",
 }

@@ -6,11 +6,11 @@ import numpy as np
 from mc_nested.arena.builder import build
 from mc_nested.arrays import Int64s
 from mc_nested.learn.preset import Preset
-from mc_nested.studies.sb3 import Sb3Env
+from mc_nested.studies.sb3 import Sb3Dqn, Sb3Env
 from tests.learn.made_experiments import BAR
 
 
-class MadeModel:
+class MadeModel(Sb3Dqn):
     """Takes the material stone, then acts at random; from ``knows_after`` episodes on, it builds the bar."""
 
     knows_after = 12

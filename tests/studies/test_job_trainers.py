@@ -1,41 +1,42 @@
-"""A job's trainer: of agents as ever, of a team as cooperate trains it."""
+"""A job's trainer, of several builders in an arena."""
 
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from mc_nested.arena.cooperative.team import Team
-from mc_nested.arena.cooperative.team_env import TeamEnv
-from mc_nested.learn.cooperation.team_agent import Kind
-from mc_nested.learn.cooperation.team_trainer import TeamArena, arena_of
+from mc_nested.arena.cooperative.team_env import TeamVectorEnv
+from mc_nested.learn.builders import Networks
 from mc_nested.learn.runs.checkpoint import fingerprint
 from mc_nested.studies.job import Builders, Job
-from mc_nested.studies.job_trainers import team_trainer
+from mc_nested.studies.job_trainers import agents_trainer, team_of_job
 from mc_nested.studies.job_training import JobTraining
 from mc_nested.studies.outcome import JobOutcome, outcome_of
 from sim.team_grid import TeamGrid
 from tests.learn.made_experiments import BAR, one_job
 
 
-def arenas(team: Team, networks: Kind, runs: int) -> list[TeamArena]:
-    return [arena_of(TeamEnv(TeamGrid(team), team), networks) for _ in range(runs)]
-
-
-def team_job(builders: int, networks: Kind, trials: tuple[int, ...] = (0, 1)) -> Job:
+def team_job(builders: int, networks: Networks, trials: tuple[int, ...] = (0, 1)) -> Job:
     job = replace(one_job("nested", [BAR], len(trials)), builders=Builders(builders, networks))
     return replace(job, trials=trials)
 
 
 def train(job: Job, folder: Path, stopped_at: int | None = None) -> JobOutcome:
-    training = JobTraining(job, folder, team_trainer(job, arenas))
+    team = team_of_job(job)
+    assert team
+
+    def begun() -> JobTraining:
+        arenas = TeamVectorEnv([TeamGrid(team) for _ in job.trials], team)
+        return JobTraining(job, folder, agents_trainer(job, arenas))
+
+    training = begun()
     ticks = 0
     while not training.finished:
         training.tick()
         ticks += 1
         if ticks == stopped_at:
             training.save()
-            training = JobTraining(job, folder, team_trainer(job, arenas))
+            training = begun()
     training.finish()
     outcome = outcome_of(job, folder)
     assert outcome
@@ -43,7 +44,7 @@ def train(job: Job, folder: Path, stopped_at: int | None = None) -> JobOutcome:
 
 
 @pytest.mark.parametrize("networks", ["shared", "own", "single"])
-def test_a_team_is_trained_the_same_however_often_it_is_stopped(networks: Kind, tmp_path: Path) -> None:
+def test_a_team_is_trained_the_same_however_often_it_is_stopped(networks: Networks, tmp_path: Path) -> None:
     job = team_job(2, networks)
     whole, stopped = train(job, tmp_path / "whole"), train(job, tmp_path / "stopped", stopped_at=41)
     assert whole.runs == stopped.runs
@@ -69,6 +70,5 @@ def test_builders_are_part_of_what_is_trained() -> None:
     assert jobs[-1].identity()["builders"] is None
 
 
-def test_a_job_without_builders_is_no_teams() -> None:
-    with pytest.raises(ValueError, match="no builders"):
-        team_trainer(one_job("nested", [BAR], 1), arenas)
+def test_a_job_without_builders_has_no_team() -> None:
+    assert team_of_job(one_job("nested", [BAR], 1)) is None

@@ -3,12 +3,12 @@
 import json
 from pathlib import Path
 
-import numpy as np
 import pytest
 
-from mc_nested.arrays import Int64s
 from mc_nested.errors import RunError
+from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
+from mc_nested.learn.training import Training
 from mc_nested.studies.job import Job, cut_into_jobs
 from mc_nested.studies.job_trainers import agents_trainer
 from mc_nested.studies.job_training import JobTraining, SpendingCount
@@ -151,30 +151,23 @@ def test_a_full_disk_costs_one_line_and_not_the_last_save(tmp_path: Path, monkey
     assert min(saved) > 0
 
 
-class FakeTrainer:
-    """Two runs; it is its own agent."""
-
-    updates_by_run: Int64s
+class MadeUp(Training):
+    """Two runs, of which it is said what they do."""
 
     def __init__(self) -> None:
-        self.episode_rows: list[EpisodeRow] = []
-        self.evaluation_rows: list[EvaluationRow] = []
-        self.updates_by_run = np.zeros(2, dtype=np.int64)
-
-    @property
-    def agent(self) -> "FakeTrainer":
-        return self
+        preset, scenarios = small_preset(), [DOT, DOT]
+        super().__init__(scenarios, Agent(AGENT_SPECS["nested"], scenarios, preset, 0), preset, 0)
 
     def train(self, run: int, steps: int, updates: int) -> None:
         self.episode_rows.append(EpisodeRow(run, 1, 0.0, 0, steps, 0.1, 0.1))
-        self.updates_by_run[run] += updates
+        self.agent.low_level.engine.updates[run] += updates
 
     def evaluate(self, run: int) -> None:
         self.evaluation_rows.append(EvaluationRow(run, 1, 0.0, 0, 9))
 
 
 def test_each_evaluation_has_its_own_runs_steps_and_updates() -> None:
-    trainer, spent = FakeTrainer(), SpendingCount(2)
+    trainer, spent = MadeUp(), SpendingCount(2)
     trainer.train(0, steps=10, updates=7)
     trainer.train(1, steps=20, updates=17)
     spent.count(trainer)
@@ -187,7 +180,7 @@ def test_each_evaluation_has_its_own_runs_steps_and_updates() -> None:
 
 
 def test_it_goes_on_from_what_was_saved() -> None:
-    trainer, spent = FakeTrainer(), SpendingCount(2)
+    trainer, spent = MadeUp(), SpendingCount(2)
     trainer.train(0, steps=10, updates=7)
     trainer.evaluate(0)
     spent.count(trainer)

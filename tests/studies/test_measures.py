@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mc_nested.studies.measures import Curve, curves_of, early_limit
-from tests.studies.claims.made_results import Trial, made
+from mc_nested.studies.measures import Curve, curve_of, early_limit
+from tests.studies.made_trials import LINE, made_arm, made_trial
 
 
 def curve(episodes: list[int], scores: list[list[float]], trained: int, keeps_best: bool = False) -> Curve:
@@ -52,10 +52,14 @@ def test_what_was_not_evaluated_is_not_measured() -> None:
     assert [len(measure) for measure in (late.early, late.final, late.last_ten, late.spread)] == [0, 2, 2, 0]
 
 
-def test_every_agent_and_scenario_has_its_curve() -> None:
-    results = made({("nested", "line"): [Trial(1, 20), Trial(2, 21)], ("single", "line"): [Trial(3, 7), Trial(4, 8)]})
-    curves = curves_of(results)
-    assert set(curves) == {("nested", "line"), ("single", "line")}
-    assert curves["nested", "line"].final.tolist() == [20.0, 21.0]
-    assert curves["single", "line"].early.tolist() == [3.0, 4.0]
-    assert curves["nested", "line"].spread.tolist() == [1.0, 1.0]
+def test_a_curve_is_that_of_an_arms_trials_whatever_their_order() -> None:
+    arm = made_arm("nested", trials=2)
+    scores = [[1.0, 20.0, 21.0], [2.0, 21.0, 19.0]]
+    trials = [
+        made_trial(arm, LINE, number, [(30 * at, score) for at, score in enumerate(own, 1)])
+        for number, own in enumerate(scores)
+    ]
+    found = curve_of(trials)
+    assert (found.episodes.tolist(), found.scores.tolist()) == ([30, 60, 90], scores)
+    assert (found.trained, found.keeps_best) == (90, False)
+    assert curve_of(trials[::-1]).scores.tolist() == scores

@@ -80,7 +80,7 @@ def test_what_is_kept_says_what_the_final_score_is() -> None:
 
 def test_only_lines_that_name_seconds_differ_where_the_same_took_longer() -> None:
     results = made(the_papers("line"))
-    slower = replace(results, costs=[cost._replace(seconds=99.0) for cost in results.costs])
+    slower = replace(results, costs={key: cost._replace(seconds=99.0) for key, cost in results.costs.items()})
     fast_lines, slow_lines = text_of(results).splitlines(), text_of(slower).splitlines()
     differing = [line for line, slow in zip(fast_lines, slow_lines, strict=True) if line != slow]
     assert all("seconds" in line.lower() for line in differing)
@@ -126,8 +126,8 @@ def test_a_scenarios_name_can_not_break_the_tables() -> None:
             scenarios=["a|b"],
             optimum={"a|b": 21.0},
             builder={"a|b": 21.0},
-            evaluations=[row._replace(scenario="a|b") for row in results.evaluations],
-            costs=[],
+            curves={("nested", "a|b"): results.curves["nested", "line"]},
+            costs={},
         )
     )
     assert "| a\\|b | nested |" in text

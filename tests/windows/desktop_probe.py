@@ -1,7 +1,7 @@
 """What the Windows desktop's own code does with a GLFW window, as one JSON object. For a Windows Python.
 
-usage: desktop_probe.py. A program of its own, since it runs under Wine; tests/live/desktop/window_probe.py has the
-parts that are the same on every system.
+usage: desktop_probe.py. A program of its own, since it runs under Wine; the parts that are the same on every system are
+in window_probe.py (tests/live/desktop/real_windows).
 """
 
 import ctypes
@@ -17,7 +17,7 @@ from mc_nested.errors import DesktopError
 from mc_nested.live.desktop import open_desktop
 from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.devices import Devices, Region
-from tests.live.desktop.window_driver import PATIENCE_S, DrivenWindow, driven_window
+from tests.live.desktop.real_windows.window_driver import PATIENCE_S, DrivenWindow, driven_window
 
 assert sys.platform == "win32"
 

@@ -13,15 +13,15 @@ from scripts.window_display import set_layout
 from scripts.windows_parts import windows_path
 from scripts.windows_session import Session
 from tests.found_or_skipped import found_or_skipped
-from tests.live.desktop.sdl3_names import expected_keys
+from tests.live.desktop.real_windows.sdl3_names import expected_keys
+from tests.live.desktop.real_windows.window_driver import TITLE
 from tests.live.desktop.sdl_releases import SDL_3_4_WINDOWS, fetch_sdl
 from tests.live.desktop.test_keyboard import COMMAND, expected_events
-from tests.live.desktop.window_driver import TITLE
 
 pytestmark = pytest.mark.wine
 
 TESTS = Path(__file__).resolve().parents[1]
-WINDOW_PROBE = str(TESTS / "live" / "desktop" / "window_probe.py")
+WINDOW_PROBE = str(TESTS / "live" / "desktop" / "real_windows" / "window_probe.py")
 LEFT_SHIFT = 340
 """GLFW's key."""
 SIZE = [320, 240]
@@ -49,7 +49,7 @@ def virtual_keys(windows: Session) -> list[str]:
 
 def sdl_3(windows: Session) -> list[str]:
     """A title of 26.3 and the program of a window of Windows' SDL 3."""
-    window = windows_path(TESTS / "live" / "desktop" / "sdl3_window.py")
+    window = windows_path(TESTS / "live" / "desktop" / "real_windows" / "sdl3_window.py")
     library = windows_path(found_or_skipped(lambda: fetch_sdl(SDL_3_4_WINDOWS, print)))
     return ["Minecraft 26.3 - Singleplayer", windows_path(windows.cache / "python" / "python.exe"), window, library]
 

@@ -127,7 +127,7 @@ def test_its_game_is_served_to_a_learner_on_this_system_over_tls(calibrated: Reh
     design.write_text(scenario_text(DOT), "utf-8")
     pc, learner = make_keys(tmp_path / "keys", ["pc", "learner"])
     with scheduler(tmp_path, *tls_words(learner)) as url:
-        words = ("serve-game", "--scheduler", url, "--keys", windows_path(pc), "--name", "pc")
+        words = ("train", "serve", "--scheduler", url, "--keys", windows_path(pc), "--name", "pc")
         profile = ("--profile", windows_path(calibrated.profile), "--evidence", windows_path(tmp_path / "evidence"))
         with calibrated.windows.started("-m", "mc_nested.cli", *words, *profile) as game:
             cluster = ("--games", url, "--keys", learner)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 sys.path.insert(0, str(Path(__file__).parents[2]))  # a Windows Python that was only unpacked knows no PYTHONPATH
 
-from tests.live.desktop.window_server import Event, serve
+from tests.live.desktop.real_windows.window_server import Event, serve
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -9,9 +9,9 @@ import numpy as np
 from gymnasium.error import ResetNeeded
 from gymnasium.spaces import Discrete, Space
 
-from mc_nested.arena.action import Action
+from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.cooperative.team import Team, TeamGame
-from mc_nested.arena.cooperative.team_env import TeamEnv, rendered_team
+from mc_nested.arena.cooperative.team_env import TeamVectorEnv, rendered_team
 from mc_nested.arena.env import RENDERING, highest_observation, space_up_to
 from mc_nested.arrays import Int64s
 from mc_nested.errors import UserError
@@ -43,7 +43,7 @@ class CooperativeEnv(ParallelEnv):  # type: ignore[misc]  # pettingzoo comes wit
         self.render_mode = render_mode
         self.possible_agents = [f"builder_{number}" for number in range(team.builders)]
         self.agents: list[str] = []
-        self._arena = TeamEnv(game, team)
+        self._arena = TeamVectorEnv([game], team)
         self._material = team.scenario.best_material
         highest = np.append(highest_observation(team.scenario), team.builders - 1)
         self._observation_spaces: Of = {agent: space_up_to(highest) for agent in self.possible_agents}
@@ -63,7 +63,8 @@ class CooperativeEnv(ParallelEnv):  # type: ignore[misc]  # pettingzoo comes wit
         scenario = self.team.scenario
         self._material = scenario.best_material if name is None else scenario.material_index(name)
         self.agents = []
-        observations = self._arena.reset(self._material)
+        materials = np.full(self.team.builders, self._material)
+        observations, _ = self._arena.reset(options={"material": materials})
         self.agents = list(self.possible_agents)
         return self._of_each(observations), self._infos()
 
@@ -72,21 +73,27 @@ class CooperativeEnv(ParallelEnv):  # type: ignore[misc]  # pettingzoo comes wit
         if not self.agents:
             raise ResetNeeded("the episode has ended, or none has begun: call reset() first")
         acting, self.agents = self.agents, []
-        step = self._arena.step([int(actions[agent]) for agent in acting])
-        rewards = {agent: float(reward) for agent, reward in zip(acting, step.rewards, strict=True)}
-        ended = step.terminated or step.truncated
+        observations, earned, terminated, truncated, told = self._arena.step(
+            np.array([int(actions[agent]) for agent in acting])
+        )
+        rewards = dict(zip(acting, earned.tolist(), strict=True))
+        is_terminated, is_truncated = bool(terminated[0]), bool(truncated[0])
         infos = self._infos()
-        if ended:
+        if is_terminated or is_truncated:
             for info in infos.values():
-                info["score"] = step.score
+                info["score"] = float(told["score"][0])
         else:
             self.agents = acting
-        terminated, truncated = dict.fromkeys(acting, step.terminated), dict.fromkeys(acting, step.truncated)
-        return self._of_each(step.observations), rewards, terminated, truncated, infos
+        flags = dict.fromkeys(acting, is_terminated), dict.fromkeys(acting, is_truncated)
+        return self._of_each(observations), rewards, *flags, infos
 
     def render(self) -> Any:
         """The arena from above: (H, W, 3) RGB for "rgb_array", lines of text for "ansi", None without a mode."""
-        return rendered_team(self.render_mode, self.team, self._arena.cells, self._arena.placed)
+        return rendered_team(self.render_mode, self.team, self._cells, self._arena.placed(0))
+
+    @property
+    def _cells(self) -> list[Cell]:
+        return [self._arena.cell(builder) for builder in range(self.team.builders)]
 
     def _of_each(self, observations: Int64s) -> Of:
         return {

@@ -1,9 +1,9 @@
-"""A team: one scenario built by k builders at once, its rules, and TeamGame, which is what Game is to one builder.
+"""Team: one scenario, built by k builders at once, each from a start cell of its own; their game and its rules.
 
-All act at the same tick. Their actions are resolved one after the other, by builder number: each whole, the move first
-and then the block, in the arena as those before it left it. A builder is as solid as a block: nobody moves into its
-cell, and no block lands on it. The blocks left are the team's: once none is left, an action with +D only moves. None
-instead of an action does nothing.
+Who acts first within a tick, and what stops whom: all act at the same tick. Their actions are resolved one after the
+other, by builder number: each whole, the move first and then the block, in the arena as those before it left it. A
+builder is as solid as a block: nobody moves into its cell, and no block lands on it. The blocks left are the team's:
+once none is left, an action with +D only moves. None instead of an action does nothing.
 """
 
 from collections.abc import Collection, Sequence
@@ -54,6 +54,23 @@ class Team:
         return replace(self.scenario, start=self.starts[builder])
 
 
+class TeamGame(Protocol):
+    """An arena that k builders build in. A game is made for one Team.
+
+    A live game raises LiveError when a builder can't do what was asked; the arena has to be reset then.
+    """
+
+    @property
+    def resumable(self) -> Resumable | None:
+        """The game, if its episode can be saved half-way; None if not."""
+
+    def reset(self, material: int) -> tuple[Cell, ...]:
+        """Clear the arena, put each builder on its start cell with the material in hand; return those cells."""
+
+    def act(self, actions: Sequence[Action | None]) -> tuple[Outcome, ...]:
+        """Do one tick, an action or None for each builder (``resolved``), and say what happened, by number."""
+
+
 def team_of(scenario: Scenario, builders: int) -> Team:
     """That many builders, spread over the arena; ScenarioError if there can't be so many."""
     return Team(scenario, spread_starts(scenario, builders))
@@ -72,23 +89,6 @@ def spread_starts(scenario: Scenario, builders: int) -> tuple[Cell, ...]:
 def _check_number(builders: int) -> None:
     if not 1 <= builders <= MOST_BUILDERS:
         raise ScenarioError(f"{builders} builders: an arena takes 1 to {MOST_BUILDERS}")
-
-
-class TeamGame(Protocol):
-    """An arena that k builders build in. A game is made for one Team.
-
-    A live game raises LiveError when a builder can't do what was asked; the arena has to be reset then.
-    """
-
-    @property
-    def resumable(self) -> Resumable | None:
-        """The game, if its episode can be saved half-way; None if not."""
-
-    def reset(self, material: int) -> tuple[Cell, ...]:
-        """Clear the arena, put each builder on its start cell with the material in hand; return those cells."""
-
-    def act(self, actions: Sequence[Action | None]) -> tuple[Outcome, ...]:
-        """Do one tick, an action or None for each builder (team_rules.py), and say what happened, by number."""
 
 
 MOVE_OF = {Action.FD: Action.F, Action.LD: Action.L, Action.RD: Action.R, Action.BD: Action.B}

@@ -1,120 +1,159 @@
-"""TeamEnv: the episodes of a team, over any TeamGame: what each builder sees and earns, and when it is over.
+"""TeamVectorEnv: the episodes of teams over any TeamGames, as arenas with a row for each builder.
 
-Its arena is drawn from above, the far edge on top, each builder in a colour of its own.
+Builder j of run i has row i * k + j. To a trainer each row is an arena as one of ArenaVectorEnv, in which others build
+as well: the blocks left are the team's, and so are the flags and the score. Autoreset is disabled. The arena is drawn
+from above, the far edge on top, each builder in a colour of its own.
 """
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from gymnasium.error import ResetNeeded
+from gymnasium.spaces import Discrete
+from gymnasium.vector import VectorEnv
+from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.cooperative.team import Team, TeamGame
 from mc_nested.arena.drawing import AGENT_BODY, CELL_PX, Colour, Picture, draw_agent, draw_picture, kind_of
+from mc_nested.arena.env import highest_observation, space_up_to
 from mc_nested.arena.game import Resumable
 from mc_nested.arena.rules import cells_of, grid_of
-from mc_nested.arena.vector import NO_ACTION
-from mc_nested.arrays import Arrays, Float64s, Int64s
+from mc_nested.arena.vector import METADATA, NO_ACTION, reset_options, taken_apart
+from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
 
 
-@dataclass(frozen=True)
-class TeamStep:
-    """What a tick led to.
+class TeamVectorEnv(VectorEnv[Int64s, Int64s, Any]):
+    """R arenas with k builders each.
 
-    ``observations`` (k, …) are what each builder sees, ``rewards`` (k,) what each earned. ``score`` is the team's
-    r_M on the last tick, and 0 before.
-    """
-
-    observations: Int64s
-    rewards: Float64s
-    terminated: bool
-    truncated: bool
-    score: float
-
-
-class TeamEnv:
-    """One arena with k builders.
-
-    A builder observes (x, y, b), (k, 3) together: its own cell, and the blocks that the team has left. It earns r_N for
-    its own block alone: 1 if that is on the design. The score is the main agent's r_M, of all blocks. The episode is
+    A builder observes (x, y, b): its own cell, and the blocks that the team has left. It earns r_N for its own block
+    alone: 1 if that is on the design. ``info["score"]`` is the main agent's r_M, of all blocks. An episode is
     terminated when no block is left, and truncated at the scenario's step limit, which counts ticks.
+
+    Args:
+        games: of each run.
+        team: who builds what in each of them.
     """
 
-    def __init__(self, game: TeamGame, team: Team) -> None:
-        self.game = game
+    metadata = METADATA
+
+    def __init__(self, games: Sequence[TeamGame], team: Team) -> None:
+        self.games = tuple(games)
         self.team = team
-        self._cells = team.starts
-        self._placed: frozenset[Cell] = frozenset()
-        self._material = team.scenario.best_material
-        self._ticks = 0
-        self._running = False
+        self.num_envs = len(self.games) * team.builders
+        self.single_observation_space = space_up_to(highest_observation(team.scenario))
+        self.single_action_space = Discrete(len(Action))
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
+        self.action_space = batch_space(self.single_action_space, self.num_envs)
+        runs = len(self.games)
+        self._cells = np.tile(np.array(team.starts, dtype=np.int64), (runs, 1))
+        self._placed: list[frozenset[Cell]] = [frozenset()] * runs
+        self._materials = np.full(runs, team.scenario.best_material)
+        self._ticks = np.zeros(runs, dtype=np.int64)
+        self._has_begun = np.zeros(runs, dtype=np.bool_)
+        self._terminated = np.zeros(runs, dtype=np.bool_)
+        self._truncated = np.zeros(runs, dtype=np.bool_)
 
-    @property
-    def cells(self) -> tuple[Cell, ...]:
-        """Where each builder stands."""
-        return self._cells
+    def cell(self, row: int) -> Cell:
+        """Where that row's builder stands."""
+        x, y = self._cells[row].tolist()
+        return x, y
 
-    @property
-    def placed(self) -> frozenset[Cell]:
-        """The cells where a block landed since the last reset."""
-        return self._placed
+    def placed(self, row: int) -> frozenset[Cell]:
+        """The cells where a block landed in that row's arena since its last reset."""
+        return self._placed[row // self.team.builders]
 
-    def reset(self, material: int) -> Int64s:
-        """Begin an episode of that material for the whole team; what each builder sees."""
-        self._running = False
-        self._cells = self.game.reset(material)
-        self._placed = frozenset()
-        self._material, self._ticks = material, 0
-        self._running = True
-        return self._observations()
+    def reset(
+        self,
+        *,
+        seed: int | list[int | None] | None = None,  # noqa: ARG002 - no chance
+        options: dict[str, Any] | None = None,
+    ) -> tuple[Int64s, dict[str, Any]]:
+        """Begin an episode in the arenas whose rows are masked (all, without a mask), each with its material."""
+        mask, materials = reset_options(options, [self.team.scenario] * self.num_envs)
+        every = self.team.builders
+        for run in np.flatnonzero(mask[::every]).tolist():
+            self._has_begun[run] = False
+            material = int(materials[run * every])
+            self._cells[self._rows(run)] = self.games[run].reset(material)
+            self._placed[run], self._materials[run], self._ticks[run] = frozenset(), material, 0
+            self._terminated[run] = self._truncated[run] = False
+            self._has_begun[run] = True
+        return self._observations(), {}
 
-    def step(self, actions: Sequence[int] | Int64s) -> TeamStep:
-        """One tick, an action or NO_ACTION of each builder; ResetNeeded if no episode runs."""
-        if not self._running:
-            raise ResetNeeded("the episode has ended, or none has begun: call reset() first")
-        self._running = False
-        scenario = self.team.scenario
-        outcomes = self.game.act([None if action == NO_ACTION else Action(int(action)) for action in actions])
-        self._cells = tuple(outcome.cell for outcome in outcomes)
-        self._placed |= {outcome.placed for outcome in outcomes if outcome.placed is not None}
-        self._ticks += 1
-        terminated = len(self._placed) == scenario.blocks
-        truncated = not terminated and self._ticks >= scenario.step_limit
-        self._running = not (terminated or truncated)
-        rewards = np.array([1.0 if outcome.placed in scenario.design else 0.0 for outcome in outcomes])
-        score = 0.0 if self._running else scenario.score(self._placed, self._material)
-        return TeamStep(self._observations(), rewards, terminated, truncated, score)
+    def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
+        """One tick, an action or NO_ACTION of each builder, in every arena whose episode runs; ResetNeeded before one.
+
+        In an arena where nobody acts nothing happens. A game that fails leaves its arena without an episode.
+        """
+        wanted, _ = taken_apart(actions, self.num_envs)
+        rewards, scores = np.zeros(self.num_envs), np.zeros(len(self.games))
+        running = ~(self._terminated | self._truncated)
+        for run in np.flatnonzero(running).tolist():
+            own = wanted[self._rows(run)]
+            if (own == NO_ACTION).all():
+                continue
+            if not self._has_begun[run]:
+                raise ResetNeeded("no episode has begun: call reset() first")
+            rewards[self._rows(run)], scores[run] = self._tick(run, own.tolist())
+        ended = running & (self._terminated | self._truncated)
+        info = {"score": self._of_rows(scores), "_score": self._of_rows(ended)}
+        flags = self._of_rows(self._terminated), self._of_rows(self._truncated)
+        return self._observations(), rewards, *flags, info
 
     @property
     def resumable(self) -> Resumable | None:
-        """This arena, if its game can be resumed."""
-        return self if self.game.resumable else None
+        """These arenas, if every game can be resumed."""
+        return self if all(game.resumable for game in self.games) else None
 
     def snapshot(self) -> Arrays:
-        """The current episode, the game's part included, for ``restore``. The game must be resumable."""
-        game = self.game.resumable.snapshot() if self.game.resumable else {}
+        """Every arena as it stands, the games' part included, for ``restore``."""
+        games = [game.resumable.snapshot() for game in self.games if game.resumable]
+        size = self.team.scenario.size
         return {
-            **game,
-            "team_stands_at": np.array([self._material, self._ticks, self._running]),
-            "team_cells": np.array(self._cells),
-            "team_placed": grid_of(self._placed, self.team.scenario.size),
+            **{name: np.stack([game[name] for game in games]) for name in games[0]},
+            **{f"team{name}": getattr(self, name).copy() for name in self._STATE},
+            "team_placed": np.stack([grid_of(placed, size) for placed in self._placed]),
         }
 
     def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
-        """Put the episode back as it stood at ``snapshot``."""
-        self._material, self._ticks, running = (int(value) for value in snapshot["team_stands_at"])
-        self._running = bool(running)
-        self._cells = tuple((x, y) for x, y in snapshot["team_cells"].tolist())
-        self._placed = cells_of(snapshot["team_placed"])
-        if self.game.resumable:
-            self.game.resumable.restore(snapshot)
+        """Put every arena back as it stood at ``snapshot``."""
+        for name in self._STATE:
+            getattr(self, name)[:] = snapshot[f"team{name}"]
+        self._placed = [cells_of(grid) for grid in snapshot["team_placed"]]
+        for run, game in enumerate(self.games):
+            if game.resumable:
+                game.resumable.restore({name: kept[run] for name, kept in snapshot.items()})
+
+    _STATE = ("_cells", "_materials", "_ticks", "_has_begun", "_terminated", "_truncated")
+
+    def _tick(self, run: int, actions: list[int]) -> tuple[Float64s, float]:
+        """What each builder of that run has earned, (k,), and r_M if the episode is over."""
+        scenario = self.team.scenario
+        self._has_begun[run] = False
+        outcomes = self.games[run].act([None if action == NO_ACTION else Action(action) for action in actions])
+        self._has_begun[run] = True
+        self._cells[self._rows(run)] = [outcome.cell for outcome in outcomes]
+        self._placed[run] |= {outcome.placed for outcome in outcomes if outcome.placed is not None}
+        self._ticks[run] += 1
+        terminated = len(self._placed[run]) == scenario.blocks
+        truncated = not terminated and self._ticks[run] >= scenario.step_limit
+        self._terminated[run], self._truncated[run] = terminated, truncated
+        rewards = np.array([1.0 if outcome.placed in scenario.design else 0.0 for outcome in outcomes])
+        is_over = terminated or truncated
+        return rewards, scenario.score(self._placed[run], int(self._materials[run])) if is_over else 0.0
+
+    def _rows(self, run: int) -> slice:
+        return slice(run * self.team.builders, (run + 1) * self.team.builders)
+
+    def _of_rows(self, of_runs: NDArray[Any]) -> NDArray[Any]:
+        return np.repeat(of_runs, self.team.builders)
 
     def _observations(self) -> Int64s:
-        left = self.team.scenario.blocks - len(self._placed)
-        return np.array([(*cell, left) for cell in self._cells], dtype=np.int64)
+        left = [self.team.scenario.blocks - len(placed) for placed in self._placed]
+        return np.column_stack((self._cells, self._of_rows(np.array(left, dtype=np.int64))))
 
 
 BODIES: tuple[Colour, ...] = (AGENT_BODY, (34, 122, 74), (122, 66, 160), (24, 118, 150))

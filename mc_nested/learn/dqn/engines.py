@@ -1,4 +1,4 @@
-"""The engine that a preset names, with its networks as they begin."""
+"""The engine that a preset names, with its networks as they begin; and what goes together with it in a preset."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -9,8 +9,7 @@ from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.compiled_engine.engine import CompiledEngine
 from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
 from mc_nested.learn.dqn.engine import Engine, UpdateRule
-from mc_nested.learn.dqn.state_space import StateSpace
-from mc_nested.learn.dqn.states import States
+from mc_nested.learn.dqn.states import States, StateSpace
 
 COMPILED, TORCH = "compiled", "torch"
 
@@ -41,12 +40,47 @@ def _made_torch_engine(
     states: States, choice: EngineChoice, rule: UpdateRule, streams: Sequence[np.random.Generator]
 ) -> Engine:
     try:  # it takes 200 MB, which the compiled engine doesn't need
-        from mc_nested.learn.dqn.torch_engine import engine, inputs, networks
+        from mc_nested.learn.dqn.torch_engine import engine, networks
     except ImportError as error:
         raise PresetError('engine "torch": torch is missing: install torch, or take --engine compiled') from error
     device = engine.device_named(choice.device)
-    shape = inputs.input_shape(states)
+    shape = networks.input_shape(states)
     form = networks.form_of(choice.network, shape, choice.hidden, states.actions)
     make = networks.network_maker(choice.network, choice.hidden)
     online = networks.initial_rows(form, lambda: make(shape, states.actions), streams)
     return engine.TorchEngine(states, form, lambda: make(shape, states.actions), rule, online, device)
+
+
+NUMBERS, SCREEN = "numbers", "screen"
+"""What an agent sees: x, y, b and its choice; or the game's window. Otherwise planes (arena/planes.py)."""
+
+MLP, CNN, CPU = "mlp", "cnn", "cpu"
+
+
+class Computing(NamedTuple):
+    """What a preset says about what it sees, and what computes it."""
+
+    engine: str
+    device: str
+    network: str
+    states: str
+
+
+def misfit(computing: Computing, *, explores_by_place: bool, imagines: bool, encoding: str) -> str | None:
+    """What doesn't go together, one line; None if all does."""
+    engine, device, network, states = computing
+    compiled, numbers = engine == COMPILED, states == NUMBERS
+    rules = {
+        f'states "{states}" need engine "torch": the compiled engine takes numbers alone': compiled and not numbers,
+        f'network "{network}" needs engine "torch": the compiled engine has "mlp" alone': compiled and network != MLP,
+        f'device "{device}" needs engine "torch": the compiled engine is for the processor': compiled and device != CPU,
+        'network "cnn" needs states "image" or "screen": numbers have no neighbours': network == CNN and numbers,
+        '[imagination] needs engine "compiled" and states "numbers"': imagines and not (compiled and numbers),
+        f'[excursions] go by x and y: with states "{states}", write [explore_nested]': explores_by_place
+        and not numbers,
+        f'encoding "{encoding}" is for states "numbers": leave it out': encoding != "scaled" and not numbers,
+        f'network "{network}": write "mlp", "cnn", or a module and its function, "my_module:make"': (
+            network not in (MLP, CNN) and ":" not in network
+        ),
+    }
+    return next((says for says, is_broken in rules.items() if is_broken), None)

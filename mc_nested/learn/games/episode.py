@@ -1,10 +1,15 @@
-"""What goes to a game, a planned episode, and what comes back, the episode as it was played: data, to be pickled."""
+"""The episodes that games play: planned, out, and as they were played.
 
+What goes to a game, a plan, and what comes back, the episode, are data, to be pickled.
+"""
+
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from numpy.typing import NDArray
 
+from mc_nested.arena.action import Cell
 from mc_nested.arrays import Float32s, Float64s, Int64s
 from mc_nested.learn.imagination.first_tries import FirstTries
 
@@ -15,7 +20,7 @@ class EpisodePlan:
 
     Args:
         number: counts the learner's plans, from 0.
-        sitting: names the learner's process: one that resumes its training may give a number again.
+        process: names the learner's process: one that resumes its training may give a number again.
         material: the main agent's choice; 0 where there is no main agent.
         greedy: whether it is an evaluation.
         online: the online network of the agent that builds, (parameters,).
@@ -26,7 +31,7 @@ class EpisodePlan:
     """
 
     number: int
-    sitting: int
+    process: int
     material: int
     greedy: bool
     online: Float32s
@@ -41,7 +46,7 @@ class PlayedEpisode:
 
     Args:
         number: its plan's.
-        sitting: its plan's.
+        process: its plan's.
         observations: what the agent saw, from the reset on, (steps + 1, …).
         actions: what it did, of its own set of actions, (steps,).
         rewards: r_N of each step, (steps,).
@@ -50,7 +55,7 @@ class PlayedEpisode:
     """
 
     number: int
-    sitting: int
+    process: int
     observations: NDArray[Any]
     actions: Int64s
     rewards: Float64s
@@ -61,3 +66,73 @@ class PlayedEpisode:
     def steps(self) -> int:
         """How many steps it took."""
         return len(self.actions)
+
+
+@dataclass(frozen=True)
+class EpisodeOut:
+    """A planned episode, and what the learner has to know when it is back.
+
+    Args:
+        plan: what is played.
+        game: the game that plays it.
+        episodes: training episodes that the learner had completed.
+        epsilons: the main and the nested agent's ε.
+        probes: unknown cells where it should place blocks.
+        online: of an evaluation all networks that it was planned with, by role; otherwise nothing.
+    """
+
+    plan: EpisodePlan
+    game: str
+    episodes: int
+    epsilons: tuple[float, float]
+    probes: frozenset[Cell]
+    online: Mapping[str, NDArray[Any]]
+
+
+class EpisodesOut:
+    """The episodes that are out, by number; of each game one at most."""
+
+    def __init__(self) -> None:
+        self._out: dict[int, EpisodeOut] = {}
+
+    def __len__(self) -> int:
+        return len(self._out)
+
+    def add(self, episode: EpisodeOut) -> None:
+        """One more."""
+        self._out[episode.plan.number] = episode
+
+    def leave(self, game: str) -> None:
+        """What that game had out won't come."""
+        self._out = {number: out for number, out in self._out.items() if out.game != game}
+
+    def remove(self, number: int) -> EpisodeOut | None:
+        """The episode of that number, which isn't out any more; None if it wasn't."""
+        return self._out.pop(number, None)
+
+    def clear(self) -> None:
+        """None is out any more."""
+        self._out = {}
+
+    def keep_evaluations(self) -> None:
+        """The training episodes aren't out any more."""
+        self._out = {number: out for number, out in self._out.items() if out.plan.greedy}
+
+    def supersede(self, episodes: int) -> None:
+        """Evaluations that were planned after fewer training episodes than that aren't out any more."""
+        self._out = {n: out for n, out in self._out.items() if not out.plan.greedy or out.episodes >= episodes}
+
+    @property
+    def newest_evaluation(self) -> int:
+        """The training episodes after which the last of the evaluations was planned; -1 if there is none."""
+        return max((out.episodes for out in self._out.values() if out.plan.greedy), default=-1)
+
+    @property
+    def probes(self) -> frozenset[Cell]:
+        """The unknown cells where they should place blocks."""
+        return frozenset[Cell]().union(*(out.probes for out in self._out.values()))
+
+    @property
+    def materials(self) -> frozenset[int]:
+        """The materials that they play."""
+        return frozenset(out.plan.material for out in self._out.values())

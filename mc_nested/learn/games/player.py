@@ -47,7 +47,7 @@ def play_episode(arena: VectorEnv[Any, Int64s, Any], plan: EpisodePlan, agent: A
         materials = materials if agent.main else agent.chosen_materials(after)
     return PlayedEpisode(
         number=plan.number,
-        sitting=plan.sitting,
+        process=plan.process,
         observations=np.stack(observations),
         actions=np.array(actions, dtype=np.int64),
         rewards=np.array(rewards),

@@ -1,9 +1,10 @@
-"""One action in the learnt game, compiled: where it leads, and where its block lands.
+"""The learnt game, played: where an action leads and where its block lands, compiled; and what an episode should do.
 
 The arena is flat, with a border of solid cells as wide as any learnt move is long, so that nothing has to test for the
 edge, and one index names a cell.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -12,6 +13,8 @@ from mc_nested.arena.action import Cell
 from mc_nested.arrays import Bools, Float32s, Int64s
 from mc_nested.compiled import compiled
 from mc_nested.learn.imagination.beliefs import Beliefs
+from mc_nested.learn.imagination.experience import Experience, RealStep
+from mc_nested.learn.imagination.first_tries import FirstTries
 from mc_nested.learn.imagination.learnt_rules import LearntRules
 
 NOWHERE = 0
@@ -73,3 +76,79 @@ def step(arena: ImaginedArena, position: int, action: int, solid: Bools) -> tupl
         return position, NOWHERE
     solid[block] = True
     return position, block
+
+
+State = tuple[int, int, int]
+"""x, y and the blocks left."""
+
+
+def expected_landings(
+    arena: ImaginedArena, start: State, step_limit: int, policy: Callable[[State], int], tries: FirstTries
+) -> list[Cell]:
+    """Where the blocks of an episode should land, in order. ``tries`` come before the policy, and count what it does.
+
+    Args:
+        arena: the learnt game.
+        start: the state after a reset.
+        step_limit: steps of an episode at most.
+        policy: the action in a state.
+        tries: of a plan's own, since it is changed.
+    """
+    seen = Experience()
+    seen.begin()
+    solid = arena.empty.copy()
+    (x, y, blocks), position = start, index_of(start[:2], arena)
+    landings: list[Cell] = []
+    for _ in range(step_limit):
+        if blocks == 0:
+            break
+        action = tries.act(policy((x, y, blocks)), seen.tried_here())
+        position, landed = step(arena, position, action, solid)
+        next_x, next_y = cell_at(position, arena)
+        tries.observe(action, (next_x, next_y) != (x, y), seen.tried_here())
+        left = blocks - (landed != NOWHERE)
+        seen.add(RealStep(x, y, blocks, action, next_x, next_y, left, 0, 0))
+        if landed != NOWHERE:
+            landings.append(cell_at(landed, arena))
+        x, y, blocks = next_x, next_y, left
+    return landings
+
+
+GREEDY_EVERY = 10
+"""Every so many imagined episodes one is greedy, and nothing is learnt from it: whether its aim is reached."""
+
+
+class ImaginedTask(NamedTuple):
+    """What is practised: from where, with how many blocks, for how many steps at most, and which score is enough.
+
+    ``strides`` (3,) are what x, y and b count for in a state's index, ``offset`` what the rest of it does.
+    """
+
+    start: int
+    blocks: int
+    step_limit: int
+    aim: float
+    strides: Int64s
+    offset: int
+
+
+@compiled(nogil=True)
+def state_at(position: int, blocks: int, arena: ImaginedArena, task: ImaginedTask) -> int:
+    """The index of the state in that cell with so many blocks."""
+    x, y = position // arena.side - arena.border, position % arena.side - arena.border
+    state: int = x * task.strides[0] + y * task.strides[1] + blocks * task.strides[2] + task.offset
+    return state
+
+
+@compiled(nogil=True)
+def is_wasted(landed: int, arena: ImaginedArena) -> bool:
+    """Whether a block landed where nothing is imagined to be paid: an imagined episode that learns ends there."""
+    wasted: bool = landed != NOWHERE and arena.pay[landed] == 0
+    return wasted
+
+
+@compiled(nogil=True)
+def epsilon_from(uniform: float, highest: float, lowest: float) -> float:
+    """An ε of an imagined episode, equally likely on a logarithmic scale, from a number in [0, 1)."""
+    epsilon: float = np.exp(np.log(lowest) + uniform * (np.log(highest) - np.log(lowest)))
+    return epsilon

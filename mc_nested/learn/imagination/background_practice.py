@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Protocol
 
-from mc_nested.learn.imagination.practice import PracticeSession
+from mc_nested.learn.imagination.practice_session import PracticeSession
 
 LONGER_S = 1.0
 """Seconds that practice may go on once the game stands ready."""

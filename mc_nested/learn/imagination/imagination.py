@@ -14,16 +14,21 @@ from numpy.typing import NDArray
 
 from mc_nested.arena.action import Cell
 from mc_nested.arrays import Arrays, Bools, Float64s, Int64s
-from mc_nested.learn.dqn.state_space import numbered
-from mc_nested.learn.imagination.arena_step import imagined_arena
+from mc_nested.learn.dqn.states import numbered
+from mc_nested.learn.imagination.arena_step import expected_landings, imagined_arena
 from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe
-from mc_nested.learn.imagination.expected_episode import expected_landings
 from mc_nested.learn.imagination.experience import Experience, RealStep
 from mc_nested.learn.imagination.first_tries import FirstTries
+from mc_nested.learn.imagination.known_arena import KnownArena, known_arena
 from mc_nested.learn.imagination.learnt_rules import LearntRules, learn_rules, unclear_moves
 from mc_nested.learn.imagination.material_choice import learn_choice, scores_of_materials
-from mc_nested.learn.imagination.practice import Goal, Practice, PracticeSession, RealTransitions, landed_cells
-from mc_nested.learn.imagination.seen import Seen, seen_by
+from mc_nested.learn.imagination.practice_session import (
+    Goal,
+    NetworkPractice,
+    PracticeSession,
+    RealTransitions,
+    landed_cells,
+)
 from mc_nested.learn.learner import CHOICE_NUMBERS, Learner
 from mc_nested.learn.preset import ImaginationRule, Preset
 from mc_nested.learn.state_dict import named_for, part_of
@@ -74,7 +79,7 @@ class Imagination:
         self._main, self._low_level, self._space = main, low_level, numbered(low_level.states)
         self._surroundings = surroundings
         self._rule, self._seed, self._numbers = rule, seed, runs
-        self._practice = Practice(low_level, preset, rule)
+        self._practice = NetworkPractice(low_level, preset, rule)
         self._experience = [Experience() for _ in runs]
         self._rows_a_run = self._space.rows // len(runs)
         self._explores, self._falls_short = np.ones(len(runs), dtype=np.bool_), np.zeros(len(runs), dtype=np.bool_)
@@ -214,12 +219,12 @@ class Imagination:
         landings = expected_landings(arena, here.start, here.step_limit, policy, self.first_tries(run).copied())
         return frozenset(cell for cell in landings if beliefs.cells[cell] in (Belief.UNKNOWN, Belief.BELIEVED))
 
-    def seen(self, run: int) -> Seen:
+    def known_arena(self, run: int) -> KnownArena:
         """What that run knows of its arena now, and what it has spent its real episodes on."""
         steps, here = self._experience[run].steps, self._surroundings[run]
         lands = self.rules(run).lands
         beliefs = believe(steps, lands, here.size, here.start[2])
-        return seen_by(self._experience[run], lands, beliefs)
+        return known_arena(self._experience[run], lands, beliefs)
 
     def episodes(self, run: int) -> int:
         """How many real episodes that run has begun."""

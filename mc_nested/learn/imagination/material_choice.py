@@ -12,7 +12,7 @@ LAST = 3
 """Episodes of a material whose mean is what it brings: fewer follow a change sooner, more outvote an odd one."""
 
 MOST_UPDATES, CLOSE = 3000, 0.25
-"""Updates of one lesson at most; it ends earlier once every value is as close as this to the imagined score."""
+"""Updates at most, once an episode; it ends earlier once every value is as close as this to the imagined score."""
 
 
 def scores_of_materials(
@@ -41,7 +41,7 @@ def learn_choice(main: Learner, row: int, start: Int64s, scores: Float64s) -> No
     rows, state = np.array([row]), main.states.kept(start[None])
     batch = main.engine.rule.batch
     actions = np.arange(batch) % len(scores)
-    lesson = Batch(
+    imagined = Batch(
         states=np.broadcast_to(state, (2, 1, batch)).copy(),
         actions=actions[None],
         rewards=scores[actions].astype(np.float32)[None],
@@ -50,5 +50,5 @@ def learn_choice(main: Learner, row: int, start: Int64s, scores: Float64s) -> No
         weights=np.ones((1, batch), np.float32),
     )
     for _ in range(MOST_UPDATES):
-        if np.abs(main.engine.update(rows, lesson)).max() <= CLOSE:
+        if np.abs(main.engine.update(rows, imagined)).max() <= CLOSE:
             return

@@ -23,8 +23,16 @@ from mc_nested.learn.dqn.compiled_engine.cell_networks import (
     forward_cells,
 )
 from mc_nested.learn.dqn.compiled_engine.engine import greedy_actions, td_target
-from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, step
-from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask, epsilon_from, is_wasted, state_at
+from mc_nested.learn.imagination.arena_step import (
+    GREEDY_EVERY,
+    NOWHERE,
+    ImaginedArena,
+    ImaginedTask,
+    epsilon_from,
+    is_wasted,
+    state_at,
+    step,
+)
 
 
 class PracticeRule(NamedTuple):

@@ -18,7 +18,15 @@ from numpy.random import Generator
 
 from mc_nested.arrays import Bools, Float32s, Float64s, Int8s, Int64s
 from mc_nested.compiled import compiled
-from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, step
+from mc_nested.learn.imagination.arena_step import (
+    GREEDY_EVERY,
+    NOWHERE,
+    ImaginedArena,
+    ImaginedTask,
+    is_wasted,
+    state_at,
+    step,
+)
 from mc_nested.learn.imagination.built_values import (
     BuiltValues,
     begin_values,
@@ -27,7 +35,6 @@ from mc_nested.learn.imagination.built_values import (
     is_full,
     row_of,
 )
-from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask, is_wasted, state_at
 
 AROUND = 8
 """The cells around a cell: whether each is built makes as many bits of its surroundings."""

@@ -4,8 +4,7 @@ import numpy as np
 from numpy.random import Generator
 
 from mc_nested.arrays import Float64s
-from mc_nested.learn.imagination.arena_step import ImaginedArena
-from mc_nested.learn.imagination.imagined_task import ImaginedTask
+from mc_nested.learn.imagination.arena_step import ImaginedArena, ImaginedTask
 from mc_nested.learn.imagination.table_learner import QTables, TableProgress, begin_tables, learn_table, prefer_best
 
 FIRST_STEPS = 250_000

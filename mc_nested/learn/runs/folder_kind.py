@@ -11,7 +11,7 @@ from mc_nested.toml_file import parse_document
 STUDY = "study"
 """The key of a study's config.toml that names it."""
 
-VERB_OF_KEY = {"agent": "train", "builders": "cooperate", STUDY: STUDY}
+VERB_OF_KEY = {"agent": "train", STUDY: STUDY}
 
 VIEW = "view"
 VIEW_FILES = frozenset({"now.json", "history.jsonl", "pause.request", "stop.request", "answer.request", LOCK})

@@ -1,4 +1,4 @@
-"""One process at a time writes to the folder of a run or an experiment."""
+"""One process at a time writes to the folder of a run or a study."""
 
 import errno
 import os

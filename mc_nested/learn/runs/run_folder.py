@@ -1,54 +1,34 @@
 """A training's folder: config.toml, episodes.csv, evaluations.csv, summary.json and checkpoint/."""
 
+import csv
+import json
 import shutil
-from collections.abc import Mapping
-from contextlib import AbstractContextManager
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field
+import tomlkit
 
+from mc_nested.arena.cooperative.team import Team
 from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.scenario_file import ScenarioTable, scenario_of
+from mc_nested.arena.scenario_file import scenario_of
 from mc_nested.arrays import Arrays
+from mc_nested.atomic_file import atomic_write
 from mc_nested.errors import RunError, ScenarioError
-from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentName
+from mc_nested.learn.agents import AGENT_SPECS, Agent
+from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
 from mc_nested.learn.imagination.imagination import learnt_game
-from mc_nested.learn.preset import Preset
 from mc_nested.learn.runs.checkpoint import Checkpoint
-from mc_nested.learn.runs.folder_kind import FORMAT, check_free
-from mc_nested.learn.runs.run_files import begin_folder, read_config, wall_s_so_far, write_results, writing_in
+from mc_nested.learn.runs.folder_kind import check_config, check_free
+from mc_nested.learn.runs.run_config import RunConfig
+from mc_nested.learn.runs.summary import summarise
 from mc_nested.learn.state_dict import part_of
 from mc_nested.learn.training import Training
+from mc_nested.toml_file import parse_toml, read_toml_text
 
-
-class RunConfig(BaseModel):
-    """Everything needed to repeat a training; scenario and preset are complete, no other file is needed."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
-
-    format: int = FORMAT
-    agent: AgentName
-    backend: Literal["sim", "virtual", "live"]
-    profile: str | None = None
-    trials: Annotated[int, Field(ge=1)]
-    seed: Annotated[int, Field(ge=0)]
-    stop_at_optimum: bool
-    preset_name: str
-    preset: Preset
-    scenario: ScenarioTable
-
-    def identity(self) -> dict[str, Any]:
-        """What is trained: a checkpoint fits only the same.
-
-        Without the profile, which may be moved or renamed, and the device.
-        """
-        return self.model_dump(exclude={"format": True, "profile": True, "preset": {"device"}})
-
-    def on_device(self, device: str) -> "RunConfig":
-        """The same training, computed elsewhere; PresetError if its engine can't."""
-        return self.model_copy(update={"preset": self.preset.changed(device=device)})
+CONFIG, SUMMARY = "config.toml", "summary.json"
 
 
 class RunFolder:
@@ -57,12 +37,16 @@ class RunFolder:
     Args:
         path: its path.
         config: what is trained there.
+
+    Raises:
+        ScenarioError: the scenario can't be built, or not by these builders.
     """
 
     def __init__(self, path: Path, config: RunConfig) -> None:
         self.path = path
         self.config = config
-        self.scenario: Scenario = scenario_of(config.scenario, str(path / "config.toml"))
+        self.scenario: Scenario = scenario_of(config.scenario, str(path / CONFIG))
+        self.team = Team(self.scenario, config.team.builders.starts) if config.team else None
         self.checkpoint = Checkpoint(path / "checkpoint", config.identity())
 
     @classmethod
@@ -74,7 +58,11 @@ class RunFolder:
     @classmethod
     def open(cls, path: Path) -> "RunFolder":
         """The folder of an earlier training; RunError if it isn't one."""
-        config = read_config(path, RunConfig, "train", "training")
+        if not (path / CONFIG).is_file():
+            raise RunError(f"{path}: no config.toml there: name the folder of a training (its --out)")
+        text = read_toml_text(path / CONFIG, RunError)
+        check_config(text, path, "train")
+        config = parse_toml(RunConfig, text, str(path / CONFIG), RunError)
         try:
             return cls(path, config)
         except ScenarioError as error:
@@ -82,8 +70,16 @@ class RunFolder:
 
     def new_agent(self, runs: int, device: str = "cpu") -> Agent:
         """An untrained agent as this training's, with that many runs, on the processor or another device."""
-        preset = self.config.preset.model_copy(update={"device": device})
-        return Agent(AGENT_SPECS[self.config.agent], [self.scenario] * runs, preset, self.config.seed)
+        config = self.config
+        preset = config.preset.model_copy(update={"device": device})
+        builders = config.team.builders if config.team else None
+        return Agent(AGENT_SPECS[config.agent], [self.scenario] * runs, preset, config.seed, team=builders)
+
+    def trained_agent(self) -> Agent:
+        """The agent of the last checkpoint, every trial, able to act."""
+        agent = self.new_agent(self.config.trials)
+        agent.load_online(self.policies())
+        return agent
 
     @property
     def scenarios(self) -> list[Scenario]:
@@ -103,11 +99,22 @@ class RunFolder:
 
     def begin(self) -> None:
         """Make the folder and write config.toml; RunError if the disk refuses."""
-        begin_folder(self.path, self.config)
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            _write_text(self.path / CONFIG, tomlkit.dumps(self.config.model_dump(exclude_none=True)))
+        except OSError as error:
+            raise RunError(f"{self.path}: can't be written, {error.strerror}: name another folder") from error
 
-    def writing(self) -> AbstractContextManager[None]:
+    @contextmanager
+    def writing(self) -> Iterator[None]:
         """Around writing here: RunError, one line that says how to resume, if the disk refuses."""
-        return writing_in(self.path, "train")
+        try:
+            yield
+        except OSError as error:
+            raise RunError(
+                f"{self.path}: can't be written ({error}): make room, then mc-nested train --resume {self.path} "
+                f"goes on from the last checkpoint"
+            ) from error
 
     def save(self, trainer: Training, wall_s: float, beside: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """Write the checkpoint, the tables and the summary as they are now, and return the summary.
@@ -118,20 +125,27 @@ class RunFolder:
         summary = {**summarise(self.config, self.scenario, trainer, wall_s), **(beside or {})}
         with self.writing():
             self.checkpoint.save(trainer, finished=trainer.finished)
-            write_results(self.path, trainer.episode_rows, trainer.evaluation_rows, summary)
+            _write_table(self.path / "episodes.csv", EpisodeRow._fields, trainer.episode_rows)
+            _write_table(self.path / "evaluations.csv", EvaluationRow._fields, trainer.evaluation_rows)
+            _write_text(self.path / SUMMARY, json.dumps(summary, indent=2) + "\n")
         return summary
 
-    def kept(self) -> Arrays:
+    def policies(self) -> Arrays:
         """The networks of the policies that the trials keep, by role, and their ``scores``, as last saved.
 
         RunError if nothing was saved yet, or it is damaged, of other shapes or another training's.
         """
         if self.only_begun:
             raise RunError(f"{self.path}: nothing is trained yet: go on with mc-nested train --resume {self.path}")
-        kept = part_of(self.checkpoint.state(), "kept")
+        kept = part_of(self.checkpoint.state(), "policies")
         if misfit := _misfit_of(kept, self._shapes_kept()):
             raise RunError(f"{self.checkpoint.file}: {misfit}: bring back a whole copy, or train the run again")
         return kept
+
+    def policy_of(self, trial: int) -> Arrays:
+        """The networks of one trial's policy, by role, for ``Agent.load_online``; RunError as for ``policies``."""
+        policies, rows = self.policies(), self.new_agent(self.config.trials).rows_of(trial)
+        return {role: networks[rows[role]] for role, networks in policies.items() if role in rows}
 
     def learnt_game(self, trial: int) -> Arrays | None:
         """What that trial has learnt of its game, for ``Imagination.begin_from``; None if its preset imagines nothing.
@@ -140,7 +154,7 @@ class RunFolder:
         """
         if self.config.preset.imagination is None:
             return None
-        imagination = part_of(self.checkpoint.state(), "imagination")
+        imagination = part_of(self.checkpoint.state(), "practice")
         try:
             return learnt_game(imagination, trial)
         except (KeyError, IndexError) as error:
@@ -158,7 +172,7 @@ class RunFolder:
     @property
     def has_begun(self) -> bool:
         """Whether there is a config.toml, so that it can be resumed."""
-        return (self.path / "config.toml").is_file()
+        return (self.path / CONFIG).is_file()
 
     @property
     def only_begun(self) -> bool:
@@ -167,49 +181,10 @@ class RunFolder:
 
     def wall_s_so_far(self) -> float:
         """Seconds that the training took until its last save; 0 if the summary doesn't say."""
-        return wall_s_so_far(self.path)
-
-
-def summarise(config: RunConfig, scenario: Scenario, trainer: Training, wall_s: float) -> dict[str, Any]:
-    """The results of a training so far, for summary.json; scores are r_M, one per trial, of the policy it keeps.
-
-    An unfinished trial has no final score: it has learned since its last greedy evaluation. ``played_to_optimum``
-    includes the greedy episodes: in a live game they take as long as any other.
-    """
-    evaluations = [[row for row in trainer.evaluation_rows if row.trial == trial] for trial in range(config.trials)]
-    firsts = [next((row.episode for row in rows if row.score >= scenario.optimum), None) for rows in evaluations]
-    return {
-        "scenario": scenario.name,
-        "agent": config.agent,
-        "preset": config.preset_name,
-        "backend": config.backend,
-        "trials": config.trials,
-        "seed": config.seed,
-        "episodes": config.preset.episodes,
-        "optimum": scenario.optimum,
-        "final_scores": [
-            float(score) if finished else None
-            for score, finished in zip(trainer.kept_scores, trainer.runs_finished, strict=True)
-        ],
-        "episodes_to_optimum": firsts,
-        "played_to_optimum": [_played_until(trainer, trial, first) for trial, first in enumerate(firsts)],
-        "episodes_done": [int(done) for done in trainer.episodes_done],
-        "env_steps": trainer.env_steps,
-        "evaluation_steps": trainer.evaluation_steps,
-        "updates": trainer.agent.updates,
-        "wall_s": round(wall_s, 3),
-        "networks": trainer.agent.networks,
-        "parameters": trainer.agent.parameters,
-    }
-
-
-def _played_until(trainer: Training, trial: int, episode: int | None) -> dict[str, int] | None:
-    if episode is None:
-        return None
-    played = [row for row in trainer.episode_rows if row.trial == trial and row.episode <= episode]
-    greedy = [row for row in trainer.evaluation_rows if row.trial == trial and row.episode <= episode]
-    steps = sum(row.steps for row in played) + sum(row.steps for row in greedy)
-    return {"episodes": len(played) + len(greedy), "steps": steps}
+        try:
+            return float(json.loads((self.path / SUMMARY).read_text("utf-8"))["wall_s"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return 0.0
 
 
 def _misfit_of(kept: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> str | None:
@@ -224,3 +199,15 @@ def _misfit_of(kept: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> str | Non
         if array.dtype.kind != "f" or not (np.isfinite(array) | (name == "scores") & np.isneginf(array)).all():
             return f"its array {name} holds what is no number"
     return None
+
+
+def _write_text(path: Path, text: str) -> None:
+    with atomic_write(path) as unfinished:
+        unfinished.write_text(text, encoding="utf-8")
+
+
+def _write_table(path: Path, header: Sequence[str], rows: Sequence[EpisodeRow | EvaluationRow]) -> None:
+    with atomic_write(path) as unfinished, unfinished.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(header)
+        writer.writerows(rows)

@@ -11,9 +11,6 @@ from pathlib import Path
 import platformdirs
 import tomlkit
 
-from mc_nested.arena.scenario import Scenario
-from mc_nested.arena.scenario_file import table_of
-from mc_nested.errors import RecordingError
 from mc_nested.live.devices import DesktopArea, Devices
 from mc_nested.live.profile.tables import Profile
 from mc_nested.live.recording.format import FORMAT, SUFFIX
@@ -21,9 +18,6 @@ from mc_nested.live.recording.recorder import NoRecording, Recorder, Recording
 
 MOST_RECORDINGS = 10
 """Recordings that are kept where they lie by default; the oldest one makes room for a new one."""
-
-OFF = "off"
-"""Instead of a folder: nothing is recorded."""
 
 UNKNOWN = "unknown"
 """What a fact is where the system doesn't say."""
@@ -86,37 +80,6 @@ def recorder_opener(
             yield recorder
 
     return opened
-
-
-def run_recorder(
-    record: str | Path | None,
-    what: str,
-    say: Callable[[str], None],
-    scenario: Scenario | None = None,
-    *,
-    server_allowed: bool = False,
-) -> OpenRecorder:
-    """What opens the recorder of a live run.
-
-    Args:
-        record: a new folder, or "off"; None for one among the others.
-        what: the run, in a word or two.
-        say: shows the person one line, where nothing can be recorded.
-        scenario: what is built there, if anything.
-        server_allowed: whether to play in a game that others may share.
-
-    Raises:
-        RecordingError: the folder holds something already.
-    """
-    if record == OFF:
-        return no_recorder
-    where = None if record is None else Path(record)
-    if where is not None and where.exists() and (not where.is_dir() or any(where.iterdir())):
-        raise RecordingError(f"{where}: holds something already: name a new folder for the recording, or {OFF!r}")
-    facts = {"is_server_allowed": str(server_allowed).lower()}
-    if scenario is not None:
-        facts["scenario"] = tomlkit.dumps(table_of(scenario).model_dump(exclude_none=True))
-    return recorder_opener(where, what, say, facts)
 
 
 def versions_here() -> dict[str, str]:

@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 
 from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame, Region
-from mc_nested.live.vision.debug_boxes import ALPHA, FACTS_GREY, TITLE_GREY
+from mc_nested.live.vision.debug_boxes import ALPHA, GREY, TITLE_GREY
 from mc_nested.live.vision.font import Font
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS, GlyphGrid
 from mc_nested.live.vision.layout import DISABLED, GLUE, INK_SPREAD, WHITE
 
-_GROUNDS = ((), (FACTS_GREY,), (TITLE_GREY,), (FACTS_GREY, FACTS_GREY))
+_GROUNDS = ((), (GREY,), (TITLE_GREY,), (GREY, GREY))
 """The greys that may lie over a dot: none, one, or one of each column of the debug screen."""
 
 _INK = (1 << len(_GROUNDS)) - 1

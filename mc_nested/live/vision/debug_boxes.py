@@ -19,13 +19,14 @@ from mc_nested.arrays import Bools
 from mc_nested.live.devices import Frame, Region
 from mc_nested.live.vision.fact_lines import VALUES
 from mc_nested.live.vision.glyph_grid import GLYPH_ROWS
-from mc_nested.live.vision.layout import BOXES, GREEN, INK_SPREAD, PLAIN, RED, VANILLA, WHITE, Colour
+from mc_nested.live.vision.layout import BOXES, GREEN, PLAIN, RED, VANILLA, WHITE, Colour
+from mc_nested.live.vision.text_lines import ink_of
 
 ALPHA = 0x90 / 255
 """How much of a box's grey is over the world: 0x90 of 0xFF (FACTS: The F3 debug screen)."""
 
-GREY = 80
-"""Of a box, before the world shines through: 0x50."""
+GREY, TITLE_GREY = 80, 48
+"""Of a box, and of a title's ground from 26.4 on, before the world shines through: 0x50 and 0x30."""
 
 BRIGHTEST = 175
 """No ground under a box is as bright: it is 157 at most; no ink is as dark in all its channels."""
@@ -53,7 +54,7 @@ def line_boxes(frame: Frame, scale: int) -> list[Region]:
     where there is no debug screen. Where a line's end isn't seen, as behind a notice, its box ends there.
     """
     dots = np.ascontiguousarray(frame[scale // 2 :: scale, scale // 2 :: scale])
-    is_ink = ink_of(dots)
+    is_ink = has_letters(dots)
     may_be_ground = cv2.inRange(dots, (_DARKEST,) * 3, (BRIGHTEST,) * 3) > 0
     boxes = []
     for row in range(_FIRST, dots.shape[0] - GLYPH_ROWS, VANILLA.pitch):
@@ -63,15 +64,9 @@ def line_boxes(frame: Frame, scale: int) -> list[Region]:
     return boxes
 
 
-def ink_of(picture: Frame) -> Bools:
+def has_letters(picture: Frame) -> Bools:
     """Where a picture (rows, columns, 3) has a colour of the debug screen's letters."""
-    found: Bools = np.any([_has_colour(picture, colour) for colour in (PLAIN, GREEN, RED)], axis=0)
-    return found
-
-
-def _has_colour(picture: Frame, colour: Colour) -> Bools:
-    least, most = (tuple(part + spread for part in colour[::-1]) for spread in (-INK_SPREAD, INK_SPREAD))
-    return np.asarray(cv2.inRange(picture, least, most) > 0)
+    return has_colour(picture, PLAIN, GREEN, RED)
 
 
 def _in_pixels(row: int, columns: tuple[int, int], scale: int) -> Region:
@@ -100,20 +95,14 @@ def _length(has_ink: Bools, in_a_box: Bools) -> int:
     return length if length >= _SHORTEST else 0
 
 
-FACTS_GREY, TITLE_GREY = 80, 48
-"""Of the ground of facts and lines, and of a title's, before the world shines through."""
-
-_DARKEST_TITLE, _BRIGHTEST = 22, 175
-"""No ground is as dark or as bright: a title's is 27 at least, all are 157 at most."""
+_DARKEST_TITLE = 22
+"""No title's ground is as dark: it is 27 at least."""
 
 _TOP, _SIDE = 2, 3
 """The first row, and the first column of a box's text."""
 
 _INDENT = 3
 """Columns by which a title begins farther right."""
-
-_SHORTEST_IN_BOX, _WIDEST_GAP_IN_BOX = 8, 13
-"""Columns of a line, and of a gap in it."""
 
 _FARTHEST = (130, 330)
 """Columns from the window's side within which a left box's line begins, and a right one's ends."""
@@ -160,18 +149,13 @@ def ground_parts(frame: Frame, scale: int) -> list[GroundPart]:
 
 def has_colour(picture: Frame, *colours: Colour) -> Bools:
     """Where a picture (rows, columns, 3) has one of these colours."""
-    spread = INK_SPREAD
-    masks = [
-        cv2.inRange(picture, (b - spread, g - spread, r - spread), (b + spread, g + spread, r + spread))
-        for r, g, b in colours
-    ]
-    return np.asarray(np.bitwise_or.reduce(masks) > 0)
+    return np.asarray(ink_of(picture, *colours) > 0)
 
 
 def _lines(dots: Frame, side: int, farthest: int) -> Iterator[_TextRow]:
     """The lines of the column at a picture's left side, beginning between two columns, the upper ones first."""
     ink, white = has_colour(dots, PLAIN, *VALUES), has_colour(dots, WHITE)
-    inside = ink | (cv2.inRange(dots, (_DARKEST_TITLE,) * 3, (_BRIGHTEST,) * 3) > 0)
+    inside = ink | (cv2.inRange(dots, (_DARKEST_TITLE,) * 3, (BRIGHTEST,) * 3) > 0)
     for row in range(_TOP, dots.shape[0] - GLYPH_ROWS, BOXES.pitch):
         rows = slice(row, row + GLYPH_ROWS)
         outside = np.flatnonzero(~inside[rows, side:].all(axis=0))
@@ -179,9 +163,9 @@ def _lines(dots: Frame, side: int, farthest: int) -> Iterator[_TextRow]:
         at = np.flatnonzero(has_ink)
         if not len(at) or at[0] > farthest or ink[rows, side - 1].any():
             continue
-        gaps = np.flatnonzero(np.diff(at) > _WIDEST_GAP_IN_BOX + 1)
+        gaps = np.flatnonzero(np.diff(at) > _WIDEST_GAP + 1)
         last = int(at[gaps[0]] if len(gaps) else at[-1])
-        if last - at[0] >= _SHORTEST_IN_BOX:
+        if last - at[0] >= _SHORTEST:
             first, end = int(at[0]) + side, last + side
             is_white = bool(white[rows, first : end + 1].sum() == ink[rows, first : end + 1].sum())
             yield _TextRow(row, first, end, is_white)
@@ -213,7 +197,7 @@ def _grounds(lines: Sequence[_TextRow], has_title: bool) -> Iterator[tuple[int, 
     top, end = lines[0].row - 1, lines[-1].row + BOXES.pitch + 1
     if has_title:
         yield top, top + BOXES.pitch, TITLE_GREY
-    yield top + BOXES.pitch if has_title else top, end, FACTS_GREY
+    yield top + BOXES.pitch if has_title else top, end, GREY
 
 
 def _part_in_pixels(rows: Sequence[int], first: int, end: int, scale: int) -> Region:

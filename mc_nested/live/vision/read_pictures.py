@@ -5,13 +5,15 @@ stands in the upper left corner, and the lines of the right column end at the ri
 The stand-in).
 """
 
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import cv2
 import numpy as np
 
 from mc_nested.errors import PictureError
-from mc_nested.live.model.reading import Reading
+from mc_nested.live.model.reading import XYZ, Reading, Target
 from mc_nested.live.vision.debug_screen import nothing_seen, read_found
 from mc_nested.live.vision.fact_lines import fact_from
 from mc_nested.live.vision.font import Font, decoded
@@ -51,21 +53,25 @@ _ALONE = "and the picture has to be of the game's window alone, as F2 takes it"
 _MORE = "the picture shows more than the game's window: cut off the window's frame and the desktop, or take it with F2"
 
 
-def read_picture(path: Path, font: Font, overlay: Overlay | None = None) -> dict[str, object]:
-    """A picture file's reading, ready for JSON: file, xyz, yaw, pitch, target (pos, id), problem; None where absent.
+@dataclass(frozen=True)
+class PictureReading:
+    """What a picture file says, each with its meaning; None where it isn't there."""
+
+    file: Annotated[Path, "the picture"]
+    xyz: Annotated[XYZ | None, "position of the feet"]
+    yaw: Annotated[float | None, "degrees"]
+    pitch: Annotated[float | None, "degrees"]
+    target: Annotated[Target | None, "id and pos of the block that is looked at"]
+    problem: Annotated[str | None, "why it can't be read"]
+
+
+def read_picture(path: Path, font: Font, overlay: Overlay | None = None) -> PictureReading:
+    """A picture file's reading.
 
     Without ``overlay`` the GUI scale, the colour and the layout are found. PictureError for a file that is no picture.
     """
     reading = _read(path, font, overlay)
-    target = reading.target
-    return {
-        "file": str(path),
-        "xyz": list(reading.xyz) if reading.xyz else None,
-        "yaw": reading.yaw,
-        "pitch": reading.pitch,
-        "target": {"pos": list(target.pos) if target.pos else None, "id": target.id} if target else None,
-        "problem": reading.problem,
-    }
+    return PictureReading(path, reading.xyz, reading.yaw, reading.pitch, reading.target, reading.problem)
 
 
 def _read(path: Path, font: Font, overlay: Overlay | None) -> Reading:

@@ -1,13 +1,25 @@
 """The claims about what the paper didn't try: (j) images, (k) parts, (l) many main actions, (m) cooperation."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import get_args
 
 from mc_nested.arrays import Float64s
-from mc_nested.learn.cooperation.team_agent import KINDS, Kind
+from mc_nested.learn.builders import NETWORKS, Networks
 from mc_nested.studies.claims.arm_results import ArmResults, Arms, Budget
-from mc_nested.studies.claims.contests import HIERARCHICAL, NESTED, OUTPERFORMED, SINGLE
-from mc_nested.studies.claims.lines import above, lead_grows, mostly_at_the_optimum, not_behind
+from mc_nested.studies.claims.contests import (
+    HIERARCHICAL,
+    MARGIN,
+    NESTED,
+    ONE_TRIAL,
+    OUTPERFORMED,
+    SINGLE,
+    Pair,
+    ahead_by_score,
+    compared,
+)
+from mc_nested.studies.inference import contrast, mostly, no_worse, share_interval
+from mc_nested.studies.power import MeanEffect, ShareEffect
 from mc_nested.studies.verdicts import Claim, Evidence, JudgedClaim, Verdict, judged
 
 IMAGES = "This framework is also applicable with inputs of images"
@@ -67,7 +79,7 @@ def of_topic(arms: Arms, topic: str) -> list[ArmResults]:
     return [arm for arm in arms.values() if arm.topic == topic]
 
 
-def teams_of(arms: Sequence[ArmResults], networks: Kind) -> dict[int, ArmResults]:
+def teams_of(arms: Sequence[ArmResults], networks: Networks) -> dict[int, ArmResults]:
     """Return the teams whose builders learn in that way, by how many they are: two or more."""
     teams = {arm.team.count: arm for arm in arms if arm.team and arm.team.networks == networks}
     return {count: arm for count, arm in teams.items() if count > 1}
@@ -196,7 +208,7 @@ def _networks(arms: Arms) -> Evidence:
 def _of_teams(arms: Arms) -> list[Claim]:
     own = of_topic(arms, "cooperation")
     alone = alone_among(own)
-    teams = {kind: list(teams_of(own, kind).values()) for kind in KINDS}
+    teams = {kind: list(teams_of(own, kind).values()) for kind in NETWORKS}
     return [
         Claim(
             "m1",
@@ -228,3 +240,43 @@ def _compared_teams(
 def _above(arm: ArmResults, other: ArmResults, where: str) -> Evidence:
     what = where or f"{arm.name} and {other.name}"
     return above(what, (arm.name, other.name), (arm.last_ten, other.last_ten))
+
+
+def above(what: str, names: tuple[str, str], pair: Pair) -> Evidence:
+    """Return whether the first scores above the second; the opposite is that it is less than a block above."""
+    lead = _difference(pair)
+    return compared(what, names, pair, ahead_by_score, partial(MeanEffect, lead, MARGIN - lead))
+
+
+def not_behind(what: str, names: tuple[str, str], pair: Pair) -> Evidence:
+    """Return whether the first scores less than a block below the second; the opposite is that it is further below."""
+    lead = _difference(pair)
+    effect = partial(MeanEffect, lead + MARGIN, -lead - MARGIN)
+    return compared(what, names, pair, lambda left, right: no_worse(left, right, MARGIN), effect)
+
+
+def mostly_at_the_optimum(what: str, optimum: float, scores: Float64s) -> Evidence:
+    """Return whether a trial is more likely than not to score the optimum."""
+    reached, trials = int((scores >= optimum).sum()), len(scores)
+    figures = (("trials", trials), ("share at the optimum", reached / trials))
+    return Evidence(
+        what, figures, share_interval(reached, trials), mostly(reached, trials), effect=ShareEffect(reached / trials)
+    )
+
+
+def lead_grows(what: str, leads: Mapping[int, Pair]) -> Evidence:
+    """Return whether the first's lead on the second is larger at the highest of these numbers than at the lowest."""
+    low, high = min(leads), max(leads)
+    figures = tuple((f"lead with {number}", _difference(pair)) for number, pair in leads.items())
+    change = _difference(leads[high]) - _difference(leads[low])
+    figures = (*figures, ("change", change))
+    groups, weights = (*leads[high], *leads[low]), (1.0, -1.0, -1.0, 1.0)
+    if min(map(len, groups)) < 2:
+        return Evidence(what, figures, missing=ONE_TRIAL)
+    tails, interval = contrast(groups, weights)
+    spreads = tuple(float(group.std(ddof=1)) for group in groups)
+    return Evidence(what, figures, interval, tails, effect=MeanEffect(change, -change, spreads, is_permuted=False))
+
+
+def _difference(pair: Pair) -> float:
+    return float(pair[0].mean() - pair[1].mean())

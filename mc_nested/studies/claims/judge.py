@@ -9,15 +9,13 @@ from mc_nested.studies.claims.scores import (
     alike_on_the_unsolved,
 )
 from mc_nested.studies.claims.stability import steadier
-from mc_nested.studies.measures import curves_of
 from mc_nested.studies.results import Results
 from mc_nested.studies.verdicts import JudgedClaim, judged
 
 
 def judge(results: Results, longer: Results | None = None) -> tuple[JudgedClaim, ...]:
     """Judge every claim; ``longer`` is the same experiment with ten times the episodes, for claim (f)."""
-    curves = curves_of(results)
-    costs = {(cost.agent, cost.scenario): cost for cost in results.costs}
+    curves, costs = results.curves, results.costs
     claims = (
         *ahead_on_the_line(curves),
         alike_on_the_unsolved(curves),

@@ -7,7 +7,6 @@ import numpy as np
 from mc_nested.arrays import Float64s
 from mc_nested.studies.claims.contests import HIERARCHICAL, NESTED, UNSOLVED, Curves
 from mc_nested.studies.inference import mostly, share_interval
-from mc_nested.studies.measures import curves_of
 from mc_nested.studies.results import Results
 from mc_nested.studies.verdicts import Claim, Evidence, Verdict
 
@@ -19,7 +18,7 @@ SOLVED = (
 
 def solved_in_the_end(results: Results, longer: Results | None) -> Claim:
     """Return claim (f), decided by ``longer``; the shares of ``results`` are shown beside it."""
-    runs = [(run, curves_of(run)) for run in (results, longer) if run]
+    runs = [(run, run.curves) for run in (results, longer) if run]
     return Claim(
         "f",
         "more episodes bring the zigzag and the diamond to the optimum",

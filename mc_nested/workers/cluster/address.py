@@ -48,7 +48,7 @@ def scheduler_address(text: str, keys: Path | None = None, *, insecure: bool = F
     if not is_here and not insecure:
         raise ClusterError(
             f"{url} is not encrypted, and whoever reaches it can run programs here: make keys with mc-nested "
-            f"cluster-keys, then write tls:// and --keys; or pass --insecure in a network that is yours alone"
+            f"train keys, then write tls:// and --keys; or pass --insecure in a network that is yours alone"
         )
     return SchedulerAddress(url, None)
 
@@ -82,11 +82,11 @@ def _is_loopback(host: str) -> bool:
 def _checked_keys(url: str, keys: Path | None) -> Path:
     if keys is None:
         raise ClusterError(
-            f"{url} needs this machine's keys: name their folder with --keys (mc-nested cluster-keys makes them)"
+            f"{url} needs this machine's keys: name their folder with --keys (mc-nested train keys makes them)"
         )
     missing = next((name for name in (AUTHORITY, CERTIFICATE, KEY) if not (keys / name).is_file()), None)
     if missing:
-        raise ClusterError(f"{keys}: no {missing} there: name a machine's folder that mc-nested cluster-keys made")
+        raise ClusterError(f"{keys}: no {missing} there: name a machine's folder that mc-nested train keys made")
     try:
         ssl.create_default_context(cafile=keys / AUTHORITY).load_cert_chain(keys / CERTIFICATE, keys / KEY)
     except OSError as error:  # ssl.SSLError is one

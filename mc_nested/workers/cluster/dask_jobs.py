@@ -47,7 +47,7 @@ ALL = "all"
 
 
 class DaskJobs:
-    """The workers of a cluster, for one experiment.
+    """The workers of a cluster, for one study.
 
     Args:
         client: a connection to its scheduler.

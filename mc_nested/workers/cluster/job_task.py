@@ -29,7 +29,7 @@ REPORT_EVERY_S = 1.0
 """Seconds between two reports, which all go through one scheduler, and between two looks whether to stop."""
 
 JOBS = "jobs"
-"""The folder's name above a job's, as in an experiment's folder: what a job writes beside it lands there, too."""
+"""The folder's name above a job's, as in a study's folder: what a job writes beside it lands there, too."""
 
 GAME = "game"
 """The resource of workers that are games: jobs leave them alone."""
@@ -44,7 +44,7 @@ _AT_WORK = ("running", "paused", "closing_gracefully")
 """What a worker's status is as long as its scheduler can be reached; ``paused`` is for too little memory."""
 
 _stopped: set[str] = set()
-"""The topics of experiments that were stopped, in this worker's process."""
+"""The topics of studies that were stopped, in this worker's process."""
 
 
 class Trained(NamedTuple):
@@ -71,7 +71,7 @@ def packed(job: Job, folder: Path) -> bytes:
 
 
 def train_on_worker(versions: Versions, library: str | None, package: bytes, topic: str) -> Trained:
-    """Train a packed job until it is finished, or saved because its experiment was stopped or its task cancelled.
+    """Train a packed job until it is finished, or saved because its study was stopped or its task cancelled.
 
     ``library`` is whose agent it is: its version has to be the same, too.
 
@@ -104,7 +104,7 @@ def train_on_worker(versions: Versions, library: str | None, package: bytes, top
 
 
 def stop_training(topic: str) -> None:
-    """Let this worker save the jobs of that experiment, now and later."""
+    """Let this worker save the jobs of that study, now and later."""
     _stopped.add(topic)
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 
 class WorkersSeen:
-    """The workers of one experiment.
+    """The workers of one study.
 
     Args:
         workers: the addresses of those that are there at the beginning.

@@ -1,7 +1,4 @@
-"""Who builds, and from where.
-
-The order within a tick, and who stops whom: every value by hand.
-"""
+"""Who builds, and from where; who acts first within a tick, and what stops whom."""
 
 import dataclasses
 

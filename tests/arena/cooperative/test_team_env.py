@@ -4,6 +4,8 @@ A team's arena from above: every builder in a colour of its own, everything else
 """
 
 import dataclasses
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,11 +16,11 @@ from hypothesis import strategies as st
 from mc_nested.arena.action import Action
 from mc_nested.arena.builder import build
 from mc_nested.arena.cooperative.team import Team, team_of
-from mc_nested.arena.cooperative.team_env import BODIES, TeamEnv, draw_team_picture, draw_team_text, rendered_team
+from mc_nested.arena.cooperative.team_env import BODIES, TeamVectorEnv, draw_team_picture, draw_team_text, rendered_team
 from mc_nested.arena.drawing import draw_picture
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import NO_ACTION
-from sim.grid import arena_env
+from sim.grid import GridVectorEnv
 from sim.team_grid import TeamGrid
 
 LINE = load_scenario("line")
@@ -26,90 +28,123 @@ WOOD, STONE = 0, 1
 F, B, L, R, FD, LD, RD, BD = Action
 
 
-def team_env(team: Team) -> TeamEnv:
-    return TeamEnv(TeamGrid(team), team)
+def begun(team: Team, material: int = STONE, runs: int = 1) -> TeamVectorEnv:
+    env = TeamVectorEnv([TeamGrid(team) for _ in range(runs)], team)
+    env.reset(options={"material": np.full(env.num_envs, material)})
+    return env
+
+
+def after(env: TeamVectorEnv, *ticks: Sequence[int]) -> tuple[Any, ...]:
+    """What the last of these ticks led to, as lists: observations, rewards, terminated, truncated and scores."""
+    for tick in ticks:
+        observations, rewards, terminated, truncated, info = env.step(np.array(tick))
+    return tuple(each.tolist() for each in (observations, rewards, terminated, truncated, info["score"]))
 
 
 def test_each_observes_its_own_cell_and_the_teams_blocks() -> None:
-    env = team_env(Team(LINE, ((7, 12), (3, 3))))
-    assert env.reset(STONE).tolist() == [[7, 12, 11], [3, 3, 11]]
-    step = env.step([BD, L])
-    assert step.observations.tolist() == [[7, 11, 10], [2, 3, 10]]
-    assert step.rewards.tolist() == [1.0, 0.0]
-    assert env.cells == ((7, 11), (2, 3))
-    assert env.placed == {(7, 12)}
+    env = TeamVectorEnv([TeamGrid(Team(LINE, ((7, 12), (3, 3))))], Team(LINE, ((7, 12), (3, 3))))
+    assert env.reset()[0].tolist() == [[7, 12, 11], [3, 3, 11]]
+    observations, rewards, *_ = after(env, [BD, L])
+    assert observations == [[7, 11, 10], [2, 3, 10]]
+    assert rewards == [1.0, 0.0]
+    assert [env.cell(0), env.cell(1)] == [(7, 11), (2, 3)]
+    assert env.placed(0) == env.placed(1) == {(7, 12)}
 
 
 def test_each_earns_for_its_own_block_and_the_score_is_the_teams() -> None:
     two = dataclasses.replace(LINE, design=frozenset({(7, 12), (3, 3)}))
-    env = team_env(Team(two, ((7, 12), (3, 3))))
-    env.reset(WOOD)
-    step = env.step([BD, BD])
-    assert step.rewards.tolist() == [1.0, 1.0]
-    assert (step.terminated, step.truncated, step.score) == (True, False, 2 - 5.0)
+    env = begun(Team(two, ((7, 12), (3, 3))), WOOD)
+    _, rewards, terminated, truncated, scores = after(env, [BD, BD])
+    assert rewards == [1.0, 1.0]
+    assert (terminated, truncated, scores) == ([True] * 2, [False] * 2, [2 - 5.0] * 2)
 
 
 def test_blocks_off_the_design_are_used_up_and_earn_nothing() -> None:
     one = dataclasses.replace(LINE, design=frozenset({(0, 0)}))
-    env = team_env(Team(one, ((7, 12), (3, 3))))
-    env.reset(STONE)
-    step = env.step([BD, BD])
-    assert step.rewards.tolist() == [0.0, 0.0]
-    assert (step.terminated, step.score) == (True, 10.0)
-    assert env.placed == {(7, 12)}, "the other had no block left"
+    env = begun(Team(one, ((7, 12), (3, 3))))
+    _, rewards, terminated, _, scores = after(env, [BD, BD])
+    assert rewards == [0.0, 0.0]
+    assert (terminated, scores) == ([True] * 2, [10.0] * 2)
+    assert env.placed(0) == {(7, 12)}, "the other had no block left"
 
 
-def test_the_step_limit_counts_ticks() -> None:
-    short = dataclasses.replace(LINE, step_limit=2)
-    env = team_env(team_of(short, 2))
-    env.reset(STONE)
-    assert not env.step([L, L]).truncated
-    step = env.step([NO_ACTION, L])
-    assert (step.terminated, step.truncated, step.score) == (False, True, 10.0)
-    with pytest.raises(ResetNeeded):
-        env.step([L, L])
+def test_the_step_limit_counts_ticks_and_then_nothing_is_done_until_a_reset() -> None:
+    env = begun(team_of(dataclasses.replace(LINE, step_limit=2), 2))
+    assert after(env, [L, L])[3] == [False, False]
+    observations, _, terminated, truncated, scores = after(env, [NO_ACTION, L])
+    assert (terminated, truncated, scores) == ([False] * 2, [True] * 2, [10.0] * 2)
+    again = after(env, [L, L])
+    assert again[0] == observations
+    assert again[1:] == ([0.0] * 2, [False] * 2, [True] * 2, [0.0] * 2)
+
+
+def test_where_nobody_acts_no_tick_is_counted() -> None:
+    env = begun(team_of(dataclasses.replace(LINE, step_limit=2), 2))
+    assert after(env, [L, L], [NO_ACTION, NO_ACTION])[3] == [False, False]
+    assert after(env, [L, L])[3] == [True, True]
 
 
 def test_nothing_is_done_before_a_reset() -> None:
+    team = team_of(LINE, 2)
     with pytest.raises(ResetNeeded):
-        team_env(team_of(LINE, 2)).step([F, F])
+        TeamVectorEnv([TeamGrid(team)], team).step(np.array([F, F]))
+
+
+class Fails(TeamGrid):
+    """A game that is gone at its first tick."""
+
+    def act(self, actions: Sequence[Action | None]) -> Any:  # noqa: ARG002 - it does none
+        raise RuntimeError("gone")
+
+
+def test_after_an_error_the_arena_has_to_be_reset() -> None:
+    team = team_of(LINE, 2)
+    env = TeamVectorEnv([Fails(team)], team)
+    env.reset()
+    with pytest.raises(RuntimeError):
+        env.step(np.array([F, F]))
+    with pytest.raises(ResetNeeded):
+        env.step(np.array([F, F]))
+    assert env.reset()[0].tolist() == [[7, 14, 11], [14, 14, 11]]
+
+
+def test_arenas_are_reset_and_end_by_themselves() -> None:
+    team = Team(dataclasses.replace(LINE, design=frozenset({(7, 12)})), ((7, 12), (3, 3)))
+    env = begun(team, runs=2)
+    observations, rewards, terminated, _, scores = after(env, [L, L, BD, L])
+    assert observations == [[6, 12, 1], [2, 3, 1], [7, 11, 0], [2, 3, 0]]
+    assert (rewards, terminated, scores) == ([0, 0, 1, 0], [False, False, True, True], [0, 0, 11, 11])
+    mask = np.array([False, False, True, True])
+    found, _ = env.reset(options={"reset_mask": mask, "material": np.full(4, WOOD)})
+    assert found.tolist() == [[6, 12, 1], [2, 3, 1], [7, 12, 1], [3, 3, 1]]
 
 
 @given(st.lists(st.sampled_from(Action), max_size=70), st.sampled_from([WOOD, STONE]))
 def test_one_builder_is_the_arena_of_one(actions: list[Action], material: int) -> None:
-    ours, theirs = team_env(team_of(LINE, 1)), arena_env(LINE)
-    begun, _ = theirs.reset(options={"material": LINE.materials[material].name})
-    assert ours.reset(material).tolist() == [begun.tolist()]
+    ours, theirs = begun(team_of(LINE, 1), material), GridVectorEnv([LINE])
+    theirs.reset(options={"material": np.array([material])})
     for action in actions:
-        step = ours.step([action])
-        observation, reward, terminated, truncated, info = theirs.step(action)
-        assert step.observations.tolist() == [observation.tolist()]
-        assert (step.rewards.tolist(), step.terminated, step.truncated) == ([reward], terminated, truncated)
-        assert step.score == info.get("score", 0.0)
-        if terminated or truncated:
-            return
+        own, other = ours.step(np.array([action])), theirs.step(np.array([action]))
+        for one, same in zip(own[:4], other[:4], strict=True):
+            np.testing.assert_array_equal(one, same)
+        assert own[4]["score"].tolist() == other[4]["score"].tolist()
+        assert own[4]["_score"].tolist() == other[4]["_score"].tolist()
 
 
 def test_the_scripted_builder_alone_reaches_the_optimum_while_the_other_waits() -> None:
-    env = team_env(team_of(LINE, 2))
-    env.reset(STONE)
-    steps = [env.step([action, NO_ACTION]) for action in build(LINE)]
-    assert steps[-1].score == LINE.optimum
+    env = begun(team_of(LINE, 2))
+    assert after(env, *([action, NO_ACTION] for action in build(LINE)))[-1] == [LINE.optimum] * 2
 
 
 def test_an_episode_goes_on_where_it_was_saved() -> None:
-    env = team_env(team_of(LINE, 3))
-    env.reset(WOOD)
-    env.step([BD, BD, L])
+    env, other = (begun(team_of(LINE, 3), WOOD, runs=2) for _ in range(2))
+    after(env, [BD, BD, L, F, F, F])
     kept = env.snapshot()
-    before = [env.step([BD, R, LD]) for _ in range(3)]
-    other = team_env(team_of(LINE, 3))
+    ticks = [[BD, R, LD, B, BD, L]] * 3
+    before = [after(env, tick) for tick in ticks]
     other.restore(kept)
-    for step in before:
-        again = other.step([BD, R, LD])
-        np.testing.assert_array_equal(again.observations, step.observations)
-        assert again.rewards.tolist() == step.rewards.tolist()
-    assert other.placed == env.placed
+    assert [after(other, tick) for tick in ticks] == before
+    assert other.placed(0) == env.placed(0) != other.placed(3) == env.placed(3)
     assert other.resumable is other
 
 

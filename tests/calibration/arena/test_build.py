@@ -12,7 +12,6 @@ import pytest
 from calibration.arena import build
 from calibration.arena.build import build_arena, build_question, build_summary, calibrate_built_arena, undo_hint
 from calibration.arena.ground_survey import GroundSurvey, LookAroundResult
-from calibration.arena.plan import FLOOR, box_of
 from calibration.arena.undo import note_path, read_copy_note, undo_arena, undo_built_arena
 from calibration.context import StepResult
 from mc_nested.arena.action import Action, Cell
@@ -22,6 +21,7 @@ from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.errors import DesktopError, McNestedError, NotConfirmedError, ProfileError, UserError
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.profile.arena import Arena
+from mc_nested.live.profile.built_arena import FLOOR, box_of
 from mc_nested.live.profile.store import load_profile, save_profile
 from mc_nested.live.profile.tables import Profile, WorldTable
 from sim.client.client import VirtualClient

@@ -7,23 +7,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibration.arena.plan import (
-    BORDERS,
-    FLOOR,
-    border_block,
-    border_of,
     box_at,
-    box_of,
     build_commands,
     copy_command,
     copy_positions,
     do_overlap,
-    floor_of,
     gamerules,
     is_good_floor,
     volume,
 )
 from mc_nested.live.model.coordinates import Facing
 from mc_nested.live.profile.arena import FILL_LIMIT, Arena
+from mc_nested.live.profile.built_arena import BORDERS, FLOOR, border_block, border_of, box_of, floor_of
 from mc_nested.live.profile.tables import GameVersion, Profile
 
 FACINGS: list[Facing] = ["north", "south", "west", "east"]

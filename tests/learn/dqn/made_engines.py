@@ -4,7 +4,7 @@ import numpy as np
 
 from mc_nested.learn.dqn.engine import Batch, Engine, UpdateRule
 from mc_nested.learn.dqn.engines import EngineChoice, made_engine
-from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.states import StateSpace
 
 RULE = UpdateRule(batch=32, learning_rate=1e-3, target_period=3, huber_delta=1.0, margin=0.5)
 GAMMA = 0.95

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from mc_nested.arrays import Float64s, Int64s
 from mc_nested.learn.dqn import replay as replay_module
 from mc_nested.learn.dqn.replay import Replay, Transitions
-from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.states import StateSpace
 
 
 def transition(*numbers: int) -> Transitions:

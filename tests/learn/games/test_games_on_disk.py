@@ -9,7 +9,8 @@ from mc_nested.arena.scenario_file import table_of
 from mc_nested.arena.vector import ArenaVectorEnv
 from mc_nested.learn.games.games_trainer import GamesTrainer
 from mc_nested.learn.preset import Preset
-from mc_nested.learn.runs.run_folder import RunConfig, RunFolder
+from mc_nested.learn.runs.run_config import RunConfig
+from mc_nested.learn.runs.run_folder import RunFolder
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridGame
 from tests.learn.games.lockstep import finish, game_of
@@ -65,7 +66,7 @@ def test_a_saved_learner_goes_on_to_the_bit_and_says_what_it_came_to(tmp_path: P
     for name in ("episodes.csv", "evaluations.csv", "summary.json", "checkpoint/state.npz"):
         assert (halved.path / name).read_bytes() == (whole.path / name).read_bytes(), name
     assert summary["episodes_done"] == [12]
-    assert summary["final_scores"] == [resumed.kept_scores[0]]
+    assert summary["final_scores"] == [resumed.policy_scores[0]]
 
 
 def test_a_trainer_goes_on_with_what_a_learner_began_and_the_other_way_round(tmp_path: Path) -> None:

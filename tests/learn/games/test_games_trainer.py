@@ -13,7 +13,7 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.arrays import Arrays
 from mc_nested.errors import PresetError
 from mc_nested.learn.games.episode import EpisodePlan, PlayedEpisode
-from mc_nested.learn.games.games_trainer import GamesTrainer
+from mc_nested.learn.games.games_trainer import GamesTrainer, materials_of
 from mc_nested.learn.imagination.beliefs import Belief
 from mc_nested.learn.preset import Preset, load_preset
 from tests.arena.made_parts import STRIPES
@@ -167,9 +167,9 @@ def test_an_evaluation_keeps_the_networks_that_played_it() -> None:
     learner.plan("game 2")
     learner.agent.low_level.engine.load_online(learner.agent.low_level.engine.online + 1)
     assert learner.take(play(plan))
-    assert learner.kept_scores.tolist() == [BENT.optimum]
+    assert learner.policy_scores.tolist() == [BENT.optimum]
     for role, online in played_by.items():
-        np.testing.assert_array_equal(learner.kept[role], online)
+        np.testing.assert_array_equal(learner.policies[role], online)
 
 
 def test_after_the_same_episodes_one_game_evaluates_and_no_other() -> None:
@@ -292,3 +292,41 @@ def test_what_games_can_not_play_by_themselves_is_refused_in_one_line(
     with pytest.raises(PresetError, match=what) as caught:
         learner_of(scenario, load_preset(preset))
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["nested", "hierarchical", "single"])
+@pytest.mark.parametrize("seed", range(5))
+def test_every_step_is_a_transition_of_the_agent_that_acted_and_the_choice_is_one_of_the_main_agent(
+    name: str, seed: int
+) -> None:
+    learner = learner_of(BENT, PAPER, agent=name, seed=seed)
+    plan = learner.plan("game")
+    played, agent = game_of(BENT, PAPER, name)(plan), learner.agent
+    assert learner.take(played)
+
+    replay, states = agent.low_level.replay, agent.low_level.states
+    row = plan.material if name == "hierarchical" else 0
+    assert replay.added.tolist() == [played.steps if at == row else 0 for at in range(states.rows)]
+    held = replay.gather(np.array([row]), np.arange(played.steps)[None])
+    materials = materials_of(agent, played, plan.material)
+    seen = states.kept(agent.low_level_states(played.observations, materials))
+    np.testing.assert_array_equal(held.states[:, 0], [seen[:-1], seen[1:]])
+    np.testing.assert_array_equal(held.actions[0], played.actions)
+    np.testing.assert_array_equal(held.rewards[0], played.rewards)
+    discounts = np.full(played.steps, PAPER.update.gamma, np.float32)
+    discounts[-1] *= not played.terminated
+    np.testing.assert_array_equal(held.discounts[0], discounts)
+    if agent.main:
+        chosen = agent.main.replay.gather(np.array([0]), np.array([[0]]))
+        assert agent.main.replay.added.tolist() == [1]
+        assert chosen.actions.tolist() == [[plan.material]]
+        assert chosen.rewards.tolist() == [[played.score]]
+        assert chosen.discounts.tolist() == [[0.0]]
+
+
+def test_a_single_agents_material_is_what_its_actions_chose() -> None:
+    learner = learner_of(BENT, PAPER, agent="single", seed=1)
+    played = game_of(BENT, PAPER, "single")(learner.plan("game"))
+    materials = materials_of(learner.agent, played, 0)
+    assert materials[0] == -1
+    assert materials.tolist() == (played.observations[:, -1] - 1).tolist()

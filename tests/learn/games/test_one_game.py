@@ -50,8 +50,8 @@ def assert_same(learner: GamesTrainer, trainer: Trainer) -> None:
     own, expected = state_of(learner), state_of(trainer)
     assert learner.episode_rows == trainer.episode_rows
     assert learner.evaluation_rows == trainer.evaluation_rows
-    for name, kept in trainer.kept.items():
-        np.testing.assert_array_equal(learner.kept[name], kept, err_msg=name)
+    for name, kept in trainer.policies.items():
+        np.testing.assert_array_equal(learner.policies[name], kept, err_msg=name)
     of_the_arena = {f"runs.{name}" for name in OF_THE_ARENA} | {name for name in expected if name.startswith("env.")}
     assert own.keys() - {"planned"} == expected.keys() - of_the_arena
     for name in own.keys() - {"planned"}:
@@ -59,7 +59,7 @@ def assert_same(learner: GamesTrainer, trainer: Trainer) -> None:
         np.testing.assert_array_equal(own[name], expected[name], err_msg=name)
     for name, rows in trainer.journal(None).items():
         np.testing.assert_array_equal(learner.journal(None)[name], rows, err_msg=name)
-    for name in ("episodes_done", "runs_finished", "kept_scores", "epsilon"):
+    for name in ("episodes_done", "runs_finished", "policy_scores", "epsilon"):
         np.testing.assert_array_equal(getattr(learner, name), getattr(trainer, name), err_msg=name)
 
 

@@ -8,7 +8,7 @@ from mc_nested.learn.agents import AGENT_SPECS, Agent
 from mc_nested.learn.imagination.arena_step import ImaginedArena, imagined_arena
 from mc_nested.learn.imagination.beliefs import Belief, Beliefs
 from mc_nested.learn.imagination.learnt_rules import LearntRules
-from mc_nested.learn.imagination.practice import Goal, RealTransitions
+from mc_nested.learn.imagination.practice_session import Goal, RealTransitions
 from mc_nested.learn.learner import Learner
 from tests.learn.imagination.made_games import BENT, SMALL, TRUE_MOVES, TRUE_PLACES
 

@@ -1,4 +1,4 @@
-"""The learnt game's step: edges, blocks, and where a block lands, as in the real rules if those were learnt."""
+"""The learnt game's step: edges, blocks, and where a block lands, as in the real rules; what an episode should do."""
 
 import numpy as np
 import pytest
@@ -7,15 +7,30 @@ from hypothesis import strategies as st
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.rules import landing, moved
-from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, cell_at, imagined_arena, index_of, step
-from mc_nested.learn.imagination.beliefs import Belief, Beliefs
+from mc_nested.learn.imagination.arena_step import (
+    NOWHERE,
+    ImaginedArena,
+    ImaginedTask,
+    State,
+    cell_at,
+    epsilon_from,
+    expected_landings,
+    imagined_arena,
+    index_of,
+    is_wasted,
+    state_at,
+    step,
+)
+from mc_nested.learn.imagination.beliefs import Belief, Beliefs, believe
+from mc_nested.learn.imagination.first_tries import FirstTries
 from mc_nested.learn.imagination.learnt_rules import LearntRules
-from tests.learn.imagination.made_games import TRUE_MOVES, TRUE_PLACES
+from tests.learn.imagination.made_games import BENT, TRUE_MOVES, TRUE_PLACES
+from tests.learn.imagination.made_practice import arena_of
 
 SIZE = 5
 
 
-def arena_of(
+def taught_arena(
     moves: list[Cell] = TRUE_MOVES, places: list[bool] = TRUE_PLACES, lands: Cell = (0, 1), paying: Cell = (2, 3)
 ) -> ImaginedArena:
     pay = np.zeros((SIZE, SIZE), np.float32)
@@ -26,7 +41,7 @@ def arena_of(
 
 @given(st.integers(0, 4), st.integers(0, 4), st.integers(1, 4))
 def test_an_index_names_a_cell_inside_the_border(x: int, y: int, longest: int) -> None:
-    arena = arena_of([(longest, 0), (0, -longest)], [False, True])
+    arena = taught_arena([(longest, 0), (0, -longest)], [False, True])
     assert arena.border == longest
     assert arena.side == SIZE + 2 * longest
     assert cell_at(index_of((x, y), arena), arena) == (x, y)
@@ -37,13 +52,13 @@ def test_an_index_names_a_cell_inside_the_border(x: int, y: int, longest: int) -
 
 
 def test_the_paying_cell_is_where_the_beliefs_have_it() -> None:
-    arena = arena_of(paying=(4, 1))
+    arena = taught_arena(paying=(4, 1))
     assert arena.pay[index_of((4, 1), arena)] == 1.0
     assert arena.pay.sum() == 1.0
 
 
 def test_nothing_learnt_yet_is_an_arena_where_nobody_moves() -> None:
-    arena = arena_of([(0, 0)] * 8, [True] * 8, (-1, -1))
+    arena = taught_arena([(0, 0)] * 8, [True] * 8, (-1, -1))
     solid = arena.empty.copy()
     at = index_of((2, 2), arena)
     position, block = step(arena, at, int(Action.F), solid)
@@ -52,7 +67,7 @@ def test_nothing_learnt_yet_is_an_arena_where_nobody_moves() -> None:
 
 @pytest.mark.parametrize("action", Action)
 def test_an_edge_stops_a_step_and_voids_a_block(action: Action) -> None:
-    arena = arena_of()
+    arena = taught_arena()
     for corner in [(0, 0), (0, 4), (4, 0), (4, 4)]:
         solid = arena.empty.copy()
         position, block = step(arena, index_of(corner, arena), int(action), solid)
@@ -64,14 +79,14 @@ def test_an_edge_stops_a_step_and_voids_a_block(action: Action) -> None:
 
 
 def test_a_long_move_that_would_end_outside_is_stopped() -> None:
-    arena = arena_of([(0, 3), (3, 0), (-2, 0)], [False] * 3)
+    arena = taught_arena([(0, 3), (3, 0), (-2, 0)], [False] * 3)
     solid = arena.empty.copy()
     for start, action, end in [((2, 1), 0, (2, 4)), ((2, 2), 0, (2, 2)), ((4, 4), 1, (4, 4)), ((1, 0), 2, (1, 0))]:
         assert cell_at(step(arena, index_of(start, arena), action, solid)[0], arena) == end
 
 
 def test_a_block_is_in_the_way_of_steps_and_of_blocks() -> None:
-    arena = arena_of()
+    arena = taught_arena()
     solid = arena.empty.copy()
     start = index_of((2, 1), arena)
     position, block = step(arena, start, int(Action.FD), solid)
@@ -81,14 +96,14 @@ def test_a_block_is_in_the_way_of_steps_and_of_blocks() -> None:
 
 
 def test_a_block_can_land_to_the_side() -> None:
-    arena = arena_of(lands=(1, 0))
+    arena = taught_arena(lands=(1, 0))
     position, block = step(arena, index_of((2, 1), arena), int(Action.LD), arena.empty.copy())
     assert (cell_at(position, arena), cell_at(block, arena)) == ((1, 1), (2, 1))
 
 
 @given(st.lists(st.sampled_from(Action), max_size=60))
 def test_with_the_true_rules_any_actions_do_what_the_rules_say(actions: list[Action]) -> None:
-    arena = arena_of()
+    arena = taught_arena()
     solid, cell, placed = arena.empty.copy(), (2, 1), set[Cell]()
     position = index_of(cell, arena)
     for action in actions:
@@ -97,3 +112,61 @@ def test_with_the_true_rules_any_actions_do_what_the_rules_say(actions: list[Act
         lands = landing(cell, action, placed, SIZE)
         placed |= {lands} if lands else set()
         assert (cell_at(position, arena), None if block == NOWHERE else cell_at(block, arena)) == (cell, lands)
+
+
+TRUE_RULES = LearntRules(np.array(TRUE_MOVES), np.ones(8, np.bool_), np.array(TRUE_PLACES), (0, 1))
+ARENA = imagined_arena(TRUE_RULES, believe(np.zeros((0, 9), np.int64), (0, 1), BENT.size, BENT.blocks))
+
+
+def tries_of(untried: int | None = None) -> FirstTries:
+    shown = np.arange(8) == untried
+    return FirstTries(True, False, shown, np.zeros(8, np.bool_), np.zeros(8, np.int64))
+
+
+@given(st.lists(st.sampled_from(list(Action)), min_size=BENT.step_limit, max_size=BENT.step_limit))
+def test_it_lands_its_blocks_where_the_real_game_does(actions: list[Action]) -> None:
+    cell, placed = BENT.start, list[Cell]()
+    for action in actions:
+        cell = moved(cell, action, set(placed), BENT.size)
+        block = landing(cell, action, set(placed), BENT.size)
+        placed += [] if block is None else [block]
+        if len(placed) == BENT.blocks:
+            break
+    left = iter(actions)
+    found = expected_landings(ARENA, BENT.start_state, BENT.step_limit, lambda _: next(left), tries_of())
+    assert found == placed
+
+
+def test_the_policy_sees_where_it_is_and_what_is_left() -> None:
+    seen: list[State] = []
+
+    def policy(state: State) -> int:
+        seen.append(state)
+        return int(Action.FD)
+
+    assert expected_landings(ARENA, BENT.start_state, 2, policy, tries_of()) == [(2, 3), (2, 4)][:1]
+    assert seen == [(2, 1, 3), (2, 2, 2)]
+
+
+def test_first_tries_come_before_the_policy() -> None:
+    found = expected_landings(ARENA, BENT.start_state, 1, lambda _: int(Action.F), tries_of(Action.RD))
+    assert found == [(3, 2)]
+
+
+def test_a_state_is_its_cell_its_blocks_and_what_is_appended() -> None:
+    arena = arena_of()
+    task = ImaginedTask(index_of(BENT.start, arena), 3, 14, 3.0, np.array([20, 4, 1]), 1000)
+    assert state_at(index_of((3, 2), arena), 2, arena, task) == 3 * 20 + 2 * 4 + 2 + 1000
+
+
+def test_only_a_block_where_nothing_is_paid_is_wasted() -> None:
+    arena = arena_of()
+    assert is_wasted(index_of((0, 1), arena), arena)
+    assert not is_wasted(index_of((2, 3), arena), arena)
+    assert not is_wasted(NOWHERE, arena)
+
+
+def test_epsilons_are_equally_likely_on_a_logarithmic_scale() -> None:
+    assert epsilon_from(0.0, 1.0, 0.01) == pytest.approx(0.01)
+    assert epsilon_from(0.5, 1.0, 0.01) == pytest.approx(0.1)
+    assert epsilon_from(0.25, 0.3, 0.3) == pytest.approx(0.3)

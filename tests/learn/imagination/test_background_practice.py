@@ -10,8 +10,8 @@ import pytest
 from mc_nested.arrays import Float32s, Float64s
 from mc_nested.errors import LiveError
 from mc_nested.learn.imagination.background_practice import LONGER_S, BackgroundPractice, BackgroundThread, GoesOn
-from mc_nested.learn.imagination.practice import Goal, PracticeSession
 from mc_nested.learn.imagination.practice_kernel import Progress, Row
+from mc_nested.learn.imagination.practice_session import Goal, PracticeSession
 
 FOR_EVER, PATIENCE_S = 10**9, 10.0
 

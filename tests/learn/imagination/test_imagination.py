@@ -13,6 +13,7 @@ from mc_nested.learn.agents import AGENT_SPECS, Agent, AgentSpec
 from mc_nested.learn.imagination.beliefs import Belief
 from mc_nested.learn.imagination.first_tries import FIRST_TRIES
 from mc_nested.learn.imagination.imagination import Imagination
+from mc_nested.learn.learnt_game import imagination_of as learnt_games_of
 from mc_nested.learn.preset import Preset
 from sim.grid import GridGame
 from tests.learn.imagination.made_games import BENT, SMALL, TRUE_MOVES, TRUE_PLACES, TWO, assert_rules
@@ -26,7 +27,7 @@ def imagination_of(
     runs: int = 1, spec: AgentSpec = NESTED, preset: Preset = SMALL, seed: int = 0, numbers: Sequence[int] | None = None
 ) -> tuple[Agent, Imagination]:
     agent = Agent(spec, [BENT] * runs, preset, seed, numbers)
-    made = agent.imagination([BENT] * runs, preset, seed)
+    made = learnt_games_of(agent, [BENT] * runs, preset, seed)
     assert made is not None
     return agent, made
 
@@ -219,7 +220,7 @@ def test_what_was_saved_in_mid_episode_goes_on_to_the_bit(spec: AgentSpec) -> No
 def test_arenas_of_other_sizes_are_learnt_side_by_side() -> None:
     large = BENT.__class__("large", TWO.design, TWO.start, TWO.step_limit, TWO.materials, size=7)
     agent = Agent(NESTED, [BENT, large], SMALL, 0)
-    made = agent.imagination([BENT, large], SMALL, 0)
+    made = learnt_games_of(agent, [BENT, large], SMALL, 0)
     assert made is not None
     assert [len(made.beliefs(run).pay) for run in (0, 1)] == [5, 7]
     assert [made.beliefs(run).most for run in (0, 1)] == [3.0, 2.0]

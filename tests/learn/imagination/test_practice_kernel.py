@@ -6,11 +6,10 @@ import pytest
 from mc_nested.arrays import Float32s, Float64s
 from mc_nested.learn.dqn.compiled_engine.engine import compiled_engine
 from mc_nested.learn.dqn.engine import Batch
-from mc_nested.learn.dqn.state_space import numbered
-from mc_nested.learn.imagination.arena_step import NOWHERE, ImaginedArena, cell_at, index_of
-from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask
-from mc_nested.learn.imagination.practice import Practice
+from mc_nested.learn.dqn.states import numbered
+from mc_nested.learn.imagination.arena_step import GREEDY_EVERY, NOWHERE, ImaginedArena, ImaginedTask, cell_at, index_of
 from mc_nested.learn.imagination.practice_kernel import PracticeReplay, Progress, Row, followed, practise
+from mc_nested.learn.imagination.practice_session import NetworkPractice
 from mc_nested.learn.learner import Learner
 from tests.learn.imagination.made_games import BENT, RULE, SMALL, with_update
 from tests.learn.imagination.made_practice import MATERIAL, arena_of, learner_of, real_of
@@ -26,7 +25,7 @@ class Practising:
         self, learner: Learner, step_limit: int, learning_starts: int = 1, target_period: int = 1000, n_steps: int = 1
     ) -> None:
         preset = with_update(SMALL, learning_starts=learning_starts, target_period=target_period)
-        practice = Practice(learner, preset, RULE.model_copy(update={"n_steps": n_steps}))
+        practice = NetworkPractice(learner, preset, RULE.model_copy(update={"n_steps": n_steps}))
         self.arena, space = arena_of(), numbered(learner.states)
         strides = space.strides
         offset = int(MATERIAL @ strides[3:])

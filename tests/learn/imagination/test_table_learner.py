@@ -6,9 +6,8 @@ import pytest
 from mc_nested.arena.action import Action
 from mc_nested.arrays import Float64s
 from mc_nested.learn.imagination import table_learner
-from mc_nested.learn.imagination.arena_step import NOWHERE, index_of, step
+from mc_nested.learn.imagination.arena_step import GREEDY_EVERY, NOWHERE, ImaginedTask, index_of, state_at, step
 from mc_nested.learn.imagination.built_values import row_of
-from mc_nested.learn.imagination.imagined_task import GREEDY_EVERY, ImaginedTask, state_at
 from mc_nested.learn.imagination.table_learner import (
     AROUND,
     GAMMA_AROUND,

@@ -5,8 +5,7 @@ import pytest
 
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.learn.imagination import table_practice
-from mc_nested.learn.imagination.arena_step import index_of
-from mc_nested.learn.imagination.imagined_task import ImaginedTask
+from mc_nested.learn.imagination.arena_step import ImaginedTask, index_of
 from mc_nested.learn.imagination.table_learner import empty_tables
 from mc_nested.learn.imagination.table_practice import NEARLY_1, TablePractice
 from tests.learn.imagination.made_games import BENT

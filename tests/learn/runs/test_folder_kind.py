@@ -1,4 +1,4 @@
-"""Which command a folder belongs to, whether it can be new, and that another version's is refused."""
+"""Which command a folder belongs to, whether it can be new, and that a newer version's is refused."""
 
 from pathlib import Path
 
@@ -9,12 +9,13 @@ from mc_nested.learn.runs.folder_kind import FORMAT, VIEW, VIEW_FILES, check_con
 
 
 @pytest.mark.parametrize(
-    ("key", "verb"), [('agent = "nested"', "train"), ("builders = 2", "cooperate"), ('study = "sweep"', "study sweep")]
+    ("key", "verb"),
+    [('agent = "nested"', "train"), ('study = "reproduce"', "reproduce"), ('study = "sweep"', "study sweep")],
 )
 def test_a_folder_is_opened_by_the_command_that_made_it_alone(key: str, verb: str) -> None:
     text = f"format = {FORMAT}\n{key}"
     check_config(text, Path("runs/x"), verb)
-    other = "cooperate" if verb == "train" else "train"
+    other = "study sweep" if verb == "train" else "train"
     with pytest.raises(RunError, match=f"the folder of mc-nested {verb}, not of {other}: .* --resume runs/x"):
         check_config(text, Path("runs/x"), other)
 

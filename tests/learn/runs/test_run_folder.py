@@ -13,7 +13,9 @@ from mc_nested.arena.scenario_file import table_of
 from mc_nested.arrays import Arrays
 from mc_nested.errors import PresetError, RunError
 from mc_nested.learn.episode_log import EpisodeRow, EvaluationRow
-from mc_nested.learn.runs.run_folder import RunConfig, RunFolder, summarise
+from mc_nested.learn.runs.run_config import RunConfig
+from mc_nested.learn.runs.run_folder import RunFolder
+from mc_nested.learn.runs.summary import summarise
 from mc_nested.learn.trainer import Trainer
 from sim.grid import GridVectorEnv
 from tests.learn.made_experiments import DOT, small_preset
@@ -85,7 +87,7 @@ def test_an_unfinished_training_has_no_final_scores_and_a_finished_one_has_every
     assert json.loads((tmp_path / "summary.json").read_text("utf-8")) == summary
     assert folder.wall_s_so_far() == 2.5
     assert summary["episodes_done"] == [10, 10]
-    assert summary["final_scores"] == trainer.kept_scores.tolist()
+    assert summary["final_scores"] == trainer.policy_scores.tolist()
     with (tmp_path / "episodes.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 20
@@ -113,14 +115,14 @@ def test_what_was_played_to_the_optimum_counts_the_greedy_episodes_too(tmp_path:
 def test_the_kept_policies_are_those_of_the_checkpoint(tmp_path: Path) -> None:
     folder = begun(tmp_path)
     with pytest.raises(RunError, match=f"nothing is trained yet: .* --resume {re.escape(str(tmp_path))}$"):
-        folder.kept()
+        folder.policies()
     trainer = trainer_in(folder)
     while not trainer.finished:
         trainer.tick()
     folder.save(trainer, 1.0)
-    found = RunFolder.open(tmp_path).kept()
+    found = RunFolder.open(tmp_path).policies()
     assert {name: (array.dtype, array.tobytes()) for name, array in found.items()} == {
-        name: (array.dtype, array.tobytes()) for name, array in trainer.kept.items()
+        name: (array.dtype, array.tobytes()) for name, array in trainer.policies.items()
     }
 
 
@@ -142,15 +144,17 @@ def test_a_disk_that_refuses_is_one_line_and_leaves_nothing_half_begun(
 
 
 DAMAGES: dict[str, Callable[[Arrays], object]] = {
-    "has no array low": lambda state: state.pop("kept.low"),
-    "has no array scores": lambda state: state.pop("kept.scores"),
+    "has no array low": lambda state: state.pop("policies.low"),
+    "has no array scores": lambda state: state.pop("policies.scores"),
     "its array main is (1, 7), it should be (2, ": lambda state: state.update(
-        {"kept.main": np.zeros((1, 7), np.float32)}
+        {"policies.main": np.zeros((1, 7), np.float32)}
     ),
-    "its array scores is (3,), it should be (2,)": lambda state: state.update({"kept.scores": np.zeros(3)}),
-    "its array low holds what is no number": lambda state: state["kept.low"].fill(np.nan),
-    "its array scores holds what is no number": lambda state: state["kept.scores"].fill(np.nan),
-    "its array main holds what is no number": lambda state: state.update({"kept.main": state["kept.main"].astype(str)}),
+    "its array scores is (3,), it should be (2,)": lambda state: state.update({"policies.scores": np.zeros(3)}),
+    "its array low holds what is no number": lambda state: state["policies.low"].fill(np.nan),
+    "its array scores holds what is no number": lambda state: state["policies.scores"].fill(np.nan),
+    "its array main holds what is no number": lambda state: state.update(
+        {"policies.main": state["policies.main"].astype(str)}
+    ),
 }
 """What a checkpoint can have wrong that was made by hand, by what is said of it."""
 
@@ -160,8 +164,8 @@ def test_policies_that_do_not_fit_are_one_line_that_names_the_file(says: str, tm
     folder = begun(tmp_path)
     trainer = trainer_in(folder)
     folder.save(trainer, 1.0)
-    assert folder.kept().keys() == trainer.kept.keys()
+    assert folder.policies().keys() == trainer.policies.keys()
     change_arrays(folder.checkpoint.file, DAMAGES[says])
     with pytest.raises(RunError, match=re.escape(f"{folder.checkpoint.file}: {says}")) as caught:
-        folder.kept()
+        folder.policies()
     assert str(caught.value).endswith(": bring back a whole copy, or train the run again")

@@ -20,7 +20,7 @@ from mc_nested.live.desktop import camera as module
 from mc_nested.live.desktop.camera import monitors, open_camera, picture_every_pixel
 from mc_nested.live.devices import DesktopArea
 from scripts.window_display import XRANDR
-from tests.live.desktop.probed import probed
+from tests.live.desktop.real_windows.probed import probed
 
 
 class Shots:

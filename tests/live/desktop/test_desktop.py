@@ -15,7 +15,7 @@ import pytest
 from mc_nested.errors import DesktopError
 from mc_nested.live.desktop import open_desktop, session_kind
 from mc_nested.live.model.versions import GAME_TITLE
-from tests.live.desktop.probed import probed
+from tests.live.desktop.real_windows.probed import probed
 
 MINECRAFT = r"^Minecraft\*? \d"
 

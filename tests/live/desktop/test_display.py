@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from mc_nested.errors import DesktopError
 from mc_nested.live.desktop.display import WindowDisplay
 from mc_nested.live.devices import DesktopArea, Frame, Region
-from tests.live.desktop.moving_window import MovingWindow
+from tests.live.desktop.real_windows.moving_window import MovingWindow
 
 
 @st.composite

@@ -13,12 +13,12 @@ from scripts.programs import ROOT
 from scripts.rehearsal_window import open_rehearsal
 from scripts.window_display import open_display
 from tests.found_or_skipped import found_or_skipped
-from tests.live.desktop.input_method import input_method, install_input_method
-from tests.live.desktop.probed import glfw_probed
+from tests.live.desktop.real_windows.input_method import input_method, install_input_method
+from tests.live.desktop.real_windows.probed import glfw_probed
 
 pytestmark = [pytest.mark.window, pytest.mark.usefixtures("window_programs")]
 
-PROBE = Path(__file__).with_name("chat_probe.py")
+PROBE = Path(__file__).parent / "real_windows" / "chat_probe.py"
 LINE = "/tp @s 3.5 64 2.5"
 
 

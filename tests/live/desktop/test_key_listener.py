@@ -12,8 +12,8 @@ import pytest
 from mc_nested.errors import DesktopError, ProfileError
 from mc_nested.live.desktop.key_listener import CLOSE_S, listening, listening_through_pynput, open_hotkeys
 from tests.live.desktop.fake_devices import KeyCode, Listener, install_pynput
-from tests.live.desktop.heard_keys import HeardKeys
-from tests.live.desktop.probed import probed
+from tests.live.desktop.real_windows.heard_keys import HeardKeys
+from tests.live.desktop.real_windows.probed import probed
 
 KEY_DOWN, KEY_UP, SYSTEM_KEY_DOWN, OTHER = 0x0100, 0x0101, 0x0104, 0x0051
 PACKET = 0xE7

@@ -9,7 +9,7 @@ from mc_nested.errors import DesktopError, ProfileError
 from mc_nested.live.desktop.keyboard import DesktopKeyboard
 from mc_nested.live.desktop.lost_display import LOST
 from mc_nested.live.model.keys import PLACES, KeyPlace, Layout
-from tests.live.desktop.probed import glfw_probed, probed
+from tests.live.desktop.real_windows.probed import glfw_probed, probed
 
 LAYOUTS = ("us", "fr", "de", "dvorak", "ru")
 COMMAND = "/execute if block ~ ~-1 ~ minecraft:oak_planks[axis=x] run tp @s 1.5 64 -3 {\"A\":'!#$%&*()+;<>?^`|\\\\J'}"

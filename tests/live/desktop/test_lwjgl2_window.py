@@ -10,8 +10,8 @@ if not sys.platform.startswith("linux"):
 from mc_nested.live.model.keys import CHARACTERS, taken_for
 from scripts.window_display import set_layout
 from sim.client.desktop.keyboard import LAYOUTS, characters_of, taken_by_lwjgl
-from tests.live.desktop.game_window_fixtures import desktop, lwjgl_program
-from tests.live.desktop.probed import window_probed
+from tests.live.desktop.real_windows.game_window_fixtures import desktop, lwjgl_program
+from tests.live.desktop.real_windows.probed import window_probed
 from tests.live.desktop.test_keyboard import COMMAND
 
 pytestmark = pytest.mark.window

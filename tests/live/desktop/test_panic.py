@@ -7,8 +7,8 @@ from mc_nested.live.desktop.key_listener import CLOSE_S
 from mc_nested.live.desktop.panic import open_panic_switch
 from mc_nested.live.input.stops import CORNER_REASON, KEY_REASON
 from tests.live.desktop.fake_devices import Listener, Mouse, install_mouse, install_pynput
-from tests.live.desktop.heard_keys import HeardKeys
-from tests.live.desktop.probed import probed
+from tests.live.desktop.real_windows.heard_keys import HeardKeys
+from tests.live.desktop.real_windows.probed import probed
 
 
 @pytest.fixture

@@ -9,8 +9,8 @@ from mc_nested.live.desktop.lost_display import LOST
 from mc_nested.live.desktop.pointer import DesktopPointer, load_pyautogui
 from mc_nested.live.devices import DesktopArea
 from tests.live.desktop.fake_devices import Buttons, Mouse, install_mouse, install_pynput
-from tests.live.desktop.moving_window import MovingWindow
-from tests.live.desktop.probed import glfw_probed, probed
+from tests.live.desktop.real_windows.moving_window import MovingWindow
+from tests.live.desktop.real_windows.probed import glfw_probed, probed
 
 
 @pytest.fixture

@@ -10,9 +10,9 @@ if not sys.platform.startswith("linux"):
 
 from mc_nested.live.model.keys import PLACES
 from scripts.window_display import set_layout
-from tests.live.desktop.game_window_fixtures import desktop, sdl_program
-from tests.live.desktop.probed import window_probed
-from tests.live.desktop.sdl3_names import expected_keys
+from tests.live.desktop.real_windows.game_window_fixtures import desktop, sdl_program
+from tests.live.desktop.real_windows.probed import window_probed
+from tests.live.desktop.real_windows.sdl3_names import expected_keys
 from tests.live.desktop.test_keyboard import COMMAND
 
 pytestmark = pytest.mark.window

@@ -8,7 +8,7 @@ import pytest
 
 from mc_nested.live.desktop.system import open_camera
 from mc_nested.live.devices import DesktopArea
-from tests.live.desktop.moving_window import MovingWindow
+from tests.live.desktop.real_windows.moving_window import MovingWindow
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X11's module")

@@ -8,7 +8,7 @@ import pytest
 if not sys.platform.startswith("linux"):
     pytest.skip("keys of an X server", allow_module_level=True)
 
-from tests.live.desktop.probed import glfw_probed
+from tests.live.desktop.real_windows.probed import glfw_probed
 
 
 @pytest.mark.window

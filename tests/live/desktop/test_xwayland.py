@@ -32,8 +32,8 @@ from mc_nested.live.desktop.xwayland import (
     no_x_server_error,
 )
 from mc_nested.live.devices import DesktopArea
-from tests.live.desktop.probed import probed
-from tests.live.desktop.xwayland_fixtures import compositors, rootful, rootless
+from tests.live.desktop.real_windows.probed import probed
+from tests.live.desktop.real_windows.xwayland_fixtures import compositors, rootful, rootless
 
 if TYPE_CHECKING:
     from Xlib.display import Display
@@ -49,7 +49,7 @@ RIGHT = 1
 
 
 def rootless_report(environment: dict[str, str], part: str) -> dict[str, Any]:
-    command = [sys.executable, "-m", "tests.live.desktop.xwayland_probe", part]
+    command = [sys.executable, "-m", "tests.live.desktop.real_windows.xwayland_probe", part]
     root = Path(__file__).resolve().parents[3]
     done = subprocess.run(command, cwd=root, env=environment, capture_output=True, text=True, check=False, timeout=120)
     assert done.returncode == 0, done.stderr

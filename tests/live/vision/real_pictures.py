@@ -4,6 +4,7 @@
 folder), ``xyz``, ``yaw``, ``pitch``, and ``target`` as ``{"pos": [x, y, z], "id": "minecraft:stone"}`` or null.
 """
 
+import dataclasses
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -38,7 +39,8 @@ def truths(folder: Path) -> list[dict[str, Any]]:
 
 def differences(folder: Path, truth: dict[str, Any]) -> Iterator[str]:
     """Where the reading of one picture differs from its truth, a line each."""
-    read = read_picture(folder / truth["file"], load_font(folder / truth["font"]))
+    found = read_picture(folder / truth["file"], load_font(folder / truth["font"]))
+    read = json.loads(json.dumps(dataclasses.asdict(found), default=str))
     for key in _SAID:
         if read[key] != truth[key]:
             yield f"{truth['file']}: {key} is {truth[key]}, and was read as {read[key]} ({read['problem']})"

@@ -12,12 +12,11 @@ from mc_nested.live.devices import Frame, Region
 from mc_nested.live.model.reading import Target
 from mc_nested.live.vision.debug_boxes import (
     ALPHA,
-    FACTS_GREY,
     GREY,
     TITLE_GREY,
     GroundPart,
     ground_parts,
-    ink_of,
+    has_letters,
     line_boxes,
 )
 from sim.client.drawing.f3_layers import paint
@@ -81,7 +80,7 @@ def test_under_a_box_the_world_is_a_mean_with_its_grey() -> None:
 
 def test_ink_is_white_green_or_red_as_the_game_writes() -> None:
     picture = np.array([[(224, 224, 224), (221, 221, 221), (85, 255, 85), (85, 85, 255), (200, 200, 200)]], np.uint8)
-    assert ink_of(picture).tolist() == [[True, True, True, True, False]]
+    assert has_letters(picture).tolist() == [[True, True, True, True, False]]
 
 
 TARGET = Target((4, -61, 11), "minecraft:oak_log")
@@ -119,7 +118,7 @@ def test_they_are_found_before_any_world(kind: str) -> None:
 
 def test_titles_lie_on_a_darker_ground() -> None:
     parts = ground_parts(paint(np.full((300, 700, 3), 100, np.uint8), BOXED_SCREEN, FONT), 1)
-    assert {part.grey for part in parts} == {TITLE_GREY, FACTS_GREY}
+    assert {part.grey for part in parts} == {TITLE_GREY, GREY}
     assert all(part.region.height == 9 for part in parts if part.grey == TITLE_GREY)
 
 

@@ -3,7 +3,6 @@
 Whether a picture is of the game's window alone: its debug screen fills the width from the upper left corner on.
 """
 
-import json
 import re
 import struct
 import zlib
@@ -20,7 +19,7 @@ from mc_nested.live.vision.debug_screen import read_debug_screen
 from mc_nested.live.vision.font import font_of
 from mc_nested.live.vision.layout import VANILLA, Overlay
 from mc_nested.live.vision.overlay import find_debug_screen
-from mc_nested.live.vision.read_pictures import read_picture, shows_more_than_window
+from mc_nested.live.vision.read_pictures import PictureReading, read_picture, shows_more_than_window
 from sim.client.drawing.f3_layers import paint
 from sim.client.drawing.letters import drawn_atlas
 from sim.client.game.edition import Layout
@@ -37,21 +36,15 @@ def picture(path: Path, screen: F3Screen = SCREEN) -> Path:
 
 
 @pytest.mark.parametrize("overlay", [None, Overlay(2, VANILLA, (224, 224, 224))], ids=["found", "given"])
-def test_a_picture_gives_its_reading_as_json(tmp_path: Path, overlay: Overlay | None) -> None:
+def test_a_picture_gives_its_reading(tmp_path: Path, overlay: Overlay | None) -> None:
     path = picture(tmp_path / "größe.png".replace("ö", "o").replace("ß", "ss"))
-    assert json.loads(json.dumps(read_picture(path, FONT, overlay))) == {
-        "file": str(path),
-        "xyz": [8.5, 64.0, -3.25],
-        "yaw": 0.0,
-        "pitch": 65.0,
-        "target": {"pos": [8, 63, -2], "id": "minecraft:stone"},
-        "problem": None,
-    }
+    target = Target((8, 63, -2), "minecraft:stone")
+    assert read_picture(path, FONT, overlay) == PictureReading(path, (8.5, 64.0, -3.25), 0.0, 65.0, target, None)
 
 
 def test_no_block_looked_at_is_a_null_target(tmp_path: Path) -> None:
     screen = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
-    assert read_picture(picture(tmp_path / "sky.png", screen), FONT, None)["target"] is None
+    assert read_picture(picture(tmp_path / "sky.png", screen), FONT, None).target is None
 
 
 @pytest.mark.parametrize(
@@ -72,7 +65,7 @@ def test_a_folder_is_a_problem(tmp_path: Path) -> None:
 
 def test_a_grey_picture_of_sixteen_bits_is_a_problem_and_no_crash(tmp_path: Path) -> None:
     cv2.imwrite(str(tmp_path / "deep.png"), np.zeros((300, 400), np.uint16))
-    assert read_picture(tmp_path / "deep.png", FONT, None)["xyz"] is None
+    assert read_picture(tmp_path / "deep.png", FONT, None).xyz is None
 
 
 def test_a_picture_of_more_pixels_than_can_be_opened_is_a_problem(tmp_path: Path) -> None:
@@ -85,7 +78,7 @@ def test_a_picture_of_more_pixels_than_can_be_opened_is_a_problem(tmp_path: Path
 
 def test_a_png_without_a_debug_screen_is_not_called_a_jpeg(tmp_path: Path) -> None:
     cv2.imwrite(str(tmp_path / "world.png"), np.full((480, 854, 3), 60, np.uint8))
-    problem = str(read_picture(tmp_path / "world.png", FONT, None)["problem"])
+    problem = str(read_picture(tmp_path / "world.png", FONT, None).problem)
     assert problem.startswith("no debug screen is to be seen at a GUI scale from 1 to 8")
 
 
@@ -97,26 +90,26 @@ def test_a_picture_of_more_than_the_window_says_that_it_should_be_of_the_window_
     desktop = np.full((top + 480 + 100, left + 854 + 300, 3), 90, np.uint8)
     desktop[top : top + 480, left : left + 854] = paint(np.full((480, 854, 3), 60, np.uint8), screen, FONT)
     cv2.imwrite(str(tmp_path / "desktop.png"), desktop)
-    assert read_picture(tmp_path / "desktop.png", FONT)["problem"] == (
+    assert read_picture(tmp_path / "desktop.png", FONT).problem == (
         "the picture shows more than the game's window: cut off the window's frame and the desktop, or take it with F2"
     )
 
 
 def test_a_picture_without_a_debug_screen_may_be_of_more_than_the_window(tmp_path: Path) -> None:
     cv2.imwrite(str(tmp_path / "world.png"), np.full((480, 854, 3), 60, np.uint8))
-    assert str(read_picture(tmp_path / "world.png", FONT)["problem"]).endswith(
+    assert str(read_picture(tmp_path / "world.png", FONT).problem).endswith(
         "; and the picture has to be of the game's window alone, as F2 takes it"
     )
 
 
 def test_a_jpeg_that_can_not_be_read_says_that_it_is_one(tmp_path: Path) -> None:
-    assert "a JPEG blurs" in str(read_picture(picture(tmp_path / "screen.jpg"), FONT, None)["problem"])
+    assert "a JPEG blurs" in str(read_picture(picture(tmp_path / "screen.jpg"), FONT, None).problem)
 
 
 def test_a_picture_of_26_4_is_read(tmp_path: Path) -> None:
     entries = ("game_version", "player_position")
     screen = F3Screen("26.4", 2, (8.5, 64.0, -3.25), 0.0, 65.0, version="26.4", entries=entries, has_f3=False)
-    assert read_picture(picture(tmp_path / "26.4.png", screen), FONT, None)["xyz"] == [8.5, 64.0, -3.25]
+    assert read_picture(picture(tmp_path / "26.4.png", screen), FONT, None).xyz == (8.5, 64.0, -3.25)
 
 
 WIDTH, HEIGHT = 854, 480

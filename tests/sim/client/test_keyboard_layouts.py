@@ -15,7 +15,7 @@ from mc_nested.live.profile.tables import GameVersion, InputTable, KeysTable, Pr
 from mc_nested.live.session import open_live_game
 from sim.client.client import VirtualClient
 from sim.client.desktop.keyboard import LAYOUTS
-from tests.live.virtual_session import opener, profile_in
+from tests.live.virtual_session import opening_on, profile_in
 from tests.sim.client.playing import arena_of, play
 
 LINE, FLAG = load_scenario("line"), load_scenario("flag")
@@ -50,7 +50,7 @@ def test_from_1_13_on_blocks_are_built_under_any_layout(layout: str) -> None:
 @pytest.mark.parametrize("layout", WITHOUT_LATIN_LETTERS)
 def test_to_1_12_a_layout_without_latin_letters_is_one_line_and_nothing_is_pressed(layout: str, tmp_path: Path) -> None:
     client = VirtualClient(version=OLD, layout=layout)
-    opened = open_live_game(LINE, profile_in(tmp_path), print, open_devices=opener(client, []))
+    opened = open_live_game(LINE, opening_on(client, profile_in(tmp_path)))
     with pytest.raises(DesktopError, match="types no w, s, a, d, t: switch to English") as raised, opened:
         pass
     assert "\n" not in str(raised.value)

@@ -8,12 +8,13 @@ import pytest
 
 from mc_nested.arena.action import Action, Cell
 from mc_nested.arena.cooperative.team import Team, team_of
-from mc_nested.arena.cooperative.team_env import TeamEnv
+from mc_nested.arena.cooperative.team_env import TeamVectorEnv
 from mc_nested.arena.scenario_file import load_scenario
 from mc_nested.arena.vector import NO_ACTION
 from mc_nested.errors import LiveError
-from mc_nested.learn.cooperation.team_agent import TeamAgent
-from mc_nested.learn.cooperation.team_evaluation import play_team_greedily
+from mc_nested.learn.agents import AGENT_SPECS, Agent
+from mc_nested.learn.builders import Builders
+from mc_nested.learn.evaluation import play_greedily
 from mc_nested.learn.preset import load_preset
 from mc_nested.live.live_game import LiveGame
 from mc_nested.live.live_team import LiveTeam
@@ -70,22 +71,24 @@ TOGETHER: Ticks = [(B, None), (B, None), *[(BD, None)] * 6, (R, RD), *[(None, BD
 def test_two_bodies_build_the_line_together() -> None:
     team = Team(LINE, ((7, 14), (6, 5)))
     with played(team) as (game, clients):
-        env = TeamEnv(game, team)
-        env.reset(STONE)
-        steps = [env.step([NO_ACTION if action is None else action for action in tick]) for tick in TOGETHER]
+        env = TeamVectorEnv([game], team)
+        env.reset(options={"material": np.array([STONE, STONE])})
+        steps = [env.step(np.array([NO_ACTION if action is None else action for action in tick])) for tick in TOGETHER]
         cells, placed = truth_of(clients)()
-    assert placed == env.placed == LINE.design
-    assert cells == env.cells == ((8, 6), (7, 1))
-    assert np.sum([step.rewards for step in steps], axis=0).tolist() == [6.0, 5.0]
-    assert (steps[-1].terminated, steps[-1].score) == (True, LINE.optimum)
+    assert placed == env.placed(0) == LINE.design
+    assert cells == (env.cell(0), env.cell(1)) == ((8, 6), (7, 1))
+    assert np.sum([rewards for _, rewards, *_ in steps], axis=0).tolist() == [6.0, 5.0]
+    *_, terminated, _, info = steps[-1]
+    assert (terminated.tolist(), info["score"].tolist()) == ([True] * 2, [LINE.optimum] * 2)
 
 
 def test_a_policy_plays_in_two_bodies_as_in_the_simulator() -> None:
     team = team_of(LINE, 2)
-    agent = TeamAgent("own", team, load_preset("paper"), seed=5, runs=[0])
-    simulated = play_team_greedily(TeamEnv(TeamGrid(team), team), agent)
+    builders = Builders(team.starts, "own")
+    agent = Agent(AGENT_SPECS["nested"], [LINE], load_preset("paper"), seed=5, team=builders)
+    simulated = play_greedily(TeamVectorEnv([TeamGrid(team)], team), [LINE], agent)
     with played(team) as (game, _):
-        assert play_team_greedily(TeamEnv(game, team), agent) == simulated
+        assert play_greedily(TeamVectorEnv([game], team), [LINE], agent) == simulated
 
 
 def test_the_same_ticks_take_the_same_time_again() -> None:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from mc_nested.arena.scenario_file import load_scenario
-from mc_nested.learn.cooperation.team_agent import KINDS
+from mc_nested.learn.builders import NETWORKS
 from mc_nested.learn.preset import load_preset
 from mc_nested.studies.arm import Arm
 from mc_nested.studies.beyond import with_materials
@@ -113,7 +113,7 @@ def whole(means: Callable[[str, str, int], float] = lambda *_: 15.0, trials: int
     alone = around(means("cooperation", "alone", 1), trials)
     arms.append(arm("cooperation", "1 builder", alone, team=Builders(1, "shared")))
     for count in (2, 3, 4):
-        for kind in KINDS:
+        for kind in NETWORKS:
             scores = around(means("cooperation", kind, count), trials)
             arms.append(arm("cooperation", f"{count} builders, {kind}", scores, team=Builders(count, kind)))
     return {each.key: each for each in arms}

@@ -3,7 +3,10 @@
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from mc_nested.studies.results import Cost, Evaluation, Results
+import numpy as np
+
+from mc_nested.studies.measures import Curve
+from mc_nested.studies.results import Cost, Results
 
 OPTIMUM = {"line": 21.0, "zigzag": 21.0, "diamond": 26.0, "hut": 15.0}
 SECONDS = {"nested": 6.6, "hierarchical": 10.0, "single": 4.6}
@@ -24,13 +27,7 @@ class Trial(NamedTuple):
 def made(trials: Mapping[tuple[str, str], Sequence[Trial]], episodes: int = EPISODES) -> Results:
     """Nine evaluations a trial; agents and scenarios in the order of their first appearance."""
     every = episodes // 9
-    rows = [
-        Evaluation(agent, scenario, trial, every * (index + 1), score, "stone", 13)
-        for (agent, scenario), own in trials.items()
-        for trial, (early, final, spread) in enumerate(own)
-        # The late three lie around the final score, their standard deviation is the spread.
-        for index, score in enumerate([early] * 3 + [final] * 3 + [final + spread, final - spread, final])
-    ]
+    at = np.arange(1, 10) * every
     scenarios = list(dict.fromkeys(scenario for _, scenario in trials))
     return Results(
         agents=list(dict.fromkeys(agent for agent, _ in trials)),
@@ -43,11 +40,12 @@ def made(trials: Mapping[tuple[str, str], Sequence[Trial]], episodes: int = EPIS
         keeps_best=False,
         optimum={scenario: OPTIMUM[scenario] for scenario in scenarios},
         builder={scenario: OPTIMUM[scenario] for scenario in scenarios},
-        evaluations=rows,
-        costs=[
-            Cost(
-                agent,
-                scenario,
+        curves={
+            key: Curve(at, np.array([scores_of(trial) for trial in own]), episodes, False)
+            for key, own in trials.items()
+        },
+        costs={
+            (agent, scenario): Cost(
                 NETWORKS[agent],
                 PARAMETERS[agent],
                 1200,
@@ -56,8 +54,14 @@ def made(trials: Mapping[tuple[str, str], Sequence[Trial]], episodes: int = EPIS
                 tuple(REPLAY_BYTES[agent] + 1000 * trial for trial in range(len(own))),
             )
             for (agent, scenario), own in trials.items()
-        ],
+        },
     )
+
+
+def scores_of(trial: Trial) -> list[float]:
+    """The late three lie around the final score, their standard deviation is the spread."""
+    early, final, spread = trial
+    return [early] * 3 + [final] * 3 + [final + spread, final - spread, final]
 
 
 def level(score: float, trials: int = 6, early: float = 5.0, spread: float = 1.0) -> list[Trial]:

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from mc_nested.studies.claims.judge import judge
@@ -59,18 +60,18 @@ def test_nested_is_ahead_on_the_line_early_and_at_the_end_each_by_itself(
 
 def test_the_last_evaluation_and_the_mean_of_the_last_ten_can_say_otherwise() -> None:
     results = made({("nested", "line"): level(20), ("hierarchical", "line"): level(17)})
-    fallen = [
-        row._replace(score=10.0) if (row.agent, row.episode) == ("nested", results.episodes) else row
-        for row in results.evaluations
-    ]
+
+    def ending(agent: str, last: float) -> Results:
+        """The same, but that agent's last evaluation."""
+        curve = results.curves[agent, "line"]
+        scores = curve.scores.copy()
+        scores[:, -1] = last
+        return replace(results, curves={**results.curves, (agent, "line"): replace(curve, scores=scores)})
+
     # The last three are about 20, 20 and 10: about as many as 17 in the mean, and far fewer in the last.
-    found = verdicts(replace(results, evaluations=fallen))
+    found = verdicts(ending("nested", 10.0))
     assert (found["a2"], found["a3"]) == (FAILS, FAILS)
-    risen = [
-        row._replace(score=20.0) if (row.agent, row.episode) == ("hierarchical", results.episodes) else row
-        for row in results.evaluations
-    ]
-    found = verdicts(replace(results, evaluations=risen))
+    found = verdicts(ending("hierarchical", 20.0))
     assert (found["a2"], found["a3"]) == (FAILS, HOLDS)
 
 
@@ -163,7 +164,10 @@ def test_costs_are_counted_once_for_scenarios_that_cost_the_same() -> None:
 
 def test_nested_is_not_cheaper_where_it_needs_as_much() -> None:
     results = made(the_papers())
-    dear = [cost._replace(parameters=4_500) if cost.scenario == "diamond" else cost for cost in results.costs]
+    dear = {
+        (agent, scenario): cost._replace(parameters=4_500) if scenario == "diamond" else cost
+        for (agent, scenario), cost in results.costs.items()
+    }
     assert verdicts(replace(results, costs=dear))["e1"] is FAILS
 
 
@@ -224,10 +228,10 @@ def test_one_agent_alone_counts_in_no_claim() -> None:
 
 
 def test_a_training_without_evaluations_is_undecided_not_an_error() -> None:
-    found = verdicts(replace(made(the_papers()), evaluations=[]))
+    results = made(the_papers())
+    nothing = {
+        key: replace(curve, episodes=np.zeros(0, dtype=np.int64), scores=np.zeros((6, 0)))
+        for key, curve in results.curves.items()
+    }
+    found = verdicts(replace(results, curves=nothing))
     assert {found[letter] for letter in TESTED if letter != "h"} == {UNDECIDED}
-
-
-def test_the_order_of_the_rows_does_not_matter() -> None:
-    results = made(the_papers("line"))
-    assert judge(replace(results, evaluations=results.evaluations[::-1])) == judge(results)

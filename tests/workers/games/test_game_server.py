@@ -9,12 +9,12 @@ import pytest
 
 from mc_nested.arena.env import ArenaEnv
 from mc_nested.arena.vector import ArenaVectorEnv
-from mc_nested.cli.virtual_games import VirtualPlay, open_virtual_games
 from mc_nested.errors import DesktopError, LiveError, NotConfirmedError, ProfileError, StoppedError
 from mc_nested.learn.games.episode import EpisodePlan
 from mc_nested.workers.games.desk import Desk, Request
 from mc_nested.workers.games.game_server import GameServer, OpenGame
 from mc_nested.workers.games.order import GameAnswer, GameOrder
+from sim.virtual_games import VirtualPlay, open_virtual_games
 from tests.workers.games.made_orders import ORDER, new_trainer
 
 PLAN = new_trainer().plan("pc")

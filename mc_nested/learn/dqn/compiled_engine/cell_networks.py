@@ -1,4 +1,4 @@
-"""A network's passes where its input is one cell among many and a few numbers (state_space.py: encoding ``cell``).
+"""A network's passes where its input is one cell among many and a few numbers (states.py: encoding ``cell``).
 
 Of the first layer's inputs for cells, one is 1 and the rest are 0: the layer is a sum of a few of its weights' columns,
 where a matrix product would mostly multiply by 0. For that, a column has to lie in one piece: ``by_input`` turns the

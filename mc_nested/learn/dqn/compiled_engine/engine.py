@@ -18,7 +18,7 @@ from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forwar
 from mc_nested.learn.dqn.compiled_engine.target_values import TargetValues, table_pays
 from mc_nested.learn.dqn.engine import Batch, Engine, LastBatches, NetworkForm, UpdateRule, diverged
 from mc_nested.learn.dqn.self_imitation import rival
-from mc_nested.learn.dqn.state_space import StateParts, StateSpace
+from mc_nested.learn.dqn.states import StateParts, StateSpace
 
 EXPONENT = np.uint32(0x7F800000)
 """The bits of a 32-bit float's exponent: all are set in what is infinite or no number."""

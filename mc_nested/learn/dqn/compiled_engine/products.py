@@ -7,9 +7,16 @@ import numpy as np
 
 from mc_nested.arrays import Float32s
 from mc_nested.compiled import compiled
-from mc_nested.learn.dqn.compiled_engine.lanes import LANES, sum_in_lanes
-from mc_nested.learn.dqn.compiled_engine.tiles import ROWS, WIDTH, multiply_a_row, multiply_rows
-from mc_nested.learn.dqn.compiled_engine.turning import SIDE, turn_block
+from mc_nested.learn.dqn.compiled_engine.vectors import (
+    LANES,
+    ROWS,
+    SIDE,
+    WIDTH,
+    multiply_a_row,
+    multiply_rows,
+    sum_in_lanes,
+    transpose_block,
+)
 
 FEW = 2
 """Up to so many columns, a sum after the other takes less time than a tile."""
@@ -29,7 +36,7 @@ def multiply(a: Float32s, b: Float32s, out: Float32s) -> None:
     elif whole:
         packed = np.empty((terms, WIDTH), np.float32)
         for first in range(0, whole, WIDTH):
-            _turn(b.T, first, packed)
+            _transpose(b.T, first, packed)
             _multiply_columns(a, packed, 0, out, first)
     if columns - whole > FEW:
         _multiply_rest(a, b, whole, out)
@@ -39,13 +46,13 @@ def multiply(a: Float32s, b: Float32s, out: Float32s) -> None:
 
 @compiled(nogil=True)
 def _multiply_rest(a: Float32s, b: Float32s, first: int, out: Float32s) -> None:
-    """The product with the columns of ``b`` from that one on, fewer than WIDTH, as that of both turned round."""
+    """The product with the columns of ``b`` from that one on, fewer than WIDTH, as that of both transposed."""
     rows, terms = a.shape
     rest = b.shape[1] - first
     room = np.zeros((terms + rest, WIDTH), np.float32)
     packed, product = room[:terms], room[terms:]
     for row in range(0, rows, WIDTH):
-        _turn(a, row, packed)
+        _transpose(a, row, packed)
         _multiply_columns(b.T[first:], packed, 0, product, 0)
         for column in range(rest):
             for each in range(min(WIDTH, rows - row)):
@@ -69,7 +76,7 @@ def _multiply_few(a: Float32s, b: Float32s, first: int, out: Float32s) -> None:
 
 
 @compiled(nogil=True)
-def _turn(a: Float32s, row: int, out: Float32s) -> None:
+def _transpose(a: Float32s, row: int, out: Float32s) -> None:
     """Write WIDTH rows of ``a`` (…, numbers) from that one on, or what there is, into the columns of ``out``."""
     rows, numbers = min(WIDTH, len(a) - row), a.shape[1]
     of_rows, of_numbers = rows // SIDE * SIDE, numbers // SIDE * SIDE
@@ -77,7 +84,7 @@ def _turn(a: Float32s, row: int, out: Float32s) -> None:
         of_rows = of_numbers = 0
     for number in range(0, of_numbers, SIDE):
         for column in range(0, of_rows, SIDE):
-            turn_block(a, (row + column, number), out, (number, column))
+            transpose_block(a, (row + column, number), out, (number, column))
     for column in range(of_rows, rows):
         for number in range(of_numbers):
             out[number, column] = a[row + column, number]

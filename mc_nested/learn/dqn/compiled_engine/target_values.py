@@ -12,7 +12,7 @@ import numpy as np
 from mc_nested.arrays import Float32s, Int64s
 from mc_nested.compiled import compiled
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, forward, hidden_for
-from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.states import StateSpace
 
 AT_ONCE = 256
 """States whose values are computed at once: few enough for the processor's cache."""

@@ -14,11 +14,9 @@ from mc_nested.arrays import Arrays, Float32s, Int64s
 from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.engine import Batch, LastBatches, NetworkForm, UpdateRule, diverged
 from mc_nested.learn.dqn.states import States
-from mc_nested.learn.dqn.torch_engine.adam import adam_step
-from mc_nested.learn.dqn.torch_engine.inputs import input_shape, inputs_of
-from mc_nested.learn.dqn.torch_engine.networks import MLP
+from mc_nested.learn.dqn.torch_engine.networks import MLP, input_shape, inputs_of
 from mc_nested.learn.dqn.torch_engine.rows import NetworkRows, can_be_stacked
-from mc_nested.learn.dqn.torch_engine.value_slopes import huber_slopes, margin_slopes
+from mc_nested.learn.dqn.torch_engine.update import adam_step, huber_slopes, margin_slopes
 
 
 class TorchEngine:

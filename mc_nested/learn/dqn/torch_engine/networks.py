@@ -1,6 +1,7 @@
 """The networks that a preset names, as torch modules: ``mlp``, ``cnn``, or anybody's own, ``my_module:make``.
 
-Each takes states (batch, *shape) as 32-bit floats and gives values (batch, actions).
+Each takes states (batch, *shape) as 32-bit floats, made of what a replay keeps (features of numbered states, or planes
+from 0 to 1), and gives values (batch, actions).
 """
 
 import importlib
@@ -12,12 +13,15 @@ from typing import Any
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 from torch import Tensor, nn
+from torch.nn.functional import embedding
 
-from mc_nested.arrays import Float32s
+from mc_nested.arrays import Float32s, Int64s
 from mc_nested.errors import PresetError
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, initial_parameters
 from mc_nested.learn.dqn.engine import NetworkForm
+from mc_nested.learn.dqn.states import States, StateSpace
 from mc_nested.learn.dqn.torch_engine.layout import flat_of
 
 MLP, CNN = "mlp", "cnn"
@@ -144,3 +148,28 @@ def initial_rows(form: NetworkForm, make: Callable[[], nn.Module], streams: Sequ
 def _made_from(seed: int, make: Callable[[], nn.Module]) -> nn.Module:
     torch.manual_seed(seed)
     return make()
+
+
+Inputs = Callable[[NDArray[Any], Int64s], Tensor]
+"""From states of the named rows (k,) as a replay keeps them, (…, k, batch, *kept), to floats (…, k, batch, *shape)."""
+
+
+def input_shape(states: States) -> tuple[int, ...]:
+    """The shape of one state as a network takes it."""
+    return (states.inputs,) if isinstance(states, StateSpace) else states.shape
+
+
+def inputs_of(states: States, device: torch.device) -> Inputs:
+    """What turns those states into a network's inputs on that device."""
+    if isinstance(states, StateSpace):
+        return _features(states, device)
+    return lambda kept, _: torch.from_numpy(kept).to(device).float().mul_(1 / 255)
+
+
+def _features(space: StateSpace, device: torch.device) -> Inputs:
+    table = torch.from_numpy(space.table[:, :-1].copy()).to(device)
+
+    def look_up(kept: NDArray[Any], rows: Int64s) -> Tensor:
+        return embedding(torch.from_numpy(kept + space.first_of(rows)[:, None]).to(device), table)
+
+    return look_up

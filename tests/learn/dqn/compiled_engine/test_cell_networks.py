@@ -14,7 +14,7 @@ from mc_nested.learn.dqn.compiled_engine.cell_networks import (
     passes_for,
 )
 from mc_nested.learn.dqn.compiled_engine.networks import Sizes, backward, forward, hidden_for, parameter_count
-from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.states import StateSpace
 from tests.learn.dqn.compiled_engine.test_networks import reference
 
 BATCH = 9

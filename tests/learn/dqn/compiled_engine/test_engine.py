@@ -13,7 +13,7 @@ from mc_nested.errors import DivergedError
 from mc_nested.learn.dqn.compiled_engine.engine import CompiledEngine, all_finite, greedy_actions, td_target
 from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
 from mc_nested.learn.dqn.engine import Batch, UpdateRule
-from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.states import StateSpace
 from tests.learn.dqn.compiled_engine.test_networks import reference
 from tests.learn.dqn.made_engines import RULE, batch_of, part, space_of
 

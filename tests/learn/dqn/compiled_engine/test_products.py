@@ -7,10 +7,16 @@ from hypothesis import strategies as st
 
 from mc_nested.arrays import Float32s
 from mc_nested.compiled import IN_PYTHON
-from mc_nested.learn.dqn.compiled_engine.lanes import LANES, sum_in_lanes
 from mc_nested.learn.dqn.compiled_engine.products import multiply
-from mc_nested.learn.dqn.compiled_engine.tiles import ROWS, WIDTH, multiply_rows
-from mc_nested.learn.dqn.compiled_engine.turning import SIDE, turn_block
+from mc_nested.learn.dqn.compiled_engine.vectors import (
+    LANES,
+    ROWS,
+    SIDE,
+    WIDTH,
+    multiply_rows,
+    sum_in_lanes,
+    transpose_block,
+)
 
 GUARD = np.float32(-7)
 SIZES = st.integers(2, 40)
@@ -80,10 +86,10 @@ def test_in_plain_python_a_tile_beyond_a_matrix_is_an_error(row: int, column: in
 def test_in_plain_python_a_block_beyond_a_matrix_is_an_error(at: tuple[int, int], to: tuple[int, int]) -> None:
     matrix = np.arange(SIDE * SIDE, dtype=np.float32).reshape(SIDE, SIDE)
     turned = np.zeros_like(matrix)
-    turn_block(matrix, (0, 0), turned, (0, 0))
+    transpose_block(matrix, (0, 0), turned, (0, 0))
     assert (turned == matrix.T).all()
     with pytest.raises(IndexError):
-        turn_block(matrix, at, turned, to)
+        transpose_block(matrix, at, turned, to)
 
 
 @pytest.mark.skipif(not IN_PYTHON, reason="compiled code checks no bounds")

@@ -5,7 +5,7 @@ import torch
 
 from mc_nested.learn.dqn.compiled_engine.networks import initial_parameters
 from mc_nested.learn.dqn.compiled_engine.target_values import AT_ONCE, TargetValues, table_pays
-from mc_nested.learn.dqn.state_space import StateSpace
+from mc_nested.learn.dqn.states import StateSpace
 from tests.learn.dqn.compiled_engine.test_networks import reference
 
 SIZES = (3, 4, 4, 8)

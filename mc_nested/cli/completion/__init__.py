@@ -1,1 +1,0 @@
-"""Completing a command line in bash, zsh, fish and PowerShell, without loading any verb: verbs.json lists them all."""

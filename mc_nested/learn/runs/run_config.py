@@ -1,0 +1,67 @@
+"""What is trained in a run's folder, as its config.toml says it."""
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from mc_nested.arena.scenario_file import ScenarioTable
+from mc_nested.learn.agents import AgentName
+from mc_nested.learn.builders import Builders, Networks
+from mc_nested.learn.preset import Preset
+from mc_nested.learn.runs.folder_kind import FORMAT
+
+Coordinate = Annotated[int, Field(ge=0)]
+
+
+class TeamTable(BaseModel):
+    """Several builders in one arena: the start cell of each, in the order of their numbers, and how they learn."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    networks: Networks
+    starts: Annotated[list[Annotated[list[Coordinate], Field(min_length=2, max_length=2)]], Field(min_length=1)]
+
+    @property
+    def builders(self) -> Builders:
+        """The builders that it describes."""
+        return Builders(tuple((x, y) for x, y in self.starts), self.networks)
+
+
+class RunConfig(BaseModel):
+    """Everything needed to repeat a training; scenario and preset are complete, no other file is needed."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+    format: int = FORMAT
+    agent: AgentName
+    backend: Literal["sim", "virtual", "live"]
+    profile: str | None = None
+    trials: Annotated[int, Field(ge=1)]
+    seed: Annotated[int, Field(ge=0)]
+    stop_at_optimum: bool
+    preset_name: str
+    preset: Preset
+    scenario: ScenarioTable
+    team: TeamTable | None = None
+
+    @property
+    def title(self) -> str:
+        """What is built, who learns it, and with which preset, in a line."""
+        who = f"{self.agent} agent"
+        if self.team:
+            count = len(self.team.starts)
+            who = f"{count} builders" if count > 1 else "one builder"
+            who += f", networks {self.team.networks}"
+        return f"{self.scenario.name}, {who}, preset {Path(self.preset_name).stem}"
+
+    def identity(self) -> dict[str, Any]:
+        """What is trained: a checkpoint fits only the same.
+
+        Without the profile, which may be moved or renamed, and the device.
+        """
+        return self.model_dump(exclude={"format": True, "profile": True, "preset": {"device"}})
+
+    def on_device(self, device: str) -> "RunConfig":
+        """The same training, computed elsewhere; PresetError if its engine can't."""
+        return self.model_copy(update={"preset": self.preset.changed(device=device)})
