@@ -214,11 +214,6 @@ def test_parts_are_read_in_their_order_and_what_they_do_not_say_is_the_materials
     assert parse_scenario(in_parts(FAR, NEAR), "two.toml").choose_every is None
 
 
-def test_a_scenario_without_parts_is_saved_as_it_always_was() -> None:
-    assert set(table_of(load_scenario("line")).model_dump()) == {"name", "start", "step_limit", "design", "materials"}
-    assert table_of(load_scenario("flag")).model_dump().keys() >= {"parts"}
-
-
 @given(scenarios_with_parts())
 def test_a_scenario_with_parts_survives_its_table(scenario: Scenario) -> None:
     assert scenario_of(table_of(scenario), "here") == scenario

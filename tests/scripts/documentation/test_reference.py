@@ -28,7 +28,7 @@ def test_every_verb_is_there_and_those_below_it() -> None:
 def test_an_option_has_its_value_its_meaning_its_default_and_its_limits() -> None:
     page = command_line()
     assert "* `--size WxH`: width and height in pixels  [default: 854x480]\n" in page
-    assert "the same seed draws the same mishaps (default: a new one)  [x>=0]\n" in page
+    assert "the same seed draws the same mishaps  [default: (a new one); x>=0]\n" in page
     assert "* `RUN <path>`: the folder of a training (its --out)  [required]\n" in page
 
 
