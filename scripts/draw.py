@@ -123,7 +123,7 @@ def _calibrated(*options: str) -> Iterator[tuple[dict[str, str], Path, Path]]:
 def draw_film(scenario: str, out: Path) -> None:
     """Film how a policy that was learnt in the simulator builds in the rehearsal window."""
     with _calibrated(*FILMED) as (env, profile, run):
-        learnt = ("--scenario", scenario, "--preset", "live", "--stop-at-optimum", "--out", run)
+        learnt = ("--scenario", scenario, "--preset", "model-based", "--stop-at-optimum", "--out", run)
         mc_nested("train", *learnt, env=env)
         live = ("--backend", "live", "--profile", profile)
         print(mc_nested("play", run, *live, "--video", out.resolve(), env=env))
@@ -133,7 +133,7 @@ def draw_view(seconds: float, folder: Path) -> None:
     """Draw the view of a training after so many seconds, and the report of the calibration before it."""
     with _calibrated("--fps", "60") as (env, profile, run):
         _draw_report(report_path(profile), folder / "report.png")
-        live = ("--backend", "live", "--profile", str(profile), "--preset", "live", "--scenario", "diamond")
+        live = ("--backend", "live", "--profile", str(profile), "--preset", "model-based", "--scenario", "diamond")
         command = [sys.executable, "-m", "mc_nested.cli", "train", *live, "--out", str(run)]
         with running(command, env={**env, "PYTHONPATH": str(ROOT)}, log=run.with_name("train.log")) as training:
             time.sleep(seconds)

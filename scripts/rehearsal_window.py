@@ -3,14 +3,12 @@
 import json
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from mc_nested.arena.action import Cell
-from mc_nested.live.model.coordinates import cell_at
 from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena
 from scripts.programs import ROOT
@@ -31,38 +29,28 @@ class TruthReader:
         found: dict[str, Any] = json.loads(self._path.read_text(encoding="utf-8"))
         return found
 
+    def feet(self) -> tuple[float, float, float]:
+        """Where the player is."""
+        x, y, z = self.now()["feet"]
+        return x, y, z
+
     def built(self) -> dict[Block, str]:
         """Every block that differs from the bare floor."""
         return {(x, y, z): name for x, y, z, name in self.now()["built"]}
 
     def standing(self, arena: Arena) -> dict[Block, str]:
         """The blocks in the region that a reset of the arena clears."""
-        low, high = arena.region
-        return {
-            at: name
-            for at, name in self.built().items()
-            if name != AIR and all(low[axis] <= at[axis] <= high[axis] for axis in range(3))
-        }
+        return standing_in(arena, self.built())
 
 
-class RehearsalTruth:
-    """What the client says: the player's cell, and the blocks. What was built before, such as a border, must stay."""
-
-    def __init__(self, path: Path, arena: Arena) -> None:
-        self._truth, self._arena = TruthReader(path), arena
-        inside = self._truth.standing(arena)
-        self._before = {block: name for block, name in self._truth.built().items() if block not in inside}
-
-    def cell(self) -> Cell:
-        """The cell that the player stands on."""
-        x, y, z = self._truth.now()["feet"]
-        return cell_at(self._arena.position_of((x, y, z)))
-
-    def is_built(self, placed: set[Cell]) -> bool:
-        """Whether these cells hold a block, and everything else is as before."""
-        cells = {self._arena.block_of(cell) for cell in placed}
-        built = self._truth.built()
-        return cells <= built.keys() and {at: name for at, name in built.items() if at not in cells} == self._before
+def standing_in(arena: Arena, built: Mapping[Block, str]) -> dict[Block, str]:
+    """Return the blocks in the region that a reset of the arena clears."""
+    low, high = arena.region
+    return {
+        at: name
+        for at, name in built.items()
+        if name != AIR and all(low[axis] <= at[axis] <= high[axis] for axis in range(3))
+    }
 
 
 @dataclass(frozen=True)

@@ -155,7 +155,7 @@ class Ends:
     def learner(self, scenario: Scenario = DOT) -> Program:
         """A training in whatever game is served."""
         (self.folder / "scenario.toml").write_text(scenario_text(scenario), "utf-8")
-        words = ["train", "--scenario", "scenario.toml", "--preset", "live", "--backend", "live", "--seed", "3"]
+        words = ["train", "--scenario", "scenario.toml", "--preset", "model-based", "--backend", "live", "--seed", "3"]
         return self._program([*words, "--games", self.window.url, "--out", str(self.run)])
 
     def counted_and_lost(self) -> tuple[int, int]:

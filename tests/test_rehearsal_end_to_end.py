@@ -123,7 +123,7 @@ def test_the_line_is_learnt_from_nothing_in_the_window_of_a_current_version_and_
     profile, run, line = tmp_path / "profile.toml", tmp_path / "run", load_scenario("line")
     with open_display() as env, open_rehearsal(env, tmp_path, "--version", CURRENT) as rehearsal:
         calibrate(rehearsal, profile)
-        words = ("--scenario", "line", "--preset", "live", "--stop-at-optimum", "--out", run)
+        words = ("--scenario", "line", "--preset", "model-based", "--stop-at-optimum", "--out", run)
         mc_nested("train", *words, "--backend", "live", "--profile", profile, env=rehearsal.env, timeout_s=1200)
         assert json.loads((run / "summary.json").read_text())["final_scores"] == [line.optimum]
         # The training ends with the greedy episode that reached the optimum, and resets nothing after it.
@@ -186,7 +186,17 @@ class Training:
             f'name = "tiny"\nstart = [7, 13]\nstep_limit = 8\ndesign = """\n{grid}"""\n'
             '[[materials]]\nname = "stone"\np = 0\nblock = "stone"\n'
         )
-        self.words = ["train", "--scenario", str(tiny), "--preset", "live", "--episodes", "12", "--out", str(self.run)]
+        self.words = [
+            "train",
+            "--scenario",
+            str(tiny),
+            "--preset",
+            "model-based",
+            "--episodes",
+            "12",
+            "--out",
+            str(self.run),
+        ]
         self.words += ["--backend", "live", "--profile", str(profile)]
 
     def start(self, *words: str) -> "subprocess.Popen[str]":

@@ -132,7 +132,7 @@ def test_it_is_what_is_installed_and_reads_all_its_files(installed: Installed) -
     where = installed.python(PLACES)
     assert all(Path(path).is_relative_to(installed.bin.parent) for path in where.split())
     assert installed.python(READS_ALL).splitlines() == [
-        "7 ['image', 'live', 'paper', 'tuned'] True",
+        "7 ['image', 'model-based', 'paper', 'tuned'] True",
         "True",
         "True 500 (128, 128, 4)",
     ]

@@ -217,8 +217,9 @@ class Agent:
         """The low-level agents' ε-greedy actions for every builder, (runs * builders,); ε is (runs,)."""
         is_a_row_each = self._low_levels == self._share_a_row == 1
         rows = None if is_a_row_each else self.low_level_rows(np.arange(len(states)), materials)
-        numbers = uniforms.reshape(-1, CHOICE_NUMBERS)
-        return self.low_level.act(states, self._of_builders(epsilon), numbers, rows)
+        if self.builders > 1:
+            epsilon, uniforms = self._of_builders(epsilon), uniforms.reshape(-1, CHOICE_NUMBERS)
+        return self.low_level.act(states, epsilon, uniforms, rows)
 
     @property
     def forms(self) -> dict[str, NetworkForm]:

@@ -101,21 +101,19 @@ class Practice:
 
     def learn(self, step: Step) -> None:
         """Store the step of the runs that learn from it, and update."""
-        agent, places = self._agent, self._agent.builders_of(step.learning)
+        agent, low_level, materials = self._agent, self._agent.low_level, step.materials
         next_states = agent.low_level_states(step.next_observations, step.next_materials)
-        for of_builder in places:
-            rows = agent.low_level_rows(of_builder, step.materials)
-            done = step.actions[of_builder], step.rewards[of_builder]
-            agent.low_level.store(
-                rows, step.states[of_builder], *done, next_states[of_builder], step.terminated[of_builder]
-            )
+        rows = []
+        for own in agent.builders_of(step.learning):
+            rows.append(agent.low_level_rows(own, materials))
+            done = step.actions[own], step.rewards[own], next_states[own], step.terminated[own]
+            low_level.store(rows[-1], step.states[own], *done)
         self.observe(step, next_states)
-        batches = self._preset.updates_a_step, self._preset.update.batch
-        draws = step.draws.take(step.learning, axis=0).reshape(len(step.learning), len(places), *batches)
-        for number, of_builder in enumerate(places):
-            rows = agent.low_level_rows(of_builder, step.materials)
-            for update in range(self._preset.updates_a_step):
-                agent.low_level.learn(rows, draws[:, number, update])
+        updates, runs = self._preset.updates_a_step, step.learning
+        shape = len(runs), len(rows) * updates, self._preset.update.batch
+        draws = step.draws.take(runs, axis=0).reshape(shape)
+        for update in range(shape[1]):
+            low_level.learn(rows[update // updates], draws[:, update])
 
     def observe(self, step: Step, next_states: NDArray[Any]) -> None:
         """See a step that is stored, before its updates."""

@@ -1,4 +1,4 @@
-"""The ablation: the preset live with each part off in turn, beside the model-free preset tuned (ablation.toml).
+"""The ablation: the preset model-based with each part off in turn, beside the model-free preset tuned (ablation.toml).
 
 The presets aren't chosen: the parts are theirs.
 """
@@ -30,7 +30,7 @@ from mc_nested.studies.trial import Trial, on_each, optimum_of, trial_table
 from mc_nested.toml_file import parse_toml
 
 FILE = "ablation.toml"
-LIVE = "live"
+MODEL_BASED = "model-based"
 
 COLUMNS = ("part", "base", "scenario", "trial", "optimum", "best_score", "played_to_optimum", "updates")
 
@@ -54,7 +54,7 @@ class AblatedPart(BaseModel):
 
 
 class AblationFile(BaseModel):
-    """The shipped parts, and how many episodes those of live have at most."""
+    """The shipped parts, and how many episodes those of model-based have at most."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
@@ -68,7 +68,7 @@ def arms(options: StudyOptions) -> list[Arm]:
     shipped = parse_toml(AblationFile, text, FILE, PresetError)
     found = []
     for part in shipped.rows:
-        most = options.episodes or (shipped.live_episodes if part.base == LIVE else None)
+        most = options.episodes or (shipped.live_episodes if part.base == MODEL_BASED else None)
         preset = with_episodes(part.whole_preset(), most)
         found.append(
             Arm(
@@ -137,9 +137,9 @@ HEADER = (
     "given up after",
 )
 
-WHAT_LIVE_IS = """\
-The preset `live` is double Q-learning alone: there is no imitation in it, of its own episodes or of anybody's. The
-first line has all of its parts, and each of the next ones is without one, or with another value. `tuned` is the
+WHAT_IT_IS = """\
+The preset `model-based` is double Q-learning alone: there is no imitation in it, of its own episodes or of anybody's.
+The first line has all of its parts, and each of the next ones is without one, or with another value. `tuned` is the
 model-free preset, which has no learnt game: excursions find the build, and it imitates its best episode."""
 
 LEGEND = """\
@@ -162,7 +162,7 @@ def report(config: StudyConfig, trials: Sequence[Trial]) -> Report:
         text=[
             "# What each part of the learning does",
             f"Real episodes to the optimum: {of_each}, seed {config.seed}.",
-            WHAT_LIVE_IS.replace("\n", " "),
+            WHAT_IT_IS.replace("\n", " "),
             "![Episodes to the optimum, a panel for each design, a line for each part](ablation.png)",
             *tables,
             LEGEND.replace("\n", " "),
@@ -253,8 +253,8 @@ def _draw_line(axes: Axes, line: int, measures: PartMeasures, never: float) -> N
 
 STUDY = Study(
     name="ablation",
-    what="Turn off each part of the preset live in turn, beside the preset tuned. The defaults take about an hour on "
-    "two cores; a trial of live has 30 episodes at most unless --episodes says otherwise.",
+    what="Turn off each part of the preset model-based in turn, beside the preset tuned. The defaults take about an "
+    "hour on two cores; a trial of model-based has 30 episodes at most unless --episodes says otherwise.",
     options={"trials": 10, "episodes": None, "seed": 0, "scenario": None, "layer": None},
     arms=arms,
     report=report,

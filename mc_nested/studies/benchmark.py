@@ -32,7 +32,7 @@ from mc_nested.studies.trial import Trial, trial_table
 BASELINE, SB3_PRESET = "baseline.toml", "dqn"
 """What stands for a preset beside stable-baselines3's agent, and its name."""
 
-DEFAULT_AGENTS, DEFAULT_PRESETS = ("nested", SB3), ("live", "tuned", "paper")
+DEFAULT_AGENTS, DEFAULT_PRESETS = ("nested", SB3), ("model-based", "tuned", "paper")
 
 LIKE = "line"
 """The shipped design whose start cell and materials every design of a benchmark has."""

@@ -49,6 +49,18 @@ from sim.client.game.physics import Ground, displacement
 from sim.client.game.screens import MenuState, ScreenName, menu
 from sim.client.settings import ClientSettings
 
+PLAYED = (
+    "wrong_cells",
+    "wrong_blocks",
+    "unnoticed",
+    "actions",
+    "failed_actions",
+    "gave_up",
+    "left_down",
+    "corrections",
+)
+"""What is summed up over all clients."""
+
 TARGETS = {"longest_game_s": 300.0, "walk_rms_blocks": 0.02, "click_off_gui_px_max": 2.0}
 
 BUTTONS: dict[str, tuple[ScreenName, str]] = {
@@ -200,14 +212,7 @@ def report(results: Sequence[ClientResult]) -> dict[str, Any]:
     return {
         "clients": len(results),
         "unattended": len(good),
-        "wrong_cells": sum(each.play.wrong_cells for each in results),
-        "wrong_blocks": sum(each.play.wrong_blocks for each in results),
-        "unnoticed": sum(each.play.unnoticed for each in results),
-        "actions": sum(each.play.actions for each in results),
-        "failed_actions": sum(each.play.failed_actions for each in results),
-        "gave_up": sum(each.play.gave_up for each in results),
-        "left_down": sum(each.play.left_down for each in results),
-        "corrections": sum(each.play.corrections for each in results),
+        **{name: sum(getattr(each.play, name) for each in results) for name in PLAYED},
         "longest_game_s": round(max(times, default=0.0), 1),
         "median_game_s": round(statistics.median(times), 1) if times else 0.0,
         "walk_rms_blocks": round(max((each.walk_rms for each in good), default=0.0), 5),

@@ -191,7 +191,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--scenarios", nargs="+", default=["line", "zigzag", "diamond"])
     parser.add_argument("--seeds", type=int, default=5, help="trials of each scenario")
     parser.add_argument("--first-seed", type=int, default=1)
-    parser.add_argument("--preset", default="live")
+    parser.add_argument("--preset", default="model-based")
     parser.add_argument("--mishaps", action="store_true", help="one before every hundredth action")
 
 

@@ -98,8 +98,8 @@ def size_of(sent: EpisodePlan | PlayedEpisode) -> int:
 
 
 def live(enough: float | None) -> Preset:
-    """The preset live, with another share of the best imaginable that ends a practice."""
-    preset = load_preset("live")
+    """The preset model-based, with another share of the best imaginable that ends a practice."""
+    preset = load_preset("model-based")
     if enough is None or preset.imagination is None:
         return preset
     return preset.model_copy(update={"imagination": preset.imagination.model_copy(update={"enough": enough})})

@@ -4,7 +4,7 @@ import dataclasses
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +15,10 @@ from mc_nested.arena.scenario import Scenario
 from mc_nested.errors import LiveError
 from mc_nested.live.action_log import percentile
 from mc_nested.live.live_game import LiveGame
+from mc_nested.live.model.coordinates import cell_at
+from mc_nested.live.model.reading import Block
 from mc_nested.live.profile.arena import Arena
+from scripts.rehearsal_window import standing_in
 from sim.client.client import VirtualClient
 
 GIVES_UP = 3
@@ -56,33 +59,37 @@ class PlayCounts:
         return not any((*wrong, self.strays, self.into_screens))
 
 
-class WorldTruth(Protocol):
-    """What the game's world really holds, known without its screen."""
+class WorldTruth:
+    """What the game's world really holds, known without its screen. What was built elsewhere before must stay.
+
+    Args:
+        arena: where blocks are placed.
+        feet: says where the player is.
+        built: gives every block that differs from the bare floor.
+    """
+
+    def __init__(
+        self, arena: Arena, feet: Callable[[], tuple[float, float, float]], built: Callable[[], dict[Block, str]]
+    ) -> None:
+        self._arena, self._feet, self._built = arena, feet, built
+        standing = standing_in(arena, built())
+        self._before = {at: name for at, name in built().items() if at not in standing}
 
     def cell(self) -> Cell:
-        """The cell that the player stands on."""
+        """Return the cell that the player stands on."""
+        return cell_at(self._arena.position_of(self._feet()))
 
     def is_built(self, placed: set[Cell]) -> bool:
-        """Whether these cells hold a block, and nothing else was built."""
+        """Return whether these cells hold a block, and everything else is as before."""
+        cells, built = {self._arena.block_of(cell) for cell in placed}, self._built()
+        return cells <= built.keys() and {at: name for at, name in built.items() if at not in cells} == self._before
 
 
-class ClientTruth:
-    """What the client's world really holds. What was built before, such as a floor and a border, must stay."""
+class ClientTruth(WorldTruth):
+    """What a virtual client's world really holds."""
 
     def __init__(self, client: VirtualClient, arena: Arena) -> None:
-        self._client, self._arena = client, arena
-        self._built_before = client.built
-
-    def cell(self) -> Cell:
-        """The cell that the player stands on."""
-        return self._client.cell(self._arena)
-
-    def is_built(self, placed: set[Cell]) -> bool:
-        """Whether these cells hold a block, and everything else is as before."""
-        cells = {self._arena.block_of(cell) for cell in placed}
-        built = self._client.built
-        others = {block: built[block] for block in built if block not in cells}
-        return cells <= built.keys() and others == self._built_before
+        super().__init__(arena, lambda: client.realm.player.feet, lambda: client.built)
 
 
 class CheckedGame:

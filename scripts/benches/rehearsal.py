@@ -28,9 +28,9 @@ from mc_nested.live.opening import Opening
 from mc_nested.live.profile.store import load_profile
 from mc_nested.live.session import open_live_game
 from scripts.bench import Figures
-from scripts.benches.played import figures_of, play_in
+from scripts.benches.played import WorldTruth, figures_of, play_in
 from scripts.programs import ROOT, MissingError, Say
-from scripts.rehearsal_window import RehearsalTruth, mc_nested, open_rehearsal
+from scripts.rehearsal_window import TruthReader, mc_nested, open_rehearsal
 from scripts.window_display import install_programs, open_display
 
 MOST_MEDIAN_S = 0.36
@@ -95,7 +95,8 @@ def play(profile: Path, truth: Path, actions: int, seed: int, env: dict[str, str
 def play_here(profile: str, truth: str, actions: str, seed: str) -> None:
     """Play so many random actions on this process's display, and print the figures as one JSON object."""
     scenario = load_scenario("diamond")
-    seen = RehearsalTruth(Path(truth), load_profile(profile).marked_arena())
+    client = TruthReader(Path(truth))
+    seen = WorldTruth(load_profile(profile).marked_arena(), client.feet, client.built)
     with open_live_game(scenario, Opening(profile, lambda line: print(line, file=sys.stderr))) as (game, _):
         steps = track(range(int(actions)), "actions", console=Console(stderr=True))
         played = play_in(game, seen, scenario, steps, np.random.default_rng(int(seed)))

@@ -14,7 +14,7 @@ BESIDE = Scenario("beside", frozenset({(1, 3), (1, 2)}), (2, 4), 16, MATERIALS, 
 
 def write_preset(path: Path) -> Path:
     """A preset file of that name."""
-    live = load_preset("live").model_dump(exclude_none=True)
+    live = load_preset("model-based").model_dump(exclude_none=True)
     live["hidden"] = [16, 16]
     path.write_text(tomlkit.dumps(live), "utf-8")
     return path

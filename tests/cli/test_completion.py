@@ -220,8 +220,8 @@ def test_profiles_are_the_named_ones(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
 
 def test_of_several_names_the_last_one_is_completed() -> None:
-    names = complete_of(lambda: ["live", "paper", "tuned"])
-    assert names("") == ["live", "paper", "tuned"]
+    names = complete_of(lambda: ["model-based", "paper", "tuned"])
+    assert names("") == ["model-based", "paper", "tuned"]
     assert names("t") == ["tuned"]
-    assert names("live,p") == ["live,paper"]
+    assert names("model-based,p") == ["model-based,paper"]
     assert names("x") == []

@@ -44,7 +44,7 @@ __all__ = ["leftovers"]
 pytestmark = LEFTOVERS
 
 
-TRAIN = ["train", "--backend", "virtual", "--preset", "live", "--stop-at-optimum", "--seed", "3"]
+TRAIN = ["train", "--backend", "virtual", "--preset", "model-based", "--stop-at-optimum", "--seed", "3"]
 
 
 @pytest.fixture(scope="module")
@@ -132,7 +132,7 @@ def test_a_training_whose_episodes_another_process_plays_is_as_any_other(
 
 
 def test_a_game_is_served_until_its_player_ends_it(url: str, capsys: pytest.CaptureFixture[str]) -> None:
-    order = GameOrder("virtual", DOT, "nested", load_preset("live"), 3)
+    order = GameOrder("virtual", DOT, "nested", load_preset("model-based"), 3)
     trainer = GamesTrainer(DOT, order.new_agent(), order.preset, 3)
     came: list[GameAnswer] = []
 
@@ -206,7 +206,7 @@ def test_a_game_of_another_kind_refuses_at_both_ends(
     url: str, served: Served, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     game = served.begin("one")
-    assert run("train", "--backend", "live", "--preset", "live", "--games", url, "--out", tmp_path / "out") == 2
+    assert run("train", "--backend", "live", "--preset", "model-based", "--games", url, "--out", tmp_path / "out") == 2
     says = "the learner asks for --backend live, and this game is virtual"
     assert f"mc-nested: one can't play: {says}; saved: go on with" in capsys.readouterr().err
     assert game.wait(20) == 2

@@ -57,7 +57,7 @@ def test_a_finished_run_has_nothing_left_and_the_bar_is_not_refreshed_too_often(
 
 
 def imagining(trials: int = 1) -> Trainer:
-    preset = load_preset("live").model_copy(update={"hidden": [4, 4]})
+    preset = load_preset("model-based").model_copy(update={"hidden": [4, 4]})
     agent = Agent(AGENT_SPECS["nested"], [SMALL] * trials, preset, 0)
     return Trainer(GridVectorEnv([SMALL] * trials), [SMALL] * trials, agent, preset, 0)
 

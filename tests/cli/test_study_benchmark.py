@@ -142,7 +142,7 @@ def test_by_default_sb3_takes_part_where_it_is_installed(
     assert run("study", "benchmark", "--designs", "6", "--seed", "2", "--out", tmp_path / "new") == 0
     (folder,) = begun
     assert list(dict.fromkeys(arm.agent for arm in folder.config.arms)) == agents
-    assert [arm.preset_name for arm in folder.config.arms][:3] == ["live", "tuned", "paper"]
+    assert [arm.preset_name for arm in folder.config.arms][:3] == ["model-based", "tuned", "paper"]
     assert list(folder.config.scenarios)[:3] == ["edge-000", "corner-001", "scattered-002"]
     assert (folder.config.trials, folder.config.seed, folder.config.notes) == (1, 2, {})
     assert ("sb3 is left out, since stable-baselines3 isn't installed" in capsys.readouterr().err) is not installed

@@ -91,7 +91,7 @@ def test_a_training_that_stops_at_the_optimum_says_after_how_many_episodes(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     small = write_scenario(tmp_path / "small.toml", SMALL)
-    words: list[str | Path] = ["train", "--preset", "live", "--scenario", small, "--stop-at-optimum"]
+    words: list[str | Path] = ["train", "--preset", "model-based", "--scenario", small, "--stop-at-optimum"]
     assert run(*words, "--out", tmp_path / "run") == 0
     summary = json.loads((tmp_path / "run" / "summary.json").read_text("utf-8"))
     (trained,), (played,) = summary["episodes_to_optimum"], summary["played_to_optimum"]
@@ -135,7 +135,7 @@ def test_networks_that_diverge_end_the_training_in_one_line_and_are_not_saved(
 
 
 def test_a_training_begun_from_another_has_its_policy_before_the_first_episode(optimal: Path, tmp_path: Path) -> None:
-    live = ("train", "--preset", "live", "--episodes", "6", "--trials", "2", "--seed", "9")
+    live = ("train", "--preset", "model-based", "--episodes", "6", "--trials", "2", "--seed", "9")
     assert run(*live, "--from", optimal, "--out", tmp_path / "on") == 0
     summary = json.loads((tmp_path / "on" / "summary.json").read_text())
     assert summary["episodes_to_optimum"] == [0, 0]
@@ -158,7 +158,7 @@ def test_networks_that_do_not_fit_are_one_line(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     write_scenario(Path("small.toml"), SMALL)  # five cells a side, so that there are fewer inputs
-    base = [] if other[0] == "--preset" else ["--preset", "live"]
+    base = [] if other[0] == "--preset" else ["--preset", "model-based"]
     assert run("train", *base, *other, "--from", optimal, "--out", tmp_path / "new") == 2
     assert "its networks don't fit this training: take its agent (nested), " in capsys.readouterr().err
     assert not (tmp_path / "new").exists()
@@ -170,7 +170,7 @@ def test_a_training_begun_from_another_that_can_not_be_saved_is_not_begun(
     def full_disk(_: int) -> None:
         raise OSError(28, "No space left on device")
 
-    words = ("train", "--preset", "live", "--episodes", "6", "--from", optimal, "--out", tmp_path / "new")
+    words = ("train", "--preset", "model-based", "--episodes", "6", "--from", optimal, "--out", tmp_path / "new")
     with monkeypatch.context() as patch:
         patch.setattr("os.fsync", full_disk)
         assert run(*words) == 2

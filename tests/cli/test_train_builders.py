@@ -138,7 +138,7 @@ def test_another_training_begins_from_it(
         (["--builders", "3", "--start", "7,14"], "--builders 3 and 1 times --start: give each builder one start"),
         (["--networks", "many"], "no networks 'many': choose one of shared, own, single"),
         (["--preset", "tuned"], "[excursions] is for a builder alone: take the preset paper, or one with"),
-        (["--preset", "live"], "[imagination] is for a builder alone"),
+        (["--preset", "model-based"], "[imagination] is for a builder alone"),
         (["--preset", "image"], "builders in one arena see numbers, not states 'image'"),
         (["--scenario", "castle"], "castle"),
         (["--agent", "single"], "several builders don't go with --agent: --networks says who they are: leave it out"),

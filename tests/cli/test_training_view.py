@@ -103,7 +103,7 @@ def test_all_trials_are_counted_cell_by_cell() -> None:
 
 
 def test_what_is_believed_is_shown_of_a_single_trial() -> None:
-    trainer, view, board = a_training("live", 1)
+    trainer, view, board = a_training("model-based", 1)
     for _ in range(60):
         trainer.tick()
     view.show_end()
@@ -116,11 +116,11 @@ def test_what_is_believed_is_shown_of_a_single_trial() -> None:
 
 
 def test_game_time_left_is_said_of_a_running_game_alone() -> None:
-    _, simulated, board = a_training("live", 1)
+    _, simulated, board = a_training("model-based", 1)
     simulated.show()
     assert shown_learning(board).game_minutes_left is None
 
-    trainer, live, board = a_training("live", 1, "live")
+    trainer, live, board = a_training("model-based", 1, "live")
     live.show()
     whole = expected(trainer.preset, LINE, stop_at_optimum=False)
     assert shown_learning(board).game_minutes_left == pytest.approx(whole.minutes)

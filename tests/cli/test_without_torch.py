@@ -34,7 +34,7 @@ def test_every_verb_loads_without_torch() -> None:
 
 def test_a_training_is_saved_evaluated_and_played_without_torch(tmp_path: Path) -> None:
     out = tmp_path / "run"
-    made = without_torch(COMMAND, "train", "--preset", "live", "--episodes", "3", "--out", out)
+    made = without_torch(COMMAND, "train", "--preset", "model-based", "--episodes", "3", "--out", out)
     assert made.returncode == 0, made.stderr
     (score,) = json.loads((out / "summary.json").read_text())["final_scores"]
     evaluated = without_torch(COMMAND, "runs", "evaluate", out, "--json")

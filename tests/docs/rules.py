@@ -14,10 +14,10 @@ SIZES = {
     "mc-nested study beyond": "--trials 1 --episodes 4",
     "mc-nested study ablation": "--trials 1 --episodes 1 --scenario line",
     "mc-nested study sweep": "--trials 1 --episodes 2 --scenario line",
-    "mc-nested study benchmark": "--designs 1 --agents nested --presets live",
+    "mc-nested study benchmark": "--designs 1 --agents nested --presets model-based",
     "mc-nested train --backend live": "--episodes 1",
     "mc-nested train --backend virtual": "--trials 1 --episodes 1",
-    "mc-nested train --preset live --trials": "--trials 1",
+    "mc-nested train --preset model-based --trials": "--trials 1",
     "mc-nested train --scenario zigzag --trials 90": "--trials 2 --episodes 2",
     "mc-nested train --preset tuned --trials": "--trials 1 --episodes 20",
     "mc-nested train --scenario line --preset image": "--trials 1 --episodes 30",
@@ -52,13 +52,13 @@ BY_THE_SUITE = {
     "mc-nested study sweep --cluster": "tests/cli/test_cluster.py",
     **dict.fromkeys(
         (
-            "mc-nested train --backend live --preset live --scenario diamond --stop-at-optimum --games",
-            "mc-nested train --backend virtual --preset live --stop-at-optimum --games",
+            "mc-nested train --backend live --preset model-based --scenario diamond --stop-at-optimum --games",
+            "mc-nested train --backend virtual --preset model-based --stop-at-optimum --games",
         ),
         "tests/cli/test_games_training.py",
     ),
     "python scripts/test.py": "it runs this test",
-    "mc-nested train --preset live --scenario square": "tests/cli/test_train_live_large.py",
+    "mc-nested train --preset model-based --scenario square": "tests/cli/test_train_large_designs.py",
 }
 """What takes minutes, and what the suite does without it: which test."""
 

@@ -65,7 +65,7 @@ def test_a_single_agent_can_not_explore_by_excursions() -> None:
 
 
 def test_a_single_agent_can_not_practise_in_a_learnt_game() -> None:
-    live = load_preset("live")
+    live = load_preset("model-based")
     for spec in (NESTED, HIERARCHICAL):
         check_exploration(spec, live)
         assert imagination_of(Agent(spec, [DOT], live, 0), [DOT], live, 0) is not None

@@ -87,7 +87,7 @@ def test_what_is_shared_learns_from_all_and_what_is_own_from_its_own_an_update_f
     assert own.low_level.engine.updates.tolist() == [1, 1, 1, 1]
 
 
-@pytest.mark.parametrize(("preset", "table"), [("tuned", "excursions"), ("live", "imagination")])
+@pytest.mark.parametrize(("preset", "table"), [("tuned", "excursions"), ("model-based", "imagination")])
 @pytest.mark.parametrize("networks", NETWORKS)
 def test_ways_to_explore_that_are_for_one_builder_are_refused(networks: Networks, preset: str, table: str) -> None:
     with pytest.raises(PresetError, match=rf"^\[{table}\] is for a builder alone: take the preset paper"):

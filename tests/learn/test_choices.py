@@ -191,4 +191,4 @@ def test_greedy_play_chooses_again_for_the_next_part(monkeypatch: pytest.MonkeyP
 
 def test_a_preset_that_imagines_its_game_takes_no_parts() -> None:
     with pytest.raises(PresetError, match=r"^\[imagination\] knows no parts, and stripes has some: take the preset"):
-        Agent(AGENT_SPECS["nested"], [DOT, STRIPES], load_preset("live"), 0)
+        Agent(AGENT_SPECS["nested"], [DOT, STRIPES], load_preset("model-based"), 0)

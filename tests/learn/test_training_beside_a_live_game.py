@@ -20,7 +20,7 @@ from mc_nested.learn.trainer import Trainer
 from sim.grid import GridGame, GridVectorEnv
 
 LINE = load_scenario("line")
-LIVE = load_preset("live").model_copy(update={"episodes": 5})
+LIVE = load_preset("model-based").model_copy(update={"episodes": 5})
 PATIENCE_S = 20.0
 
 

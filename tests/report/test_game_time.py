@@ -14,7 +14,7 @@ def test_actions_and_resets_take_their_time() -> None:
 
 
 def test_an_imagination_needs_as_many_episodes_as_finding_the_design_without_a_prior() -> None:
-    found = expected(load_preset("live"), LINE, stop_at_optimum=True)
+    found = expected(load_preset("model-based"), LINE, stop_at_optimum=True)
     # 11 blocks in 210 cells: 211 / 12 + 1 episodes of up to 60 actions.
     assert found.episodes == 19
     assert found.minutes == pytest.approx(19 * (60 * 0.35 + 1.5) / 60)
@@ -24,12 +24,12 @@ def test_an_imagination_needs_as_many_episodes_as_finding_the_design_without_a_p
 
 
 def test_a_preset_of_fewer_episodes_takes_no_more() -> None:
-    few = load_preset("live").model_copy(update={"episodes": 5})
+    few = load_preset("model-based").model_copy(update={"episodes": 5})
     assert expected(few, LINE, stop_at_optimum=True).episodes == 6
 
 
 def test_all_episodes_are_played_where_nothing_stops_it() -> None:
-    live = load_preset("live")
+    live = load_preset("model-based")
     assert expected(live, LINE, stop_at_optimum=False).episodes >= live.episodes
 
 

@@ -18,8 +18,8 @@ def shipped(*scenarios: Scenario, episodes: int | None = None) -> dict[str, Arm]
 
 PARTS = shipped(DOT)
 
-LIVE = load_preset("live").model_copy(update={"episodes": 30})
-"""The preset live, for as many episodes as an ablation's trial has."""
+LIVE = load_preset("model-based").model_copy(update={"episodes": 30})
+"""The preset model-based, for as many episodes as an ablation's trial has."""
 
 
 def config(*scenarios: Scenario) -> StudyConfig:
@@ -28,12 +28,12 @@ def config(*scenarios: Scenario) -> StudyConfig:
 
 def test_the_first_part_is_the_preset_live_as_it_is() -> None:
     first = next(iter(PARTS.values()))
-    assert (first.name, first.preset) == ("live as it is", LIVE)
+    assert (first.name, first.preset) == ("model-based as it is", LIVE)
 
 
 def test_every_part_changes_its_base_and_no_two_are_alike() -> None:
     for part in PARTS.values():
-        base = LIVE if part.preset_name == "live" else load_preset(part.preset_name)
+        base = LIVE if part.preset_name == "model-based" else load_preset(part.preset_name)
         assert (part.preset == base) == part.name.endswith("as it is"), part.name
     assert len({part.preset.model_dump_json() for part in PARTS.values()}) == len(PARTS)
 
@@ -62,7 +62,7 @@ def test_the_model_free_preset_loses_its_imitation_or_its_td_errors() -> None:
 
 
 def test_there_is_no_imitation_in_any_part_of_live() -> None:
-    assert all(part.preset.imitation is None for part in PARTS.values() if part.preset_name == "live")
+    assert all(part.preset.imitation is None for part in PARTS.values() if part.preset_name == "model-based")
 
 
 def test_every_trial_of_every_part_on_every_design_is_trained_once() -> None:
@@ -82,7 +82,7 @@ def test_every_trial_of_every_part_on_every_design_is_trained_once() -> None:
 def test_what_practises_trains_one_by_one_and_the_rest_side_by_side() -> None:
     for job in config(DOT).cut():
         part = PARTS[job.groups[0]]
-        assert len(job.trials) == (1 if part.preset_name == "live" else 2), part.name
+        assert len(job.trials) == (1 if part.preset_name == "model-based" else 2), part.name
 
 
 def test_the_episodes_that_are_asked_for_are_those_of_every_part() -> None:

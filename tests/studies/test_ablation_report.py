@@ -18,7 +18,11 @@ PLAYED: dict[str, list[int | None]] = {
 }
 """Real episodes until each trial was solved."""
 
-OF = {"whole": ("live", "", 200), "no | hope": ("live", "nothing is imagined to pay", 200), "old": ("tuned", "", 3000)}
+OF = {
+    "whole": ("model-based", "", 200),
+    "no | hope": ("model-based", "nothing is imagined to pay", 200),
+    "old": ("tuned", "", 3000),
+}
 
 ARMS = {
     name: replace(
@@ -80,7 +84,7 @@ def test_never_is_infinite_and_a_name_breaks_no_table() -> None:
 
 
 def test_it_says_that_there_is_no_imitation_in_live() -> None:
-    assert "`live` is double Q-learning alone: there is no imitation in it" in TEXT
+    assert "`model-based` is double Q-learning alone: there is no imitation in it" in TEXT
     assert "4 trials of each line on each design, seed 0" in TEXT
     assert "](ablation.png)" in TEXT
     assert "## zig|zag, optimum 21" in TEXT

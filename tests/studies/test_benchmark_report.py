@@ -71,7 +71,7 @@ def test_nothing_solved_and_one_kind_alone_can_be_drawn(tmp_path: Path) -> None:
 
 
 def test_a_row_is_a_line_of_the_table_and_never_is_an_empty_cell(tmp_path: Path) -> None:
-    arm = contestant("live", 30, trials=1, designs=2)
+    arm = contestant("model-based", 30, trials=1, designs=2)
     trials = [played(arm, 0, 0, 17), played(arm, 1, 0, None)]
     write_report(tmp_path, STUDY, report(made_config("benchmark", trials), trials))
     with (tmp_path / "benchmark.csv").open(newline="", encoding="utf-8") as file:

@@ -82,7 +82,7 @@ def test_a_design_of_another_name_stays_as_it_is() -> None:
     assert smaller not in open_choices(PAPER, [DOT, BAR])
 
 
-@pytest.mark.parametrize("preset", ["tuned", "live"])
+@pytest.mark.parametrize("preset", ["tuned", "model-based"])
 def test_a_preset_that_the_single_agent_can_not_use_leaves_nothing_but_scenarios(preset: str) -> None:
     # Such a preset is refused before; nothing here pretends that it could be judged.
     chosen = load_preset(preset)

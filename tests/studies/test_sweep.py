@@ -58,7 +58,7 @@ def test_every_shipped_preset_can_be_swept(preset: str) -> None:
 
 
 def test_practice_in_a_learnt_game_is_swept_without_what_it_can_not_take() -> None:
-    live = load_preset("live")
+    live = load_preset("model-based")
     choices = {variant.choice for variant in varied(live, SCENARIOS)}
     assert choices.isdisjoint({"replay", "main ε, share", "main ε, floor", "nested ε, share", "single, its choice"})
     assert choices >= {"learning rate", "γ", "start", "step limit"}

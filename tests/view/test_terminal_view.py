@@ -25,7 +25,7 @@ from tests.cli.terminal import Terminal
 if TYPE_CHECKING:
     from mc_nested.view.terminal_view import TerminalView
 
-LONG = ("train", "--preset", "live", "--scenario", "zigzag", "--out", "run")
+LONG = ("train", "--preset", "model-based", "--scenario", "zigzag", "--out", "run")
 SHORT = (*LONG, "--episodes", "3")
 
 Opens = Callable[..., "Terminal"]
@@ -60,7 +60,7 @@ def child_of(process: int) -> int:
 @pytest.mark.slow
 def test_a_viewed_training_ends_as_one_that_is_not(opened: Opens, tmp_path: Path) -> None:
     terminal = opened(*SHORT, "--view")
-    terminal.until("zigzag, nested agent, preset live, in the simulator")
+    terminal.until("zigzag, nested agent, preset model-based, in the simulator")
     terminal.until("next:")
 
     assert terminal.end() == 0
@@ -153,7 +153,7 @@ def test_a_mistake_is_one_line_with_a_view_too(opened: Opens, tmp_path: Path) ->
 
 @pytest.mark.slow
 def test_an_episode_and_a_build_are_viewed(opened: Opens, tmp_path: Path) -> None:
-    assert run("train", "--preset", "live", "--episodes", "3", "--out", tmp_path / "run") == 0
+    assert run("train", "--preset", "model-based", "--episodes", "3", "--out", tmp_path / "run") == 0
     for words, title in ((("play", "run"), "play: line, trial 0"), (("build", "line"), "build: line")):
         terminal = opened(*words, "--view", columns=40, lines=24)
         terminal.until(title)

@@ -131,7 +131,7 @@ def test_its_game_is_served_to_a_learner_on_this_system_over_tls(calibrated: Reh
         profile = ("--profile", windows_path(calibrated.profile), "--evidence", windows_path(tmp_path / "evidence"))
         with calibrated.windows.started("-m", "mc_nested.cli", *words, *profile) as game:
             cluster = ("--games", url, "--keys", learner)
-            live = ("--backend", "live", "--preset", "live", "--scenario", design, "--episodes", "2")
+            live = ("--backend", "live", "--preset", "model-based", "--scenario", design, "--episodes", "2")
             mc_nested("train", *live, *cluster, "--out", run, env={}, timeout_s=PLAY_S)
             said = game.printed()
     assert json.loads((run / "summary.json").read_text("utf-8"))["episodes_done"] == [2], said

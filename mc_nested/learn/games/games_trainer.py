@@ -42,7 +42,7 @@ def check_games(scenario: Scenario, preset: Preset) -> None:
     """PresetError, one line, if games can't play that preset's episodes of that scenario by themselves."""
     if preset.excursions:  # each step of one depends on what the learner remembers of the best
         raise PresetError(
-            "[excursions] need the learner at every step: with several games take the preset live or paper"
+            "[excursions] need the learner at every step: with several games take the preset model-based or paper"
         )
     if scenario.parts:  # the main agent chooses within an episode
         raise PresetError(f"{scenario.name} has parts, which several games can't learn together: train with one game")

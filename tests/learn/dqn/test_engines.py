@@ -27,7 +27,7 @@ def test_the_torch_engine_takes_the_presets_of_numbers(name: str) -> None:
         ("paper", {"device": "cuda"}, 'device "cuda" needs engine "torch"'),
         ("paper", {"network": "my:make"}, 'network "my:make" needs engine "torch"'),
         ("paper", {"network": "cnn", "engine": "torch"}, 'network "cnn" needs states "image"'),
-        ("live", {"engine": "torch"}, r'\[imagination\] needs engine "compiled"'),
+        ("model-based", {"engine": "torch"}, r'\[imagination\] needs engine "compiled"'),
         ("tuned", {"states": "image", "engine": "torch"}, r"\[excursions\] go by x and y"),
         ("image", {"encoding": "one-hot"}, 'encoding "one-hot" is for states "numbers"'),
         ("paper", {"network": "cnnn", "engine": "torch"}, 'network "cnnn": write "mlp", "cnn", or a module'),

@@ -281,7 +281,11 @@ def test_a_policy_that_was_begun_from_is_evaluated_once_and_first() -> None:
 @pytest.mark.parametrize(
     ("scenario", "preset", "what"),
     [
-        (BENT, "tuned", r"\[excursions\] need the learner at every step: with several games take the preset live or"),
+        (
+            BENT,
+            "tuned",
+            r"\[excursions\] need the learner at every step: with several games take the preset model-based or",
+        ),
         (STRIPES, "paper", r"stripes has parts, which several games can't learn together: train with one game"),
     ],
     ids=["excursions", "parts"],

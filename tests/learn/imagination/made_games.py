@@ -19,7 +19,7 @@ BENT = Scenario("bent", frozenset({(2, 3), (3, 3), (3, 4)}), (2, 1), 14, MATERIA
 TWO = Scenario("two", frozenset({(1, 3), (2, 3)}), (2, 1), 8, MATERIALS, size=5)
 """Two blocks side by side."""
 
-LIVE = load_preset("live")
+LIVE = load_preset("model-based")
 RULE = ImaginationRule(
     highest_epsilon=1.0,
     lowest_epsilon=0.05,
@@ -40,7 +40,7 @@ SMALL = LIVE.model_copy(
         "imagination": RULE,
     }
 )
-"""The preset live for designs of a few blocks."""
+"""The preset model-based for designs of a few blocks."""
 
 
 def with_update(preset: Preset, **changes: float) -> Preset:

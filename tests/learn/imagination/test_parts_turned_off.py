@@ -44,8 +44,8 @@ def test_without_optimism_only_what_is_known_to_pay_pays() -> None:
 
 
 def live_with(updates: int = 400, **changes: object) -> Preset:
-    """The preset live with a short practice, and keys of its [imagination] changed."""
-    live = load_preset("live")
+    """The preset model-based with a short practice, and keys of its [imagination] changed."""
+    live = load_preset("model-based")
     assert live.imagination is not None
     rule = live.imagination.model_copy(update={"updates_exploring": updates, "updates_building": updates, **changes})
     update = live.update.model_copy(update={"learning_starts": 50, "target_period": 20})

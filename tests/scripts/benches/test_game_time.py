@@ -56,7 +56,7 @@ def test_practice_gets_the_resets_seconds_and_one_more_and_the_game_waits_for_wh
 
 @pytest.mark.slow
 def test_a_training_without_mishaps_gets_to_the_optimum_and_nothing_is_wrong() -> None:
-    trial = train(LINE, 1, load_preset("live"), 0.0)
+    trial = train(LINE, 1, load_preset("model-based"), 0.0)
     assert trial.solved
     assert trial.is_right
     assert (trial.spoiled, trial.mishaps) == (0, 0)
@@ -65,7 +65,7 @@ def test_a_training_without_mishaps_gets_to_the_optimum_and_nothing_is_wrong() -
 
 @pytest.mark.slow
 def test_what_spoiled_episodes_taught_is_not_in_the_experience() -> None:
-    trial = train(LINE, 2, load_preset("live"), 0.03)
+    trial = train(LINE, 2, load_preset("model-based"), 0.03)
     assert trial.spoiled > 0
     assert trial.mishaps > 0
     assert trial.is_right

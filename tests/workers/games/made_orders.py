@@ -6,7 +6,7 @@ from mc_nested.learn.preset import load_preset
 from mc_nested.workers.games.order import GameOrder
 from tests.learn.made_experiments import DOT
 
-ORDER = GameOrder("virtual", DOT, "nested", load_preset("live"), seed=3)
+ORDER = GameOrder("virtual", DOT, "nested", load_preset("model-based"), seed=3)
 
 
 def new_trainer(order: GameOrder = ORDER, *, stop_at_optimum: bool = True) -> GamesTrainer:
