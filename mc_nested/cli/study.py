@@ -90,7 +90,7 @@ OPTIONS: Mapping[str, Any] = {
         typer.Option(
             metavar="NAME|FILE,...",
             help="of each agent",
-            show_default="live,tuned,paper",
+            show_default="model-based,tuned,paper",
             autocompletion=complete_of(shipped_presets),
         ),
     ],
