@@ -84,7 +84,7 @@ def test_excursions_that_do_not_fit_the_rest_are_one_line(change: tuple[str, str
     assert "\n" not in str(caught.value)
 
 
-LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_text()
+LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.toml").read_text()
 
 
 @pytest.mark.parametrize(
@@ -142,7 +142,7 @@ def test_a_saved_preset_comes_back(name: str) -> None:
 
 
 def test_an_unknown_name_lists_the_known_ones() -> None:
-    with pytest.raises(PresetError, match="no preset 'papr': name one of image, live, paper, tuned"):
+    with pytest.raises(PresetError, match="no preset 'papr': name one of image, model-based, paper, tuned"):
         load_preset("papr")
 
 
@@ -158,7 +158,7 @@ def test_the_main_agent_may_begin_to_learn_before_the_others() -> None:
     assert load_preset("paper").for_main() == load_preset("paper")
 
 
-LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/live.toml").read_text()
+LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.toml").read_text()
 
 
 @pytest.mark.parametrize(
