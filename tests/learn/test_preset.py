@@ -84,7 +84,7 @@ def test_excursions_that_do_not_fit_the_rest_are_one_line(change: tuple[str, str
     assert "\n" not in str(caught.value)
 
 
-LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.toml").read_text()
+MODEL_BASED = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.toml").read_text()
 
 
 @pytest.mark.parametrize(
@@ -114,9 +114,9 @@ LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.toml").
     ],
 )
 def test_what_does_not_fit_practice_in_a_learnt_game_is_one_line(change: tuple[str, str], says: str) -> None:
-    assert change[0] in LIVE
+    assert change[0] in MODEL_BASED
     with pytest.raises(PresetError) as caught:
-        parse_preset(LIVE.replace(*change, 1), "mine.toml")
+        parse_preset(MODEL_BASED.replace(*change, 1), "mine.toml")
     assert says in str(caught.value)
     assert "\n" not in str(caught.value)
 
@@ -158,7 +158,7 @@ def test_the_main_agent_may_begin_to_learn_before_the_others() -> None:
     assert load_preset("paper").for_main() == load_preset("paper")
 
 
-LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.toml").read_text()
+MODEL_BASED = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.toml").read_text()
 
 
 @pytest.mark.parametrize(
@@ -175,6 +175,6 @@ LIVE = (Path(__file__).parents[2] / "mc_nested/learn/presets/model-based.toml").
 )
 def test_an_imagination_that_does_not_fit_is_one_line(change: tuple[str, str], says: str) -> None:
     with pytest.raises(PresetError) as caught:
-        parse_preset(LIVE.replace(*change, 1), "mine.toml")
+        parse_preset(MODEL_BASED.replace(*change, 1), "mine.toml")
     assert says in str(caught.value)
     assert "\n" not in str(caught.value)
