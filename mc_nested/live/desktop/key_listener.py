@@ -92,15 +92,13 @@ def listening_through_pynput(on_key: OnKey) -> Iterator[IsListening]:
 
 def _wait_for_hook(listener: threading.Thread) -> None:
     """Wait until Windows passes keys to the listener: pynput's ``wait`` returns before it sets its hook."""
-    if sys.platform == "win32":
-        from pynput._util.win32 import SystemHook
-
-        end = time.monotonic() + CLOSE_S
-        while time.monotonic() < end and listener.is_alive():
-            hook = SystemHook._HOOKS.get(listener.ident)  # pynput says it nowhere else
-            if hook is not None and hook._hook is not None:
-                return
-            time.sleep(_HOOK_LOOK_S)
+    hooks = sys.modules.get("pynput._util.win32")  # pynput says it nowhere else; elsewhere it isn't imported
+    end = time.monotonic() + CLOSE_S
+    while hooks is not None and time.monotonic() < end and listener.is_alive():
+        hook = hooks.SystemHook._HOOKS.get(listener.ident)
+        if hook is not None and hook._hook is not None:
+            return
+        time.sleep(_HOOK_LOOK_S)
 
 
 def _mac_code(key: Any) -> int:
