@@ -20,12 +20,15 @@ from mc_nested.errors import ScenarioError
 
 
 def can_be_built(scenario: Scenario) -> bool:
-    """Whether its parts can be built in their order: whether every cell can still be reached when its turn comes."""
+    """Return whether the parts can be built in their order: every cell can still be reached when its turn comes."""
     return _order_of_parts(scenario) is not None
 
 
 def build_in_parts(scenario: Scenario) -> list[Action]:
-    """The actions that place every block, part after part; ScenarioError if the parts can't be built in their order."""
+    """Return the actions that place every block, part after part.
+
+    Raise ScenarioError if the parts can't be built in their order.
+    """
     order = _order_of_parts(scenario)
     if order is None:
         raise ScenarioError(f"scenario {scenario.name}: its parts can't be built in their order: change it")
@@ -40,7 +43,7 @@ def build_in_parts(scenario: Scenario) -> list[Action]:
 
 
 def _order_of_parts(scenario: Scenario) -> list[Cell] | None:
-    """The cells in an order in which they can be built; None if there is none."""
+    """Return the cells in an order in which they can be built; None if there is none."""
     free = {(x, y) for x in range(scenario.size) for y in range(scenario.size)} - scenario.design
     while free:
         stands: set[Cell] = set()
@@ -53,7 +56,7 @@ def _order_of_parts(scenario: Scenario) -> list[Cell] | None:
 
 
 def _ending_among(stands: set[Cell], scenario: Scenario) -> list[Cell] | None:
-    """An order after which the agent stands in one of these connected cells; None if there is none.
+    """Return an order after which the agent stands in one of these connected cells; None if there is none.
 
     ``stands`` grows to all the cells that it could have been in before.
     """
@@ -79,7 +82,7 @@ def _near_to(later: Cell) -> Callable[[Cell], tuple[int, int, int]]:
 
 
 def _before(target: Cell) -> Cell:
-    """Where the agent stands to place a block there."""
+    """Return where the agent stands to place a block there."""
     return target[0], target[1] - 1
 
 
@@ -97,7 +100,7 @@ def _spread(reached: set[Cell], cell: Cell, placed: Collection[Cell], size: int)
 
 
 def _way(start: Cell, goal: Cell, placed: Collection[Cell], size: int) -> tuple[Cell, list[Action]]:
-    """The goal, and the fewest moves that end there, one at least: an action that places a block begins with a move."""
+    """Return the goal, and the fewest moves that end there, at least one: every action that places a block moves first."""
     waiting: deque[tuple[Cell, list[Action]]] = deque([(start, [])])
     seen: set[Cell] = set()
     while waiting:
@@ -113,7 +116,7 @@ def _way(start: Cell, goal: Cell, placed: Collection[Cell], size: int) -> tuple[
 
 
 def build(scenario: Scenario) -> list[Action]:
-    """The actions that place every block of the design, part after part, from the start cell.
+    """Return the actions that place every block of the design, part after part, from the start cell.
 
     ScenarioError if the parts can't be built in their order.
     """
@@ -130,7 +133,7 @@ def build(scenario: Scenario) -> list[Action]:
 
 
 def build_with_materials(scenario: Scenario, material: int | None = None) -> list[tuple[Action, int]]:
-    """The same actions, each with the material in hand: the one named, or the one that is worth most in the part."""
+    """Return ``build``'s actions, each with its material in hand: the named one, or the one worth most in the part."""
     steps, left = [], scenario.blocks
     for action in build(scenario):
         best = scenario.best_materials[scenario.part_at(left)]
@@ -158,7 +161,7 @@ def _walk(start: Cell, goal: Cell) -> list[Action]:
 
 
 def _step_aside(cell: Cell, size: int) -> list[Action]:
-    """Away and back: the agent is in the right cell, but every action that places a block begins with a move."""
+    """Return the moves away and back: the agent is in the right cell, but a block is only placed after a move."""
     there_and_back = ((Action.B, Action.F), (Action.L, Action.R), (Action.R, Action.L))
     return next(
         [there, back]

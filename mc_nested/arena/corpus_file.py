@@ -42,7 +42,7 @@ class _Corpus(BaseModel):
 
 
 def load_corpus(path: Path, like: Scenario) -> list[Scenario]:
-    """The file's designs as scenarios, in their order; start cell and materials are those of ``like``.
+    """Return the file's designs as scenarios, in their order; start cell and materials are those of ``like``.
 
     ScenarioError, one line that names the file and the design, if one can't be used.
     """
@@ -50,7 +50,7 @@ def load_corpus(path: Path, like: Scenario) -> list[Scenario]:
 
 
 def parse_corpus(text: str, source: str, like: Scenario) -> list[Scenario]:
-    """The designs of a TOML text; ``source`` names it in errors."""
+    """Return the designs of a TOML text; ``source`` names it in errors."""
     drawings = parse_toml(_Corpus, text, source, ScenarioError).designs
     names = [drawing.name for drawing in drawings]
     twice = next((name for name in names if names.count(name) > 1), None)
@@ -67,7 +67,7 @@ def parse_corpus(text: str, source: str, like: Scenario) -> list[Scenario]:
 
 
 def _centred(drawing: str, where: str) -> frozenset[Cell]:
-    """The drawing's blocks in the middle of the arena; ScenarioError if it doesn't fit, or can't be built."""
+    """Return the drawing's blocks in the middle of the arena; ScenarioError if it doesn't fit, or can't be built."""
     rows = drawing.split()
     width = len(rows[0]) if rows else 0
     if not rows or any(len(row) != width or set(row) - {BLOCK, FREE} for row in rows):

@@ -25,7 +25,7 @@ DIAGONAL: Sequence[Cell] = ((-1, -1), (-1, 1), (1, -1), (1, 1))
 
 
 def kind_of_design(design: Collection[Cell]) -> str:
-    """The kind of a design of at least one block.
+    """Return the kind of a design of at least one block.
 
     ``edge``: every block is reached from every other over shared edges. ``corner``: over edges and corners, but not
     over edges alone, like the zigzag and the diamond. ``scattered``: not even so.
@@ -36,7 +36,7 @@ def kind_of_design(design: Collection[Cell]) -> str:
 
 
 def neighbours(cell: Cell, steps: Sequence[Cell]) -> list[Cell]:
-    """The cells that those steps lead to, inside the arena or not."""
+    """Return the cells that those steps lead to, inside the arena or not."""
     return [(cell[0] + right, cell[1] + forward) for right, forward in steps]
 
 
@@ -58,7 +58,7 @@ BUILDERS_STEPS = 1.5
 
 
 def scenario_of_design(name: str, design: frozenset[Cell], like: Scenario) -> Scenario | None:
-    """A scenario with that design, its start cell and materials those of ``like``.
+    """Return a scenario with that design, its start cell and materials those of ``like``.
 
     The step limit is 60, or one and a half times what the scripted builder takes, whichever is more. None if the
     builder can't build the design within it.
@@ -70,7 +70,7 @@ def scenario_of_design(name: str, design: frozenset[Cell], like: Scenario) -> Sc
 
 
 def is_buildable(scenario: Scenario) -> bool:
-    """Whether the scripted builder builds exactly the design within the step limit."""
+    """Return whether the scripted builder builds exactly the design within the step limit."""
     cell = scenario.start
     placed: set[Cell] = set()
     actions = build(scenario)

@@ -21,7 +21,7 @@ PARTS = "123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 
 def kind_of(scenario: Scenario, agent: Cell | None, placed: Collection[Cell], cell: Cell) -> str:
-    """What to draw in a cell: the agent, a block on the design, a block off it, a design cell to build, or nothing.
+    """Return what to draw in a cell: the agent, a block on or off the design, a design cell to build, or nothing.
 
     With parts, a cell to build is drawn as its part's number.
     """
@@ -33,18 +33,18 @@ def kind_of(scenario: Scenario, agent: Cell | None, placed: Collection[Cell], ce
 
 
 def missing_in(scenario: Scenario, cell: Cell) -> str:
-    """The sign of a cell of the design that is still to build."""
+    """Return the sign of a cell of the design that is still to build."""
     number = part_of(scenario, cell)
     return PARTS[number] if scenario.parts and number < len(PARTS) else MISSING
 
 
 def part_of(scenario: Scenario, cell: Cell) -> int:
-    """Index of the part that a cell belongs to; 0 if it is off the design."""
+    """Return the index of the part that a cell belongs to; 0 if it is off the design."""
     return next((number for number, part in enumerate(scenario.in_order) if cell in part.cells), 0)
 
 
 def draw_text(scenario: Scenario, agent: Cell | None, placed: Collection[Cell]) -> str:
-    """The arena as a line of text a row, two characters a cell so that it looks square in a terminal."""
+    """Return the arena as a line of text a row, two characters a cell so that it looks square in a terminal."""
     across = range(scenario.size)
     rows = (" ".join(kind_of(scenario, agent, placed, (x, y)) for x in across) for y in reversed(across))
     return "\n".join(rows)
@@ -87,7 +87,7 @@ COLOURS: tuple[Colour, ...] = (
 
 
 def draw_picture(scenario: Scenario, agent: Cell | None, placed: Collection[Cell], cell_px: int = CELL_PX) -> Picture:
-    """The arena, (size * cell_px, size * cell_px, 3): the design outlined, blocks, and the agent, which looks up."""
+    """Draw the arena, (size * cell_px, size * cell_px, 3): the outlined design, the blocks, the agent looking up."""
     size = scenario.size
     tiles = np.array(
         [
@@ -113,7 +113,7 @@ def draw_agent(picture: Picture, size: int, agent: Cell, cell_px: int, body: Col
 
 @lru_cache(maxsize=256)
 def _tile(kind: str, part: int, px: int) -> Picture:
-    """One cell of that kind and part, (px, px, 3); the line of the grid runs along its top and its left."""
+    """Return one cell of that kind and part, (px, px, 3); the line of the grid runs along its top and its left."""
     across, down = _points(px)
     line = 1 / px
     tile = np.full((px, px, 3), GRID, dtype=np.float64)
@@ -146,14 +146,14 @@ def _with_agent(tile: Picture, colour: Colour) -> Picture:
 
 
 def _points(px: int) -> tuple[Float64s, Float64s]:
-    """How far each sample of a tile lies from its left and from its top, 0 to 1, (px * SAMPLES, px * SAMPLES)."""
+    """Return each sample's distances from the tile's left and top, 0 to 1, (px * SAMPLES, px * SAMPLES) each."""
     at = (np.arange(px * SAMPLES) + 0.5) / (px * SAMPLES)
     down, across = np.meshgrid(at, at, indexing="ij")
     return across, down
 
 
 def _square(px: int, inset_px: float) -> Bools:
-    """The samples so many pixels within the cell, whose first row and column are the grid's line."""
+    """Return the samples so many pixels within the cell, whose first row and column are the grid's line."""
     across, down = _points(px)
     low, high = inset_px / px, 1 - (inset_px - 1) / px
     inside: Bools = (across > low) & (across < high) & (down > low) & (down < high)
@@ -161,7 +161,7 @@ def _square(px: int, inset_px: float) -> Bools:
 
 
 def _painted(tile: Float64s, colour: Colour, where: Bools) -> Float64s:
-    """The tile with a colour laid over the samples."""
+    """Return the tile with a colour laid over the samples."""
     px = len(tile)
     covered = where.reshape(px, SAMPLES, px, SAMPLES).mean(axis=(1, 3))[..., np.newaxis]
     painted: Float64s = tile * (1 - covered) + np.array(colour) * covered

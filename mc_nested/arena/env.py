@@ -51,29 +51,29 @@ class Info(TypedDict, total=False):
 
 
 def highest_observation(scenario: Scenario) -> Observation:
-    """The highest value of each part of an observation; the lowest is 0."""
+    """Return the highest value of each part of an observation; the lowest is 0."""
     return np.array([scenario.size - 1, scenario.size - 1, scenario.blocks])
 
 
 def space_up_to(highest: Int64s) -> Space[Any]:
-    """The space of observations from 0 to the highest, as int64."""
+    """Return the space of observations from 0 to the highest, as int64."""
     space: Space[Any] = Box(low=np.zeros_like(highest), high=highest, dtype=np.int64)
     return space
 
 
 def action_space_of(scenario: Scenario) -> Space[Any]:
-    """The eight actions; with parts, each beside the index of a material."""
+    """Return the eight actions; with parts, each beside the index of a material."""
     space: Space[Any] = Discrete(len(Action))
     return MultiDiscrete([len(Action), len(scenario.materials)]) if scenario.parts else space
 
 
 def step_in(scenario: Scenario, action: int, material: int) -> int | tuple[int, int]:
-    """What ``step`` takes to do an action with a material in hand."""
+    """Return what ``step`` takes to do an action with a material in hand."""
     return (action, material) if scenario.parts else action
 
 
 def rendered(mode: str | None, scenario: Scenario, cell: Cell, placed: Collection[Cell]) -> Any:
-    """The arena from above as a render mode wants it; None without one."""
+    """Return the arena from above as a render mode wants it; None without one."""
     if mode == "rgb_array":
         return draw_picture(scenario, cell, placed)
     if mode == "ansi":
@@ -82,7 +82,7 @@ def rendered(mode: str | None, scenario: Scenario, cell: Cell, placed: Collectio
 
 
 def blank_observations(space: Space[Any], runs: int) -> NDArray[Any]:
-    """Zeros for one observation of that space per run."""
+    """Return zeros for one observation of that space per run."""
     return np.zeros((runs, *(space.shape or ())), dtype=space.dtype)
 
 
@@ -162,7 +162,7 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         return self._observation(), reward, terminated, truncated, dict(info)
 
     def render(self) -> Any:
-        """The arena from above: (H, W, 3) RGB for "rgb_array", lines of text for "ansi"."""
+        """Return the arena from above: (H, W, 3) RGB for "rgb_array", lines of text for "ansi"."""
         return rendered(self.render_mode, self.scenario, self._cell, self._placed)
 
     @property
@@ -171,7 +171,7 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
         return self if self.game.resumable else None
 
     def snapshot(self) -> Arrays:
-        """The current episode, the game's part included, for ``restore``. The game must be resumable."""
+        """Return the current episode, the game's part included, for ``restore``. The game must be resumable."""
         stands_at = np.array([self._material, *self._cell, self._steps, self._running])
         game = self.game.resumable.snapshot() if self.game.resumable else {}
         game |= self._tally.snapshot() if self._tally else {}
@@ -188,7 +188,7 @@ class ArenaEnv(gymnasium.Env[Observation, Any]):
             self.game.resumable.restore(snapshot)
 
     def _taken_in_hand(self, action: Any) -> tuple[Action] | tuple[Action, int]:
-        """What the game is asked to do; the material is in hand from now on."""
+        """Return what the game is asked to do; the material is in hand from now on."""
         if self._tally is None or np.ndim(action) == 0:
             return (Action(int(action)),)
         done, material = Action(int(action[0])), int(action[1])

@@ -22,7 +22,7 @@ class Resumable(Protocol):
     """Something whose episode can be saved half-way and continued later."""
 
     def snapshot(self) -> Arrays:
-        """The current episode, for ``restore``; an array's shape never changes."""
+        """Return the current episode, for ``restore``; an array's shape never changes."""
 
     def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
         """Put the episode back as it stood at ``snapshot``."""
@@ -32,7 +32,7 @@ class PlayLog(Protocol):
     """What playing a game took, in a running window: times, retries, failures."""
 
     def summary(self) -> dict[str, Any]:
-        """Everything as plain numbers, for a training's summary.json."""
+        """Return everything as plain numbers, for a training's summary.json."""
 
 
 class Game(Protocol):

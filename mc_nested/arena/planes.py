@@ -34,11 +34,11 @@ class _Arenas(Protocol):
     """Arenas that say where blocks stand."""
 
     def occupied(self) -> Bools:
-        """The cells where a block landed since each arena's last reset, (runs, size, size)."""
+        """Return the cells where a block landed since each arena's last reset, (runs, size, size)."""
 
 
 def planes_of(observations: Int64s, occupied: Bools, starts: Int64s, blocks: Int64s) -> Bytes:
-    """The planes of arenas (runs, PLANES, size, size).
+    """Return the planes of arenas (runs, PLANES, size, size).
 
     Args:
         observations: x, y and b of each, (runs, 3 or more).
@@ -57,19 +57,19 @@ def planes_of(observations: Int64s, occupied: Bools, starts: Int64s, blocks: Int
 
 
 def shares(numbers: Int64s, highest: Int64s | int) -> Bytes:
-    """Numbers from 0 to their highest as bytes from 0 to FULL."""
+    """Return numbers from 0 to their highest as bytes from 0 to FULL."""
     return np.round(FULL * numbers / highest).astype(np.uint8)
 
 
 def with_material(planes: Bytes, values: Bytes) -> Bytes:
-    """The planes (runs, planes, size, size) and one more, which each run's value (runs,) fills."""
+    """Return the planes (runs, planes, size, size) and one more, which each run's value (runs,) fills."""
     more = np.empty((len(planes), 1, *planes.shape[2:]), np.uint8)
     more[:] = values[:, None, None, None]
     return np.concatenate((planes, more), axis=1)
 
 
 def start_planes(scenarios: Sequence[Scenario]) -> Bytes:
-    """The planes of the scenarios before the first move, (runs, PLANES, size, size)."""
+    """Return the planes of the scenarios before the first move, (runs, PLANES, size, size)."""
     size = common_size(scenarios)
     starts = np.array([scenario.start_state for scenario in scenarios])
     nothing = np.zeros((len(scenarios), size, size), np.bool_)
@@ -77,7 +77,7 @@ def start_planes(scenarios: Sequence[Scenario]) -> Bytes:
 
 
 def common_size(scenarios: Sequence[Scenario]) -> int:
-    """The cells a side that all arenas have; ScenarioError if they differ."""
+    """Return the cells a side that all arenas have; ScenarioError if they differ."""
     sizes = {scenario.size for scenario in scenarios}
     if len(sizes) > 1:
         raise ScenarioError(f"arenas of {sorted(sizes)} cells a side: images have one size, train them one by one")
@@ -112,7 +112,7 @@ class PlanesVectorEnv(VectorWrapper):
         return self._seen(observations), info
 
     def step(self, actions: Int64s) -> tuple[Bytes, Float64s, Bools, Bools, dict[str, Any]]:
-        """One action in every running arena, as those within."""
+        """Do one action in every running arena, as the arenas within."""
         observations, rewards, terminated, truncated, info = self.env.step(actions)
         return self._seen(observations), rewards, terminated, truncated, info
 
@@ -122,7 +122,7 @@ class PlanesVectorEnv(VectorWrapper):
         return self if resumable_arenas(self.env) else None
 
     def snapshot(self) -> Arrays:
-        """Every arena as it stands, for ``restore``."""
+        """Return every arena as it stands, for ``restore``."""
         within = resumable_arenas(self.env)
         return within.snapshot() if within else {}
 

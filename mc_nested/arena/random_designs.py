@@ -18,7 +18,7 @@ GROWS_BY = {EDGE: BESIDE, CORNER: DIAGONAL}
 
 
 def random_scenario(seed: int, number: int, like: Scenario, size: int = DEFAULT_SIZE) -> Scenario:
-    """Design ``number`` of that seed; start cell and materials are those of ``like``.
+    """Return design ``number`` of that seed; start cell and materials are those of ``like``.
 
     Drawn again until it is of its kind, and the scripted builder builds it within its step limit.
     """
@@ -32,7 +32,10 @@ def random_scenario(seed: int, number: int, like: Scenario, size: int = DEFAULT_
 
 
 def draw_design(kind: str, random: np.random.Generator, size: int = DEFAULT_SIZE) -> frozenset[Cell]:
-    """Blocks of that kind, but scattered ones may touch by chance; none on the near edge, where none can land."""
+    """Return blocks of that kind, but scattered ones may touch by chance.
+
+    No block lies on the near edge, where none can land.
+    """
     blocks = int(random.integers(FEWEST_BLOCKS, MOST_BLOCKS + 1))
     cells = [(x, y) for x in range(size) for y in range(1, size)]
     if kind not in GROWS_BY:
@@ -41,7 +44,7 @@ def draw_design(kind: str, random: np.random.Generator, size: int = DEFAULT_SIZE
 
 
 def _grown(blocks: int, steps: Sequence[Cell], cells: Sequence[Cell], random: np.random.Generator) -> frozenset[Cell]:
-    """From one cell on, each time into any free cell that is one of the steps away from a block."""
+    """Grow from one cell, each time into any free cell that is one of the steps away from a block."""
     design = {cells[int(random.integers(len(cells)))]}
     inside = set(cells)
     while len(design) < blocks:

@@ -31,24 +31,24 @@ WITH_BLOCK = {Action.F: Action.FD, Action.B: Action.BD, Action.L: Action.LD, Act
 
 
 def is_inside(cell: Cell, size: int) -> bool:
-    """Whether the cell belongs to the arena."""
+    """Return whether the cell belongs to the arena."""
     return 0 <= cell[0] < size and 0 <= cell[1] < size
 
 
 def front_of(cell: Cell) -> Cell:
-    """The cell in front of the agent, inside the arena or not."""
+    """Return the cell in front of the agent, inside the arena or not."""
     return cell[0], cell[1] + 1
 
 
 def moved(cell: Cell, action: Action, placed: Collection[Cell], size: int) -> Cell:
-    """The cell that the action's move leads to: the same cell if a block or the arena's edge stops it."""
+    """Return the cell that the action's move leads to: the same cell if a block or the arena's edge stops it."""
     right, forward = STEP[action]
     ahead = (cell[0] + right, cell[1] + forward)
     return ahead if is_inside(ahead, size) and ahead not in placed else cell
 
 
 def landing(cell: Cell, action: Action, placed: Collection[Cell], size: int) -> Cell | None:
-    """Where the action's block lands once the agent has moved to ``cell``; None if the rules void it."""
+    """Return where the action's block lands once the agent has moved to ``cell``; None if the rules void it."""
     front = front_of(cell)
     if action not in PLACES or not is_inside(front, size) or front in placed:
         return None
@@ -56,7 +56,7 @@ def landing(cell: Cell, action: Action, placed: Collection[Cell], size: int) -> 
 
 
 def grid_of(cells: Collection[Cell], size: int) -> Bools:
-    """The cells as a grid (x, y), (size, size)."""
+    """Return the cells as a grid (x, y), (size, size)."""
     grid = np.zeros((size, size), dtype=np.bool_)
     for cell in cells:
         grid[cell] = True
@@ -64,5 +64,5 @@ def grid_of(cells: Collection[Cell], size: int) -> Bools:
 
 
 def cells_of(grid: Bools) -> frozenset[Cell]:
-    """The cells that a grid (x, y) marks."""
+    """Return the cells that a grid (x, y) marks."""
     return frozenset((int(x), int(y)) for x, y in np.argwhere(grid))

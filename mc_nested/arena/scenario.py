@@ -36,13 +36,13 @@ class Part:
 
 
 def part_after(laid: int, parts: Sequence[Part]) -> int:
-    """Index of the part that is built once so many blocks are laid; the last one when all are."""
+    """Return the index of the part that is built once so many blocks are laid; the last one when all are."""
     ends = accumulate(len(part.cells) for part in parts[:-1])
     return sum(laid >= end for end in ends)
 
 
 def main_return(on_part: Int64s, laid: NDArray[Any], worth: Float64s, sizes: Int64s) -> Float64s:
-    """r_M of R episodes, (R,): the blocks on the cells of their part, plus the shares of p.
+    """Return r_M of R episodes, (R,): the blocks on the cells of their part, plus the shares of p.
 
     With one part and one choice: the blocks on the design, plus p (paper, section 5.1.3).
 
@@ -61,7 +61,7 @@ def main_return(on_part: Int64s, laid: NDArray[Any], worth: Float64s, sizes: Int
 
 
 def check_parts(parts: Sequence[Part], design: frozenset[Cell]) -> None:
-    """ScenarioError, one line, if the parts overlap, don't cover the design, or one isn't worth beginning."""
+    """Raise ScenarioError, one line, if the parts overlap, don't cover the design, or one isn't worth beginning."""
     taken: set[Cell] = set()
     for number, part in enumerate(parts, 1):
         if not part.cells:
@@ -144,7 +144,7 @@ class Scenario:
         return self.parts or (Part(self.design, tuple(material.p for material in self.materials)),)
 
     def part_at(self, blocks_left: int) -> int:
-        """Index of the part that is built while so many blocks are left; the last one when none is."""
+        """Return the index of the part that is built while so many blocks are left; the last one when none is."""
         return part_after(self.blocks - blocks_left, self.in_order)
 
     @property
@@ -173,11 +173,11 @@ class Scenario:
         return sum((max(part.worth) for part in self.in_order), start=float(self.blocks))
 
     def score(self, placed: Collection[Cell], material: int) -> float:
-        """r_M for what stands, all of the material of that index: the blocks on the design, plus p. Without parts."""
+        """Return r_M of what stands, all of the material of that index: the blocks on the design, plus p. Without parts."""
         return len(self.design.intersection(placed)) + self.materials[material].p
 
     def material_index(self, name: str) -> int:
-        """Index of the material of that name; ScenarioError if there is none."""
+        """Return the index of the material of that name; ScenarioError if there is none."""
         names = [material.name for material in self.materials]
         if name not in names:
             raise ScenarioError(f"scenario {self.name} has no material {name!r}: choose one of {', '.join(names)}")

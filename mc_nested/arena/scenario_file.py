@@ -81,29 +81,29 @@ class ScenarioTable(BaseModel):
 
 
 def paper_scenarios() -> list[str]:
-    """Names of the paper's three scenarios, easiest first: what experiments run unless others are named."""
+    """Return the names of the paper's three scenarios, easiest first; experiments run them unless others are named."""
     return ["line", "zigzag", "diamond"]
 
 
 def shipped_scenarios() -> list[str]:
-    """Names of the scenarios that come with the project: the paper's, a scattered and two larger ones, one in parts."""
+    """List the scenarios that come with the project: the paper's, a scattered and two larger ones, one in parts."""
     return [*paper_scenarios(), "islands", "house", "square", "flag"]
 
 
 def load_scenario(name_or_file: str | Path) -> Scenario:
-    """The scenario of a shipped name or of a TOML file; ScenarioError, one line if it can't be used."""
+    """Return the scenario of a shipped name or of a TOML file; ScenarioError, one line if it can't be used."""
     shipped = shipped_scenarios()
     text = read_shipped_or_named(name_or_file, "scenario", "mc_nested.arena.designs", shipped, ScenarioError)
     return parse_scenario(text, str(name_or_file))
 
 
 def parse_scenario(text: str, source: str) -> Scenario:
-    """The scenario that a TOML text describes; ``source`` names it in errors."""
+    """Return the scenario that a TOML text describes; ``source`` names it in errors."""
     return scenario_of(parse_toml(ScenarioTable, text, source, ScenarioError), source)
 
 
 def scenario_of(table: ScenarioTable, source: str) -> Scenario:
-    """The scenario of a table; ScenarioError, one line that names ``source``, if it can't be built."""
+    """Return the scenario of a table; ScenarioError, one line that names ``source``, if it can't be built."""
     design, size = _parse_grid(table.design, f"{source}: design")
     parts = tuple(_part_of(part, number, table, source) for number, part in enumerate(table.parts, 1))
     try:
@@ -124,7 +124,7 @@ def scenario_of(table: ScenarioTable, source: str) -> Scenario:
 
 
 def table_of(scenario: Scenario) -> ScenarioTable:
-    """The scenario as a table: what ``scenario_of`` reads back."""
+    """Return the scenario as a table: what ``scenario_of`` reads back."""
     return ScenarioTable(
         name=scenario.name,
         start=list(scenario.start),
@@ -143,7 +143,7 @@ def table_of(scenario: Scenario) -> ScenarioTable:
 
 
 def draw_grid(cells: frozenset[Cell], size: int) -> str:
-    """The cells as the ASCII grid of a scenario file: ``size`` rows, the far edge on top."""
+    """Return the cells as the ASCII grid of a scenario file: ``size`` rows, the far edge on top."""
     rows = ("".join(BLOCK if (x, y) in cells else FREE for x in range(size)) for y in reversed(range(size)))
     return "".join(row + "\n" for row in rows)
 
@@ -160,7 +160,7 @@ def _part_of(part: PartTable, number: int, table: ScenarioTable, source: str) ->
 
 
 def _parse_grid(grid: str, where: str) -> tuple[frozenset[Cell], int]:
-    """The cells of a drawing, and how many it has along each side; ``where`` it is, for errors."""
+    """Return the cells of a drawing, and how many it has along each side; ``where`` it is, for errors."""
     rows = grid.split()
     size = len(rows)
     for number, row in enumerate(rows, 1):

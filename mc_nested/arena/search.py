@@ -33,14 +33,14 @@ class FewestSteps:
 
 
 def fewest_steps(scenario: Scenario) -> FewestSteps:
-    """The fewest steps that build the whole design, part after part, ignoring the step limit."""
+    """Return the fewest steps that build the whole design, part after part, ignoring the step limit."""
     if scenario.blocks > EXACT_UP_TO:
         return FewestSteps(len(build(scenario)), exact=False)
     return FewestSteps(_search(scenario), exact=True)
 
 
 def _search(scenario: Scenario) -> int:
-    """Breadth first from the start cell until the whole design is built."""
+    """Search breadth first from the start cell until the whole design is built."""
     blocks = sorted(scenario.design)
     free = _free_cells(blocks, scenario.size)
     out_of_turn = _out_of_turn(blocks, scenario)
@@ -58,7 +58,7 @@ def _search(scenario: Scenario) -> int:
 
 
 def _out_of_turn(blocks: list[Cell], scenario: Scenario) -> Int64s:
-    """The subsets that hold a block of a part, and not all of an earlier one: in its order, none of them comes up."""
+    """Return the subsets with a block of a part but not all of an earlier part: they never come up in the parts' order."""
     subsets = np.arange(1 << len(blocks))
     wrong = np.zeros(len(subsets), dtype=np.bool_)
     begun = np.zeros(len(subsets), dtype=np.bool_)
@@ -70,7 +70,7 @@ def _out_of_turn(blocks: list[Cell], scenario: Scenario) -> Int64s:
 
 
 def _free_cells(blocks: list[Cell], size: int) -> Rows:
-    """Bit x of [subset, y] is set where no block of the subset stands."""
+    """Return rows in which bit x of [subset, y] is set where no block of the subset stands."""
     subsets = np.arange(1 << len(blocks))
     free: Rows = np.full((len(subsets), size), (1 << size) - 1, dtype=np.uint16 if size <= 16 else np.uint32)
     for index, (x, y) in enumerate(blocks):
@@ -79,7 +79,7 @@ def _free_cells(blocks: list[Cell], size: int) -> Rows:
 
 
 def _after_one_move(reached: Rows, free: Rows) -> Rows:
-    """Where the agent can be after exactly one move: in a free neighbour, or stopped where it was."""
+    """Return where the agent can be after exactly one move: in a free neighbour, or stopped where it was."""
     left, right = reached >> np.uint8(1), reached << np.uint8(1)
     back, forward = np.zeros_like(reached), np.zeros_like(reached)
     back[:, :-1], forward[:, 1:] = reached[:, 1:], reached[:, :-1]
@@ -88,7 +88,7 @@ def _after_one_move(reached: Rows, free: Rows) -> Rows:
 
 
 def _stopped(reached: Rows, free: Rows) -> Rows:
-    """Where a move can be stopped: cells with a block or the arena's edge on some side."""
+    """Return where a move can be stopped: cells with a block or the arena's edge on some side."""
     size = free.shape[1]
     full_row, edge = free.dtype.type((1 << size) - 1), free.dtype.type(1 | 1 << (size - 1))
     solid = ~free & full_row

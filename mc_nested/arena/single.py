@@ -82,7 +82,7 @@ class SingleAgentVectorEnv(VectorWrapper):
         return self._seen(), {}
 
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
-        """One of the ten actions in every running arena; ``info["score"]`` is as that of the arenas within."""
+        """Do one of the ten actions in every running arena; ``info["score"]`` is as that of the arenas within."""
         running = ~(self._terminated | self._truncated)
         first = running & (self._chosen == 0)
         chooses = first & (self._of_first_builder(actions) < self._materials)
@@ -120,12 +120,15 @@ class SingleAgentVectorEnv(VectorWrapper):
         return self._seen(), rewards, self._terminated.copy(), self._truncated.copy(), info
 
     def occupied(self) -> Bools:
-        """The cells where a block landed in each arena, (runs, size, size); none before a material is chosen."""
+        """Return the cells where a block landed in each arena, (runs, size, size); none before a material is chosen."""
         within: Bools = self.env.occupied()  # type: ignore[attr-defined]  # both kinds of arenas have it
         return within & (self._chosen > 0)[:, None, None]
 
     def _step_within(self, acts: Bools, actions: Int64s) -> tuple[Int64s, Float64s, Bools]:
-        """One of the eight actions in the masked arenas within; what they showed and earned, and which terminated."""
+        """Do one of the eight actions in each of the masked arenas within.
+
+        Return what they showed and earned, and which terminated.
+        """
         within = np.where(acts, actions, NO_ACTION)
         if self._tally is None:
             observations, earned, terminated, _, _ = self.env.step(within)
@@ -141,7 +144,7 @@ class SingleAgentVectorEnv(VectorWrapper):
         return self if self._resumable else None
 
     def snapshot(self) -> Arrays:
-        """Every arena as it stands, for ``restore``."""
+        """Return every arena as it stands, for ``restore``."""
         own = {f"single{name}": getattr(self, name).copy() for name in self._STATE}
         own |= {f"{OWN}{name}": kept for name, kept in self._tally.snapshot().items()} if self._tally else {}
         return {**own, **(self._resumable.snapshot() if self._resumable else {})}
@@ -158,11 +161,11 @@ class SingleAgentVectorEnv(VectorWrapper):
     _STATE = ("_observations", "_chosen", "_steps", "_score", "_terminated", "_truncated")
 
     def _of_first_builder(self, actions: Int64s) -> Int64s:
-        """In each row, what the first builder of its arena does."""
+        """Return, in each row, what the first builder of its arena does."""
         return actions if self._builders == 1 else np.repeat(actions[:: self._builders], self._builders)
 
     def _of_all_builders(self, rewards: Float64s) -> Float64s:
-        """In each row, the sum over the builders of its arena."""
+        """Return, in each row, the sum over the builders of its arena."""
         if self._builders == 1:
             return rewards
         return np.repeat(rewards.reshape(-1, self._builders).sum(axis=1), self._builders)

@@ -76,7 +76,7 @@ class Tally:
         self._in_hand = np.where(takes, materials, self._in_hand)
 
     def pays(self, x: Int64s, y: Int64s) -> Bools:
-        """Whether a block pays that lands there now, (R,): whether the cell is one of the part that is built."""
+        """Return whether a block pays that lands there now, (R,): whether the cell is one of the part that is built."""
         pays: Bools = self._part_of[self._each, x, y] == self._part_after[self._each, self._laid]
         return pays
 
@@ -88,7 +88,7 @@ class Tally:
         self._laid += landed
 
     def chooses(self, stepped: Bools, landed: Bools) -> Bools:
-        """Whether the main agent has to choose now, after a step in the masked arenas, (R,).
+        """Return whether the main agent has to choose now, after a step in the masked arenas, (R,).
 
         It has to when the blocks of a part are used up, and when its clock has run so many steps since its last choice.
         """
@@ -99,7 +99,7 @@ class Tally:
         return due
 
     def total(self, ended: Bools) -> Float64s:
-        """r_M so far, (R,); in the episodes that have ended, the blocks that their part lacks count, too.
+        """Return r_M so far, (R,); in the episodes that have ended, the blocks that their part lacks count, too.
 
         But a part after the first of which no block was laid earns nothing.
         """
@@ -112,7 +112,7 @@ class Tally:
         return main_return(self._on_part, of, self._worth, self._sizes)
 
     def info(self, stepped: Bools, landed: Bools, ended: Bools) -> dict[str, Any]:
-        """What a step's ``info`` says in a vector env: ``score``, ``earned``, ``chooses``, with Gymnasium's masks."""
+        """Return a step's ``info`` in a vector env: ``score``, ``earned``, ``chooses``, with Gymnasium's masks."""
         chooses = self.chooses(stepped, landed) & ~ended
         total = self.total(ended)
         masks = {"_score": ended, "_earned": stepped, "_chooses": stepped}
@@ -120,7 +120,7 @@ class Tally:
         return {"score": score, "earned": earned, "chooses": chooses, **masks}
 
     def snapshot(self) -> Arrays:
-        """The episodes as they stand, for ``restore``."""
+        """Return the episodes as they stand, for ``restore``."""
         return {f"tally{name}": getattr(self, name).copy() for name in self._STATE}
 
     def restore(self, snapshot: Mapping[str, NDArray[Any]]) -> None:
@@ -132,5 +132,5 @@ class Tally:
 
 
 def tally_of(scenarios: Sequence[Scenario]) -> Tally | None:
-    """The tally of these scenarios' arenas; None if none of them has parts."""
+    """Return the tally of these scenarios' arenas; None if none of them has parts."""
     return Tally(scenarios) if any(scenario.parts for scenario in scenarios) else None

@@ -32,7 +32,7 @@ NO_ACTION = -1
 
 
 def resumable_arenas(env: VectorEnv[Int64s, Int64s, Any]) -> Resumable | None:
-    """What saves and restores the arenas' episodes half-way; None if they have to start over.
+    """Return what saves and restores the arenas' episodes half-way; None if they have to start over.
 
     Arenas say so themselves. A wrapper that doesn't may hold state of its own, so its episodes start over.
     """
@@ -66,7 +66,7 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         return self if all(env.resumable for env in self.envs) else None
 
     def snapshot(self) -> Arrays:
-        """Every arena as it stands, for ``restore``."""
+        """Return every arena as it stands, for ``restore``."""
         arenas = [env.snapshot() for env in self.envs]
         own = {name: getattr(self, name).copy() for name in self._STATE}
         return {**own, **{name: np.stack([arena[name] for arena in arenas]) for name in arenas[0]}}
@@ -81,15 +81,15 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     _STATE = ("_observations", "_terminated", "_truncated")
 
     def cell(self, run: int) -> Cell:
-        """Where the agent stands in that arena."""
+        """Return where the agent stands in that arena."""
         return self.envs[run].cell
 
     def placed(self, run: int) -> frozenset[Cell]:
-        """The cells where a block landed in that arena since its last reset."""
+        """Return the cells where a block landed in that arena since its last reset."""
         return self.envs[run].placed
 
     def occupied(self) -> Bools:
-        """The cells where a block landed since each arena's last reset, (runs, size, size)."""
+        """Return the cells where a block landed since each arena's last reset, (runs, size, size)."""
         return np.stack([grid_of(env.placed, env.scenario.size) for env in self.envs])
 
     def reset(
@@ -105,7 +105,7 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         return self._observations.copy(), {}
 
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
-        """One action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``.
+        """Do one action, or NO_ACTION, in every arena whose episode runs; ``info["score"]`` is r_M if ``_score``.
 
         With parts, ``info`` says more (Info), each with its mask.
         """
@@ -127,7 +127,7 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         return self._observations.copy(), rewards, *flags, {**told, **masks}
 
     def render(self) -> tuple[Any, ...] | None:
-        """Every arena as its Env draws it; None without a render mode."""
+        """Return every arena as its Env draws it; None without a render mode."""
         return tuple(env.render() for env in self.envs) if self.render_mode else None
 
     def close_extras(self, **_: Any) -> None:
@@ -137,7 +137,7 @@ class ArenaVectorEnv(VectorEnv[Int64s, Int64s, Any]):
 
 
 def taken_apart(actions: ArrayLike, runs: int) -> tuple[Int64s, Int64s | None]:
-    """The actions (R,), and the materials to take in hand before them (R,) where (R, 2) name them.
+    """Return the actions (R,), and the materials to take in hand before them (R,) where (R, 2) name them.
 
     ValueError unless they are whole numbers, of every run.
     """
@@ -149,12 +149,12 @@ def taken_apart(actions: ArrayLike, runs: int) -> tuple[Int64s, Int64s | None]:
 
 
 def shared_action_space(scenarios: Sequence[Scenario]) -> Space[Any]:
-    """The action space of an arena among these: with materials if one of the scenarios has parts."""
+    """Return the action space of an arena among these: with materials if one of the scenarios has parts."""
     return action_space_of(next((scenario for scenario in scenarios if scenario.parts), scenarios[0]))
 
 
 def seeds_of(seed: int | list[int | None] | None, runs: int) -> list[int | None]:
-    """A seed for each run, as Gymnasium's own vector envs give them out: of a number the next ones, or the list.
+    """Return a seed for each run, as Gymnasium's own vector envs give them out: of a number the next ones, or the list.
 
     ValueError if the list doesn't have one entry per run.
     """
@@ -168,7 +168,7 @@ def seeds_of(seed: int | list[int | None] | None, runs: int) -> list[int | None]
 
 
 def reset_options(options: dict[str, Any] | None, scenarios: Sequence[Scenario]) -> tuple[Bools, Int64s]:
-    """The mask (R,) and the materials (R,) of a vector reset, including defaults.
+    """Return the mask (R,) and the materials (R,) of a vector reset, including defaults.
 
     ValueError if an array doesn't have one entry per run, or a material's index doesn't exist; ScenarioError if no
     material has that name.
@@ -214,9 +214,10 @@ class NextStepAutoreset(VectorWrapper[Int64s, Int64s, Int64s, Int64s, Any]):
         return observations, info
 
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
-        """One action in every arena whose episode runs, and a reset of every other; flags and rewards are this step's.
+        """Do one action in every arena whose episode runs, and reset every other arena.
 
-        ResetNeeded before the first reset; ValueError if there isn't one action for each arena.
+        Flags and rewards are this step's. ResetNeeded before the first reset; ValueError if there isn't one action for
+        each arena.
         """
         if self._ended is None:
             raise ResetNeeded("no episode has begun: call reset() first")

@@ -31,7 +31,7 @@ KINDS_TOLD = 3
 
 
 def scenario_of_layer(name: str, volume: Volume, layer: int) -> tuple[Scenario, list[str]]:
-    """The scenario of a layer, and what a person should know about it, a line each, without the file's name.
+    """Return the scenario of a layer, and what a person should know about it, a line each, without the file's name.
 
     ScenarioError, without the file's name, if the layer has no block, or none that is kept.
     """
@@ -53,7 +53,7 @@ def scenario_of_layer(name: str, volume: Volume, layer: int) -> tuple[Scenario, 
 
 
 def kinds_in_words(kinds: Counter[str]) -> str:
-    """``12 stone, 8 oak_planks, 5 others``: blocks by how many there are, at most so many kinds by name."""
+    """Return ``12 stone, 8 oak_planks, 5 others``: blocks by how many there are, at most so many kinds by name."""
     common = kinds.most_common(KINDS_TOLD)
     named = [f"{count} {name}" for name, count in common]
     others = kinds.total() - sum(count for _, count in common)
@@ -75,7 +75,7 @@ def _notes(volume: Volume, layer: int, trimmed: Bools, kept: int) -> list[str]:
 
 
 def _trimmed(filled: Bools) -> Bools:
-    """The smallest part that holds every block, of no cell if there is none."""
+    """Return the smallest part that holds every block, of no cell if there is none."""
     rows, columns = np.flatnonzero(filled.any(axis=1)), np.flatnonzero(filled.any(axis=0))
     if not len(rows):
         return filled[:0, :0]
@@ -83,21 +83,24 @@ def _trimmed(filled: Bools) -> Bools:
 
 
 def _middle(filled: Bools) -> Bools:
-    """As much of the middle as an arena has room for."""
+    """Return as much of the middle as an arena has room for."""
     length, width = filled.shape
     top, left = max(0, (length - MOST_ALONG) // 2), max(0, (width - MOST_ACROSS) // 2)
     return filled[top : top + MOST_ALONG, left : left + MOST_ACROSS]
 
 
 def _centred(filled: Bools, size: int) -> frozenset[Cell]:
-    """The blocks in the middle of an arena; where they can't be, one cell nearer to the left and to the far edge."""
+    """Return the blocks in the middle of an arena.
+
+    Where they can't be, they stand one cell nearer to the left and to the far edge.
+    """
     length, width = filled.shape
     left, top = (size - width) // 2, (size - length) // 2
     return frozenset((left + int(x), size - 1 - top - int(row)) for row, x in np.argwhere(filled))
 
 
 def _scenario_name(name: str, volume: Volume, layer: int) -> str:
-    """The file's name, with the layer's number if there are several; without what can't be printed."""
+    """Return the file's name, with the layer's number if there are several; without what can't be printed."""
     ending = f"-{layer}" if volume.layers > 1 else ""
     printable = "".join(character for character in name if character.isprintable()).strip()
     return (printable[: LONGEST_NAME - len(ending)] or "design") + ending

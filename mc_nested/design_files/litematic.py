@@ -37,12 +37,12 @@ class _Region:
 
 
 def is_litematic(root: Compound) -> bool:
-    """Whether a file's root is such a schematic's."""
+    """Return whether a file's root is such a schematic's."""
     return "Regions" in root
 
 
 def read_litematic(root: Compound) -> Volume:
-    """All regions' blocks together; ScenarioError, without the file's name, if they can't be read."""
+    """Return all regions' blocks together; ScenarioError, without the file's name, if they can't be read."""
     tags = value_of(root, "Regions", dict)
     regions: list[_Region] = []
     for name, tag in tags.items():
@@ -79,7 +79,7 @@ def _corner(tag: Compound) -> Corner:
 
 
 def unpacked_numbers(longs: NDArray[np.uint64], bits: int, first: int, count: int) -> NDArray[np.int32]:
-    """(count,): the packed numbers from number ``first`` on, of so many bits each. The longs must hold them."""
+    """Return the packed numbers from number ``first`` on, (count,), of so many bits each. The longs must hold them."""
     at = np.arange(first, first + count, dtype=np.uint64) * np.uint64(bits)
     word, shift = (at >> np.uint64(6)).astype(np.int64), at & np.uint64(63)
     numbers = longs[word] >> shift

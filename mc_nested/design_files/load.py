@@ -42,14 +42,17 @@ class Loaded:
 
 
 def is_design_file(name_or_file: str | Path) -> bool:
-    """Whether a name ends as a file of another program does; anything else is a shipped scenario or a TOML file."""
+    """Return whether a name ends as a file of another program does.
+
+    Anything else is a shipped scenario or a TOML file.
+    """
     return Path(name_or_file).suffix.lower() in (*SCHEMATICS, PICTURE, BEDROCK)
 
 
 def load_any_scenario(
     name_or_file: str | Path, layer: int | None = None, *, must_choose: bool = False, option: str = LAYER_OPTION
 ) -> Loaded:
-    """The scenario of a shipped name, of a TOML file, or of a layer of a design file.
+    """Return the scenario of a shipped name, of a TOML file, or of a layer of a design file.
 
     ``layer`` counts from 0, the lowest; default: the lowest that has blocks. With ``must_choose`` there is no default
     where several have blocks. Messages call the way to name a layer ``option``. ScenarioError, one line, if it can't
@@ -66,7 +69,7 @@ def load_any_scenario(
 def load_layer(
     path: Path, volume: Volume, layer: int | None, *, must_choose: bool = False, option: str = LAYER_OPTION
 ) -> Loaded:
-    """The scenario of a layer of the volume that was read from ``path``, as ``load_any_scenario`` makes it."""
+    """Return the scenario of a layer of the volume that was read from ``path``, as ``load_any_scenario`` makes it."""
     try:
         chosen = chosen_layer(volume, layer, must_choose=must_choose, option=option)
         scenario, notes = scenario_of_layer(path.stem, volume, chosen)
@@ -80,7 +83,10 @@ def load_layer(
 
 
 def chosen_layer(volume: Volume, layer: int | None, *, must_choose: bool = False, option: str = LAYER_OPTION) -> int:
-    """The layer asked for, or the lowest with blocks; ScenarioError, without the file's name, if there is none."""
+    """Return the layer asked for, or the lowest with blocks.
+
+    Raise ScenarioError, without the file's name, if there is none.
+    """
     filled = volume.layers_with_blocks()
     if not filled:
         raise ScenarioError("it has no block: save a part of the world that has some")
@@ -98,7 +104,7 @@ def chosen_layer(volume: Volume, layer: int | None, *, must_choose: bool = False
 
 
 def ranges(numbers: list[int]) -> str:
-    """``0 to 3, 7 or 9 to 12``: ascending numbers in words."""
+    """Return ``0 to 3, 7 or 9 to 12``: ascending numbers in words."""
     runs: list[list[int]] = []
     for number in numbers:
         if runs and number == runs[-1][-1] + 1:
@@ -112,7 +118,7 @@ def ranges(numbers: list[int]) -> str:
 
 
 def read_volume(path: Path) -> Volume:
-    """The blocks of a design file; ScenarioError, one line that names the file, if it can't be read."""
+    """Return the blocks of a design file; ScenarioError, one line that names the file, if it can't be read."""
     try:
         data = _bytes_of(path)
         if path.suffix.lower() == PICTURE:
@@ -136,7 +142,7 @@ def read_volume(path: Path) -> Volume:
 
 
 def bedrock_error() -> ScenarioError:
-    """The error for a structure of the other edition."""
+    """Return the error for a structure of the other edition."""
     return ScenarioError(
         "it is a structure of Minecraft Bedrock Edition: import it in the Amulet editor, and export it as Sponge .schem"
     )

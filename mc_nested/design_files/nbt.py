@@ -50,16 +50,16 @@ KINDS: dict[type, str] = {
 
 
 def read_nbt(data: bytes, most_reads: int = MOST_READS) -> Compound:
-    """The root compound of a file's bytes, compressed or not; ScenarioError, without the file's name, if it has none.
+    """Return the root compound of a file's bytes, compressed or not.
 
-    At most MOST_BYTES are unpacked, and pynbt may read at most ``most_reads`` times. What lies nested too deeply
-    is refused.
+    Raise ScenarioError, without the file's name, if it has none. At most MOST_BYTES are unpacked, and pynbt may read at
+    most ``most_reads`` times. What lies nested too deeply is refused.
     """
     return root_of(unpacked(data), most_reads)
 
 
 def root_of(plain: bytes, most_reads: int = MOST_READS) -> Compound:
-    """The root compound of unpacked NBT, with the same limits; ScenarioError without pynbt, too."""
+    """Return the root compound of unpacked NBT, with the same limits; ScenarioError without pynbt, too."""
     try:
         import pynbt
     except ImportError:
@@ -75,14 +75,14 @@ def root_of(plain: bytes, most_reads: int = MOST_READS) -> Compound:
 
 
 def is_bedrock(plain: bytes) -> bool:
-    """Whether unpacked NBT is a structure of Bedrock Edition, whose numbers have their lowest byte first."""
+    """Return whether unpacked NBT is a structure of Bedrock Edition, whose numbers have their lowest byte first."""
     return plain.startswith(COMPOUND) and any(
         struct.pack("<BH", kind, len(name)) + name in plain for kind, name in BEDROCK_TAGS
     )
 
 
 def unpacked(data: bytes) -> bytes:
-    """The NBT in a file's bytes; ScenarioError if it is none, is damaged, or unpacks to more than MOST_BYTES."""
+    """Return the NBT in a file's bytes; ScenarioError if it is none, is damaged, or unpacks to more than MOST_BYTES."""
     if data.startswith(COMPOUND):
         return data
     if not data.startswith(GZIP):
@@ -100,12 +100,15 @@ def unpacked(data: bytes) -> bytes:
 
 
 def value_of(compound: Compound, name: str, kind: type[Value]) -> Value:
-    """The value of a tag, of that Python type (KINDS); ScenarioError if it is missing, or something else."""
+    """Return the value of a tag, of that Python type (KINDS); ScenarioError if it is missing, or something else."""
     return checked(compound.get(name), kind, name)
 
 
 def checked(tag: Any, kind: type[Value], name: str) -> Value:
-    """The value of a tag of pynbt's, of that type; ScenarioError, which calls it ``name``, if it is something else."""
+    """Return the value of a tag of pynbt's, of that type.
+
+    Raise ScenarioError, which calls it ``name``, if it is something else.
+    """
     value = getattr(tag, "value", None)
     if not isinstance(value, kind):
         state = "is missing" if tag is None else f"is not {KINDS[kind]}"
@@ -150,7 +153,7 @@ _LISTED = re.compile(rb"\x09\x00\x06blocks\x0a(.{4})", re.DOTALL)
 
 
 def check_stated_size(plain: bytes) -> None:
-    """ScenarioError, without the file's name, if unpacked NBT states more cells or blocks than are read."""
+    """Raise ScenarioError, without the file's name, if unpacked NBT states more cells or blocks than are read."""
     if len(plain) <= SMALL_BYTES:
         return
     for width, height, length in _sizes(plain):
@@ -164,7 +167,7 @@ def check_stated_size(plain: bytes) -> None:
 
 
 def _sizes(plain: bytes) -> Iterator[tuple[int, int, int]]:
-    """Width, height and length: of Litematica's regions, of a structure, of Sponge's and MCEdit's schematics."""
+    """Yield width, height and length of Litematica's regions, of a structure, of Sponge's and MCEdit's schematics."""
     for found in _CORNER.finditer(plain):
         by_axis = dict(zip(found.groups()[::2], found.groups()[1::2], strict=True))
         if len(by_axis) == 3:

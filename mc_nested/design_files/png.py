@@ -21,7 +21,10 @@ SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 def read_picture(data: bytes) -> Volume:
-    """The picture as one layer, each colour a kind of block; ScenarioError, without the file's name, if it is none."""
+    """Return the picture as one layer, each colour a kind of block.
+
+    Raise ScenarioError, without the file's name, if it is none.
+    """
     if not data.startswith(SIGNATURE) or len(data) < 24:
         raise ScenarioError("it is no PNG picture: save it as PNG")
     width, height = struct.unpack(">II", data[16:24])
@@ -38,7 +41,7 @@ def read_picture(data: bytes) -> Volume:
 
 
 def _of_8_bits(image: Image.Image) -> Image.Image:
-    """The same picture; a grey one of 16 bits, which Pillow would make white, with the higher eight."""
+    """Return the same picture; a grey one of 16 bits, which Pillow would make white, with the higher eight."""
     if not image.mode.startswith("I"):
         return image
     return Image.fromarray((np.asarray(image).astype(np.int32) >> 8).astype(np.uint8))

@@ -23,12 +23,12 @@ LONGEST = 4
 
 
 def is_sponge(root: Compound) -> bool:
-    """Whether a file's root is such a schematic's, of any version."""
+    """Return whether a file's root is such a schematic's, of any version."""
     return "Schematic" in root or ("Palette" in root and "BlockData" in root)
 
 
 def read_sponge(root: Compound) -> Volume:
-    """The schematic's blocks; ScenarioError, without the file's name, if they can't be read."""
+    """Return the schematic's blocks; ScenarioError, without the file's name, if they can't be read."""
     schematic = value_of(root, "Schematic", dict) if "Schematic" in root else root
     version = value_of(schematic, "Version", int)
     if version not in (1, 2, 3):
@@ -50,12 +50,15 @@ def read_sponge(root: Compound) -> Volume:
 
 
 def unsigned_short(compound: Compound, name: str) -> int:
-    """A size in cells: the format's shorts have no sign."""
+    """Return a size in cells: the format's shorts have no sign."""
     return value_of(compound, name, int) & 0xFFFF
 
 
 def decoded(data: NDArray[np.uint8], cells: int) -> NDArray[np.int32]:
-    """(cells,): the variable-length integers in the bytes; ScenarioError if there are fewer or more, or too long."""
+    """Return the variable-length integers in the bytes, (cells,).
+
+    Raise ScenarioError if there are fewer or more, or too long.
+    """
     ends = np.flatnonzero(data < 0x80).astype(np.int32)
     if len(ends) != cells or (cells and ends[-1] != len(data) - 1):
         raise ScenarioError(f"it says that it has {cells:,} cells, and holds {len(ends):,} blocks: the file is damaged")
@@ -74,12 +77,12 @@ DATA_BITS = 4
 
 
 def is_mcedit(root: Compound) -> bool:
-    """Whether a file's root is such a schematic's."""
+    """Return whether a file's root is such a schematic's."""
     return "Blocks" in root and "Data" in root
 
 
 def read_mcedit(root: Compound) -> Volume:
-    """The schematic's blocks; ScenarioError, without the file's name, if they can't be read."""
+    """Return the schematic's blocks; ScenarioError, without the file's name, if they can't be read."""
     width, height, length = (unsigned_short(root, name) for name in ("Width", "Height", "Length"))
     cells = check_size(width, height, length)
     numbers = _bytes_in(root, "Blocks", cells).astype(np.int32) + _high_bits(root, cells)
@@ -92,7 +95,7 @@ def read_mcedit(root: Compound) -> Volume:
 
 
 def name_of(number: int, data: int) -> str:
-    """Today's name of an old number and its data; ``block number 300`` where the game had none."""
+    """Return today's name of an old number and its data; ``block number 300`` where the game had none."""
     names = _names().get(number)
     if names is None:
         return f"block number {number}"
@@ -113,7 +116,7 @@ def _bytes_in(root: Compound, name: str, cells: int) -> NDArray[np.uint8]:
 
 
 def _high_bits(root: Compound, cells: int) -> NDArray[np.int32]:
-    """(cells,): what the tag ``AddBlocks`` adds to the numbers of mods' blocks; zeros without it.
+    """Return what the tag ``AddBlocks`` adds to the numbers of mods' blocks, (cells,); zeros without it.
 
     A byte is for two cells, its high bits for the first of them, as MCEdit writes it.
     """

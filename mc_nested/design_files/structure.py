@@ -14,12 +14,15 @@ from mc_nested.errors import ScenarioError
 
 
 def is_structure(root: Compound) -> bool:
-    """Whether a file's root is a structure's."""
+    """Return whether a file's root is a structure's."""
     return "size" in root and "blocks" in root
 
 
 def read_structure(root: Compound) -> Volume:
-    """The structure's blocks, by its first palette; ScenarioError, without the file's name, if they can't be read."""
+    """Return the structure's blocks, by its first palette.
+
+    Raise ScenarioError, without the file's name, if they can't be read.
+    """
     width, height, length = _three(root, "size")
     check_size(width, height, length)
     names = palette_names(_palette(root))
@@ -39,12 +42,12 @@ def read_structure(root: Compound) -> Volume:
 
 
 def palette_names(palette: list[Any]) -> list[str]:
-    """The names in a list of block states, as structures and Litematica have it."""
+    """Return the names in a list of block states, as structures and Litematica have it."""
     return [value_of(checked(tag, dict, "a palette's entry"), "Name", str) for tag in palette]
 
 
 def _palette(root: Compound) -> list[Any]:
-    """The palette; of several, of which the game takes one by chance, the first."""
+    """Return the palette; of several, of which the game takes one by chance, the first."""
     if "palettes" not in root:
         return value_of(root, "palette", list)
     palettes = value_of(root, "palettes", list)

@@ -47,22 +47,22 @@ class Volume:
         return np.array([name not in NOTHING for name in self.palette], np.bool_)
 
     def filled(self, layer: int) -> Bools:
-        """(length, width): where that layer has a block."""
+        """Return (length, width): where that layer has a block."""
         found: Bools = self.solid[self.blocks[layer]]
         return found
 
     def layers_with_blocks(self) -> list[int]:
-        """The layers that have any block, the lowest first."""
+        """Return the layers that have any block, the lowest first."""
         found: list[int] = np.flatnonzero(self.solid[self.blocks].any(axis=(1, 2))).tolist()
         return found
 
     def extent(self, layer: int) -> tuple[int, int]:
-        """Over how many cells a layer's blocks reach, from west to east and from north to south."""
+        """Return over how many cells a layer's blocks reach, from west to east and from north to south."""
         rows, columns = np.nonzero(self.filled(layer))
         return (int(np.ptp(columns)) + 1, int(np.ptp(rows)) + 1) if len(rows) else (0, 0)
 
     def kinds(self, layer: int) -> Counter[str]:
-        """How many blocks of each name that layer has, without air."""
+        """Return how many blocks of each name that layer has, without air."""
         counted = np.bincount(self.blocks[layer].reshape(-1), minlength=len(self.palette))
         kinds: Counter[str] = Counter()
         for name, count in zip(self.palette, counted.tolist(), strict=True):
@@ -72,13 +72,13 @@ class Volume:
 
 
 def block_name(full: str) -> str:
-    """``oak_stairs`` of ``minecraft:oak_stairs[facing=east]``. What can't be printed becomes a question mark."""
+    """Return ``oak_stairs`` of ``minecraft:oak_stairs[facing=east]``. What can't be printed becomes a question mark."""
     name = full.partition("[")[0].removeprefix("minecraft:")[:LONGEST_NAME]
     return "".join(character if character.isprintable() else "?" for character in name) or "?"
 
 
 def check_size(width: int, height: int, length: int) -> int:
-    """The cells of a volume of that size; ScenarioError where it has none, or more than any design."""
+    """Return the cells of a volume of that size; ScenarioError where it has none, or more than any design."""
     if min(width, height, length) < 1:
         raise ScenarioError(f"its size is {width} x {height} x {length}: a design has at least one cell")
     cells = width * height * length
@@ -88,7 +88,7 @@ def check_size(width: int, height: int, length: int) -> int:
 
 
 def too_large_error(width: int, height: int, length: int) -> ScenarioError:
-    """The error for a volume of more cells than are read."""
+    """Return the error for a volume of more cells than are read."""
     return ScenarioError(
         f"its size is {width} x {height} x {length}, {width * height * length:,} cells, and at most {MOST_CELLS:,} are "
         "read: save a smaller part of it"
@@ -96,7 +96,10 @@ def too_large_error(width: int, height: int, length: int) -> ScenarioError:
 
 
 def volume_of(numbers: NDArray[np.integer], names: Sequence[str], height: int, length: int, width: int) -> Volume:
-    """The volume whose blocks are ``numbers``, (cells,) in the order y, z, x; ScenarioError if a kind has no name."""
+    """Return the volume whose blocks are ``numbers``, (cells,) in the order y, z, x.
+
+    Raise ScenarioError if a kind has no name.
+    """
     highest = int(numbers.max())
     lowest = int(numbers.min())
     if lowest < 0 or highest >= len(names):

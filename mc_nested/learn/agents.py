@@ -65,7 +65,7 @@ AGENT_SPECS: Mapping[str, AgentSpec] = {
 
 
 def check_exploration(spec: AgentSpec, preset: Preset) -> None:
-    """PresetError if the preset explores in a way, or sees what, the spec can't."""
+    """Raise PresetError if the preset explores in a way, or sees what, the spec can't."""
     if spec.has_main:
         return
     if preset.states == SCREEN:  # it chooses a material in the game, where no window shows which
@@ -76,7 +76,7 @@ def check_exploration(spec: AgentSpec, preset: Preset) -> None:
 
 
 def check_parts(scenarios: Sequence[Scenario], preset: Preset) -> None:
-    """PresetError if the preset can't learn in scenarios with parts."""
+    """Raise PresetError if the preset can't learn in scenarios with parts."""
     in_parts = next((scenario for scenario in scenarios if scenario.parts), None)
     if preset.imagination and in_parts:  # what a cell pays would depend on the part
         raise PresetError(f"[imagination] knows no parts, and {in_parts.name} has some: take the preset tuned or paper")
@@ -154,7 +154,7 @@ class Agent:
         return self._low_levels * self.builders // self._share_a_row
 
     def low_level_states(self, observations: NDArray[Any], materials: Int64s) -> NDArray[Any]:
-        """The low-level agents' states, (runs * builders, …): the nested agent's is s_N = [s_M, a_M] (section 4.1).
+        """Return the low-level agents' states, (runs * builders, …). The nested agent's is s_N = [s_M, a_M] (section 4.1).
 
         ``materials`` are (runs,). To numbers, a_M is one number more. To planes, it is one plane more: "one extra
         dimension".
@@ -169,7 +169,7 @@ class Agent:
         return np.column_stack((observations, numbers, self._of_builders(materials)))
 
     def _of_builders(self, of_runs: NDArray[Any]) -> NDArray[Any]:
-        """What is said of each run, for each of its builders: (runs * builders,)."""
+        """Return what is said of each run, for each of its builders: (runs * builders,)."""
         return of_runs if self.builders == 1 else np.repeat(of_runs, self.builders)
 
     def _with_material(self, planes: Bytes, materials: Int64s) -> Bytes:
@@ -178,16 +178,17 @@ class Agent:
         return with_material(planes, shares(materials + 1, self._materials))
 
     def view_of(self, env: VectorEnv[Any, Int64s, Any], scenarios: Sequence[Scenario]) -> VectorEnv[Any, Int64s, Any]:
-        """The arenas as the agent sees them: in its states; for the single agent, choosing a material is an action.
+        """Return the arenas as the agent sees them: in its states.
 
-        For states "screen" the arenas have to show their windows already (live/screen_arenas.py).
+        For the single agent, choosing a material is an action. For states "screen" the arenas have to show their
+        windows already (live/screen_arenas.py).
         """
         each = self._team.scenarios_of(scenarios) if self._team else scenarios
         view = env if self.spec.has_main else SingleAgentVectorEnv(env, each, self.builders)
         return PlanesVectorEnv(view, scenarios) if self._sees == IMAGE else view
 
     def start_states(self, scenarios: Sequence[Scenario]) -> NDArray[Any]:
-        """What the main agent sees of each scenario before the first move, (runs, …)."""
+        """Return what the main agent sees of each scenario before the first move, (runs, …)."""
         if self._sees == IMAGE:
             return start_planes(scenarios)
         if self._sees == SCREEN:  # it chooses before there is a window to look at
@@ -196,25 +197,28 @@ class Agent:
         return np.array([each.start_state for each in first])
 
     def chosen_materials(self, observations: NDArray[Any]) -> Int64s:
-        """The materials that the single agent's observations show as chosen, in their last part; -1 before that."""
+        """Return the materials that the single agent's observations show as chosen, in their last part.
+
+        A material is -1 before it is chosen.
+        """
         if self._sees == NUMBERS:
             return observations[:, -1] - 1
         shown = observations[:, -1, 0, 0].astype(np.int64)
         return np.round(shown * self._materials / FULL).astype(np.int64) - 1
 
     def builders_of(self, runs: Int64s) -> list[Int64s]:
-        """For each builder's number its places (k,) among all builders, in the named runs (k,)."""
+        """Return, for each builder's number, its places (k,) among all builders, in the named runs (k,)."""
         if self.builders == 1:
             return [runs]
         return [runs * self.builders + number for number in range(self.builders)]
 
     def low_level_rows(self, places: Int64s, materials: Int64s) -> Int64s:
-        """The rows of ``low_level`` that act for builders at these places (k,), with the materials of all runs."""
+        """Return the rows of ``low_level`` that act for the builders at these places (k,), by the materials of all runs."""
         acting = places if self._share_a_row == 1 else places // self._share_a_row
         return acting if self._low_levels == 1 else acting * self._low_levels + materials[places]
 
     def act(self, states: NDArray[Any], materials: Int64s, epsilon: Float64s, uniforms: Float64s) -> Int64s:
-        """The low-level agents' ε-greedy actions for every builder, (runs * builders,); ε is (runs,)."""
+        """Return the low-level agents' ε-greedy actions for every builder, (runs * builders,); ε is (runs,)."""
         is_a_row_each = self._low_levels == self._share_a_row == 1
         rows = None if is_a_row_each else self.low_level_rows(np.arange(len(states)), materials)
         if self.builders > 1:
@@ -253,7 +257,7 @@ class Agent:
         return summed_by_run((learner.replay.bytes_held() for learner in self._learners().values()), len(self.runs))
 
     def last_figures(self) -> Arrays:
-        """Loss and mean Q of each run's last updates, (runs,), by name; nan before an agent's first update.
+        """Return loss and mean Q of each run's last updates, (runs,), by name; nan before an agent's first update.
 
         If a run has several low-level agents, the mean over those that have been updated.
         """
@@ -269,7 +273,7 @@ class Agent:
         return figures
 
     def state(self) -> Arrays:
-        """What later choices and updates depend on, by name; without the transitions."""
+        """Return what later choices and updates depend on, by name; without the transitions."""
         return self._named(lambda _, learner: learner.state())
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
@@ -278,7 +282,7 @@ class Agent:
             learner.load(part_of(state, role))
 
     def online(self) -> Arrays:
-        """The online networks' parameters, by role: what acting needs."""
+        """Return the online networks' parameters, by role: what acting needs."""
         return {role: learner.engine.online for role, learner in self._learners().items()}
 
     def load_online(self, online: Mapping[str, NDArray[Any]]) -> None:
@@ -288,15 +292,15 @@ class Agent:
             learner.engine.load_online(np.tile(online[role], (times, 1)))
 
     def rows_of(self, run: int) -> dict[str, slice]:
-        """A run's rows, by role."""
+        """Return a run's rows, by role."""
         return {"main": slice(run, run + 1), "low": slice(run * self._rows_a_run, (run + 1) * self._rows_a_run)}
 
     def marks(self) -> Arrays:
-        """Where a journal of the transitions ends now, for ``transitions_since``."""
+        """Return where a journal of the transitions ends now, for ``transitions_since``."""
         return self._named(lambda _, learner: learner.replay.marks())
 
     def transitions_since(self, marks: Mapping[str, NDArray[Any]] | None) -> Arrays:
-        """What ``store_again`` needs to know since those marks; everything if there are none."""
+        """Return what ``store_again`` needs to know since those marks; everything if there are none."""
         return self._named(lambda role, learner: learner.replay.added_since(part_of(marks, role) if marks else None))
 
     def store_again(self, transitions: Mapping[str, NDArray[Any]]) -> None:
@@ -305,7 +309,7 @@ class Agent:
             learner.replay.extend(part_of(transitions, role))
 
     def mark(self) -> dict[str, ReplayMark]:
-        """The replays now, by role, for ``take_back`` within an episode."""
+        """Return the replays now, by role, for ``take_back`` within an episode."""
         return {role: learner.replay.mark(self._longest) for role, learner in self._learners().items()}
 
     def take_back(self, marks: Mapping[str, ReplayMark]) -> None:
@@ -314,7 +318,7 @@ class Agent:
             learner.replay.take_back(marks[role])
 
     def _named(self, of_learner: Callable[[str, Learner], Arrays]) -> Arrays:
-        """The arrays that each learner gives, under names that begin with its role."""
+        """Return the arrays that each learner gives, under names that begin with its role."""
         each = (named_for(role, of_learner(role, learner)) for role, learner in self._learners().items())
         return {name: array for of_role in each for name, array in of_role.items()}
 
@@ -322,7 +326,7 @@ class Agent:
         return {"main": self.main, "low": self.low_level} if self.main else {"low": self.low_level}
 
     def _numbers(self, scenarios: Sequence[Scenario], encoding: str) -> tuple[States, States]:
-        """The main agent's states, and the low-level agents', as numbers."""
+        """Return the main agent's states, and the low-level agents', as numbers."""
         spec, materials = self.spec, self._materials
         observed = np.stack([highest_observation(scenario) for scenario in scenarios])
         number = [self.builders - 1] * self._numbered
@@ -333,7 +337,10 @@ class Agent:
         return StateSpace(observed, materials, encoding), builds
 
     def _planes(self, runs: int, shape: tuple[int, ...]) -> tuple[States, States]:
-        """The main agent's states, and the low-level agents', as planes of that shape; these have the material, too."""
+        """Return the main agent's states, and the low-level agents', as planes of that shape.
+
+        The low-level agents' planes have the material, too.
+        """
         more = self.spec.appends_material or self.spec.sees_choice
         builds = PlaneStates(runs * self._rows_a_run, self._low_level_actions, (shape[0] + more, *shape[1:]))
         return PlaneStates(runs, self._materials, shape), builds

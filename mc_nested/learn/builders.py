@@ -42,12 +42,12 @@ class Builders:
         return "single" if self.networks == "single" else "nested"
 
     def scenarios_of(self, scenarios: Sequence[Scenario]) -> list[Scenario]:
-        """Each run's scenario as each of its builders begins it: a row for each run and builder."""
+        """Return each run's scenario as each of its builders begins it: a row for each run and builder."""
         return [replace(scenario, start=start) for scenario in scenarios for start in self.starts]
 
 
 def check_builders(preset: Preset) -> None:
-    """PresetError if the preset explores in a way, or sees what, builders in one arena can't."""
+    """Raise PresetError if the preset explores in a way, or sees what, builders in one arena can't."""
     if preset.states != NUMBERS:
         raise PresetError(f"builders in one arena see numbers, not states {preset.states!r}: take the preset paper")
     for name, table in (("[excursions]", preset.excursions), ("[imagination]", preset.imagination)):

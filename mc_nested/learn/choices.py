@@ -47,19 +47,19 @@ class OwnChoices:
         self._agent = agent
 
     def begin(self, rows: Int64s, epsilon: Float64s, numbers: Float64s) -> Int64s:  # noqa: ARG002 - nobody chooses yet
-        """The materials with which the episodes of the named runs (k,) begin: it doesn't matter which."""
+        """Return the materials with which the episodes of the named runs (k,) begin: it doesn't matter which."""
         return np.zeros(len(rows), dtype=np.int64)
 
     def in_hand(self, actions: Int64s, materials: Int64s) -> Int64s:  # noqa: ARG002 - an action says it
-        """The actions as the arenas take them."""
+        """Return the actions as the arenas take them."""
         return actions
 
     def after(self, step: ChoiceStep, materials: Int64s, learning: Bools, epsilon: Float64s) -> Int64s:  # noqa: ARG002
-        """The materials after a step, (runs,), as the agent sees them; -1 before its choice."""
+        """Return the materials after a step, (runs,), as the agent sees them; -1 before its choice."""
         return self._agent.chosen_materials(step.states)
 
     def learn(self, rows: Int64s, materials: Int64s, step: ChoiceStep) -> None:
-        """Nothing: the agent's steps say all."""
+        """Learn nothing: the agent's own steps say all."""
 
     def state(self) -> Arrays:
         """Nothing."""
@@ -93,17 +93,20 @@ class MainChoices(OwnChoices):
         self._earned = np.zeros(len(scenarios))
 
     def begin(self, rows: Int64s, epsilon: Float64s, numbers: Float64s) -> Int64s:
-        """The choices with which the episodes of the named runs (k,) begin; ε (k,), numbers (runs, 2)."""
+        """Return the choices with which the episodes of the named runs (k,) begin; ε (k,), numbers (runs, 2)."""
         self._chosen_in[rows] = self._start[rows]
         self._earned[rows] = 0.0
         return self._main.act(self._start[rows], epsilon, numbers[rows], rows)
 
     def in_hand(self, actions: Int64s, materials: Int64s) -> Int64s:
-        """The actions as the arenas take them, (runs,); with parts, each beside its run's material, (runs, 2)."""
+        """Return the actions as the arenas take them, (runs,).
+
+        With parts, each action stands beside its run's material, (runs, 2).
+        """
         return np.stack((actions, materials), axis=1) if self._has_parts else actions
 
     def after(self, step: ChoiceStep, materials: Int64s, learning: Bools, epsilon: Float64s) -> Int64s:
-        """The materials after a step, (runs,): where a choice is due, the last is learned from, and one is made.
+        """Return the materials after a step, (runs,): where a choice is due, the last is learned from, and one is made.
 
         Every array is of all runs. ``learning``: whose choices are learned from, and made with ε.
         """
@@ -134,7 +137,7 @@ class MainChoices(OwnChoices):
             self._main.learn(rows, update)
 
     def state(self) -> Arrays:
-        """The choices that aren't over, for a checkpoint; nothing where each is made as an episode begins."""
+        """Return the choices that aren't over, for a checkpoint; nothing where each is made as an episode begins."""
         return {"chosen_in": self._chosen_in, "earned": self._earned} if self._has_parts else {}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
@@ -143,7 +146,7 @@ class MainChoices(OwnChoices):
             kept[:] = state[name]
 
     def _draws(self, rows: Int64s, step: ChoiceStep) -> Float64s:
-        """The numbers that select the batches of the updates now, (updates, k, batch)."""
+        """Return the numbers that select the batches of the updates now, (updates, k, batch)."""
         if self._preset.main is None:
             return step.draws[None, rows]
         shape = self._preset.main.updates_an_episode, self._preset.update.batch
@@ -152,5 +155,5 @@ class MainChoices(OwnChoices):
 
 
 def choices_of(agent: Agent, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> OwnChoices:
-    """Who chooses the materials for that agent, in runs of these scenarios."""
+    """Return who chooses the materials for that agent, in runs of these scenarios."""
     return MainChoices(agent, agent.main, scenarios, preset, seed) if agent.main else OwnChoices(agent)

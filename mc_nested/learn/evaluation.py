@@ -31,7 +31,7 @@ class GreedyEpisode:
         return self.materials[-1] if self.materials else -1
 
     def material_name(self, scenario: Scenario) -> str:
-        """The materials' names, in the order in which they were in hand; "no material" where none was chosen."""
+        """Return the materials' names, in the order in which they were in hand; "no material" where none was chosen."""
         chosen = [material for material, _ in groupby(self.materials) if material >= 0]
         return ", then ".join(scenario.materials[material].name for material in chosen) or "no material"
 
@@ -42,7 +42,7 @@ def play_greedily(
     agent: Agent,
     after_step: Callable[[], None] = lambda: None,
 ) -> list[GreedyEpisode]:
-    """One greedy episode of every run, from a reset on; ``after_step`` is called after each step of all runs."""
+    """Play one greedy episode of every run, from a reset on; ``after_step`` is called after each step of all runs."""
     runs, builders = len(scenarios), agent.builders
     first = slice(None, None, builders)
     has_parts = any(scenario.parts for scenario in scenarios)

@@ -21,7 +21,7 @@ CHOICE_NUMBERS = 2
 
 
 def summed_by_run(of_rows: Iterable[Int64s], runs: int) -> Int64s:
-    """The sum for each run (runs,) of counts of its learners' rows, (runs * rows a run,) each."""
+    """Return the sum for each run (runs,) of counts of its learners' rows, (runs * rows a run,) each."""
     total: Int64s = np.hstack([counts.reshape(runs, -1) for counts in of_rows]).sum(axis=1)
     return total
 
@@ -69,7 +69,7 @@ class Learner:
         return int(self.engine.online.shape[1])
 
     def act(self, states: NDArray[Any], epsilon: Float64s, uniforms: Float64s, rows: Int64s | None = None) -> Int64s:
-        """ε-greedy actions (k,) for states (k, …), ε (k,) and uniform numbers (k, 2); all rows unless named."""
+        """Return ε-greedy actions (k,) for states (k, …), ε (k,) and uniform numbers (k, 2); all rows unless named."""
         actions = (uniforms[:, 1] * self.states.actions).astype(np.int64)
         greedy = (uniforms[:, 0] >= epsilon).nonzero()[0]
         if len(greedy):
@@ -93,11 +93,11 @@ class Learner:
         self.replay.add(rows, Transitions(both, actions, rewards, self.discounts(terminated)))
 
     def discounts(self, terminated: Bools) -> Float64s:
-        """The factor of the next state's value: γ, and 0 after termination."""
+        """Return the factor of the next state's value: γ, and 0 after termination."""
         return np.where(terminated, 0.0, self._gamma)
 
     def learn(self, rows: Int64s, uniforms: Float64s) -> None:
-        """One update of each named row (k,) that holds enough transitions; numbers (k, batch) select its batch."""
+        """Update each named row (k,) that holds enough transitions once; numbers (k, batch) select its batch."""
         ready = self.replay.added[rows] >= self._learning_starts
         if not ready.all():
             rows, uniforms = rows[ready], uniforms[ready]
@@ -111,7 +111,7 @@ class Learner:
                     self.priorities.update_priorities(rows[drew], indices[drew], own[drew])
 
     def state(self) -> Arrays:
-        """The networks, optimisers and priorities, by name: with the replay, all that later updates depend on."""
+        """Return networks, optimisers and priorities, by name. With the replay they are all that later updates depend on."""
         return {**self.engine.state(), **named_for("priorities", self.priorities.state() if self.priorities else {})}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:

@@ -112,7 +112,7 @@ class LearntGameBesideIt(LearntGame):
 
 
 def imagination_of(agent: Agent, scenarios: Sequence[Scenario], preset: Preset, seed: int) -> Imagination | None:
-    """The learnt games of an agent's runs, one scenario a run; None if the preset has no [imagination].
+    """Return the learnt games of an agent's runs, one scenario a run; None if the preset has no [imagination].
 
     Of a scenario it gets what every reset shows, and how large the arena and how long an episode is.
     """

@@ -81,12 +81,12 @@ class Practice:
         """
 
     def before_episode(self, runs: Int64s, materials: Int64s, reset: Callable[[], None]) -> Bools:  # noqa: ARG002
-        """Reset the arenas of the named runs (k,); which of them may be evaluated, (k,). ``materials`` are (runs,)."""
+        """Reset the arenas of the named runs (k,); return which may be evaluated, (k,). ``materials`` are (runs,)."""
         reset()
         return np.ones(len(runs), dtype=np.bool_)
 
     def practise(self, run: int, material: int, number: int, elsewhere: Collection[Cell] | None) -> bool:  # noqa: ARG002
-        """Practise that run's agent with that material; whether it may be evaluated.
+        """Practise that run's agent with that material; return whether it may be evaluated.
 
         ``number`` is the practice's; other games probe the cells ``elsewhere``, None where there are no such games.
         """
@@ -96,7 +96,7 @@ class Practice:
         """Begin an episode in each of the named runs (k,), with the numbers of all, (runs, numbers)."""
 
     def act(self, runs: Int64s, observations: NDArray[Any], actions: Int64s, numbers: Float64s) -> Int64s:  # noqa: ARG002
-        """All runs' actions, where those of the named runs (k,) may be others than the ε-greedy ones that are given."""
+        """Return all runs' actions; those of the named runs (k,) may differ from the ε-greedy ones that are given."""
         return actions
 
     def learn(self, step: Step) -> None:
@@ -122,19 +122,19 @@ class Practice:
         """End the episodes of the named runs (k,); materials and scores are of all."""
 
     def knows_nothing(self, run: int) -> bool:  # noqa: ARG002
-        """Whether that run would have to know something of its game, and doesn't."""
+        """Return whether that run would have to know something of its game, and doesn't."""
         return False
 
     def probes(self, run: int, material: int) -> frozenset[Cell]:  # noqa: ARG002
-        """The unknown cells where that run's next episode should place a block."""
+        """Return the unknown cells where that run's next episode should place a block."""
         return frozenset()
 
     def first_tries(self, run: int, games: int) -> FirstTries | None:  # noqa: ARG002
-        """What an episode of that run tries before it does what the policy says, beside so many other games."""
+        """Return what an episode of that run tries before it does what the policy says, beside so many other games."""
         return None
 
     def state(self) -> Arrays:
-        """What it remembers of past episodes beside the replays, by name."""
+        """Return what it remembers of past episodes beside the replays, by name."""
         return {}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:

@@ -197,7 +197,10 @@ class Preset(_Table):
         return EngineChoice(self.engine, self.device, self.network, tuple(self.hidden))
 
     def changed(self, **keys: Any) -> "Preset":
-        """The preset with those keys changed, where they aren't None; PresetError, one line, if they don't fit it."""
+        """Return the preset with those keys changed, where they aren't None.
+
+        Raise PresetError, one line, if they don't fit it.
+        """
         wanted = {key: value for key, value in keys.items() if value is not None}
         try:
             return Preset.model_validate({**self.model_dump(), **wanted})
@@ -210,7 +213,7 @@ class Preset(_Table):
             ) from error
 
     def for_main(self) -> "Preset":
-        """The main agent's, which may begin to learn earlier."""
+        """Return the main agent's, which may begin to learn earlier."""
         if self.main is None:
             return self
         update = self.update.model_copy(update={"learning_starts": self.main.learning_starts})
@@ -250,18 +253,18 @@ class Preset(_Table):
 
 
 def shipped_presets() -> list[str]:
-    """Names of the presets that come with the project."""
+    """Return the names of the presets that come with the project."""
     folder = resources.files("mc_nested.learn") / "presets"
     return sorted(entry.name.removesuffix(".toml") for entry in folder.iterdir() if entry.name.endswith(".toml"))
 
 
 def load_preset(name_or_file: str | Path) -> Preset:
-    """The preset of a shipped name or of a TOML file; PresetError, one line if it can't be used."""
+    """Return the preset of a shipped name or of a TOML file; PresetError, one line if it can't be used."""
     shipped = shipped_presets()
     text = read_shipped_or_named(name_or_file, "preset", "mc_nested.learn.presets", shipped, PresetError)
     return parse_preset(text, str(name_or_file))
 
 
 def parse_preset(text: str, source: str) -> Preset:
-    """The preset that a TOML text describes; ``source`` names it in errors."""
+    """Return the preset that a TOML text describes; ``source`` names it in errors."""
     return parse_toml(Preset, text, source, PresetError)

@@ -18,32 +18,32 @@ the main agent's choices within an episode; an episode that a game plays by itse
 
 
 def initial_stream(seed: int, run: int) -> np.random.Generator:
-    """The generator of a run's initial parameters."""
+    """Return the generator of a run's initial parameters."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, INITIAL))))
 
 
 def main_updates_stream(seed: int, run: int, tick: int) -> np.random.Generator:
-    """The generator of the main agent's batches after the episode of that run that ended at that tick."""
+    """Return the generator of the main agent's batches after the episode of that run that ended at that tick."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, MAIN_UPDATES, tick))))
 
 
 def choice_stream(seed: int, run: int, tick: int) -> np.random.Generator:
-    """The generator of the main agent's choice within an episode, after that tick of that run."""
+    """Return the generator of the main agent's choice within an episode, after that tick of that run."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, CHOICES, tick))))
 
 
 def practice_stream(seed: int, run: int, episode: int) -> np.random.Generator:
-    """The generator of that run's practice before its episode of that number."""
+    """Return the generator of that run's practice before its episode of that number."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, PRACTICE, episode))))
 
 
 def plan_stream(seed: int, run: int, number: int) -> np.random.Generator:
-    """The generator of the choices in that run's episode of that number, which a game plays by itself."""
+    """Return the generator of the choices in that run's episode of that number, which a game plays by itself."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, PLANS, number))))
 
 
 def episode_stream(seed: int, run: int, number: int) -> np.random.Generator:
-    """The generator of the batches that are learnt from once that run's episode of that number has been played."""
+    """Return the generator of the batches that are learnt from after that run's episode of that number was played."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed, spawn_key=(run, EPISODES, number))))
 
 
@@ -63,7 +63,7 @@ class Streams:
         self._numbers = np.empty((len(runs), TICKS_A_CHUNK, width))
 
     def at(self, tick: int) -> Float64s:
-        """The numbers of that tick, (runs, width)."""
+        """Return the numbers of that tick, (runs, width)."""
         chunk, within = divmod(tick, TICKS_A_CHUNK)
         if chunk != self._chunk:
             for numbers, run in zip(self._numbers, self._runs, strict=True):

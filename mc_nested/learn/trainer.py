@@ -90,7 +90,7 @@ class Trainer(Training):
         )
 
     def tick(self) -> None:
-        """One step of every run that isn't finished.
+        """Do one step of every run that isn't finished.
 
         An error of the env passes through; after ``abandon_episodes`` the next tick begins new episodes.
         """
@@ -134,7 +134,7 @@ class Trainer(Training):
         self._episodes.between_episodes[:] = True
 
     def state(self) -> Arrays:
-        """What the rest of the training depends on, between two ticks; without the journal."""
+        """Return what the rest of the training depends on, between two ticks; without the journal."""
         arenas = self._resumable.snapshot() if self._resumable else {}
         return {**super().state(), **named_for("runs", vars(self._episodes)), **named_for("env", arenas)}
 
@@ -205,7 +205,7 @@ class EpisodeRollback:
 
     @classmethod
     def of(cls, agent: Agent, practice: Practice) -> "EpisodeRollback":
-        """A copy of their state now."""
+        """Return a copy of their state now."""
         return cls(_copied(agent.state()), _copied(practice.state()), agent.mark())
 
     def restore(self, agent: Agent, practice: Practice) -> None:

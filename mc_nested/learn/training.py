@@ -100,7 +100,7 @@ class Training:
         self._evaluated_at[:] = -1 if evaluated_first else 0
 
     def state(self) -> Arrays:
-        """What the rest of the training depends on, without the journal."""
+        """Return what the rest of the training depends on, without the journal."""
         runs = {"episodes": self.episodes_done, "evaluated_at": self._evaluated_at, "finished": self.runs_finished}
         return {
             "counts": np.array([self.ticks, self.env_steps, self.evaluation_steps]),
@@ -112,12 +112,12 @@ class Training:
         }
 
     def marks(self) -> Arrays:
-        """The length of the journal now: how many rows there are, and how many transitions."""
+        """Return the length of the journal now: how many rows there are, and how many transitions."""
         rows = np.array([len(self.episode_rows), len(self.evaluation_rows)])
         return {"rows": rows, **named_for("agent", self.agent.marks())}
 
     def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
-        """The rows and transitions since those marks; all of them if there are none."""
+        """Return the rows and transitions since those marks; all of them if there are none."""
         episodes, evaluations = since["rows"] if since else (0, 0)
         transitions = self.agent.transitions_since(part_of(since, "agent") if since else None)
         return {
@@ -166,7 +166,7 @@ class Training:
         self.runs_finished[run] = row.episode >= self.preset.episodes or reached
 
     def _epsilon_now(self) -> tuple[Float64s, Float64s]:
-        """``epsilon``, for as long as no training episode ends: every tick needs it."""
+        """Return ``epsilon``, for as long as no training episode ends: every tick needs it."""
         main, nested = self._decays
         done, episodes = self.episodes_done, self.preset.episodes
         return main.epsilon(done, episodes), nested.epsilon(done, episodes)
@@ -175,7 +175,7 @@ class Training:
 def practice_of(
     agent: Agent, scenarios: Sequence[Scenario], preset: Preset, seed: int, background: Background | None
 ) -> Practice:
-    """The preset's practice, for the agent's runs; in the background, if there is one, where it can be."""
+    """Return the preset's practice, for the agent's runs; in the background, if there is one, where it can be."""
     if preset.excursions:
         return Excursions(agent, preset, preset.excursions, scenarios)
     imagination = imagination_of(agent, scenarios, preset, seed)

@@ -56,7 +56,7 @@ class Moment:
 
 
 def draw_moment(scenario: Scenario, moment: Moment, arena_px: int = ARENA_PX) -> Picture:
-    """The arena from above, (height, width, 3), and over it the design's name, the step, the blocks and the score."""
+    """Draw the arena from above, (height, width, 3), below the design's name, the step, the blocks and the score."""
     paper = np.full((arena_px + CAPTION + MARGIN, arena_px + 2 * MARGIN, 3), PAPER, dtype=np.uint8)
     arena = draw_picture(scenario, moment.cell, moment.placed, arena_px // scenario.size)
     unused = (arena_px - len(arena)) // 2
@@ -76,13 +76,13 @@ def draw_moment(scenario: Scenario, moment: Moment, arena_px: int = ARENA_PX) ->
 
 
 def box_for(window: Picture, arena_px: int = ARENA_PX) -> Size:
-    """The width and height that a window's picture gets beside the arena: as high as the arena."""
+    """Return the width and height that a window's picture gets beside the arena: as high as the arena."""
     height, width = window.shape[:2]
     return max(1, round(arena_px * width / height)), arena_px
 
 
 def beside(picture: Picture, window: Picture, box: Size) -> Picture:
-    """A moment's picture, and to its right the window's, scaled to fit a box (width, height), its shape kept.
+    """Return a moment's picture, and to its right the window's, scaled to fit a box (width, height), its shape kept.
 
     So a window that changes its size doesn't change the film's.
     """
@@ -98,7 +98,7 @@ def beside(picture: Picture, window: Picture, box: Size) -> Picture:
 
 
 def _fitting(text: str, font: ImageFont.FreeTypeFont, width: int) -> str:
-    """The text, or as much of its beginning as the width has room for."""
+    """Return the text, or as much of its beginning as the width has room for."""
     if font.getlength(text) <= width:
         return text
     return next(

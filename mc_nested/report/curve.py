@@ -33,7 +33,7 @@ def draw_curve(path: Path, title: str, episodes: Sequence[int], scores: Float64s
 
 
 def t_interval(scores: Float64s, highest: float = np.inf) -> tuple[Float64s, Float64s]:
-    """Student's t interval (95 %) of the mean over at least two trials (trials, evaluations), cut at ``highest``.
+    """Return Student's t interval (95 %) of the mean of two trials or more (trials, evaluations), cut at ``highest``.
 
     No mean can be above the highest score, so the cut costs no coverage. Where all trials agree it has no width: that
     says that none of them differed, not that no other would.
@@ -44,7 +44,7 @@ def t_interval(scores: Float64s, highest: float = np.inf) -> tuple[Float64s, Flo
 
 
 def align_trials(evaluations: Sequence[tuple[int, int, float]], trials: int) -> tuple[list[int], Float64s]:
-    """Episodes and scores (trials, evaluations) from (trial, episode, score) rows.
+    """Return episodes and scores (trials, evaluations) from (trial, episode, score) rows.
 
     A trial that finished early keeps its last score, that of the policy it keeps; episodes that some trial has not
     reached yet are left out.

@@ -90,12 +90,12 @@ class Film:
 
 
 def is_gif(path: Path) -> bool:
-    """Whether the film is a .gif: one takes ten times an .mp4's room, so its pictures are smaller."""
+    """Return whether the film is a .gif: one takes ten times an .mp4's room, so its pictures are smaller."""
     return path.suffix.lower() == ".gif"
 
 
 def check_film(path: Path) -> None:
-    """FilmError, one line, if no film can be written there: asked before anything is played."""
+    """Raise FilmError, one line, if no film can be written there: asked before anything is played."""
     if path.suffix.lower() not in ENCODERS:
         raise FilmError(f"{path}: a film is a file .mp4 or .gif: name one of these")
     if not path.parent.is_dir():
@@ -112,7 +112,7 @@ def check_film(path: Path) -> None:
 
 @contextmanager
 def open_film(path: Path) -> Iterator[Film]:
-    """A film to show pictures in. Whatever ends the block, what was shown until then is a whole film.
+    """Open a film to show pictures in. Whatever ends the block, what was shown until then is a whole film.
 
     Where nothing was shown there is none. Raises FilmError, one line, where it can't be written. An earlier file of
     that name is kept until the new film is whole.

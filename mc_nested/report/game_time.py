@@ -14,12 +14,12 @@ on the line and on the diamond: the time played beside the actions, a reset)."""
 
 
 def minutes_of(episodes: int, steps: int) -> float:
-    """Minutes of game time of so many episodes with so many actions in all."""
+    """Return minutes of game time of so many episodes with so many actions in all."""
     return (steps * ACTION_S + episodes * RESET_S) / 60
 
 
 def episodes_without_a_prior(blocks: int, size: int = DEFAULT_SIZE) -> float:
-    """How many episodes a design of so many blocks should take if no cell is likelier than another.
+    """Return how many episodes a design of so many blocks should take if no cell is likelier than another.
 
     The blocks stand on n of the N = size x (size - 1) cells where one can land. Tested in any order, the last of them
     is expected at test (N + 1) n / (n + 1). An episode tests n cells, and one more builds them all.
@@ -40,7 +40,7 @@ class Expected:
     is_a_limit: bool
 
     def line(self, scenario: Scenario) -> str:
-        """One line for whoever waits."""
+        """Return one line for whoever waits."""
         about = "at most about" if self.is_a_limit else "about"
         return (
             f"expected: {about} {self.minutes:.0f} minutes of game time, {self.episodes} episodes of up to "
@@ -49,7 +49,7 @@ class Expected:
 
 
 def expected(preset: Preset, scenario: Scenario, *, stop_at_optimum: bool) -> Expected:
-    """How long a training from scratch should take in a running game, every episode as long as it may be.
+    """Return how long a training from scratch should take in a running game, every episode as long as it may be.
 
     All its episodes are played, or with ``stop_at_optimum`` up to all. With [imagination] it ends then by as many as
     finding a design of so many blocks takes without any prior, if the preset has so many.

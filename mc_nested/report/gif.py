@@ -57,7 +57,7 @@ class GifEncoder:
         )
 
     def stop(self) -> None:
-        """Nothing: the file is written at once, or not at all."""
+        """Do nothing: the file is written at once, or not at all."""
 
 
 class _Packed:
@@ -72,7 +72,7 @@ class _Packed:
 
 
 def _palette_of(pictures: list[_Packed]) -> Image.Image:
-    """The colours that are drawn, which no window may crowd out, and the ones that the pictures need most."""
+    """Return the colours that are drawn, which no window may crowd out, and the ones that the pictures need most."""
     chosen = _sample_of(pictures).quantize(CHOSEN).getpalette() or []
     palette = Image.new("P", (1, 1))
     palette.putpalette([value for colour in (*DRAWN, *EDGES) for value in colour] + chosen[: 3 * CHOSEN])
@@ -80,7 +80,7 @@ def _palette_of(pictures: list[_Packed]) -> Image.Image:
 
 
 def _sample_of(pictures: list[_Packed]) -> Image.Image:
-    """All pictures below each other, of each as many rows as there is room for."""
+    """Return all pictures below each other, of each as many rows as there is room for."""
     height, width, _ = pictures[0].shape
     every = -(-width * height * len(pictures) // SAMPLE)
     return Image.fromarray(np.concatenate([each.picture()[at % every :: every] for at, each in enumerate(pictures)]))

@@ -19,7 +19,7 @@ H264 = ("-c:v", "libx264", "-preset", "veryfast", "-crf", "20", "-pix_fmt", "yuv
 
 
 def check_ffmpeg() -> str:
-    """The path of ffmpeg; FilmError, one line that names the extra, where there is none."""
+    """Return the path of ffmpeg; FilmError, one line that names the extra, where there is none."""
     try:
         import imageio_ffmpeg
     except ImportError:
@@ -74,7 +74,7 @@ class Mp4Encoder:
         self._said.close()
 
     def _wait(self) -> None:
-        """Until the last picture is piped."""
+        """Wait until the last picture is piped."""
         try:
             if self._piping is not None:
                 self._piping.result()

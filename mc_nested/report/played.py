@@ -20,7 +20,7 @@ class Played:
 
 
 def played_by(episodes: Sequence[EpisodeRow], evaluations: Sequence[EvaluationRow], trials: int) -> list[Played]:
-    """Each trial's real episodes; an evaluation comes after the training episode whose number it has."""
+    """Return each trial's real episodes; an evaluation comes after the training episode whose number it has."""
     found = []
     for trial in range(trials):
         rows = [(row.episode, False, row.score, row.steps) for row in episodes if row.trial == trial]

@@ -38,7 +38,7 @@ def draw_played_curve(path: Path, title: str, trials: Sequence[Played], optimum:
 
 
 def _draw_trial(axes: Axes, along: Float64s, trial: Played, *, named: bool) -> None:
-    """One trial as a line with a point for each episode; only one trial has a name in the legend."""
+    """Draw one trial as a line with a point for each episode; only one trial has a name in the legend."""
     axes.plot(along, trial.scores, color=MEAN, linewidth=1.0, alpha=0.5)
     for kind, color, size, name in (
         (~trial.greedy, MEAN, 16, "an episode of training"),

@@ -19,7 +19,7 @@ FILE = "events.out.tfevents.mc-nested"
 
 
 def is_installed() -> bool:
-    """Whether TensorBoard is installed."""
+    """Return whether TensorBoard is installed."""
     return importlib.util.find_spec("tensorboard") is not None
 
 

@@ -24,7 +24,7 @@ NAMES = {AGENT: "the agent", BUILT: "built", WRONG: "off the design", MISSING: "
 
 
 def arena_view(scenario: Scenario, agent: Cell | None, placed: Collection[Cell]) -> Group:
-    """The arena from above, the far edge on top, and what each sign means."""
+    """Return the arena from above, the far edge on top, and what each sign means."""
     rows = []
     for y in reversed(range(scenario.size)):
         row = Text("  ")
@@ -40,12 +40,12 @@ def arena_view(scenario: Scenario, agent: Cell | None, placed: Collection[Cell])
 
 
 def style_of(kind: str) -> str:
-    """The style of what is drawn in a cell."""
+    """Return the style of what is drawn in a cell."""
     return STYLES.get(kind) or PART_STYLES[PARTS.index(kind) % len(PART_STYLES)]
 
 
 def named_signs(parts: int) -> dict[str, str]:
-    """What each sign means, in a design of so many parts, 0 if it isn't in parts."""
+    """Return what each sign means, in a design of so many parts, 0 if it isn't in parts."""
     if not parts:
         return NAMES
     built = {kind: name for kind, name in NAMES.items() if kind != MISSING}

@@ -25,13 +25,13 @@ NAMES = {"o": "pays", "-": "doesn't", "?": "believed", ".": "unknown", "#": "bui
 
 
 def belief_rows(seen: KnownArena) -> tuple[str, ...]:
-    """The sign of each cell's belief, a text a row, the nearest row first."""
+    """Return the sign of each cell's belief, a text a row, the nearest row first."""
     size = len(seen.cells)
     return tuple("".join(SIGNS[Belief(int(seen.cells[x, y]))] for x in range(size)) for y in range(size))
 
 
 def map_view(seen: KnownArena) -> Group:
-    """The arena from above, the far edge on top, and what each sign means."""
+    """Return the arena from above, the far edge on top, and what each sign means."""
     size = len(seen.cells)
     rows = []
     for y in reversed(range(size)):

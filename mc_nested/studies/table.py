@@ -23,7 +23,7 @@ class Table:
     rows: Sequence[Sequence[Any]]
 
     def write(self, path: Path) -> None:
-        """Write it as CSV, atomically; OSError if the disk refuses."""
+        """Write the table as CSV, atomically; OSError if the disk refuses."""
         with atomic_write(path) as unfinished, unfinished.open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(self.header)
@@ -38,7 +38,7 @@ def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def two(value: float) -> str:
-    """Write it with two decimals."""
+    """Write a number with two decimals."""
     return f"{round(value, 2) + 0.0:.2f}"  # + 0.0: no minus before a zero
 
 
@@ -48,7 +48,7 @@ def mean(trials: Float64s) -> str:
 
 
 def interval(ends: Interval | None) -> str:
-    """Write from where to where it goes."""
+    """Write an interval as its two ends."""
     return f"{two(ends.low)} to {two(ends.high)}" if ends else NONE
 
 
@@ -67,7 +67,7 @@ def number_of_trials(trials: int) -> str:
 
 
 def episodes(number: float) -> str:
-    """Write them to a tenth, or to a whole number from 100 on; ∞ for never."""
+    """Write a number of episodes to a tenth, or to a whole number from 100 on; ∞ for never."""
     if not np.isfinite(number):
         return "∞"
     return f"{number:,.0f}" if number >= 100 or number == int(number) else f"{number:.1f}"

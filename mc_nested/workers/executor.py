@@ -29,13 +29,13 @@ class JobExecutor(Protocol):
         """
 
     def reports(self) -> list[JobReport]:
-        """What was reported since the last call, oldest first."""
+        """Return what was reported since the last call, oldest first."""
 
     def stop(self) -> None:
         """Let what trains be saved; what hasn't begun is cancelled."""
 
     def in_words(self) -> str:
-        """How many workers there are, what they do and which were lost; empty where there is nothing to say."""
+        """Return how many workers there are, what they do and which were lost; empty where there is nothing to say."""
 
 
 def train_jobs(
@@ -70,7 +70,10 @@ def train_jobs(
 
 
 def _arrived(done: "SimpleQueue[Future[JobEnded]]") -> list[Future[JobEnded]]:
-    """What is done since the last call; waits for a moment. It takes no longer for ten thousand jobs than for one."""
+    """Return how jobs have ended since the last call.
+
+    Wait a moment for it. Ten thousand jobs take no longer than one.
+    """
     with suppress(Empty):
         first = done.get(timeout=LOOK_EVERY_S)
         return [first, *(done.get() for _ in range(done.qsize()))]
@@ -85,7 +88,10 @@ class _Found:
         self.lost = ""
 
     def of(self, future: Future[JobEnded], stopping: bool) -> JobEnded | None:
-        """How that future's job ended; None if it was cancelled or lost. An error that isn't a RunError is a bug."""
+        """Return how that future's job ended.
+
+        It is None if it was cancelled or lost. An error that isn't a RunError is a bug.
+        """
         try:
             ended = future.result()
         except CancelledError:

@@ -16,7 +16,7 @@ REPORT_EVERY_S = 0.25
 
 
 def serve_jobs(pipe: Connection) -> None:
-    """The process's main function: receives jobs and their folders, one by one, until None or the pipe's end."""
+    """Receive jobs and their folders, one by one, until None or the pipe's end: the process's main function."""
     stop = _StopSignal()
 
     def report(now: JobReport) -> bool:

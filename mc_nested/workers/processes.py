@@ -118,7 +118,7 @@ class _Process:
                 self.pipe.send(None)
 
     def hear(self) -> JobReport | JobEnded | None:
-        """Its next message; None if it is gone."""
+        """Return its next message; None if it is gone."""
         try:
             heard: JobReport | JobEnded = self.pipe.recv()
         except (EOFError, ConnectionError):
@@ -142,7 +142,7 @@ class _Process:
 
 @contextmanager
 def _not_interrupted() -> Iterator[None]:
-    """Processes started inside never get Ctrl+C, not even before their first line; here it comes after the block."""
+    """Keep Ctrl+C from processes started inside, even before their first line; here it comes after the block."""
     if sys.platform == "win32":
         yield
         return

@@ -15,7 +15,7 @@ from mc_nested.arena.scenario import Scenario
 
 
 def check_env_contract(env: gymnasium.Env[Any, Any], scenario: Scenario, actions: Sequence[Action]) -> None:
-    """AssertionError where what the Env returns isn't what the task says.
+    """Raise AssertionError where what the Env returns isn't what the task says.
 
     Three episodes: of these actions, which end none; of the builder, to the optimum; and one to the step limit. The
     scenario's first material must not be its best one.

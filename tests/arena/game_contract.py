@@ -20,7 +20,7 @@ Truth = Callable[[], tuple[Cell, set[Cell]]]
 
 
 def check_game(game: Game, scenario: Scenario, actions: Sequence[Action], truth: Truth | None = None) -> None:
-    """AssertionError where the game's outcomes aren't those of the rules, over one episode after an abandoned one.
+    """Raise AssertionError where the game's outcomes break the rules, over one episode after an abandoned one.
 
     With a ``truth``, the outcomes must agree with it too. A resumable game must return to the state it was saved in.
     """
@@ -55,7 +55,7 @@ Kinds = Callable[[], dict[Cell, str]]
 def check_materials(
     game: Game, scenario: Scenario, steps: Sequence[tuple[Action, int | None]], kinds: Kinds | None = None
 ) -> None:
-    """AssertionError where what is in hand changes an outcome, or a block isn't of the material in hand.
+    """Raise AssertionError where what is in hand changes an outcome, or a block isn't of the material in hand.
 
     One episode after an abandoned one that ended with another material in hand; a step is an action and the material to
     take in hand before it, None to leave it.

@@ -32,7 +32,7 @@ TO_NEAR = (Action.B, Action.RD, Action.L, Action.LD, Action.RD)
 
 @st.composite
 def scenarios_with_parts(draw: st.DrawFn, size: int = 6) -> Scenario:
-    """Any design of a few cells in one to three parts that can be built in their order, and two or three materials."""
+    """Draw a design of a few cells, in one to three parts that can be built in order, and two or three materials."""
     cells = st.tuples(st.integers(0, size - 1), st.integers(1, size - 1))
     design = draw(st.lists(cells, min_size=1, max_size=7, unique=True))
     ends = sorted(draw(st.sets(st.integers(1, len(design)), max_size=2)) | {len(design)})

@@ -39,7 +39,7 @@ def test_a_policy_over_x_y_b_can_follow_the_builder(name: str) -> None:
 
 @st.composite
 def scenarios(draw: st.DrawFn) -> Scenario:
-    """Any design off the near edge, in an arena of any size, from any start."""
+    """Return any design off the near edge, in an arena of any size, from any start."""
     size = draw(st.integers(SMALLEST_SIZE, LARGEST_SIZE))
     cells = st.tuples(st.integers(0, size - 1), st.integers(0, size - 1))
     design = draw(st.frozensets(cells.filter(lambda cell: cell[1] > 0), min_size=1))

@@ -79,7 +79,7 @@ def test_what_the_builder_can_not_build_is_none() -> None:
 
 @st.composite
 def small_designs(draw: st.DrawFn) -> Scenario:
-    """Any design of a few blocks off the near edge, from any start, with no step limit to speak of."""
+    """Return any design of a few blocks off the near edge, from any start, with no step limit to speak of."""
     size = draw(st.integers(SMALLEST_SIZE, 9))
     cells = st.tuples(st.integers(0, size - 1), st.integers(0, size - 1))
     design = draw(st.frozensets(cells.filter(lambda cell: cell[1] > 0), min_size=1, max_size=7))

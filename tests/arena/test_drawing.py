@@ -63,7 +63,7 @@ BUILT, WRONG = (BLOCKS[kind][0] for kind in "#x")
 
 
 def cell_of(picture: Picture, x: int, y: int, px: int = CELL_PX, size: int = 15) -> Picture:
-    """The part of a picture that is one cell."""
+    """Return the part of a picture that is one cell."""
     top, left = (size - 1 - y) * px, x * px
     return picture[top : top + px, left : left + px]
 

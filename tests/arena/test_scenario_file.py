@@ -99,7 +99,7 @@ def test_a_scenario_survives_its_table(size: int, worth: list[float], data: st.D
 
 
 def drawn(rows: list[str], start: str = "[3, 4]") -> str:
-    """A scenario file with that drawing."""
+    """Return a scenario file with that drawing."""
     head = OWN.replace("start = [3, 4]", f"start = {start}").partition("design")[0]
     lines = "".join(row + "\n" for row in rows)
     return f"{head}design = '''\n{lines}'''\n" + '[[materials]]\nname = "glass"\np = 1\nblock = "glass"\n'
@@ -194,7 +194,7 @@ def test_an_unknown_material_lists_the_known_ones() -> None:
 
 
 def in_parts(*drawings: frozenset[Cell], more: str = "") -> str:
-    """A scenario file in an arena of 5, whose parts are drawn like that."""
+    """Return a scenario file in an arena of 5, whose parts are drawn like that."""
     design = draw_grid(frozenset({(1, 3), (2, 3), (1, 2)}), 5)
     head = f'name = "two"\nstart = [0, 0]\nstep_limit = 20\n{more}\n'
     materials = (

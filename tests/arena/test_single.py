@@ -176,7 +176,7 @@ def test_a_snapshot_brings_every_arena_back() -> None:
 
 
 def singles(builders: int, runs: int = 1) -> SingleAgentVectorEnv:
-    """Single agents that share an arena in each run."""
+    """Return single agents that share an arena in each run."""
     team = team_of(LINE, builders)
     each = [team.scenario_of(number) for _ in range(runs) for number in range(builders)]
     env = SingleAgentVectorEnv(TeamVectorEnv([TeamGrid(team) for _ in range(runs)], team), each, builders)

@@ -11,7 +11,7 @@ GZIP = b"\x1f\x8b"
 
 
 def mutated(data: bytes, random: random.Random) -> bytes:
-    """A damaged copy. Of a compressed file, mostly what is in it is damaged, and it is compressed again."""
+    """Return a damaged copy. Of a compressed file, mostly what is in it is damaged, and it is compressed again."""
     if data.startswith(GZIP) and random.random() < 0.8:
         return gzip.compress(_damaged(gzip.decompress(data), random), 1, mtime=0)
     return _damaged(data, random)

@@ -31,7 +31,7 @@ class OtherReaders:
         return sorted((self.modules / "prismarine-schematic/test/schematics").iterdir())
 
     def read(self, reader: str, files: Sequence[Path], out: Path) -> list[tuple[list[int], list[str]]]:
-        """Each file's size, width, height and length, and the names of its blocks, in the order y, z, x."""
+        """Return each file's size, width, height and length, and the names of its blocks, in the order y, z, x."""
         command = [NODE.required(), str(HERE / "read_designs.cjs"), reader, str(out), *map(str, files)]
         done = subprocess.run(
             command, cwd=self.modules.parent, capture_output=True, text=True, timeout=300, check=False
@@ -42,7 +42,7 @@ class OtherReaders:
 
 @pytest.fixture(scope="session")
 def other_readers() -> OtherReaders:
-    """The readers, installed once."""
+    """Return the readers, installed once."""
     cache = ROOT / ".standin"
     cache.mkdir(exist_ok=True)
     log = cache / "readers.log"

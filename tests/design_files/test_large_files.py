@@ -46,7 +46,7 @@ ROOT = b"\x0a\0\0"
 
 
 def structure(blocks: int) -> bytes:
-    """A structure with so many blocks, row by row of 48."""
+    """Return a structure with so many blocks, row by row of 48."""
     head = named("", {"size": [48, blocks // 2304 + 1, 48], "palette": states(["minecraft:stone"])})[:-1]
     places = ([at % 48, at // 2304, at // 48 % 48] for at in range(blocks))
     entries = b"".join(payload({"pos": place, "state": 0}) for place in places)

@@ -17,7 +17,7 @@ LINE = load_scenario("line")
 
 
 def layer(*rows: str) -> Volume:
-    """One layer, the northern row first; a letter is a kind of block."""
+    """Return one layer, the northern row first; a letter is a kind of block."""
     palette = ("air", *sorted({character for row in rows for character in row} - {"."}))
     numbers = [[0 if character == "." else palette.index(character) for character in row] for row in rows]
     return Volume(palette, np.array([numbers], np.int32))
@@ -134,7 +134,7 @@ def test_any_layer_is_built_within_the_step_limit(width: int, length: int, data:
 
 
 def check_built(scenario: Scenario) -> None:
-    """The scripted builder's actions build the whole design in the Env, and end the episode by that."""
+    """Check that the scripted builder's actions build the whole design in the Env, and so end the episode."""
     env = arena_env(scenario)
     env.reset()
     *_, (_, _, terminated, truncated, info) = [env.step(action) for action in build(scenario)]

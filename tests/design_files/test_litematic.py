@@ -15,7 +15,7 @@ from tests.design_files.written import HUT, Longs, litematic, nbt_file, packed, 
 
 
 def names_in(volume: Volume) -> list[list[list[str]]]:
-    """The blocks' names, layer by layer and row by row."""
+    """Return the blocks' names, layer by layer and row by row."""
     return [[[volume.palette[number] for number in row] for row in layer] for layer in volume.blocks.tolist()]
 
 

@@ -35,7 +35,7 @@ def names_in(volume: Volume) -> list[str]:
 
 
 def names_of(drawing: Drawing, name: str) -> list[str]:
-    """What the reader of a file of that name calls the drawing's blocks."""
+    """Return what the reader of a file of that name calls the drawing's blocks."""
     others = {"c": "block number 300"} if name.startswith("mcedit") else {}
     return [{**NAMES, **others}[character] for character in cells(drawing)]
 

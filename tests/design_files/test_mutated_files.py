@@ -38,7 +38,7 @@ def _traced() -> Iterator[None]:
 
 
 def written_here(folder: Path) -> dict[str, bytes]:
-    """Small files that our tests write, and litemapy's."""
+    """Return small files that our tests write, and litemapy's."""
     files = {name: write(HUT) for name, write in WRITERS.items()}
     files["regions.litematic"] = litematic({"a": region(HUT), "b": region(HUT, (2, 1, -2), "y")})
     files |= {f"{mode}.png": picture(HUT[0], mode) for mode in ("RGBA", "P", "L", "1")}
@@ -50,7 +50,7 @@ def written_here(folder: Path) -> dict[str, bytes]:
 
 
 def outcome(path: Path) -> str:
-    """What came of a file: ``read``, or the kind of refusal. Anything but one line fails."""
+    """Read a file, and return what came of it: ``read``, or the kind of refusal. Anything but one line fails."""
     tracemalloc.reset_peak()
     before, began = tracemalloc.get_traced_memory()[0], time.process_time()
     try:
@@ -66,7 +66,7 @@ def outcome(path: Path) -> str:
 
 
 def outcomes(files: dict[str, bytes], count: int, seed: int, folder: Path) -> Counter[str]:
-    """How often each outcome came of so many damaged copies of the files, each file equally often."""
+    """Return how often each outcome came of so many damaged copies of the files, each file equally often."""
     generator = random.Random(seed)  # noqa: S311 - damage, no secret
     found: Counter[str] = Counter()
     names = sorted(files)

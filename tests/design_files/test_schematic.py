@@ -38,7 +38,7 @@ def test_blocks_that_are_not_as_many_as_the_cells_are_refused(data: bytes, says:
 
 
 def sponge_schematic(**changes: Any) -> bytes:
-    """Two blocks of a palette with gaps; a change to None leaves a tag out."""
+    """Return two blocks of a palette with gaps; a change to None leaves a tag out."""
     palette = {"minecraft:air": 4, "minecraft:stone": 900}
     tags: dict[str, Any] = {"Version": 2, "Width": Short(2), "Height": Short(1), "Length": Short(1)}
     tags |= {"Palette": palette, "BlockData": varint(900) + varint(4)} | changes
@@ -99,7 +99,7 @@ def test_an_old_number_has_todays_name(number: int, data: int, name: str) -> Non
 
 
 def mcedit_schematic(**changes: Any) -> bytes:
-    """Three blocks in a row, of which the first and the last are mods' with the numbers 257 and 514."""
+    """Return three blocks in a row, of which the first and the last are mods' with the numbers 257 and 514."""
     tags: dict[str, Any] = {"Width": Short(3), "Height": Short(1), "Length": Short(1), "Materials": "Alpha"}
     tags |= {"Blocks": b"\1\1\2", "Data": b"\0\2\0", "AddBlocks": b"\x10\x20"} | changes
     return nbt_file({name: value for name, value in tags.items() if value is not None}, "Schematic")

@@ -11,7 +11,7 @@ from tests.design_files.written import HUT, nbt_file, states, structure
 
 
 def saved(**changes: Any) -> bytes:
-    """One block in a corner of 2 x 1 x 2 cells; a change to None leaves a tag out."""
+    """Return one block in a corner of 2 x 1 x 2 cells; a change to None leaves a tag out."""
     tags: dict[str, Any] = {"size": [2, 1, 2], "palette": states(["minecraft:stone"])}
     tags |= {"blocks": [{"pos": [1, 0, 0], "state": 0}], "entities": []} | changes
     return nbt_file({name: value for name, value in tags.items() if value is not None})

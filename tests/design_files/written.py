@@ -50,7 +50,7 @@ NUMBERS: dict[type, int] = {Short: 2, int: 3, bytes: 7, str: 8, list: 9, dict: 1
 
 
 def payload(value: Any) -> bytes:
-    """A value as NBT, without its type and name."""
+    """Return a value as NBT, without its type and name."""
     match value:
         case Short():
             data = struct.pack(">H", value.value & 0xFFFF)
@@ -80,17 +80,17 @@ def named(name: str, value: Any) -> bytes:
 
 
 def nbt_file(root: Mapping[str, Any], name: str = "") -> bytes:
-    """A whole file, compressed; the same bytes each time."""
+    """Return a whole file, compressed; the same bytes each time."""
     return gzip.compress(named(name, dict(root)), mtime=0)
 
 
 def sizes(drawing: Drawing) -> tuple[int, int, int]:
-    """Width, height and length."""
+    """Return width, height and length."""
     return len(drawing[0][0]), len(drawing), len(drawing[0])
 
 
 def cells(drawing: Drawing) -> str:
-    """Every character, in the order y, z, x."""
+    """Return every character, in the order y, z, x."""
     return "".join(row for layer in drawing for row in layer)
 
 
@@ -103,7 +103,7 @@ def varint(number: int) -> bytes:
 
 
 def sponge(drawing: Drawing, version: int = 2, first: int = 0) -> bytes:
-    """A .schem whose palette's numbers begin with ``first``."""
+    """Return a .schem whose palette's numbers begin with ``first``."""
     width, height, length = sizes(drawing)
     numbers = {character: first + index for index, character in enumerate(PALETTE)}
     palette = {PALETTE[character]: number for character, number in numbers.items()}
@@ -119,7 +119,7 @@ LEGACY = {".": (0, 0), "s": (1, 0), "o": (53, 0), "w": (53, 1), "c": (300, 2)}
 
 
 def mcedit(drawing: Drawing) -> bytes:
-    """A .schematic, with AddBlocks where a number needs it."""
+    """Return a .schematic, with AddBlocks where a number needs it."""
     width, height, length = sizes(drawing)
     blocks = [LEGACY[character] for character in cells(drawing)]
     root: dict[str, Any] = {
@@ -137,19 +137,19 @@ def mcedit(drawing: Drawing) -> bytes:
 
 
 def states(names: Sequence[str]) -> list[dict[str, Any]]:
-    """A list of block states, as structures and Litematica have it."""
+    """Return a list of block states, as structures and Litematica have it."""
     return [{"Name": name.partition("[")[0]} for name in names]
 
 
 def packed(numbers: Sequence[int], bits: int) -> Longs:
-    """The numbers as one long number of bits, cut into longs with a sign."""
+    """Return the numbers as one long number of bits, cut into longs with a sign."""
     whole = sum(number << bits * at for at, number in enumerate(numbers))
     bytes_needed = -(-len(numbers) * bits // 64) * 8
     return Longs(struct.unpack(f"<{bytes_needed // 8}q", whole.to_bytes(bytes_needed, "little")))
 
 
 def region(drawing: Drawing, low: tuple[int, int, int] = (0, 0, 0), backwards: str = "") -> dict[str, Any]:
-    """A region whose lowest corner is ``low``, given from its far end along the axes named in ``backwards``."""
+    """Return a region whose lowest corner is ``low``, given from its far end along the axes named in ``backwards``."""
     position, size = {}, {}
     for axis, start, cells_along in zip("xyz", low, sizes(drawing), strict=True):
         position[axis] = start + cells_along - 1 if axis in backwards else start
@@ -168,7 +168,7 @@ def litematic(regions: Mapping[str, dict[str, Any]]) -> bytes:
 
 
 def structure(drawing: Drawing, palettes: int = 0) -> bytes:
-    """A structure without its air; with ``palettes`` many of them, of which only the first has these names."""
+    """Return a structure without its air; with ``palettes`` many of them, of which only the first has these names."""
     width, height, length = sizes(drawing)
     kinds = list(PALETTE)
     blocks = [
@@ -188,7 +188,7 @@ COLOURS = {".": (255, 255, 255, 255), "s": (90, 90, 90, 255), "o": (150, 110, 60
 
 
 def picture(layer: Sequence[str], mode: str = "RGBA") -> bytes:
-    """A .png of one layer, in a mode of Pillow's."""
+    """Return a .png of one layer, in a mode of Pillow's."""
     pixels = np.array([[COLOURS[character] for character in row] for row in layer], np.uint8)
     file = io.BytesIO()
     Image.fromarray(pixels).convert(mode, dither=Image.Dither.NONE).save(file, "PNG")

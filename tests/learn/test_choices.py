@@ -42,7 +42,7 @@ def main_of(trainer: Trainer) -> Learner:
 
 
 def transitions(learner: Learner, row: int = 0) -> list[tuple[int, int, float, int, float]]:
-    """State, action, reward, next state and discount of what a row remembers, oldest first."""
+    """Return state, action, reward, next state and discount of what a row remembers, oldest first."""
     every = learner.replay.added_since(None)
     ends = np.cumsum(every["counts"])
     of_row = slice(ends[row] - every["counts"][row], ends[row])

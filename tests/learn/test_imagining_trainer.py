@@ -49,7 +49,7 @@ def saved(trainer: Trainer) -> tuple[Arrays, list[Arrays]]:
 
 
 def assert_same(one: Trainer, other: Trainer) -> None:
-    """AssertionError unless both trainings came to the same, to the bit."""
+    """Raise AssertionError unless both trainings came to the same, to the bit."""
     assert one.episode_rows == other.episode_rows
     assert one.evaluation_rows == other.evaluation_rows
     expected = other.state()

@@ -70,7 +70,7 @@ def test_what_follows_counts_by_gamma_unless_the_episode_terminated() -> None:
 
 
 def prioritized_imitator(share: int = 8) -> Learner:
-    """A learner of one row with 100 transitions of equal priority, which imitates an episode of one step."""
+    """Return a learner of one row with 100 transitions of equal priority, which imitates an episode of one step."""
     preset = PAPER.model_copy(update={"prioritized": Prioritized(alpha=0.6, beta=0.4)})
     space, streams = StateSpace(np.array([[120]]), 2), [np.random.default_rng(0)]
     one = Learner(space, preset, streams, (Imitation(batch=share, margin=0.5), 60))

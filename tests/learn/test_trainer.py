@@ -82,19 +82,19 @@ def main_of(agent: Agent) -> Learner:
 
 
 def kept_by(learner: Learner, row: int) -> Arrays:
-    """The transitions that a row remembers, oldest first."""
+    """Return the transitions that a row remembers, oldest first."""
     every = learner.replay.added_since(None)
     ends = np.cumsum(every["counts"])
     return {name: kept[ends[row] - every["counts"][row] : ends[row]] for name, kept in every.items()}
 
 
 def added_to(agent: Agent) -> list[list[int]]:
-    """How many transitions each row of each learner has stored."""
+    """Return how many transitions each row of each learner has stored."""
     return [learner.replay.added.tolist() for learner in _learners(agent)]
 
 
 def saved(trainer: Trainer) -> tuple[Arrays, list[Arrays]]:
-    """A training as it would be on disk."""
+    """Return a training as it would be on disk."""
     return {name: kept.copy() for name, kept in trainer.state().items()}, [trainer.journal(None)]
 
 

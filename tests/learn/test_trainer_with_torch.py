@@ -95,7 +95,7 @@ def final_scores(preset: Preset, trials: int) -> Float64s:
 
 
 def p_of_one_distribution(one: Float64s, other: Float64s) -> float:
-    """The smaller p of two tests that both are of one distribution: of their means, and of any difference."""
+    """Return the smaller p of two tests that both are of one distribution: of their means, and of any difference."""
     means = stats.permutation_test((one, other), lambda a, b, axis: a.mean(axis) - b.mean(axis), rng=0).pvalue
     return float(min(means, stats.ks_2samp(one, other).pvalue))
 

@@ -17,7 +17,7 @@ def training() -> Training:
 
 
 def store(into: Training, *blocks: int) -> None:
-    """A transition for each of these numbers of blocks."""
+    """Store a transition for each of these numbers of blocks."""
     for left in blocks:
         state = np.array([[7, 13, left, 0]])
         into.agent.low_level.store(np.array([0]), state, np.array([3]), np.ones(1), state, np.zeros(1, np.bool_))

@@ -10,7 +10,7 @@ from mc_nested.arena.drawing import Picture
 
 
 def flat(colour: tuple[int, int, int], width: int = 32, height: int = 24) -> Picture:
-    """A picture of one colour."""
+    """Return a picture of one colour."""
     return np.full((height, width, 3), colour, dtype=np.uint8)
 
 
@@ -18,12 +18,12 @@ RED, GREEN, BLUE = (flat(colour) for colour in ((220, 30, 30), (30, 200, 30), (3
 
 
 def strongest(picture: Picture) -> str:
-    """The strongest colour of a picture."""
+    """Return the strongest colour of a picture."""
     return "rgb"[int(picture.mean(axis=(0, 1)).argmax())]
 
 
 def shown(path: Path) -> list[tuple[str, float]]:
-    """The strongest colour of a film's pictures, and how many seconds each is shown."""
+    """Return the strongest colour of a film's pictures, and how many seconds each is shown."""
     colours = [(strongest(picture), seconds) for picture, seconds in pictures_of(path)]
     runs: list[tuple[str, float]] = []
     for colour, seconds in colours:
@@ -35,7 +35,7 @@ def shown(path: Path) -> list[tuple[str, float]]:
 
 
 def pictures_of(path: Path) -> list[tuple[Picture, float]]:
-    """A film's pictures, and how many seconds each is shown."""
+    """Return a film's pictures, and how many seconds each is shown."""
     if path.suffix == ".gif":
         found = []
         with Image.open(path) as image:

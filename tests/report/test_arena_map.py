@@ -13,7 +13,7 @@ from tests.report.made_seen import made_seen
 
 
 def area_of(path: Path, color: str) -> int:
-    """Pixels of exactly that colour."""
+    """Return how many pixels have exactly that colour."""
     picture = cv2.imread(str(path))
     assert picture is not None
     wanted = [round(255 * part) for part in reversed(to_rgb(color))]

@@ -20,7 +20,7 @@ def contestant(preset: str, most: int, trials: int = 2, designs: int = DESIGNS) 
 
 
 def played(arm: Arm, design: int, number: int, episodes: int | None, seconds: float = 1.0) -> Trial:
-    """A trial that was at the optimum after so many episodes, or never: then it lacks three blocks."""
+    """Return a trial that was at the optimum after so many episodes, or never: then it lacks three blocks."""
     scenario = SCENARIOS[design]
     scores = [(episodes - 1, scenario.optimum)] if episodes else [(60, scenario.optimum - 3)]
     return made_trial(arm, scenario, number, scores, seconds=seconds)

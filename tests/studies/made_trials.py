@@ -32,13 +32,13 @@ def made_trial(
     updates: int = 1000,
     seconds: float = 1.0,
 ) -> Trial:
-    """A trial with those greedy scores, each after so many training episodes; it keeps the last policy."""
+    """Return a trial with those greedy scores, each after so many training episodes; it keeps the last policy."""
     rows = [Evaluated(episode=after, score=score, material="stone", steps=13) for after, score in scores]
     outcome = RunOutcome(evaluations=rows, score=scores[-1][1], updates=updates, env_steps=900)
     return Trial(arm, scenario, number, outcome, networks=2, parameters=3000, seconds=seconds)
 
 
 def made_config(study: str, trials: Sequence[Trial], seed: int = 0, **notes: str) -> StudyConfig:
-    """The config of a study of their arms."""
+    """Return the config of a study of their arms."""
     arms = list({trial.arm.name: trial.arm for trial in trials}.values())
     return config_of(study, arms, trials=arms[0].trials, seed=seed, jobs=1, notes=notes)

@@ -23,7 +23,7 @@ PAPER, TUNED = ("paper", load_preset("paper")), ("tuned", load_preset("tuned"))
 
 
 def contestant(agent: str, preset_name: str, preset: Preset, trials: int = 2) -> Arm:
-    """As ``arms`` makes one, on two designs."""
+    """Return a contestant as ``arms`` makes it, on two designs."""
     return Arm(
         name=f"{agent}, {preset_name}",
         agent=agent,
@@ -46,7 +46,7 @@ def config(trials: int = 2) -> StudyConfig:
 
 
 def trial_of(run: int) -> int:
-    """The trial of a run's number."""
+    """Return the trial of a run's number."""
     return run // MOST_DESIGNS
 
 

@@ -19,7 +19,7 @@ def write(folder: Path, arms: Arms, trials: int, seed: int) -> None:
 
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The folder of a whole run of ten trials, seed 7."""
+    """Return the folder of a whole run of ten trials, seed 7."""
     folder = tmp_path_factory.mktemp("beyond")
     write(folder, whole(), 10, 7)
     return folder

@@ -33,13 +33,13 @@ def skewed(random: np.random.Generator) -> Float64s:
 
 
 def scores(random: np.random.Generator) -> Float64s:
-    """At the optimum of 21 in six of ten trials, else 12 to 20 alike: 19 on average."""
+    """Draw scores: the optimum of 21 in six of ten trials, else 12 to 20 with equal chance; 19 on average."""
     at_optimum = random.random((TRIALS, EXPERIMENTS)) < 0.6
     return np.where(at_optimum, 21.0, random.integers(12, 21, (TRIALS, EXPERIMENTS)))
 
 
 def two_ways(random: np.random.Generator) -> Float64s:
-    """Either of two policies."""
+    """Return either of two policies."""
     return np.where(random.random((TRIALS, EXPERIMENTS)) < 0.5, 21.0, 16.0)
 
 

@@ -21,7 +21,7 @@ def widths(folder: Path) -> tuple[int, int]:
 
 
 def draw(folder: Path, results: Results) -> None:
-    """As a report draws it."""
+    """Draw the figure as a report draws it."""
     write_report(folder, STUDY, Report([], figure5(results), {}))
 
 

@@ -85,7 +85,7 @@ def test_where_all_splits_are_gone_through_p_is_their_share(left: list[int], rig
 
 
 def welchs_t(left: list[int], right: list[int]) -> float:
-    """As the books have it; a large number in the place of infinity."""
+    """Return Welch's t as the books have it; a large number in the place of infinity."""
     difference = statistics.mean(left) - statistics.mean(right)
     error = (statistics.variance(left) / len(left) + statistics.variance(right) / len(right)) ** 0.5
     return difference / error if error else math.copysign(1e6, difference) if difference else 0.0

@@ -29,7 +29,7 @@ def peaked(deviation: float) -> Made:
 
 
 def scores(most: int) -> Made:
-    """Whole blocks about a mean of 17, with ties."""
+    """Draw whole blocks about a mean of 17, with ties."""
     return lambda random: 17 + random.integers(-most, most + 1, 10).astype(np.float64)
 
 
@@ -50,7 +50,7 @@ def unstudentised(left: Float64s, right: Float64s) -> float:
 
 
 def level(test: Callable[[Float64s, Float64s], float], left: Made, right: Made) -> float:
-    """How often the test finds a difference between two agents whose means are equal."""
+    """Return how often the test finds a difference between two agents whose means are equal."""
     random = np.random.default_rng(11)
     return sum(test(left(random), right(random)) < ALPHA for _ in range(EXPERIMENTS)) / EXPERIMENTS
 

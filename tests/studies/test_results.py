@@ -13,7 +13,7 @@ from sim.grid import arena_env
 
 
 def played(scenario: Scenario) -> float:
-    """The builder's score in the simulator."""
+    """Return the builder's score in the simulator."""
     env = arena_env(scenario)
     env.reset(options={"material": scenario.materials[scenario.best_material].name})
     for step in build_with_materials(scenario):

@@ -17,7 +17,7 @@ LETTERS = ["a1", "a2", "a3", "b", "c1", "c2", "c3", "c4", "d1", "d2", "e1", "e2"
 
 
 def behind() -> Results:
-    """As in the paper, but with the nested agent behind on the line at the end."""
+    """Return results as in the paper, but with the nested agent behind on the line at the end."""
     return made({**the_papers(), ("nested", "line"): level(15, early=12, spread=0.5)})
 
 

@@ -23,7 +23,7 @@ from tests.learn.runs.test_run_folder import begun, trainer_in
 
 @pytest.fixture(scope="module")
 def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A finished training of two trials of ten episodes."""
+    """Return a finished training of two trials of ten episodes."""
     folder = begun(tmp_path_factory.mktemp("runs") / "done")
     trainer = trainer_in(folder)
     while not trainer.finished:
@@ -33,7 +33,7 @@ def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def study(path: Path, name: str, arms: list[Arm], finished: bool) -> StudyFolder:
-    """A study whose jobs, or all but the last one, are finished."""
+    """Return a study whose jobs, or all but the last one, are finished."""
     folder = StudyFolder.new(path, config_of(name, arms, trials=2, seed=7, jobs=1))
     folder.begin()
     for job in folder.jobs if finished else folder.jobs[:-1]:

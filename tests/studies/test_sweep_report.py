@@ -14,7 +14,7 @@ from tests.studies.made_trials import LINE, ZIGZAG, made_arm, made_config, made_
 
 
 def trials_of(agent: str, choice: str, value: str, finals: list[float]) -> list[Trial]:
-    """Trials with those final scores on both designs, two worse in the mean."""
+    """Return trials with those final scores on both designs, two worse in the mean."""
     labels = {"agent": agent, "choice": choice, "value": value}
     arm = made_arm(f"{choice}: {value}" if choice else f"base, {agent}", agent=agent, labels=labels)
     return [

@@ -18,7 +18,7 @@ ARMS = [
 
 
 def outcome(job: Job) -> JobOutcome:
-    """Two greedy episodes; the score of the last is the trial's own number."""
+    """Return two greedy episodes; the score of the last is the trial's own number."""
     runs = []
     for number in job.trials:
         scores = [0.0, float(number)]

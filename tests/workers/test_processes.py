@@ -121,7 +121,7 @@ def jobs_of(*names: str) -> list[tuple[Job, Path]]:
 
 
 def train(count: int, *names: str, stopped: threading.Event | None = None) -> list[JobReport | JobEnded]:
-    """What is heard of these jobs, until all is over."""
+    """Train these jobs, and return what is heard of them until all is over."""
     heard: list[JobReport | JobEnded] = []
     is_stopped = (stopped or threading.Event()).is_set
     with JobProcesses(count) as processes:
@@ -134,7 +134,7 @@ def never() -> bool:
 
 
 def until_asked(name: str) -> Act:
-    """Trains until it is asked to stop, and saves."""
+    """Train until it is asked to stop, and save."""
 
     def act(pipe: Connection) -> Ending:
         assert pipe.poll(10)
@@ -144,7 +144,7 @@ def until_asked(name: str) -> Act:
 
 
 def once_it_trains(workers: Workers, other: str, ending: Ending) -> Act:
-    """Ends so as soon as the other job is being trained."""
+    """Return an act that ends so as soon as the other job is being trained."""
 
     def act(_: Connection) -> Ending:
         deadline = time.monotonic() + 10

@@ -69,7 +69,7 @@ class CooperativeEnv(ParallelEnv):  # type: ignore[misc]  # pettingzoo comes wit
         return self._of_each(observations), self._infos()
 
     def step(self, actions: Of) -> tuple[Of, Of, Of, Of, Of]:
-        """One tick: an action of every agent; ResetNeeded if no episode runs."""
+        """Do one tick: an action of every agent; ResetNeeded if no episode runs."""
         if not self.agents:
             raise ResetNeeded("the episode has ended, or none has begun: call reset() first")
         acting, self.agents = self.agents, []
@@ -88,7 +88,7 @@ class CooperativeEnv(ParallelEnv):  # type: ignore[misc]  # pettingzoo comes wit
         return self._of_each(observations), rewards, *flags, infos
 
     def render(self) -> Any:
-        """The arena from above: (H, W, 3) RGB for "rgb_array", lines of text for "ansi", None without a mode."""
+        """Return the arena from above: (H, W, 3) RGB for "rgb_array", lines of text for "ansi", None without a mode."""
         return rendered_team(self.render_mode, self.team, self._cells, self._arena.placed(0))
 
     @property

@@ -50,7 +50,7 @@ class Team:
         return len(self.starts)
 
     def scenario_of(self, builder: int) -> Scenario:
-        """The scenario with that builder's start cell."""
+        """Return the scenario with that builder's start cell."""
         return replace(self.scenario, start=self.starts[builder])
 
 
@@ -72,12 +72,12 @@ class TeamGame(Protocol):
 
 
 def team_of(scenario: Scenario, builders: int) -> Team:
-    """That many builders, spread over the arena; ScenarioError if there can't be so many."""
+    """Return a team of that many builders, spread over the arena; ScenarioError if there can't be so many."""
     return Team(scenario, spread_starts(scenario, builders))
 
 
 def spread_starts(scenario: Scenario, builders: int) -> tuple[Cell, ...]:
-    """The scenario's start for builder 0; the others as far apart along its row, which goes on at the other end.
+    """Return the scenario's start for builder 0; the others as far apart along its row, which goes on at the other end.
 
     ScenarioError if there can't be so many.
     """
@@ -96,19 +96,19 @@ MOVE_OF = {Action.FD: Action.F, Action.LD: Action.L, Action.RD: Action.R, Action
 
 
 def others_of(cells: Sequence[Cell], builder: int) -> frozenset[Cell]:
-    """The cells that the other builders stand in."""
+    """Return the cells that the other builders stand in."""
     return frozenset(cells[:builder]) | frozenset(cells[builder + 1 :])
 
 
 def action_with(action: Action, blocks_left: int) -> Action:
-    """What an action comes to with so many blocks left: without any, its move alone."""
+    """Return what an action comes to with so many blocks left: without any, its move alone."""
     return action if blocks_left else MOVE_OF.get(action, action)
 
 
 def resolved(
     cells: Sequence[Cell], placed: Collection[Cell], actions: Sequence[Action | None], size: int, blocks_left: int
 ) -> tuple[Outcome, ...]:
-    """What one tick leads to, by builder number.
+    """Return what one tick leads to, by builder number.
 
     Args:
         cells: where each builder stands before it.

@@ -57,12 +57,12 @@ class TeamVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         self._truncated = np.zeros(runs, dtype=np.bool_)
 
     def cell(self, row: int) -> Cell:
-        """Where that row's builder stands."""
+        """Return where that row's builder stands."""
         x, y = self._cells[row].tolist()
         return x, y
 
     def placed(self, row: int) -> frozenset[Cell]:
-        """The cells where a block landed in that row's arena since its last reset."""
+        """Return the cells where a block landed in that row's arena since its last reset."""
         return self._placed[row // self.team.builders]
 
     def reset(
@@ -84,9 +84,10 @@ class TeamVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         return self._observations(), {}
 
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
-        """One tick, an action or NO_ACTION of each builder, in every arena whose episode runs; ResetNeeded before one.
+        """Do one tick, an action or NO_ACTION of each builder, in every arena whose episode runs.
 
-        In an arena where nobody acts nothing happens. A game that fails leaves its arena without an episode.
+        ResetNeeded if no episode runs. In an arena where nobody acts nothing happens. A game that fails leaves its arena
+        without an episode.
         """
         wanted, _ = taken_apart(actions, self.num_envs)
         rewards, scores = np.zeros(self.num_envs), np.zeros(len(self.games))
@@ -109,7 +110,7 @@ class TeamVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         return self if all(game.resumable for game in self.games) else None
 
     def snapshot(self) -> Arrays:
-        """Every arena as it stands, the games' part included, for ``restore``."""
+        """Return every arena as it stands, the games' part included, for ``restore``."""
         games = [game.resumable.snapshot() for game in self.games if game.resumable]
         size = self.team.scenario.size
         return {
@@ -130,7 +131,7 @@ class TeamVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     _STATE = ("_cells", "_materials", "_ticks", "_has_begun", "_terminated", "_truncated")
 
     def _tick(self, run: int, actions: list[int]) -> tuple[Float64s, float]:
-        """What each builder of that run has earned, (k,), and r_M if the episode is over."""
+        """Return what each builder of that run has earned, (k,), and r_M if the episode is over."""
         scenario = self.team.scenario
         self._has_begun[run] = False
         outcomes = self.games[run].act([None if action == NO_ACTION else Action(action) for action in actions])
@@ -161,7 +162,7 @@ BODIES: tuple[Colour, ...] = (AGENT_BODY, (34, 122, 74), (122, 66, 160), (24, 11
 
 
 def draw_team_text(team: Team, cells: Sequence[Cell], placed: Collection[Cell]) -> str:
-    """The arena as a line of text a row, two characters a cell; a builder is its number."""
+    """Return the arena as a line of text a row, two characters a cell; a builder is its number."""
     across = range(team.scenario.size)
     number_at = {cell: str(number) for number, cell in enumerate(cells)}
     rows = (
@@ -172,7 +173,7 @@ def draw_team_text(team: Team, cells: Sequence[Cell], placed: Collection[Cell]) 
 
 
 def draw_team_picture(team: Team, cells: Sequence[Cell], placed: Collection[Cell], cell_px: int = CELL_PX) -> Picture:
-    """The arena as ``draw_picture`` draws it, (size * cell_px, size * cell_px, 3), with every builder."""
+    """Return the arena as ``draw_picture`` draws it, (size * cell_px, size * cell_px, 3), with every builder."""
     picture = draw_picture(team.scenario, None, placed, cell_px)
     for cell, body in zip(cells, BODIES, strict=False):
         draw_agent(picture, team.scenario.size, cell, cell_px, body)
@@ -180,7 +181,7 @@ def draw_team_picture(team: Team, cells: Sequence[Cell], placed: Collection[Cell
 
 
 def rendered_team(mode: str | None, team: Team, cells: Sequence[Cell], placed: Collection[Cell]) -> Any:
-    """The arena from above as a render mode wants it; None without one."""
+    """Return the arena from above as a render mode wants it; None without one."""
     if mode == "rgb_array":
         return draw_team_picture(team, cells, placed)
     if mode == "ansi":

@@ -75,26 +75,29 @@ class Engine(Protocol):
         """The target networks' parameters, (rows, parameters): to be read, not written."""
 
     def q_values(self, states: NDArray[Any], rows: Int64s | None = None) -> Float32s:
-        """The online networks' values (k, actions) of one kept state for each of the named rows (k,), or for all."""
+        """Return the online networks' values (k, actions) of one kept state for each named row (k,), or for every row."""
 
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
-        """One update of each of the named rows (k,), each on its own part of the batch; the TD errors, (k, batch).
+        """Update each of the named rows (k,), each on its own part of the batch; return the TD errors, (k, batch).
 
-        By the gradient of the mean Huber loss, and of the mean large-margin loss of what is imitated.
-        DivergedError if a parameter is no number afterwards, before anything can be saved.
+        An update follows the gradient of the mean Huber loss, and of the mean large-margin loss of what is
+        imitated. DivergedError if a parameter is no number afterwards, before anything can be saved.
         """
 
     def load_online(self, online: Float32s) -> None:
         """Continue with other networks (rows, parameters), the targets too; ValueError if their shape differs."""
 
     def last_loss(self) -> Float32s:
-        """The mean Huber loss of each row's last update, (rows,); nan before the first."""
+        """Return the mean Huber loss of each row's last update, (rows,); nan before the first."""
 
     def last_q(self) -> Float32s:
-        """The mean value, Q(s, a), of the transitions of each row's last update, (rows,); nan before the first."""
+        """Return the mean value, Q(s, a), of the transitions of each row's last update, (rows,).
+
+        It is nan before the first.
+        """
 
     def state(self) -> Arrays:
-        """What the next update depends on, by name, (rows, …) each."""
+        """Return what the next update depends on, by name, (rows, …) each."""
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
         """Continue from what ``state`` returned; KeyError or ValueError if the shape differs."""
@@ -114,20 +117,20 @@ class LastBatches:
         self._delta = np.float32(rule.huber_delta)
 
     def loss(self) -> Float32s:
-        """The mean Huber loss of each row, (rows,)."""
+        """Return the mean Huber loss of each row, (rows,)."""
         size = np.abs(self.errors)
         losses = np.where(size <= self._delta, size**2 / 2, self._delta * (size - self._delta / 2))
         mean: Float32s = losses.mean(axis=1)
         return mean
 
     def q(self) -> Float32s:
-        """The mean of the values of each row, (rows,)."""
+        """Return the mean of the values of each row, (rows,)."""
         mean: Float32s = self.values.mean(axis=1)
         return mean
 
 
 def diverged(rule: UpdateRule, updates: Int64s) -> DivergedError:
-    """The error of networks that hold what is no number after so many updates (k,)."""
+    """Return the error of networks that hold what is no number after so many updates (k,)."""
     return DivergedError(
         f"learning_rate {rule.learning_rate:g} is too high: after {updates.max()} updates the "
         f"networks hold what is no number: lower it in the preset's [update], and train again"

@@ -26,7 +26,7 @@ class EngineChoice(NamedTuple):
 def made_engine(
     states: States, choice: EngineChoice, rule: UpdateRule, streams: Sequence[np.random.Generator]
 ) -> Engine:
-    """The engine, with a network for each generator, from which its first parameters come.
+    """Return the engine, with a network for each generator, from which its first parameters come.
 
     PresetError if there is no such network or device, or torch is missing.
     """
@@ -67,7 +67,7 @@ class Computing(NamedTuple):
 
 
 def misfit(computing: Computing, *, explores_by_place: bool, imagines: bool, encoding: str) -> str | None:
-    """What doesn't go together, one line; None if all does."""
+    """Return what doesn't go together, one line; None if all does."""
     engine, device, network, states = computing
     compiled, numbers = engine == COMPILED, states == NUMBERS
     rules = {

@@ -44,7 +44,7 @@ class Priorities:
         self._put(rows[:, None], indices[:, None], self._highest[rows, None])
 
     def sample(self, rows: Int64s, numbers: Float64s, replaced: Int64s | None = None) -> Int64s:
-        """Indices (k, batch) in proportion to the priorities of the named runs, one from each of equal parts.
+        """Return indices (k, batch) in proportion to the priorities of the named runs, one from each of equal parts.
 
         ``numbers`` in [0, 1), (k, batch), say where in its part. The first ``replaced`` (k,) of each row will be
         replaced by others: there are as many parts as indices without them. 0 if a run has none.
@@ -65,7 +65,7 @@ class Priorities:
         return node - self.room
 
     def weights(self, rows: Int64s, indices: Int64s, sizes: Int64s) -> Float32s:
-        """The weights of sampled transitions (k, batch); the runs hold ``sizes`` (k,) transitions."""
+        """Return the weights of sampled transitions (k, batch); the runs hold ``sizes`` (k,) transitions."""
         priorities = self._tree[rows[:, None], indices + self.room]
         shares = priorities / np.maximum(self._tree[rows, 1, None], np.finfo(float).tiny)
         weights = np.maximum(shares * sizes[:, None], np.finfo(float).tiny) ** -self._beta
@@ -79,7 +79,7 @@ class Priorities:
         self._put(rows[:, None], indices, priorities)
 
     def state(self) -> dict[str, NDArray[Any]]:
-        """What a later draw depends on, by name."""
+        """Return what a later draw depends on, by name."""
         return {"leaves": self._tree[:, self.room :], "highest": self._highest}
 
     def load(self, state: dict[str, NDArray[Any]]) -> None:

@@ -58,11 +58,11 @@ class Replay:
         self._taken_back_to: list[Int64s] = []
 
     def sizes(self) -> Int64s:
-        """How many transitions each run holds, (runs,)."""
+        """Return how many transitions each run holds, (runs,)."""
         return np.minimum(self.added, self.capacity)
 
     def bytes_held(self) -> Int64s:
-        """Bytes of the transitions that each run holds, (runs,); room that isn't filled yet is not counted."""
+        """Return the bytes of the transitions that each run holds, (runs,); room that isn't filled yet doesn't count."""
         held: Int64s = self.sizes() * sum(kept[0, 0].nbytes for kept in self._kept)
         return held
 
@@ -72,13 +72,16 @@ class Replay:
             self._make_room_for(self._room + 1)
 
     def sample(self, rows: Int64s, uniforms: Float64s) -> Int64s:
-        """Indices (k, batch) of transitions of the named runs (k,), uniformly, by numbers in [0, 1)."""
+        """Return indices (k, batch) of transitions of the named runs (k,), uniformly, by numbers in [0, 1)."""
         indices = np.empty(uniforms.shape, np.int64)
         _sample(rows, uniforms, self.added, self.capacity, indices)
         return indices
 
     def gather(self, rows: Int64s, indices: Int64s) -> Transitions:
-        """The transitions at those indices (k, batch) of the named runs (k,); blank ones of a run that holds none."""
+        """Return the transitions at those indices (k, batch) of the named runs (k,).
+
+        A run that holds none gives blank ones.
+        """
         drawn = Transitions(
             states=np.empty((2, *indices.shape, *self._shape), self._state_type if self._shape else np.int64),
             actions=np.empty(indices.shape, dtype=np.int64),
@@ -89,14 +92,14 @@ class Replay:
         return drawn
 
     def marks(self) -> dict[str, Int64s]:
-        """Where a journal ends now, for ``added_since``: the counts (runs,), and how often it was taken back."""
+        """Return where a journal ends now, for ``added_since``: the counts (runs,), and how often it was taken back."""
         return {"added": self.added.copy(), "taken_back": np.array([len(self._taken_back_to)])}
 
     def added_since(self, marks: Mapping[str, Int64s] | None) -> dict[str, NDArray[Any]]:
-        """What ``extend`` needs to know since those marks: by name, run after run, oldest first; all without marks.
+        """Return what ``extend`` needs to know since those marks: by name, run after run, oldest first.
 
-        What has been overwritten since is left out. Where the replay was taken back to before the marks, it begins
-        there.
+        Without marks, that is everything. What was overwritten since is left out. Where the replay was taken back to before the
+        marks, it begins there.
         """
         oldest = self.added - self.sizes()
         begins = oldest if marks is None else np.maximum(self._known_since(marks), oldest)
@@ -120,7 +123,7 @@ class Replay:
         self.added[:] = begins + counts
 
     def mark(self, steps: int) -> ReplayMark:
-        """This moment, for ``take_back`` after at most so many additions a run."""
+        """Mark this moment, for ``take_back`` after at most so many additions a run."""
         counts = self.added[:, None] + np.arange(steps)
         overwriting = (counts >= self.capacity) & (counts - self.capacity < self.added[:, None])
         runs, places = np.nonzero(overwriting)[0], counts[overwriting] % self.capacity
@@ -137,14 +140,14 @@ class Replay:
         self._taken_back_to.append(mark.added)
 
     def _known_since(self, marks: Mapping[str, Int64s]) -> Int64s:
-        """From which count on each run's transitions may differ from those at the marks, (runs,)."""
+        """Return from which count on each run's transitions may differ from those at the marks, (runs,)."""
         lowest: Int64s = np.min([marks["added"], *self._taken_back_to[int(marks["taken_back"][0]) :]], axis=0)
         # What was forgotten had overwritten the oldest, which are held again: a journal brings them too.
         overwrote = (marks["added"] > self.added) & (marks["added"] > self.capacity)
         return np.where(overwrote, 0, lowest)
 
     def _spans(self, begins: Int64s, counts: Int64s) -> list[tuple[int, slice]]:
-        """Where each run's transitions from ``begins`` on are, oldest first: two spans, since they may wrap around."""
+        """Return where each run's transitions from ``begins`` on are, oldest first. Two spans, since they may wrap around."""
         spans = []
         for run, (begin, count) in enumerate(zip(begins % self.capacity, counts, strict=True)):
             behind = max(begin + count - self.capacity, 0)
@@ -152,7 +155,7 @@ class Replay:
         return spans
 
     def _make_room_for(self, added: int) -> None:
-        """Room for so many additions to a run, as far as the capacity allows."""
+        """Make room for so many additions to a run, as far as the capacity allows."""
         room = self._room
         while room < min(added, self.capacity):
             room = min(2 * room, self.capacity)
@@ -173,7 +176,7 @@ class Replay:
 
 @compiled()
 def _store(rows: Int64s, added: Int64s, capacity: int, memory: tuple[Any, ...], given: tuple[Any, ...]) -> bool:
-    """``Replay.add`` of Transitions, where there is room; returns whether a run fills its room now.
+    """Do ``Replay.add`` for Transitions, where there is room; return whether a run fills its room now.
 
     Compiled code takes over a plain tuple in a third of the time that a named one takes.
     """

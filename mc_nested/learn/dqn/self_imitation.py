@@ -38,7 +38,7 @@ class BestEpisodes:
         self._length[row] = 0
 
     def replaced(self, rows: Int64s) -> Int64s:
-        """How many of the sampled transitions ``mix_in`` replaces in each of the named rows (k,)."""
+        """Return how many of the sampled transitions ``mix_in`` replaces in each of the named rows (k,)."""
         return np.where(self._length[rows] > 0, self.share, 0)
 
     def mix_in(self, rows: Int64s, drawn: Transitions, uniforms: Float64s) -> Bools:
@@ -58,7 +58,7 @@ class BestEpisodes:
 
 @compiled()
 def rival(values: Float32s, action: int, margin: float) -> int:
-    """The action that the large-margin loss pushes down for ``action`` to be greedy, of values (actions,).
+    """Return the action that the large-margin loss pushes down for ``action`` to be greedy, of values (actions,).
 
     ``action`` itself where it is greedy by the margin already.
     """

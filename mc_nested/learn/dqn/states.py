@@ -36,7 +36,7 @@ class States(Protocol):
         """The shape of what a replay keeps of one state; () for a single number."""
 
     def kept(self, states: NDArray[Any]) -> NDArray[Any]:
-        """What a replay keeps of the states (…): (…, *shape), whole numbers."""
+        """Return what a replay keeps of the states (…): (…, *shape), whole numbers."""
 
 
 class PlaneStates(NamedTuple):
@@ -104,7 +104,7 @@ class StateSpace:
         self._first = kind_of.reshape(-1) * self.count
 
     def index(self, states: Integers) -> Int64s:
-        """The index (…) of each state (…, width)."""
+        """Return the index (…) of each state (…, width)."""
         indices: Int64s = states @ self.strides
         return indices
 
@@ -119,11 +119,11 @@ class StateSpace:
         return ()
 
     def kept(self, states: Integers) -> Int64s:
-        """The index (…) of each state (…, width), which is all that a replay keeps of it."""
+        """Return the index (…) of each state (…, width), which is all that a replay keeps of it."""
         return self.index(states)
 
     def network(self, hidden: Sequence[int]) -> tuple[int, ...]:
-        """The widths of a network for these states and actions."""
+        """Return the widths of a network for these states and actions."""
         return (self.inputs, *hidden, self.actions)
 
     @cached_property
@@ -140,29 +140,29 @@ class StateSpace:
         return np.concatenate(kinds)
 
     def first_of(self, rows: Int64s) -> Int64s:
-        """Where in ``table`` the states of the named rows (k,) begin, (k,)."""
+        """Return where in ``table`` the states of the named rows (k,) begin, (k,)."""
         return self._first[rows]
 
     def rest_of(self, row: int) -> Float32s:
-        """The features of every combination of the integers after x and y for that row's network, then a 1."""
+        """Return the features of every combination of the integers after x and y for that row's network, then a 1."""
         first = self._first[row] // self.cells
         return self.parts.rest[first : first + self.rest]
 
     def features_of(self, row: int) -> Float32s:
-        """The features of every state for that row's network, by index: (states, inputs + 1), the last a 1."""
+        """Return the features of every state for that row's network, by index: (states, inputs + 1), the last a 1."""
         first = self._first[row]
         return self.table[first : first + self.count]
 
 
 def numbered(states: States) -> StateSpace:
-    """Those states, whose indices something else is to know; TypeError if they aren't numbered."""
+    """Return those states, whose indices something else is to know; TypeError if they aren't numbered."""
     if not isinstance(states, StateSpace):
         raise TypeError("only numbered states have indices")
     return states
 
 
 def _of_cells(encoding: str, radix: Int64s, highest: Int64s) -> Float32s:
-    """What a network takes for x and y, for each pair of them."""
+    """Return what a network takes for x and y, for each pair of them."""
     pairs = _every(radix[:2])
     if encoding == "cell":
         return np.eye(len(pairs), dtype=np.float32)
@@ -170,13 +170,13 @@ def _of_cells(encoding: str, radix: Int64s, highest: Int64s) -> Float32s:
 
 
 def _of_rest(encoding: str, radix: Int64s, highest: Int64s) -> Float32s:
-    """What a network takes for the integers after x and y, for each combination of them, followed by a 1."""
+    """Return what a network takes for the integers after x and y, for each combination of them, followed by a 1."""
     rest = _every(radix[2:])
     return scaled(rest, highest[2:]) if encoding == "scaled" else one_hot(rest, radix[2:])
 
 
 def _every(radix: Int64s) -> Int64s:
-    """Every combination of integers below these, in the order of their indices, (combinations, integers)."""
+    """Return every combination of integers below these, in the order of their indices, (combinations, integers)."""
     count = int(radix.prod())
     if not len(radix):
         return np.empty((count, 0), np.int64)
@@ -184,7 +184,7 @@ def _every(radix: Int64s) -> Int64s:
 
 
 def scaled(states: Integers, highest: Int64s) -> Float32s:
-    """Each integer of the states (…, width) scaled to [-1, 1] (docs/explanation/task.md), followed by a 1.
+    """Return each integer of the states (…, width) scaled to [-1, 1] (docs/explanation/task.md), followed by a 1.
 
     A part of the state that has one value only (a single material) becomes 0.
     """
@@ -193,6 +193,6 @@ def scaled(states: Integers, highest: Int64s) -> Float32s:
 
 
 def one_hot(states: Integers, radix: Int64s) -> Float32s:
-    """Each integer of the states (…, width) as a 1 among as many numbers as it has values, followed by a 1."""
+    """Return each integer of the states (…, width) as a 1 among as many numbers as it has values, followed by a 1."""
     parts = [np.eye(values, dtype=np.float32)[states[..., part]] for part, values in enumerate(radix)]
     return np.concatenate((*parts, np.ones((*states.shape[:-1], 1), np.float32)), axis=-1)

@@ -51,7 +51,7 @@ class Excursions(Practice):
             self._explorers[run].begin(numbers[run, :PLAN_NUMBERS])
 
     def act(self, runs: Int64s, observations: NDArray[Any], actions: Int64s, numbers: Float64s) -> Int64s:
-        """All runs' actions; those of the named runs are the next ones of their excursions."""
+        """Return all runs' actions; those of the named runs are the next ones of their excursions."""
         for run in runs.tolist():
             x, y, left = observations[run, [X, Y, BLOCKS_LEFT]].tolist()
             part = self._part_at[run][left]
@@ -81,7 +81,7 @@ class Excursions(Practice):
                 self._imitate(self._low_level.best, run)
 
     def state(self) -> Arrays:
-        """Everything that later steps depend on, by name."""
+        """Return everything that later steps depend on, by name."""
         every = (named_for(str(run), explorer.state()) for run, explorer in enumerate(self._explorers))
         return {name: kept for part in every for name, kept in part.items()}
 

@@ -74,7 +74,7 @@ class ReturnThenExplore:
         self._walk, self._clean = [], True
 
     def next_action(self, x: int, y: int, numbers: Float64s, part: int = 0) -> int:
-        """What to do next at x and y, while that part is built, from 3 random numbers."""
+        """Return what to do next at x and y, while that part is built, from 3 random numbers."""
         rejoins, repeats, which = numbers
         effects = self._effects[part, x, y]
         done = len(self._walk)
@@ -121,7 +121,7 @@ class ReturnThenExplore:
         return True
 
     def state(self) -> Arrays:
-        """Everything that later steps depend on, by name."""
+        """Return everything that later steps depend on, by name."""
         following = -1 if self._following is None else self._following
         plan = [self._clean, self._leave_at, self._wander_until, following]
         return {
@@ -142,7 +142,7 @@ class ReturnThenExplore:
         return self._following is None and self._clean and self._leave_at < done <= self._wander_until
 
     def _is_where_it_leads(self, index: int, x: int, y: int) -> bool:
-        """Whether the last step did what it did in the best episode, if it was that episode's step before ``index``.
+        """Return whether the last step, if it was the best episode's step before ``index``, did the same as there.
 
         The start is the same, so x, y and b agree with it as long as every step does. Having rejoined, b may differ by
         the blocks that one has more than the other.
@@ -159,7 +159,7 @@ class ReturnThenExplore:
         self._following = None
 
     def _follow(self, index: int, done: int) -> int:
-        """The best episode's action at that index; the next step follows it too, up to where it is left."""
+        """Return the best episode's action at that index; the next step follows it too, up to where it is left."""
         following = index + 1
         stop = self._leave_at if done < self._leave_at else len(self.best)
         self._following = None if following == stop else following
@@ -167,12 +167,12 @@ class ReturnThenExplore:
 
 
 def blocks_in(walk: list[EpisodeStep]) -> int:
-    """Blocks that the walk used."""
+    """Return blocks that the walk used."""
     return sum(step.used_block for step in walk)
 
 
 def without_loops(walk: list[EpisodeStep]) -> list[EpisodeStep]:
-    """The walk without what lies between two visits of one state: no block was placed there, so nothing changed."""
+    """Return the walk without its loops. Between two visits of one state no block was placed, so nothing changed."""
     kept: list[EpisodeStep] = []
     at: dict[int, int] = {}
     for step in walk:

@@ -17,7 +17,7 @@ class LinearDecay:
     share: float
 
     def epsilon(self, episodes_done: Int64s, episodes: int) -> Float64s:
-        """ε of each run after that many of ``episodes`` episodes, the shape of ``episodes_done``."""
+        """Return ε of each run after that many of ``episodes`` episodes, in the shape of ``episodes_done``."""
         progress = np.minimum(episodes_done / (self.share * episodes), 1.0)
         return self.start + (self.floor - self.start) * progress
 
@@ -30,7 +30,7 @@ EXCURSIONS_ONLY = LinearDecay(1.0, 1.0, 1.0)
 
 
 def decays_of(preset: Preset) -> tuple[LinearDecay, LinearDecay]:
-    """The main and the nested agent's ε in that preset."""
+    """Return the main and the nested agent's ε in that preset."""
     without = EXCURSIONS_ONLY if preset.excursions else NEVER
     return _decay(preset.explore_main, NEVER), _decay(preset.explore_nested, without)
 

@@ -99,27 +99,27 @@ class EpisodesOut:
         return len(self._out)
 
     def add(self, episode: EpisodeOut) -> None:
-        """One more."""
+        """Add an episode that is out."""
         self._out[episode.plan.number] = episode
 
     def leave(self, game: str) -> None:
-        """What that game had out won't come."""
+        """Forget what that game had out: it won't come."""
         self._out = {number: out for number, out in self._out.items() if out.game != game}
 
     def remove(self, number: int) -> EpisodeOut | None:
-        """The episode of that number, which isn't out any more; None if it wasn't."""
+        """Return the episode of that number, which isn't out any more; None if it wasn't."""
         return self._out.pop(number, None)
 
     def clear(self) -> None:
-        """None is out any more."""
+        """Forget all episodes: none is out any more."""
         self._out = {}
 
     def keep_evaluations(self) -> None:
-        """The training episodes aren't out any more."""
+        """Forget the training episodes: they aren't out any more."""
         self._out = {number: out for number, out in self._out.items() if out.plan.greedy}
 
     def supersede(self, episodes: int) -> None:
-        """Evaluations that were planned after fewer training episodes than that aren't out any more."""
+        """Forget evaluations that were planned after fewer training episodes than that: they aren't out any more."""
         self._out = {n: out for n, out in self._out.items() if not out.plan.greedy or out.episodes >= episodes}
 
     @property

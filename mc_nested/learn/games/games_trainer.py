@@ -39,7 +39,7 @@ RUN = np.zeros(1, dtype=np.int64)
 
 
 def check_games(scenario: Scenario, preset: Preset) -> None:
-    """PresetError, one line, if games can't play that preset's episodes of that scenario by themselves."""
+    """Raise PresetError, one line, if games can't play that preset's episodes of that scenario by themselves."""
     if preset.excursions:  # each step of one depends on what the learner remembers of the best
         raise PresetError(
             "[excursions] need the learner at every step: with several games take the preset model-based or paper"
@@ -74,7 +74,7 @@ class GamesTrainer(Training):
         self._out = EpisodesOut()
 
     def plan(self, game: str) -> EpisodePlan:
-        """The next episode of that game, which is free: what it had out before won't come.
+        """Plan the next episode of that game, which is free: what it had out before won't come.
 
         With an imagination it practises first, to the end. ValueError if the run is finished.
         """
@@ -130,11 +130,11 @@ class GamesTrainer(Training):
         return True
 
     def abandon(self, number: int) -> None:
-        """The episode of that plan won't come: it is left out, and others may probe what it should have."""
+        """Leave out the episode of that plan, which won't come; others may probe what it should have."""
         self._out.remove(number)
 
     def state(self) -> Arrays:
-        """What the rest of the training depends on, without the journal. What is out isn't in it."""
+        """Return what the rest of the training depends on, without the journal. What is out isn't in it."""
         return {**super().state(), "planned": np.array([self._planned])}
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: Sequence[Mapping[str, NDArray[Any]]]) -> None:
@@ -158,7 +158,7 @@ class GamesTrainer(Training):
         return bool(self.episodes_done[0] >= self.preset.episodes)
 
     def _is_evaluation_due(self) -> bool:
-        """Whether it is time to evaluate: never twice after the same episodes, but for the last evaluation.
+        """Return whether it is time to evaluate: never twice after the same episodes, but for the last evaluation.
 
         One that doesn't come back, from a game that hangs, is followed by another a few episodes later.
         """
@@ -205,7 +205,10 @@ class GamesTrainer(Training):
 
 
 def materials_of(agent: Agent, played: PlayedEpisode, planned: int) -> Int64s:
-    """The material that was chosen when each observation was made, (steps + 1,); -1 before there was a choice."""
+    """Return the material that was chosen when each observation was made, (steps + 1,).
+
+    It is -1 before there was a choice.
+    """
     if agent.main:
         return np.full(played.steps + 1, planned)
     return agent.chosen_materials(played.observations)

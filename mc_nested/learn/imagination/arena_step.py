@@ -38,7 +38,7 @@ class ImaginedArena(NamedTuple):
 
 
 def imagined_arena(rules: LearntRules, beliefs: Beliefs) -> ImaginedArena:
-    """The learnt game of these rules and beliefs."""
+    """Return the learnt game of these rules and beliefs."""
     size = len(beliefs.pay)
     border = int(max(np.abs(rules.moves).max(initial=1), *np.abs(rules.lands)))
     side = size + 2 * border
@@ -55,12 +55,12 @@ def imagined_arena(rules: LearntRules, beliefs: Beliefs) -> ImaginedArena:
 
 
 def index_of(cell: Cell, arena: ImaginedArena) -> int:
-    """The index of a cell."""
+    """Return the index of a cell."""
     return (cell[0] + arena.border) * arena.side + cell[1] + arena.border
 
 
 def cell_at(index: int, arena: ImaginedArena) -> Cell:
-    """The cell of an index."""
+    """Return the cell of an index."""
     x, y = divmod(index, arena.side)
     return x - arena.border, y - arena.border
 
@@ -85,7 +85,7 @@ State = tuple[int, int, int]
 def expected_landings(
     arena: ImaginedArena, start: State, step_limit: int, policy: Callable[[State], int], tries: FirstTries
 ) -> list[Cell]:
-    """Where the blocks of an episode should land, in order. ``tries`` come before the policy, and count what it does.
+    """Return where an episode's blocks should land, in order. ``tries`` come before the policy, and count what it does.
 
     Args:
         arena: the learnt game.
@@ -134,7 +134,7 @@ class ImaginedTask(NamedTuple):
 
 @compiled(nogil=True)
 def state_at(position: int, blocks: int, arena: ImaginedArena, task: ImaginedTask) -> int:
-    """The index of the state in that cell with so many blocks."""
+    """Return the index of the state in that cell with so many blocks."""
     x, y = position // arena.side - arena.border, position % arena.side - arena.border
     state: int = x * task.strides[0] + y * task.strides[1] + blocks * task.strides[2] + task.offset
     return state
@@ -142,13 +142,13 @@ def state_at(position: int, blocks: int, arena: ImaginedArena, task: ImaginedTas
 
 @compiled(nogil=True)
 def is_wasted(landed: int, arena: ImaginedArena) -> bool:
-    """Whether a block landed where nothing is imagined to be paid: an imagined episode that learns ends there."""
+    """Return whether a block landed where no pay is imagined: an imagined episode that learns ends there."""
     wasted: bool = landed != NOWHERE and arena.pay[landed] == 0
     return wasted
 
 
 @compiled(nogil=True)
 def epsilon_from(uniform: float, highest: float, lowest: float) -> float:
-    """An ε of an imagined episode, equally likely on a logarithmic scale, from a number in [0, 1)."""
+    """Return an ε of an imagined episode, equally likely on a logarithmic scale, from a number in [0, 1)."""
     epsilon: float = np.exp(np.log(lowest) + uniform * (np.log(highest) - np.log(lowest)))
     return epsilon

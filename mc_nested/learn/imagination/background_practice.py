@@ -95,7 +95,7 @@ class BackgroundPractice:
         self._background.end(LONGER_S)
 
     def during_episode(self) -> None:
-        """Go on with what isn't over, on copies of the networks; the best so far play."""
+        """Go on with the practice that isn't over, on copies of the networks; the best networks so far play."""
         self._sessions = {run: session for run, session in self._sessions.items() if not session.is_over}
         for session in self._sessions.values():
             session.go_on_with_a_copy()

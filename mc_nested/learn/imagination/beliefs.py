@@ -56,7 +56,7 @@ def believe(
     neighbours: bool = True,
     elsewhere: Collection[Cell] = (),
 ) -> Beliefs:
-    """What the transitions (steps, 9) (experience.py) say of every cell, if blocks land at ``lands`` from the agent.
+    """Return what transitions (steps, 9) (experience.py) say of every cell, if blocks land at ``lands`` from the agent.
 
     Without ``optimism`` what is unknown isn't taken to pay; without ``neighbours`` all that is unknown is alike.
     Cells that are probed ``elsewhere``, in other games, are taken to pay nothing, unless no other unknown cell is left.
@@ -89,7 +89,7 @@ def believe(
 
 
 def _reached(lands: Cell, size: int) -> Bools:
-    """The cells that a block can land in from inside the arena."""
+    """Return the cells that a block can land in from inside the arena."""
     reached = np.zeros((size, size), dtype=np.bool_)
     right, forward = lands
     reached[max(right, 0) : size + min(right, 0), max(forward, 0) : size + min(forward, 0)] = True
@@ -97,7 +97,7 @@ def _reached(lands: Cell, size: int) -> Bools:
 
 
 def _beside(cells: Bools) -> Bools:
-    """The cells with one of these among the eight around them."""
+    """Return the cells with one of these among the eight around them."""
     size = len(cells)
     padded = np.pad(cells, 1)
     around = [padded[x : x + size, y : y + size] for x in range(3) for y in range(3)]

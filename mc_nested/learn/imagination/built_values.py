@@ -35,7 +35,10 @@ class BuiltValues(NamedTuple):
 
 
 def empty_values(room: int, actions: int, cells: int) -> BuiltValues:
-    """A table with so many rows, a power of 2, for an arena with so many cells, the border included; not yet begun."""
+    """Return a table with so many rows, a power of 2, for an arena with so many cells, the border included.
+
+    The table is not yet begun.
+    """
     names, values = np.zeros(room, np.int64), np.zeros((room, actions), np.float32)
     return BuiltValues(names, values, np.zeros(cells, np.int64), np.zeros(cells, np.int64), np.zeros(1, np.int64))
 
@@ -56,14 +59,14 @@ def forget(table: BuiltValues) -> None:
 
 @compiled(nogil=True)
 def is_full(table: BuiltValues) -> bool:
-    """Whether too few rows are free for another episode."""
+    """Return whether too few rows are free for another episode."""
     full: bool = table.held[0] > FULL * len(table.names)
     return full
 
 
 @compiled(nogil=True)
 def row_of(table: BuiltValues, name: int) -> int:
-    """The row of the state with that name; a new one, with values of 0, if it has none."""
+    """Return the row of the state with that name; a new one, with values of 0, if it has none."""
     last = len(table.names) - 1
     row = name & last
     while table.names[row] != 0 and table.names[row] != name:

@@ -70,7 +70,10 @@ class Experience:
             self._extras = self._extras[-RECENT:]
 
     def tried_here(self) -> list[int]:
-        """The actions that were done in this episode in the cell where it has come to; none before its first step."""
+        """Return the actions that were done in this episode in the cell where it has come to.
+
+        It is empty before the episode's first step.
+        """
         episode = self._steps[self._first_of_episode[-1] :] if self._first_of_episode else []
         return [step.action for step in episode if (step.x, step.y) == (episode[-1].next_x, episode[-1].next_y)]
 
@@ -84,7 +87,7 @@ class Experience:
         self._extras.append((material, score - earned))
 
     def begin_from(self, earlier: Mapping[str, NDArray[Any]], *, pays: bool, materials: bool) -> None:
-        """Know what another run's state holds; KeyError or ValueError if its shape differs.
+        """Take over what another run's state holds; KeyError or ValueError if its shape differs.
 
         Its episodes aren't counted as this run's own. Without ``pays`` it isn't known what was paid, without
         ``materials`` not what each material brought.
@@ -97,7 +100,7 @@ class Experience:
             self._extras = []
 
     def state(self) -> Arrays:
-        """Everything, by name."""
+        """Return everything, by name."""
         return {
             "steps": self.steps,
             "first_of_episode": self.first_of_episode,

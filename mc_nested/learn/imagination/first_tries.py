@@ -32,7 +32,7 @@ class FirstTries:
     tries: Int64s
 
     def act(self, action: int, tried_here: Collection[int]) -> int:
-        """The action to do: the policy's, which is given, once it is known what all of them do.
+        """Return the action to do: the policy's, which is given, once it is known what all of them do.
 
         An action that has never moved is tried in other cells of an episode than where it was already: at an edge, it
         would be stopped for ever. So is one whose move may be a slip. Once all cells are known, it is tried where
@@ -53,11 +53,11 @@ class FirstTries:
         self.tries[action] += action not in tried_here
 
     def copied(self) -> "FirstTries":
-        """The same, with arrays of its own."""
+        """Return the same, with arrays of its own."""
         return replace(self, untried=self.untried.copy(), unclear=self.unclear.copy(), tries=self.tries.copy())
 
     def beside(self, games: int) -> "FirstTries":
-        """A copy that leaves the next tries to so many other games: it begins with the actions after those."""
+        """Return a copy that leaves the next tries to so many other games: it begins with the actions after those."""
         own = self.copied()
         for _ in range(games):
             tries = np.where(own._open(), own.tries, np.iinfo(np.int64).max)
@@ -66,5 +66,5 @@ class FirstTries:
         return own
 
     def _open(self) -> Bools:
-        """The actions of which it isn't known where they lead."""
+        """Return the actions of which it isn't known where they lead."""
         return self.untried | self.unclear

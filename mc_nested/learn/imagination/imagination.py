@@ -39,7 +39,10 @@ THOROUGH = 0.999
 
 
 def learnt_game(state: Mapping[str, NDArray[Any]], run: int) -> Arrays:
-    """One run's part of a saved imagination (``Imagination.state``), to begin others from; KeyError if it has none."""
+    """Return one run's part of a saved imagination (``Imagination.state``), to begin others from.
+
+    Raise KeyError if it has none.
+    """
     own = {name: state[name][run] for name in ("untried", "tries")}
     return {**own, **named_for("seen", part_of(state, str(run)))}
 
@@ -88,13 +91,16 @@ class Imagination:
         self._tries = np.zeros((len(runs), self._space.actions), dtype=np.int64)
 
     def rules(self, run: int) -> LearntRules:
-        """What that run has learnt of moving and placing."""
+        """Return what that run has learnt of moving and placing."""
         seen = self._experience[run]
         actions, size = self._space.actions, self._surroundings[run].size
         return learn_rules(seen.steps, seen.first_of_episode, actions, size)
 
     def beliefs(self, run: int, rules: LearntRules | None = None, elsewhere: Collection[Cell] = ()) -> Beliefs:
-        """What that run thinks of every cell, by its rules; what is probed ``elsewhere`` is taken to pay nothing."""
+        """Return what that run thinks of every cell, by its rules.
+
+        What is probed ``elsewhere`` is taken to pay nothing.
+        """
         here, rule, steps = self._surroundings[run], self._rule, self._experience[run].steps
         lands = (rules or self.rules(run)).lands
         return believe(steps, lands, here.size, here.start[2], rule.optimism, rule.neighbours, elsewhere)
@@ -113,7 +119,7 @@ class Imagination:
     def practise(
         self, run: int, material: int, number: int | None = None, elsewhere: Collection[Cell] | None = None
     ) -> bool:
-        """Practise that run's agent with that material; whether its policy now builds all of a known design.
+        """Practise that run's agent with that material; return whether its policy now builds all of a known design.
 
         ``number`` and ``elsewhere`` as for ``session``.
         """
@@ -122,19 +128,19 @@ class Imagination:
         return self.builds_it_all(run, session)
 
     def builds_it_all(self, run: int, session: PracticeSession) -> bool:
-        """Whether that practice of that run, its last one, came to a policy that builds all of a known design."""
+        """Return whether that practice, the run's last one, found a policy that builds all of a known design."""
         self._falls_short[run] = not session.practised.reached
         return session.practised.reached and not bool(self._explores[run])
 
     def session(
         self, run: int, material: int, number: int | None = None, elsewhere: Collection[Cell] | None = None
     ) -> PracticeSession:
-        """A practice of that run's agent with that material, to be run; over at once before the game's first step.
+        """Return a practice of that run's agent with that material, to be run.
 
-        Where the last one fell short of building all of a known design, the networks begin anew. ``number`` is the
-        practice's, on which its random numbers depend; how many episodes the run has begun, unless given. What is
-        probed ``elsewhere``, in games whose episodes are still to come, is taken to pay nothing; None where there are
-        no such games.
+        It is over at once before the game's first step. Where the last one fell short of building all of a known design, the
+        networks begin anew. ``number`` is the practice's, on which its random numbers depend; how many episodes the run
+        has begun, unless given. What is probed ``elsewhere``, in games whose episodes are still to come, is taken to
+        pay nothing; None where there are no such games.
         """
         seen, here = self._experience[run], self._surroundings[run]
         rules = self.rules(run)
@@ -167,7 +173,7 @@ class Imagination:
             self._experience[run].begin()
 
     def act(self, runs: Int64s, actions: Int64s) -> Int64s:
-        """The actions of the named runs (k,), of ``actions`` for all: first tries, or the policy's (first_tries.py)."""
+        """Return the actions of all runs. Those of the named runs (k,) may be first tries (first_tries.py)."""
         chosen: Int64s = actions[runs].copy()
         for at, run in enumerate(runs.tolist()):
             chosen[at] = self.first_tries(run).act(int(chosen[at]), self._experience[run].tried_here())
@@ -190,11 +196,11 @@ class Imagination:
             self._experience[run].end(int(materials[run]), float(scores[run]))
 
     def has_experience(self, run: int) -> bool:
-        """Whether anything is known of what that run's actions do."""
+        """Return whether anything is known of what that run's actions do."""
         return len(self._experience[run].steps) > 0
 
     def first_tries(self, run: int) -> FirstTries:
-        """What that run has tried of its actions; its arrays are the run's own."""
+        """Return what that run has tried of its actions; its arrays are the run's own."""
         return FirstTries(
             bool(self._explores[run]),
             bool(self._falls_short[run]),
@@ -204,7 +210,7 @@ class Imagination:
         )
 
     def probes(self, run: int, material: int) -> frozenset[Cell]:
-        """The unknown cells where that run's policy should place a block in its next episode, with that material."""
+        """Return the unknown cells where that run's policy should place a block in its next episode with that material."""
         if not self.has_experience(run):
             return frozenset()
         here, rules = self._surroundings[run], self.rules(run)
@@ -220,14 +226,14 @@ class Imagination:
         return frozenset(cell for cell in landings if beliefs.cells[cell] in (Belief.UNKNOWN, Belief.BELIEVED))
 
     def known_arena(self, run: int) -> KnownArena:
-        """What that run knows of its arena now, and what it has spent its real episodes on."""
+        """Return what that run knows of its arena now, and what it has spent its real episodes on."""
         steps, here = self._experience[run].steps, self._surroundings[run]
         lands = self.rules(run).lands
         beliefs = believe(steps, lands, here.size, here.start[2])
         return known_arena(self._experience[run], lands, beliefs)
 
     def episodes(self, run: int) -> int:
-        """How many real episodes that run has begun."""
+        """Return how many real episodes that run has begun."""
         return self._experience[run].episodes
 
     def begin_from(self, earlier: Mapping[str, NDArray[Any]], *, pays: bool, materials: bool) -> None:
@@ -240,7 +246,7 @@ class Imagination:
             self._untried[run], self._tries[run] = earlier["untried"], earlier["tries"]
 
     def state(self) -> Arrays:
-        """Everything that later steps depend on, by name."""
+        """Return everything that later steps depend on, by name."""
         every = (named_for(str(run), seen.state()) for run, seen in enumerate(self._experience))
         first_tries = {"explores": self._explores, "falls_short": self._falls_short}
         return {
@@ -263,11 +269,14 @@ class Imagination:
         return run if self._rows_a_run == 1 else run * self._rows_a_run + material
 
     def _appended(self, material: int) -> Int64s:
-        """What follows x, y and b in a state of the low-level agent: the nested agent's a_M."""
+        """Return what follows x, y and b in a state of the low-level agent: the nested agent's a_M."""
         return np.array([material] * (len(self._space.strides) - 3), dtype=np.int64)
 
     def _real_transitions(self, run: int, material: int, landed: Int64s) -> RealTransitions:
-        """The run's transitions as its low-level agent of that material saw them; none where the replay has none."""
+        """Return the run's transitions as its low-level agent of that material saw them.
+
+        There are none where the replay has none.
+        """
         steps = self._experience[run].steps
         if not self._rule.real_transitions:
             steps, landed = steps[:0], landed[:0]

@@ -48,7 +48,7 @@ class KnownArena:
 
 
 def known_arena(experience: Experience, lands: Cell, beliefs: Beliefs) -> KnownArena:
-    """What that experience shows, if blocks land at ``lands`` from the agent, with the beliefs that follow from it."""
+    """Return what that experience shows if blocks land at ``lands`` from the agent, and the beliefs that follow."""
     episodes = _by_episode(experience.steps, experience.first_of_episode)
     own = min(experience.episodes, len(episodes))
     earlier, remembered = episodes[: len(episodes) - own], episodes[len(episodes) - own :]
@@ -67,13 +67,13 @@ def _by_episode(steps: Int64s, first_of_episode: Int64s) -> list[Int64s]:
 
 
 def _landings(steps: Int64s, lands: Cell) -> list[tuple[Cell, int]]:
-    """Where each block of those steps landed, and whether it was paid (experience.py: paid)."""
+    """Return where each block of those steps landed, and whether it was paid (experience.py: paid)."""
     used = steps[steps[:, 2] > steps[:, 6]]
     return [((x + lands[0], y + lands[1]), paid) for x, y, paid in used[:, [4, 5, 7]].tolist()]
 
 
 def _spend(episode: int, steps: Int64s, lands: Cell, tried: dict[Cell, bool]) -> Spent:
-    """What those steps were spent on; ``tried`` (whether each cell paid when last tried) gets what they try."""
+    """Return what those steps were spent on; ``tried`` (whether each cell paid when last tried) gets what they try."""
     new = new_paid = built = other = 0
     for cell, paid in _landings(steps, lands):
         if paid < 0:

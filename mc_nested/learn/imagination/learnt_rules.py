@@ -38,7 +38,7 @@ class LearntRules:
 
 
 def learn_rules(steps: Int64s, first_of_episode: Int64s, actions: int, size: int) -> LearntRules:
-    """The rules that most of the transitions (steps, 9) (experience.py) of a ``size`` x ``size`` arena agree on."""
+    """Return the rules that most transitions (steps, 9) (experience.py) of a ``size`` x ``size`` arena agree on."""
     moves, known = _learn_moves(steps, actions)
     around = [
         (right, forward)
@@ -58,7 +58,7 @@ def learn_rules(steps: Int64s, first_of_episode: Int64s, actions: int, size: int
 
 
 def unclear_moves(steps: Int64s, actions: int) -> Bools:
-    """Which actions' moves may be slips (actions,): none where no action has ever made two different steps."""
+    """Return which actions' moves may be slips (actions,): none where no action has ever made two different steps."""
     votes = [np.sort(votes)[::-1] for _, votes in _steps_made(steps, actions)]
     if all(len(each) < 2 for each in votes):
         return np.zeros(actions, dtype=np.bool_)
@@ -66,7 +66,7 @@ def unclear_moves(steps: Int64s, actions: int) -> Bools:
 
 
 def _learn_moves(steps: Int64s, actions: int) -> tuple[Int64s, Bools]:
-    """The commonest step that each action ever made (actions, 2), and whether it made any (actions,)."""
+    """Return the commonest step that each action ever made (actions, 2), and whether it made any (actions,)."""
     moves = np.zeros((actions, 2), dtype=np.int64)
     known = np.zeros(actions, dtype=np.bool_)
     for action, (found, votes) in enumerate(_steps_made(steps, actions)):
@@ -76,7 +76,7 @@ def _learn_moves(steps: Int64s, actions: int) -> tuple[Int64s, Bools]:
 
 
 def _steps_made(steps: Int64s, actions: int) -> list[tuple[Int64s, Int64s]]:
-    """For each action the different steps that it made (k, 2), and how often it made each (k,)."""
+    """Return, for each action, the different steps that it made (k, 2), and how often it made each (k,)."""
     shifts = steps[:, 4:6] - steps[:, 0:2]
     went = shifts.any(axis=1)
     of_actions = (shifts[went & (steps[:, 3] == action)] for action in range(actions))
@@ -84,7 +84,7 @@ def _steps_made(steps: Int64s, actions: int) -> list[tuple[Int64s, Int64s]]:
 
 
 def _count_uses(steps: Int64s, fits: Bools, actions: int) -> tuple[Int64s, Int64s]:
-    """How often each action was tried in those steps, and how often it used a block, (actions,) each."""
+    """Return how often each action was tried in those steps, and how often it used a block, (actions,) each."""
     used = steps[:, 2] > steps[:, 6]
     return np.bincount(steps[fits, 3], minlength=actions), np.bincount(steps[fits & used, 3], minlength=actions)
 

@@ -18,7 +18,7 @@ MOST_UPDATES, CLOSE = 3000, 0.25
 def scores_of_materials(
     extras: Float64s, materials: int, blocks: int, most: float, elsewhere: Collection[int] = ()
 ) -> Float64s:
-    """The imagined score of each material, (materials,): the most that the blocks could bring, and what it adds.
+    """Return the imagined score of each material, (materials,): the most that the blocks could bring, and what it adds.
 
     ``extras`` (episodes, 2) are materials and what they brought beside the blocks. A material that was never tried is
     taken optimistically: it is worth as many blocks more than the best that was. While it is tried ``elsewhere``, in

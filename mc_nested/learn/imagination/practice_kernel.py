@@ -214,7 +214,7 @@ def _store(replay: PracticeReplay, state: int, next_state: int, action: int, lan
 def _update(
     uniforms: Float64s, arena: ImaginedArena, rule: PracticeRule, row: Row, replay: PracticeReplay, work: Workspace
 ) -> None:
-    """One double-Q update (paper, equation 4) from a batch that the numbers (batch,) draw."""
+    """Do one double-Q update (paper, equation 4) from a batch that the numbers (batch,) draw."""
     batch = len(uniforms)
     held = min(replay.added[0], len(replay.states))
     drawn = np.empty(batch, np.int64)
@@ -249,7 +249,7 @@ def _update(
 
 @compiled(nogil=True)
 def followed(replay: PracticeReplay, first: int, arena: ImaginedArena, rule: PracticeRule) -> tuple[int, float, float]:
-    """The transition up to n steps after that one, the discounted rewards so far, and what the value after it counts.
+    """Return the transition up to n steps later, the discounted rewards until then, and the factor of the value after it.
 
     It ends earlier where the episode does, where a block is wasted, or where what followed isn't held.
     """

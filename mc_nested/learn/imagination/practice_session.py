@@ -114,7 +114,7 @@ class PracticeSession:
         return bool(self._progress.reached[0]) or self._updates >= self._goal.most_updates
 
     def prepare(self) -> None:
-        """Compile what it runs, if that isn't done: a compiler doesn't leave Python's lock to other threads."""
+        """Compile what practice runs, if that isn't done: a compiler doesn't leave Python's lock to other threads."""
         self._practise(np.empty(0), self._parts, self._progress)
 
     def run(self, goes_on: Callable[[], bool] = lambda: True) -> None:
@@ -131,7 +131,7 @@ class PracticeSession:
             self._parts.online[:] = self._parts.target[:] = self._progress.best
 
     def go_on_with_a_copy(self) -> None:
-        """From now on a copy of the networks is updated, until ``take_over``; the row has the best ones meanwhile."""
+        """Update a copy of the networks from now on, until ``take_over``; the row has the best ones meanwhile."""
         self._parts = Row(*(part.copy() for part in self._own))
         self._own.online[:] = self._own.target[:] = self._progress.best
 
@@ -186,7 +186,7 @@ class NetworkPractice:
     def session(
         self, row: int, arena: ImaginedArena, goal: Goal, others: Int64s, real: RealTransitions, random: Generator
     ) -> "PracticeSession":
-        """A practice of that row, to be run; ``others`` are the integers of its state after x, y and b.
+        """Return a practice of that row, to be run; ``others`` are the integers of its state after x, y and b.
 
         ``real`` are in its replay from the beginning. A row's sessions share arrays: of all of a learner's sessions
         only the last may be run.
@@ -231,7 +231,7 @@ class NetworkPractice:
         )
 
     def _tables_for(self, arena: ImaginedArena, step_limit: int) -> QTables:
-        """This learner's tables, made anew if the arena has another number of cells than before."""
+        """Return this learner's tables, made anew if the arena has another number of cells than before."""
         space, cells = self._space, len(arena.empty)
         if self._tables is None or len(self._tables.built.here) != cells:
             self._tables = empty_tables(space.count, space.actions, cells)
@@ -261,7 +261,10 @@ class NetworkPractice:
 
 
 def landed_cells(steps: Int64s, lands: Cell, arena: ImaginedArena) -> Int64s:
-    """Where the block of each real transition (steps, 9) landed, as cells of the arena; NOWHERE where none did."""
+    """Return where the block of each real transition (steps, 9) landed, as cells of the arena.
+
+    It is NOWHERE where none did.
+    """
     used = steps[:, 2] > steps[:, 6]
     cells = np.array([index_of((x + lands[0], y + lands[1]), arena) for x, y in steps[:, 4:6].tolist()], dtype=np.int64)
     landed: Int64s = np.where(used, cells, NOWHERE)

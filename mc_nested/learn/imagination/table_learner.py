@@ -90,12 +90,12 @@ class TableProgress(NamedTuple):
 
 
 def empty_trail(steps: int) -> Int64s:
-    """A trail for an episode of at most so many steps."""
+    """Return a trail for an episode of at most so many steps."""
     return np.zeros((5, steps + 1), np.int64)
 
 
 def empty_tables(states: int, actions: int, cells: int, steps: int = 0, room: int = ROOM) -> QTables:
-    """Tables for so many states of the agent, cells of the arena, border included, and steps; not yet begun."""
+    """Make tables for so many states of the agent, cells of the arena (border included), and steps; not yet begun."""
     return QTables(
         empty_values(room, actions, cells),
         np.zeros((states, actions), np.float32),
@@ -120,7 +120,7 @@ def begin_tables(tables: QTables, random: Generator) -> None:
 
 @compiled(nogil=True)
 def longest_episode(task: ImaginedTask) -> int:
-    """How many numbers an episode uses at most."""
+    """Return how many numbers an episode uses at most."""
     longest: int = 3 + 2 * task.step_limit
     return longest
 
@@ -194,7 +194,7 @@ def prefer_best(tables: QTables) -> None:
 
 @compiled(nogil=True)
 def _around(position: int, solid: Bools, arena: ImaginedArena) -> int:
-    """The index of that cell with what is built around it."""
+    """Return the index of that cell with what is built around it."""
     around = position
     for across in (-arena.side, 0, arena.side):
         for along in (-1, 0, 1):
@@ -205,7 +205,7 @@ def _around(position: int, solid: Bools, arena: ImaginedArena) -> int:
 
 @compiled(nogil=True)
 def _best_action(tables: QTables, name: int, state: int, around: int, by_blocks: bool, greedy: bool) -> int:
-    """What the exact values say, or a guess where they know nothing."""
+    """Return what the exact values say, or a guess where they know nothing."""
     exact = tables.built.values[row_of(tables.built, name)]
     if exact.max() > 0.0:
         return int(np.argmax(exact))

@@ -45,11 +45,11 @@ class Journalled(Protocol):
     def state(self) -> Arrays: ...
 
     def marks(self) -> Arrays:
-        """The length of the journal now, for ``journal``."""
+        """Return the length of the journal now, for ``journal``."""
         ...
 
     def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
-        """What was added since those marks; everything if there are none."""
+        """Return what was added since those marks; everything if there are none."""
         ...
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None: ...
@@ -98,7 +98,7 @@ class Checkpoint:
         self._journals, self._next, self._marks = journals, self._next + 1, training.marks()
 
     def state(self) -> Arrays:
-        """The last saved state; RunError if it is gone, damaged or another training's."""
+        """Return the last saved state; RunError if it is gone, damaged or another training's."""
         return self._open()[1]
 
     def load_into(self, training: Journalled) -> None:
@@ -151,5 +151,5 @@ class Checkpoint:
 
 
 def fingerprint(identity: Mapping[str, Any]) -> str:
-    """A hash of the identity that doesn't depend on the order of its keys."""
+    """Return a hash of the identity that doesn't depend on the order of its keys."""
     return hashlib.sha256(json.dumps(identity, sort_keys=True).encode()).hexdigest()

@@ -34,7 +34,7 @@ class EarlierRun:
 
 
 def earlier_run(run: Path, wanted: RunFolder) -> EarlierRun:
-    """The best trial of that training, for the wanted one; RunError if its networks don't fit."""
+    """Return the best trial of that training, for the wanted one; RunError if its networks don't fit."""
     folder = RunFolder.open(run)
     theirs, ours = folder.new_agent(1), wanted.new_agent(1)
     if (theirs.spec, theirs.forms, theirs.networks) != (ours.spec, ours.forms, ours.networks):

@@ -26,7 +26,7 @@ def rename_folder(folder: Path, name: str) -> Path:
 
 
 def delete_folder(folder: Path) -> None:
-    """Delete a folder with all it holds; of links in it the link alone.
+    """Delete a folder with all it holds; what links in it point to stays.
 
     RunError if it is a link itself, somebody writes there, or the disk refuses.
     """

@@ -22,18 +22,18 @@ FORMAT = 2
 
 
 def verb_of_study(name: str) -> str:
-    """The verb that runs a study: the paper's own experiment has one to itself."""
+    """Return the verb that runs a study: the paper's own experiment has one to itself."""
     return name if name == "reproduce" else f"study {name}"
 
 
 def verb_in(document: Mapping[str, object]) -> str | None:
-    """The verb that wrote this config.toml; None if it is no run's."""
+    """Return the verb that wrote this config.toml; None if it is no run's."""
     key = next((key for key in VERB_OF_KEY if key in document), None)
     return verb_of_study(str(document[STUDY])) if key == STUDY else VERB_OF_KEY.get(key or "")
 
 
 def check_config(text: str, folder: Path, *verbs: str) -> None:
-    """RunError if the text of config.toml is of another format, or of a folder of other verbs than those named."""
+    """Raise RunError if config.toml's text is of another format, or of another verb's folder than those named."""
     document = parse_document(text, str(folder / "config.toml"), RunError)
     if document.get("format") != FORMAT:
         raise RunError(f"{folder}: written by another version of mc-nested: open it with that one, or train it again")
@@ -46,7 +46,7 @@ def check_config(text: str, folder: Path, *verbs: str) -> None:
 
 
 def check_free(path: Path) -> None:
-    """RunError if the path can't become a new folder: it holds something already, or the system refuses.
+    """Raise RunError if the path can't become a new folder: it holds something already, or the system refuses.
 
     What a killed process left half-written or for its view doesn't count, nor the lock of whoever asks.
     """
@@ -62,7 +62,7 @@ def check_free(path: Path) -> None:
 
 
 def _is_view(entry: Path) -> bool:
-    """Whether it is a run's view folder, with nothing else in it."""
+    """Return whether it is a run's view folder, with nothing else in it."""
     return (
         entry.name == VIEW
         and entry.is_dir()

@@ -35,7 +35,7 @@ def folder_lock(folder: Path, patience_s: float = 0.0) -> Iterator[None]:
 
 
 def holder_of(folder: Path) -> str | None:
-    """The process that holds a folder now, in words; None where none does, or it can't be told."""
+    """Return the process that holds a folder now, in words; None where none does, or it can't be told."""
     if not os.access(folder / FILE, os.R_OK | os.W_OK):
         return None
     try:

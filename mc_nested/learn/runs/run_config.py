@@ -56,12 +56,12 @@ class RunConfig(BaseModel):
         return f"{self.scenario.name}, {who}, preset {Path(self.preset_name).stem}"
 
     def identity(self) -> dict[str, Any]:
-        """What is trained: a checkpoint fits only the same.
+        """Return what is trained: a checkpoint fits only the same.
 
         Without the profile, which may be moved or renamed, and the device.
         """
         return self.model_dump(exclude={"format": True, "profile": True, "preset": {"device"}})
 
     def on_device(self, device: str) -> "RunConfig":
-        """The same training, computed elsewhere; PresetError if its engine can't."""
+        """Return the same training, computed elsewhere; PresetError if its engine can't."""
         return self.model_copy(update={"preset": self.preset.changed(device=device)})

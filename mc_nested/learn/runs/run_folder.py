@@ -51,13 +51,13 @@ class RunFolder:
 
     @classmethod
     def new(cls, path: Path, config: RunConfig) -> "RunFolder":
-        """A folder for a new training; RunError if the path holds anything already. Nothing is written yet."""
+        """Return a folder for a new training; RunError if the path holds anything already. Nothing is written yet."""
         check_free(path)
         return cls(path, config)
 
     @classmethod
     def open(cls, path: Path) -> "RunFolder":
-        """The folder of an earlier training; RunError if it isn't one."""
+        """Return the folder of an earlier training; RunError if it isn't one."""
         if not (path / CONFIG).is_file():
             raise RunError(f"{path}: no config.toml there: name the folder of a training (its --out)")
         text = read_toml_text(path / CONFIG, RunError)
@@ -69,14 +69,14 @@ class RunFolder:
             raise RunError(str(error)) from error
 
     def new_agent(self, runs: int, device: str = "cpu") -> Agent:
-        """An untrained agent as this training's, with that many runs, on the processor or another device."""
+        """Return an untrained agent as this training's, with that many runs, on the processor or another device."""
         config = self.config
         preset = config.preset.model_copy(update={"device": device})
         builders = config.team.builders if config.team else None
         return Agent(AGENT_SPECS[config.agent], [self.scenario] * runs, preset, config.seed, team=builders)
 
     def trained_agent(self) -> Agent:
-        """The agent of the last checkpoint, every trial, able to act."""
+        """Return the agent of the last checkpoint, every trial, able to act."""
         agent = self.new_agent(self.config.trials)
         agent.load_online(self.policies())
         return agent
@@ -107,7 +107,7 @@ class RunFolder:
 
     @contextmanager
     def writing(self) -> Iterator[None]:
-        """Around writing here: RunError, one line that says how to resume, if the disk refuses."""
+        """Surround writing here: RunError, one line that says how to resume, if the disk refuses."""
         try:
             yield
         except OSError as error:
@@ -131,7 +131,7 @@ class RunFolder:
         return summary
 
     def policies(self) -> Arrays:
-        """The networks of the policies that the trials keep, by role, and their ``scores``, as last saved.
+        """Return the networks of the policies that the trials keep, by role, and their ``scores``, as last saved.
 
         RunError if nothing was saved yet, or it is damaged, of other shapes or another training's.
         """
@@ -143,14 +143,17 @@ class RunFolder:
         return kept
 
     def policy_of(self, trial: int) -> Arrays:
-        """The networks of one trial's policy, by role, for ``Agent.load_online``; RunError as for ``policies``."""
+        """Return the networks of one trial's policy, by role, for ``Agent.load_online``.
+
+        Raise RunError as for ``policies``.
+        """
         policies, rows = self.policies(), self.new_agent(self.config.trials).rows_of(trial)
         return {role: networks[rows[role]] for role, networks in policies.items() if role in rows}
 
     def learnt_game(self, trial: int) -> Arrays | None:
-        """What that trial has learnt of its game, for ``Imagination.begin_from``; None if its preset imagines nothing.
+        """Return what that trial has learnt of its game, for ``Imagination.begin_from``.
 
-        RunError as for ``Checkpoint.state``.
+        It is None if its preset imagines nothing. RunError as for ``Checkpoint.state``.
         """
         if self.config.preset.imagination is None:
             return None
@@ -180,7 +183,7 @@ class RunFolder:
         return not self.checkpoint.exists and not (self.path / "episodes.csv").exists()
 
     def wall_s_so_far(self) -> float:
-        """Seconds that the training took until its last save; 0 if the summary doesn't say."""
+        """Return seconds that the training took until its last save; 0 if the summary doesn't say."""
         try:
             return float(json.loads((self.path / SUMMARY).read_text("utf-8"))["wall_s"])
         except (OSError, ValueError, KeyError, TypeError):
@@ -188,7 +191,10 @@ class RunFolder:
 
 
 def _misfit_of(kept: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> str | None:
-    """What keeps these arrays from being policies of these shapes, by name, and their ``scores``; None if they fit."""
+    """Return what keeps these arrays from being policies of these shapes, by name, and their ``scores``.
+
+    It is None if they fit.
+    """
     for name, shape in shapes.items():
         if name not in kept:
             return f"has no array {name}"

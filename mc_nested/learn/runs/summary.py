@@ -8,7 +8,7 @@ from mc_nested.learn.training import Training
 
 
 def summarise(config: RunConfig, scenario: Scenario, trainer: Training, wall_s: float) -> dict[str, Any]:
-    """The results of a training so far, for summary.json; scores are r_M, one per trial, of the policy it keeps.
+    """Return the results of a training so far, for summary.json; scores are r_M, one per trial, of the policy it keeps.
 
     An unfinished trial has no final score: it has learned since its last greedy evaluation. ``played_to_optimum``
     includes the greedy episodes: in a live game they take as long as any other.
@@ -42,7 +42,7 @@ def summarise(config: RunConfig, scenario: Scenario, trainer: Training, wall_s: 
 
 
 def _team_of(config: RunConfig) -> dict[str, Any]:
-    """What a summary says of several builders; nothing of one agent alone."""
+    """Return what a summary says of several builders; nothing of one agent alone."""
     if config.team is None:
         return {}
     return {

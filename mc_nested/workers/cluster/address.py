@@ -22,7 +22,7 @@ class SchedulerAddress:
 
 
 def scheduler_address(text: str, keys: Path | None = None, *, insecure: bool = False) -> SchedulerAddress:
-    """The scheduler that ``tcp://HOST:PORT``, ``tls://HOST:PORT`` or ``HOST:PORT`` means.
+    """Return the scheduler that ``tcp://HOST:PORT``, ``tls://HOST:PORT`` or ``HOST:PORT`` means.
 
     Without a scheme it is TLS, except on this computer where no keys are named.
 
@@ -54,7 +54,7 @@ def scheduler_address(text: str, keys: Path | None = None, *, insecure: bool = F
 
 
 def _parts_of(text: str) -> tuple[str, str, int]:
-    """Scheme, host and port; ClusterError if they can't be told."""
+    """Return scheme, host and port; ClusterError if they can't be told."""
     try:
         parts = urlsplit(text if "://" in text else f"//{text}")
         host, port = parts.hostname, parts.port
@@ -66,7 +66,7 @@ def _parts_of(text: str) -> tuple[str, str, int]:
 
 
 def is_local(address: SchedulerAddress) -> bool:
-    """Whether that scheduler is on this computer, and named so."""
+    """Return whether that scheduler is on this computer, and named so."""
     return _is_loopback(_parts_of(address.url)[1])
 
 

@@ -25,7 +25,7 @@ HOW_TO_INSTALL = "pip install -c constraints.txt -e '.[cluster]'"
 
 
 def check_installed() -> None:
-    """ClusterError if Dask or cryptography isn't installed."""
+    """Raise ClusterError if Dask or cryptography isn't installed."""
     try:
         import cryptography  # noqa: F401 - only whether it is there
         import distributed  # noqa: F401 - likewise
@@ -34,7 +34,7 @@ def check_installed() -> None:
 
 
 def security_of(address: SchedulerAddress) -> "Security":
-    """What Dask needs for TLS: the authority, and this machine's pair for each part that it may play."""
+    """Return what Dask needs for TLS: the authority, and this machine's pair for each part that it may play."""
     from distributed import Security
 
     if address.keys is None:
@@ -49,7 +49,7 @@ def security_of(address: SchedulerAddress) -> "Security":
 
 @contextmanager
 def connected(address: SchedulerAddress) -> Iterator["Client"]:
-    """A client of that scheduler; it listens on no port.
+    """Connect a client to that scheduler; it listens on no port.
 
     ClusterError if none answers, or it refuses this machine's certificate, or its own isn't the authority's.
     """
@@ -81,7 +81,10 @@ Result = TypeVar("Result")
 
 
 def _in_time(work: Callable[[], Result]) -> Result | None:
-    """What that returns; None if it takes longer than CONNECT_S: Dask waits for ever for a scheduler that hangs."""
+    """Return what the coroutine returns.
+
+    It is None if it takes longer than CONNECT_S: Dask waits for ever for a scheduler that hangs.
+    """
     done: Future[Result] = Future()
 
     def run() -> None:
@@ -96,7 +99,7 @@ def _in_time(work: Callable[[], Result]) -> Result | None:
 
 
 def unreachable(address: SchedulerAddress) -> str:
-    """Why nothing came of a connection, as far as one end can tell."""
+    """Return why nothing came of a connection, as far as one end can tell."""
     if address.keys:
         return (
             f"no scheduler answered at {address.url}: is it running there, with keys of the same authority as "

@@ -183,6 +183,6 @@ class DaskJobs:
 
 
 def workers_that_train(client: "Client") -> list[str]:
-    """The addresses of a scheduler's workers, but for games."""
+    """Return the addresses of a scheduler's workers, but for games."""
     workers = client.scheduler_info()["workers"]
     return [address for address, each in workers.items() if GAME not in each["resources"]]

@@ -31,12 +31,12 @@ def cancel(future: Future[JobEnded]) -> None:
 
 
 def lost(job: Job, workers: int) -> RunError:
-    """The job was lost with each of so many workers, and is given up."""
+    """Return the end of a job that was lost with each of so many workers, and is given up."""
     return RunError(f"job {job.name} was lost with each of {workers} workers: {WHY_LOST}")
 
 
 def in_words(job: Job, error: Exception) -> RunError:
-    """What went wrong with a job, as one line."""
+    """Return what went wrong with a job, as one line."""
     if isinstance(error, UserError):
         return RunError(str(error))
     return RunError(f"job {job.name} failed on a worker: {type(error).__name__}: {error}")

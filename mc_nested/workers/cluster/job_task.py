@@ -66,7 +66,7 @@ class Reported(NamedTuple):
 
 
 def packed(job: Job, folder: Path) -> bytes:
-    """The job and the files of its folder, for ``train_on_worker``."""
+    """Return the job and the files of its folder, for ``train_on_worker``."""
     return pickle.dumps((job, files_below(folder)))
 
 
@@ -109,7 +109,7 @@ def stop_training(topic: str) -> None:
 
 
 def wanted_here(worker: "Worker") -> Callable[[], bool]:
-    """Asks whether the task of this thread is still wanted: neither cancelled, nor its scheduler lost."""
+    """Return what tells whether this thread's task is still wanted: neither cancelled, nor its scheduler lost."""
     key = worker.get_current_task()
 
     def is_wanted() -> bool:

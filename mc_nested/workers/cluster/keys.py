@@ -57,7 +57,7 @@ def make_keys(folder: Path, machines: Sequence[str]) -> list[Path]:
 
 
 def _authority_in(folder: Path) -> "tuple[Certificate, EllipticCurvePrivateKey]":
-    """The folder's authority and its key, made if there is none."""
+    """Return the folder's authority and its key, made if there is none."""
     from cryptography import x509
     from cryptography.hazmat.primitives.asymmetric.ec import EllipticCurvePrivateKey
     from cryptography.hazmat.primitives.serialization import load_pem_private_key
@@ -92,7 +92,7 @@ def _signed(
     authority: "Certificate | None",
     key: "EllipticCurvePrivateKey",
 ) -> "Certificate":
-    """A certificate for ``own``, signed with ``key``; an authority's if it signs itself."""
+    """Return a certificate for ``own``, signed with ``key``; an authority's if it signs itself."""
     from cryptography import x509
     from cryptography.hazmat.primitives import hashes
     from cryptography.x509.oid import NameOID
@@ -114,7 +114,7 @@ def _signed(
 
 
 def _with_uses(builder: "CertificateBuilder", *, is_authority: bool) -> "CertificateBuilder":
-    """What the certificate may be used for, as Python 3.13 insists on: to sign others, or to talk as either end."""
+    """Return the certificate's purposes, which Python 3.13 insists on: to sign others, or to talk as either end."""
     from cryptography import x509
     from cryptography.x509.oid import ExtendedKeyUsageOID
 

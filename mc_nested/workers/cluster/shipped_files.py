@@ -15,7 +15,7 @@ CHECKPOINT = "checkpoint"
 
 
 def files_below(folder: Path) -> Files:
-    """The folder's files; none where there is no such folder."""
+    """Return the folder's files; none where there is no such folder."""
     paths = sorted(path for path in folder.rglob("*") if path.is_file() and path.name != LOCK)
     return {path.relative_to(folder).as_posix(): path.read_bytes() for path in paths}
 

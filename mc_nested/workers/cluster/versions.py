@@ -24,7 +24,7 @@ Versions = Mapping[str, str]
 
 @cache
 def own_versions(library: str | None = None) -> Versions:
-    """This machine's versions, by name: this project's with a hash of its files, and the libraries', of any build.
+    """Return this machine's versions, by name: this project's with a hash of its files, and any build's libraries'.
 
     With those that decide what an agent of another library learns, if one is named.
     """
@@ -34,7 +34,7 @@ def own_versions(library: str | None = None) -> Versions:
 
 
 def differences(wanted: Versions, own: Versions) -> str:
-    """What differs, in words; empty if nothing does."""
+    """Return what differs, in words; empty if nothing does."""
     differing = [name for name in wanted if wanted[name] != own.get(name)]
     return ", ".join(f"{name} {own.get(name, MISSING)} instead of {wanted[name]}" for name in differing)
 
@@ -47,7 +47,10 @@ def _version_of(library: str) -> str:
 
 
 def _hash_of_files(root: Path) -> str:
-    """A short hash of all that is computed with; a file's line ends, which differ between systems, don't count."""
+    """Return a short hash of all that is computed with.
+
+    A file's line ends, which differ between systems, don't count.
+    """
     digest = hashlib.sha256()
     for package in PACKAGES:
         for path in sorted((root / package).rglob("*.py")):

@@ -27,15 +27,15 @@ class WorkersSeen:
         return len(self._trained_by)
 
     def trains(self, job: str) -> bool:
-        """Whether one of them trains the job now."""
+        """Return whether one of them trains the job now."""
         return job in self._trained_by
 
     def begins(self, job: str, worker: str) -> None:
-        """That worker has told of the job, so it trains it."""
+        """Note that the worker trains the job, since it has told of it."""
         self._trained_by[job] = worker
 
     def ends(self, job: str) -> None:
-        """Nobody trains the job any more."""
+        """Note that nobody trains the job any more."""
         self._trained_by.pop(job, None)
 
     def note(self, said: dict[str, Any]) -> None:
@@ -53,7 +53,7 @@ class WorkersSeen:
                 self._lost_jobs += len(its_jobs)
 
     def in_words(self, unfinished: int) -> str:
-        """Workers, jobs of those ``unfinished``, and what was lost, in a line."""
+        """Say in a line how many workers there are, which jobs of those ``unfinished`` they do, and what was lost."""
         waiting = unfinished - self.trained
         words = f"{counted(self.count, 'worker')}, {counted(self.trained, 'job')} training, {waiting} waiting"
         if self._lost_workers:
@@ -62,5 +62,5 @@ class WorkersSeen:
 
 
 def counted(count: int, what: str) -> str:
-    """``1 worker``, ``2 workers``."""
+    """Return ``1 worker``, ``2 workers``."""
     return f"{count:,} {what}" if count == 1 else f"{count:,} {what}s"

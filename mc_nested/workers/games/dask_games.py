@@ -141,7 +141,7 @@ class DaskGames:
         future.add_done_callback(lambda done: self._happened.put(Done(game, done)))
 
     def events(self, timeout_s: float) -> list[GameEvent]:
-        """What has happened since the last call; waits so long for anything.
+        """Return what has happened since the last call; waits so long for anything.
 
         ClusterError if the scheduler is lost for good.
         """
@@ -172,7 +172,7 @@ class DaskGames:
         return [first, *(self._happened.get_nowait() for _ in range(self._happened.qsize()))]
 
     def _comings_and_goings(self, *, is_heard: bool) -> list[GameEvent]:
-        """Who has come and gone, if that was heard of, or wasn't looked at for a while."""
+        """Return who has come and gone, if that was heard of, or wasn't looked at for a while."""
         to_scheduler = self._client.scheduler
         is_due = is_heard or time.monotonic() >= self._look_at
         if self._client.status != "running" or not to_scheduler or not is_due:
@@ -196,7 +196,7 @@ class DaskGames:
         return found
 
     def _forget(self, game: str) -> GameEvent:
-        """It is gone, or as good as gone: what it was asked is withdrawn."""
+        """Forget a game that is gone, or as good as gone: what it was asked is withdrawn."""
         self._addresses.pop(game, None)
         self._answered_at.pop(game, None)
         if asked := self._asked.pop(game, None):
@@ -204,7 +204,7 @@ class DaskGames:
         return Left(game)
 
     def _unreachable(self) -> list[GameEvent]:
-        """Which games have answered long ago, at addresses that the scheduler can't fetch the answers from."""
+        """Return which games have answered long ago, at addresses that the scheduler can't fetch the answers from."""
         now = time.monotonic()
         for game, future in self._asked.items():
             state = self._client.futures.get(self._keys[game])

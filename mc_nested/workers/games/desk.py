@@ -40,7 +40,7 @@ class Desk:
         self._refusal: ClusterError | None = None
 
     def ask(self, order: GameOrder, plan: EpisodePlan | None, is_wanted: Callable[[], bool]) -> GameAnswer:
-        """Leave a request, and wait for its answer; from Dask's thread."""
+        """Leave a request, and wait for its answer. Dask's thread calls this."""
         request = Request(order, plan, is_wanted)
         self._requests.put(request)
         while not (self._closed.is_set() or wait([request.answer], LOOK_EVERY_S).done):
@@ -52,7 +52,10 @@ class Desk:
         self._refusal = error
 
     def next(self) -> Request | None:
-        """The next request, None if there is none for a moment; from the main thread. ClusterError after ``refuse``."""
+        """Return the next request, None if there is none for a moment.
+
+        The main thread asks. ClusterError after ``refuse``.
+        """
         if self._refusal:
             raise self._refusal
         try:

@@ -14,7 +14,7 @@ desk = Desk()
 
 
 def packed(order: GameOrder, plan: EpisodePlan | None) -> bytes:
-    """A request, for ``ask_game``."""
+    """Return a request, for ``ask_game``."""
     return pickle.dumps((order, plan))
 
 

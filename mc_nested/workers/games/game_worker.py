@@ -91,7 +91,7 @@ class GameWorker:
             self._end()
 
     async def _joined(self) -> "Worker":
-        """A worker that has joined; ClusterError as the class says."""
+        """Return a worker that has joined; ClusterError as the class says."""
         from distributed import Worker
 
         self._worker = Worker(
@@ -138,7 +138,7 @@ class GameWorker:
                     self._say(str(error))
 
     async def _leave(self) -> None:
-        """Leave once the learner has the last answer, or doesn't fetch it."""
+        """Leave once the learner has fetched the last answer, or no longer comes for it."""
         for _ in range(int(FETCHED_S / LOOK_EVERY_S)):
             if not self._worker.state.tasks:
                 break

@@ -29,7 +29,7 @@ class GameOrder:
     seed: int
 
     def new_agent(self) -> Agent:
-        """An agent of one run, to play with the networks that a plan brings."""
+        """Return an agent of one run, to play with the networks that a plan brings."""
         return Agent(AGENT_SPECS[self.agent], [self.scenario], self.preset, self.seed)
 
 

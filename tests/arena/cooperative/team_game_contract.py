@@ -12,7 +12,7 @@ Ticks = Sequence[Sequence[Action | None]]
 
 
 def check_team_game(game: TeamGame, team: Team, ticks: Ticks, truth: Truth | None = None) -> None:
-    """AssertionError where the game's outcomes aren't those of the rules, over one episode after an abandoned one.
+    """Raise AssertionError where the game's outcomes break the rules, over one episode after an abandoned one.
 
     With a ``truth``, the outcomes must agree with it too. A resumable game must return to the state it was saved in.
     """

@@ -35,7 +35,7 @@ def begun(team: Team, material: int = STONE, runs: int = 1) -> TeamVectorEnv:
 
 
 def after(env: TeamVectorEnv, *ticks: Sequence[int]) -> tuple[Any, ...]:
-    """What the last of these ticks led to, as lists: observations, rewards, terminated, truncated and scores."""
+    """Return what the last of these ticks led to, as lists: observations, rewards, terminated, truncated and scores."""
     for tick in ticks:
         observations, rewards, terminated, truncated, info = env.step(np.array(tick))
     return tuple(each.tolist() for each in (observations, rewards, terminated, truncated, info["score"]))

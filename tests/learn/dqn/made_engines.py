@@ -13,18 +13,21 @@ HIDDEN = (32, 32)
 
 
 def space_of(rows: int) -> StateSpace:
-    """The nested agent's states on the line: x, y, b and a_M."""
+    """Return the nested agent's states on the line: x, y, b and a_M."""
     return StateSpace(np.array([[14, 14, 11, 1]] * rows), actions=8)
 
 
 def engine_of(name: str, rows: int, rule: UpdateRule = RULE) -> Engine:
-    """An engine of the paper's networks; those of a row are the same in every engine."""
+    """Return an engine of the paper's networks; those of a row are the same in every engine."""
     streams = [np.random.default_rng(row) for row in range(rows)]
     return made_engine(space_of(rows), EngineChoice(name, "cpu", "mlp", HIDDEN), rule, streams)
 
 
 def batch_of(rows: int, seed: int) -> Batch:
-    """A batch for so many rows; some rewards are far beyond δ, so that both branches of the Huber loss are taken."""
+    """Return a batch for so many rows.
+
+    Some rewards are far beyond δ, so that both branches of the Huber loss are taken.
+    """
     random = np.random.default_rng(seed)
     return Batch(
         states=random.integers(0, STATES, (2, rows, 32)),
@@ -37,6 +40,6 @@ def batch_of(rows: int, seed: int) -> Batch:
 
 
 def part(batch: Batch, rows: list[int]) -> Batch:
-    """The named rows of a batch."""
+    """Return the named rows of a batch."""
     rest = {name: getattr(batch, name)[rows] for name in ("actions", "rewards", "discounts", "imitated", "weights")}
     return Batch(states=np.ascontiguousarray(batch.states[:, rows]), **rest)  # as a replay's are: compiled once

@@ -11,7 +11,7 @@ ROW = np.array([0])
 
 
 def priorities_of(errors: list[float], alpha: float = 1.0, beta: float = 1.0, room: int = 4) -> Priorities:
-    """One run's transitions, each with that TD error."""
+    """Return one run's transitions, each with that TD error."""
     priorities = Priorities(runs=1, room=room, alpha=alpha, beta=beta)
     for place in range(len(errors)):
         priorities.add(ROW, np.array([place]))
@@ -20,7 +20,7 @@ def priorities_of(errors: list[float], alpha: float = 1.0, beta: float = 1.0, ro
 
 
 def counts(priorities: Priorities, kinds: int) -> list[int]:
-    """How often each index is drawn in 1,000 evenly spread draws."""
+    """Return how often each index is drawn in 1,000 evenly spread draws."""
     drawn = priorities.sample(ROW, np.full((1, 1000), 0.5))
     return [int(count) for count in np.bincount(drawn[0], minlength=kinds)]
 

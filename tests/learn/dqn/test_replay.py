@@ -12,7 +12,7 @@ from mc_nested.learn.dqn.states import StateSpace
 
 
 def transition(*numbers: int) -> Transitions:
-    """A transition for each number, made so that every field follows from the number."""
+    """Return a transition for each number, made so that every field follows from the number."""
     n = np.array(numbers)
     return Transitions(np.stack([n, n + 2]), n % 8, n / 2, n / 4)
 
@@ -26,7 +26,7 @@ def drawn_from(replay: Replay, rows: Int64s, uniforms: Float64s) -> Transitions:
 
 
 def numbers(drawn: Transitions) -> list[list[int]]:
-    """The numbers that drawn transitions were made of, every field checked."""
+    """Return the numbers that drawn transitions were made of, every field checked."""
     found, following = drawn.states
     np.testing.assert_array_equal(drawn.actions, found % 8)
     np.testing.assert_array_equal(drawn.rewards, found / 2)

@@ -41,7 +41,7 @@ def excursions_of(agent: Agent, *scenarios: Scenario) -> Excursions:
 
 
 def observe(explorer: Excursions, run: int, seen: Done, runs: int = 1, material: int = 0) -> None:
-    """One run has that done; nothing happens in the others."""
+    """Let one run observe that; nothing happens in the others."""
     before, action, reward, after, terminated = seen
     running = np.arange(runs) == run
     states, next_states = (np.repeat(np.array([state]), runs, axis=0) for state in (before, after))
@@ -67,7 +67,7 @@ def end(explorer: Excursions, run: int = 0) -> None:
 
 
 def act(explorer: Excursions, run: int, observations: Int64s, numbers: Float64s) -> int:
-    """The next action of that run."""
+    """Return the next action of that run."""
     return int(explorer.act(np.array([run]), observations, np.zeros(len(observations), np.int64), numbers)[run])
 
 
@@ -77,7 +77,7 @@ def of_two_runs(name: str = "hierarchical") -> tuple[Agent, Excursions]:
 
 
 def played(explorer: Excursions, run: int, material: int, hits: bool = True) -> None:
-    """One run steps back and places its only block."""
+    """Let one run step back and place its only block."""
     explorer.begin(np.array([run]), np.zeros((2, NUMBERS)))
     step = Done(START[run].tolist(), Action.BD, float(hits), (7, 12, 0))
     observe(explorer, run, step, runs=2, material=material)
@@ -85,7 +85,7 @@ def played(explorer: Excursions, run: int, material: int, hits: bool = True) -> 
 
 
 def imitated(agent: Agent) -> list[int]:
-    """How many steps each row imitates."""
+    """Return how many steps each row imitates."""
     assert agent.low_level.best is not None
     lengths: list[int] = agent.low_level.best._length.tolist()
     return lengths

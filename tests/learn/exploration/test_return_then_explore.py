@@ -15,7 +15,7 @@ ALWAYS, NEVER = 0.0, 0.999
 
 
 def step(x: int, y: int, action: int, used: bool = False, reward: float = 0.0, state: int | None = None) -> EpisodeStep:
-    """A step whose state, unless given, is its cell's number."""
+    """Return a step whose state, unless given, is its cell's number."""
     number = 15 * x + y if state is None else state
     return EpisodeStep(x, y, number, action, reward, number + 1, False, used)
 
@@ -28,7 +28,7 @@ WALK = [step(7, 14, 1), step(7, 13, 5, used=True, reward=1.0, state=500), step(7
 
 
 def after(walk: list[EpisodeStep], rule: ExcursionRule = RULE, row: int = 0) -> ReturnThenExplore:
-    """ReturnThenExplore whose one episode so far was that walk."""
+    """Return a ReturnThenExplore whose one episode so far was that walk."""
     excursions = ReturnThenExplore(rule, actions=8)
     excursions.begin(numbers(0, 0, 0))
     for each in walk:

@@ -18,19 +18,19 @@ Play = Callable[[EpisodePlan], PlayedEpisode]
 def learner_of(
     scenario: Scenario, preset: Preset, *, agent: str = "nested", seed: int = 0, stops: bool = False
 ) -> GamesTrainer:
-    """A learner that has learnt nothing yet."""
+    """Return a learner that has learnt nothing yet."""
     return GamesTrainer(scenario, Agent(AGENT_SPECS[agent], [scenario], preset, seed), preset, seed, stops)
 
 
 def game_of(scenario: Scenario, preset: Preset, agent: str = "nested") -> Play:
-    """A game that plays what is planned; what it begins with is of another seed than the learner's."""
+    """Return a game that plays what is planned; what it begins with is of another seed than the learner's."""
     player = Agent(AGENT_SPECS[agent], [scenario], preset, seed=99)
     arena = player.view_of(ArenaVectorEnv([ArenaEnv(GridGame(scenario), scenario)]), [scenario])
     return lambda plan: play_episode(arena, plan, player)
 
 
 def finish(learner: GamesTrainer, play: Play) -> GamesTrainer:
-    """One game plays, and its episode is taken before the next one is planned, until the run is finished."""
+    """Let one game play until the run is finished; each episode is taken before the next one is planned."""
     while not learner.finished:
         assert learner.take(play(learner.plan("only")))
     return learner

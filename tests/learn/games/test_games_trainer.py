@@ -40,7 +40,7 @@ def assert_same(one: Arrays, other: Arrays, but: Sequence[str] = ()) -> None:
 
 
 def with_a_known_game(preset: Preset = SMALL) -> GamesTrainer:
-    """A learner that has played enough to know what its actions do."""
+    """Return a learner that has played enough to know what its actions do."""
     learner = learner_of(BENT, preset)
     for _ in range(3):
         learner.take(play(learner.plan("game")))
@@ -50,7 +50,7 @@ def with_a_known_game(preset: Preset = SMALL) -> GamesTrainer:
 
 
 def with_a_known_design(stops: bool = False) -> tuple[GamesTrainer, EpisodePlan]:
-    """A learner that is about to evaluate a policy that builds all of its design, and that evaluation."""
+    """Return a learner that is about to evaluate a policy that builds all of its design, and that evaluation."""
     learner = learner_of(BENT, SMALL.model_copy(update={"episodes": 40}), stops=stops)
     while not (plan := learner.plan("game 0")).greedy:
         learner.take(play(plan))
@@ -58,7 +58,7 @@ def with_a_known_design(stops: bool = False) -> tuple[GamesTrainer, EpisodePlan]
 
 
 def cells_of(played: PlayedEpisode) -> set[tuple[int, int]]:
-    """Where its blocks landed: a cell ahead of the agent."""
+    """Return where its blocks landed: a cell ahead of the agent."""
     used = played.observations[1:, 2] < played.observations[:-1, 2]
     return {(int(x), int(y) + 1) for x, y in played.observations[1:][used][:, :2]}
 

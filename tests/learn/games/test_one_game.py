@@ -46,7 +46,7 @@ def state_of(training: Training) -> Arrays:
 
 
 def assert_same(learner: GamesTrainer, trainer: Trainer) -> None:
-    """AssertionError unless both came to the same, and would save the same, to the bit."""
+    """Raise AssertionError unless both came to the same, and would save the same, to the bit."""
     own, expected = state_of(learner), state_of(trainer)
     assert learner.episode_rows == trainer.episode_rows
     assert learner.evaluation_rows == trainer.evaluation_rows

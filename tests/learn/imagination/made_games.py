@@ -44,7 +44,7 @@ SMALL = LIVE.model_copy(
 
 
 def with_update(preset: Preset, **changes: float) -> Preset:
-    """That preset with other hyper-parameters in its table [update]."""
+    """Return that preset with other hyper-parameters in its table [update]."""
     return preset.model_copy(update={"update": preset.update.model_copy(update=changes)})
 
 
@@ -87,14 +87,14 @@ TRUE_PLACES = [action in PLACES for action in Action]
 
 
 def play(game: Game, scenario: Scenario, actions: Sequence[int], seen: Experience, material: int = 0) -> int:
-    """One episode of these actions, until it ends; how many were done. A slip is recorded as what was meant."""
+    """Play one episode of these actions, until it ends; return how many were done. A slip is recorded as what was meant."""
     return play_by(game, scenario, lambda step: actions[step], len(actions), seen, material)
 
 
 def play_by(
     game: Game, scenario: Scenario, choose: Callable[[int], int], steps: int, seen: Experience, material: int = 0
 ) -> int:
-    """One episode of at most so many steps, whose actions are chosen by the step's number."""
+    """Play one episode of at most so many steps, whose actions are chosen by the step's number."""
     seen.begin()
     x, y = game.reset(material)
     left, score = scenario.blocks, scenario.materials[material].p
@@ -134,7 +134,7 @@ class Slipping:
 
 
 def seen_at_random(game: Game, scenario: Scenario, episodes: int, seed: int = 0) -> Experience:
-    """What random actions show of a game."""
+    """Return what random actions show of a game."""
     random, seen = np.random.default_rng(seed), Experience()
     for _ in range(episodes):
         play(game, scenario, random.integers(0, len(Action), scenario.step_limit).tolist(), seen)
@@ -142,7 +142,7 @@ def seen_at_random(game: Game, scenario: Scenario, episodes: int, seed: int = 0)
 
 
 def assert_rules(rules: LearntRules, moves: Sequence[Cell], places: Sequence[bool], lands: Cell) -> None:
-    """AssertionError if what was learnt isn't this."""
+    """Raise AssertionError if what was learnt isn't this."""
     assert list(map(tuple, rules.moves.tolist())) == list(moves)
     assert rules.known.all()
     assert rules.places.tolist() == list(places)

@@ -17,7 +17,7 @@ MATERIAL = np.array([1])
 
 
 def arena_of(scenario: Scenario = BENT) -> ImaginedArena:
-    """The true game of a design, as one that was learnt to the end."""
+    """Return the true game of a design, as one that was learnt to the end."""
     pay = np.zeros((scenario.size, scenario.size), np.float32)
     for cell in scenario.design:
         pay[cell] = 1.0
@@ -27,12 +27,12 @@ def arena_of(scenario: Scenario = BENT) -> ImaginedArena:
 
 
 def learner_of(rows: int = 1, seed: int = 0) -> Learner:
-    """A nested agent for the small design, untaught."""
+    """Return a nested agent for the small design, untaught."""
     return Agent(AGENT_SPECS["nested"], [BENT] * rows, SMALL, seed).low_level
 
 
 def real_of(learner: Learner, *steps: tuple[list[int], int, list[int], int]) -> RealTransitions:
-    """Real transitions of the state before, the action, the state after, and the arena's cell where a block landed."""
+    """Make transitions of the state before, the action, the state after, and the arena's cell where a block landed."""
     before, actions, after, landed = (np.array([step[part] for step in steps], dtype=np.int64) for part in range(4))
     index = learner.states.kept
     states, next_states = (index(each.reshape(-1, 4)) for each in (before, after))

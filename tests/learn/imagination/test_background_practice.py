@@ -22,7 +22,7 @@ def row() -> Row:
 
 
 def session_of(own: Row, most_updates: int = FOR_EVER, after: Callable[[], None] = lambda: None) -> PracticeSession:
-    """Each update adds 1 to the online network, and makes it play better."""
+    """Add 1 to the online network in each update, which makes it play better."""
 
     def practise(numbers: Float64s, parts: Row, progress: Progress) -> None:
         parts.online[:] += len(numbers)
@@ -36,7 +36,7 @@ def session_of(own: Row, most_updates: int = FOR_EVER, after: Callable[[], None]
 
 
 def worsening_session(own: Row, after: Callable[[], None]) -> tuple[PracticeSession, Float32s]:
-    """Each update takes 1 from the online network, and makes it play worse than the second value, the best."""
+    """Take 1 from the online network in each update, which makes it play worse than the second value, the best."""
     best = np.array([1.0, 1.0], np.float32)
 
     def worsens(numbers: Float64s, parts: Row, progress: Progress) -> None:

@@ -16,7 +16,7 @@ UNKNOWN, BELIEVED, PAYS, PAYS_NOT = Belief
 
 
 def tries(*tried: tuple[Cell, bool]) -> Int64s:
-    """A transition for each block that landed in a cell, ahead of the agent, and whether it paid."""
+    """Return a transition for each block that landed in a cell, ahead of the agent, and whether it paid."""
     steps = [RealStep(x, y - 1, 9, int(Action.FD), x, y - 1, 8, int(paid), 0) for (x, y), paid in tried]
     return np.array(steps, dtype=np.int64).reshape(len(steps), 9)
 

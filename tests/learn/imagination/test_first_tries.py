@@ -15,7 +15,7 @@ def tries_of(untried: set[int], explores: bool = True) -> FirstTries:
 
 
 def first_actions(tries: FirstTries, steps: int) -> list[int]:
-    """What is done in so many steps, each of which moves, where the policy's action is 0."""
+    """Return what is done in so many steps, each of which moves, where the policy's action is 0."""
     done = []
     for _ in range(steps):
         action = tries.act(0, [])

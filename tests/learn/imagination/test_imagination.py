@@ -33,7 +33,7 @@ def imagination_of(
 
 
 def play(imagination: Imagination, actions: Sequence[int], run: int = 0, runs: int = 1, material: int = 1) -> None:
-    """An episode of these actions in one of the runs, in the real rules; the others stand still."""
+    """Play an episode of these actions in one of the runs, by the real rules; the others stand still."""
     env, rows = ArenaEnv(GridGame(BENT), BENT), np.array([run])
     materials = np.full(runs, material)
     before = np.tile(env.reset(options={"material": BENT.materials[material].name})[0], (runs, 1))

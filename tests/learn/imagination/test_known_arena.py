@@ -10,7 +10,7 @@ AHEAD = (0, 1)
 
 
 def episode(experience: Experience, *blocks: tuple[int, int, int]) -> None:
-    """An episode whose blocks land one cell ahead of x, y, and are paid so."""
+    """Add an episode whose blocks land one cell ahead of x, y, and are paid so."""
     experience.begin()
     for left, (x, y, paid) in zip(range(len(blocks), 0, -1), blocks, strict=True):
         experience.add(RealStep(x, y, left, 0, x, y, left - 1, paid, 0))

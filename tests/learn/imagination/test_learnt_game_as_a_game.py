@@ -49,7 +49,7 @@ class ImaginedGame:
 
 
 def imagined(game: Game, scenario: Scenario, episodes: int) -> ImaginedGame:
-    """The game that random actions in another one teach."""
+    """Return the game that random actions in another one teach."""
     seen = seen_at_random(game, scenario, episodes)
     rules = learn_rules(seen.steps, seen.first_of_episode, len(Action), scenario.size)
     beliefs = believe(seen.steps, rules.lands, scenario.size, scenario.blocks)

@@ -26,7 +26,7 @@ def learnt(seen: Experience) -> LearntRules:
 
 
 def explained_by(*actions: Action) -> LearntRules:
-    """What an episode of these actions, and no more, says."""
+    """Return what an episode of these actions, and no more, says."""
     seen = Experience()
     play(GridGame(BENT), BENT, actions, seen)
     return learnt(seen)
@@ -109,7 +109,7 @@ def test_blocks_are_gone_in_the_next_episode() -> None:
 
 
 def moved(*steps: tuple[Action, int, int]) -> np.ndarray[tuple[int, int], np.dtype[np.int64]]:
-    """Transitions from (2, 2) by these actions, each with the step that it made."""
+    """Return transitions from (2, 2) by these actions, each with the step that it made."""
     return np.array([(2, 2, 4, action, 2 + right, 2 + forward, 4, 0, 0) for action, right, forward in steps])
 
 

@@ -17,7 +17,7 @@ SIZE, BLOCKS = 5, 3
 
 
 def steps_that_placed(cells: dict[tuple[int, int], int]) -> Int64s:
-    """A transition for each cell, whose block landed there and was paid so much."""
+    """Return a transition for each cell, whose block landed there and was paid so much."""
     rows = [
         [x, y - 1, BLOCKS - at, 4, x, y - 1, BLOCKS - at - 1, paid, 0]
         for at, ((x, y), paid) in enumerate(cells.items())
@@ -44,7 +44,7 @@ def test_without_optimism_only_what_is_known_to_pay_pays() -> None:
 
 
 def live_with(updates: int = 400, **changes: object) -> Preset:
-    """The preset model-based with a short practice, and keys of its [imagination] changed."""
+    """Return the preset model-based with a short practice, and keys of its [imagination] changed."""
     live = load_preset("model-based")
     assert live.imagination is not None
     rule = live.imagination.model_copy(update={"updates_exploring": updates, "updates_building": updates, **changes})

@@ -51,12 +51,12 @@ class Practising:
 
 
 def paid_everywhere(arena: ImaginedArena) -> ImaginedArena:
-    """That arena with pay for every cell, so that no block is wasted."""
+    """Return that arena with pay for every cell, so that no block is wasted."""
     return arena._replace(pay=np.ones_like(arena.pay))
 
 
 def batch_of(replay: PracticeReplay, held: int, uniforms: Float64s, pay: Float32s) -> Batch:
-    """The batch that these numbers draw from the first transitions."""
+    """Return the batch that these numbers draw from the first transitions."""
     drawn = (uniforms * held).astype(np.int64)
     states = np.stack((replay.states[drawn], replay.next_states[drawn])).astype(np.int64)
     wasted = (replay.landed[drawn] != NOWHERE) & (pay[replay.landed[drawn]] == 0)
@@ -172,7 +172,10 @@ def test_beyond_its_capacity_the_oldest_transition_is_overwritten() -> None:
 
 
 def held(landed: list[tuple[int, int] | None], capacity: int, n_steps: int = 3) -> tuple[Practising, PracticeReplay]:
-    """A kernel, and its replay with one episode, whose blocks landed in these cells; state 10 comes first, then 11…"""
+    """Return a kernel, and its replay with one episode, whose blocks landed in these cells.
+
+    State 10 comes first, then 11…
+    """
     at = Practising(learner_of(), 1, n_steps=n_steps)
     cells = [index_of(cell, at.arena) if cell else NOWHERE for cell in landed]
     replay = at.replay._replace(

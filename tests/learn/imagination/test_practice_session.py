@@ -38,7 +38,7 @@ def practised(
 
 
 def greedy_score(learner: Learner, row: int) -> float:
-    """What the row's policy earns in the learnt game, played step by step by the learner's own choice."""
+    """Return what the row's policy earns in the learnt game, played step by step by the learner's own choice."""
     arena = arena_of()
     solid, position, left, score = arena.empty.copy(), index_of(BENT.start, arena), BENT.blocks, 0.0
     for _ in range(BENT.step_limit):

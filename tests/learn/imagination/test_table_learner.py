@@ -56,17 +56,17 @@ class Learning:
         return float(self.tables.by_blocks[np.array([x, y, blocks]) @ STRIDES, action])
 
     def by_around(self, x: int, y: int, action: Action) -> float:
-        """The value in the middle of free cells."""
+        """Return the value in the middle of free cells."""
         return float(self.tables.by_around[index_of((x, y), self.arena) << AROUND, action])
 
     def exact(self, x: int, y: int, action: Action) -> float:
-        """The value in that cell before anything is built."""
+        """Return the value in that cell before anything is built."""
         name = int(self.tables.built.here[index_of((x, y), self.arena)])
         return float(self.tables.built.values[row_of(self.tables.built, name), action])
 
 
 def chosen_by_chance(*actions: Action, longest: int) -> Float64s:
-    """Numbers for one episode whose every step is by chance, with these actions."""
+    """Return numbers for one episode whose every step is by chance, with these actions."""
     numbers = np.full(longest, 0.999)
     numbers[:3] = 0.0, ALL_BY_CHANCE, 0.0
     numbers[4::2][: len(actions)] = [(action + 0.5) / 8 for action in actions]

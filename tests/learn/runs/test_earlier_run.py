@@ -22,7 +22,7 @@ from tests.learn.runs.changed_arrays import change_arrays
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with a preset, two designs of the same arena, and a training on the first."""
+    """Return a folder with a preset, two designs of the same arena, and a training on the first."""
     folder = tmp_path_factory.mktemp("files")
     write_preset(folder / "preset.toml")
     write_scenario(folder / "small.toml", SMALL)
@@ -32,13 +32,13 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def words(files: Path, design: str) -> tuple[str | Path, ...]:
-    """The words of a training on that design until its optimum."""
+    """Return the words of a training on that design until its optimum."""
     preset, scenario = files / "preset.toml", files / f"{design}.toml"
     return "train", "--preset", preset, "--scenario", scenario, "--stop-at-optimum", "--seed", "3"
 
 
 def begun(files: Path, design: str, out: Path) -> Trainer:
-    """A training on that design that was begun from the first, before its first tick."""
+    """Return a training on that design that was begun from the first, before its first tick."""
     assert run(*words(files, design), "--episodes", "1", "--out", out) == 0
     folder = RunFolder.open(out)
     agent = folder.new_agent(1)

@@ -20,7 +20,7 @@ OPTIMUM = 21.0
 
 
 def trial_of(scores: Sequence[float], steps_each: int = 100, updates_each: int = 90) -> list[Evaluated]:
-    """A trial that was evaluated every 30 episodes, and had spent as much before each as before the others."""
+    """Return a trial that was evaluated every 30 episodes, and had spent as much before each as before the others."""
     return [
         Evaluated(
             episode=30 * number,
@@ -44,7 +44,7 @@ def arm(
     stops: bool = False,
     team: Builders | None = None,
 ) -> ArmResults:
-    """The results of an arm on a design of that name, whose optimum is 21."""
+    """Return the results of an arm on a design of that name, whose optimum is 21."""
     design = replace(with_materials(LINE, materials), name=scenario)
     made = Arm(
         f"{topic}: {name}",
@@ -78,13 +78,16 @@ def arm(
 
 
 def around(mean: float, trials: int = 10, spread: float = 0.5) -> list[list[Evaluated]]:
-    """Trials of twelve evaluations, half of them ``spread`` above the mean and half below."""
+    """Return trials of twelve evaluations, half of them ``spread`` above the mean and half below."""
     signs = [1 if trial % 2 else -1 for trial in range(trials)]
     return [trial_of([mean + sign * spread] * 12) for sign in signs]
 
 
 def whole(means: Callable[[str, str, int], float] = lambda *_: 15.0, trials: int = 10, image_trials: int = 3) -> Arms:
-    """Every arm that a run of --beyond has; ``means``: of a topic's agent, with so many materials or builders."""
+    """Return every arm that a run of --beyond has.
+
+    ``means`` has the mean of a topic's agent with so many materials or builders.
+    """
     arms = []
     for design in ("line", "zigzag", "diamond"):
         own = trials if design == "line" else image_trials

@@ -25,7 +25,7 @@ class Trial(NamedTuple):
 
 
 def made(trials: Mapping[tuple[str, str], Sequence[Trial]], episodes: int = EPISODES) -> Results:
-    """Nine evaluations a trial; agents and scenarios in the order of their first appearance."""
+    """Return results with nine evaluations a trial; agents and scenarios in the order of their first appearance."""
     every = episodes // 9
     at = np.arange(1, 10) * every
     scenarios = list(dict.fromkeys(scenario for _, scenario in trials))
@@ -59,23 +59,23 @@ def made(trials: Mapping[tuple[str, str], Sequence[Trial]], episodes: int = EPIS
 
 
 def scores_of(trial: Trial) -> list[float]:
-    """The late three lie around the final score, their standard deviation is the spread."""
+    """Return nine scores, the late three around the final score, with the spread as their standard deviation."""
     early, final, spread = trial
     return [early] * 3 + [final] * 3 + [final + spread, final - spread, final]
 
 
 def level(score: float, trials: int = 6, early: float = 5.0, spread: float = 1.0) -> list[Trial]:
-    """Trials whose final scores are ``score``, and an eighth of a block more or less in turn."""
+    """Return trials whose final scores are ``score``, and an eighth of a block more or less in turn."""
     return [Trial(early, score + (0.125, -0.125)[trial % 2], spread) for trial in range(trials)]
 
 
 def scattered(score: float, early: float = 5.0) -> list[Trial]:
-    """Trials from six blocks below ``score`` to six above: they decide little."""
+    """Return trials from six blocks below ``score`` to six above: they decide little."""
     return [Trial(early + off, score + off, spread=4 + off / 2) for off in (-6, 6, -3, 3, -1, 1)]
 
 
 def the_papers(*scenarios: str) -> dict[tuple[str, str], list[Trial]]:
-    """Six trials of all three agents on those scenarios, all where none is named, in which the paper's claims hold."""
+    """Make six trials of each agent on those scenarios, all where none is named, in which the paper's claims hold."""
     trials = {
         ("nested", "line"): level(20, early=12, spread=0.5),
         ("hierarchical", "line"): level(17, early=7, spread=1.5),

@@ -20,7 +20,7 @@ def verdicts(means: Means, trials: int = TRIALS, image_trials: int = TRIALS) -> 
 
 
 def as_the_paper_says(topic: str, name: str, count: int) -> float:
-    """Everything as the paper hopes: above the optimum by the spread, so that every trial is at it."""
+    """Return everything as the paper hopes: above the optimum by the spread, so that every trial is at it."""
     if (topic, name) in {("images", "images"), ("parts", "tuned"), ("cooperation", "shared")}:
         return OPTIMUM + 0.5
     if name == "own":

@@ -10,7 +10,7 @@ from tests.workers.cluster.dask_programs import scheduler, worker
 
 @pytest.fixture(scope="module")
 def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SchedulerAddress]:
-    """A scheduler on loopback with one worker."""
+    """Run a scheduler on loopback with one worker."""
     folder = tmp_path_factory.mktemp("cluster")
     with scheduler(folder) as url:
         running = worker(folder, url)

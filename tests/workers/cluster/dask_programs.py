@@ -17,7 +17,7 @@ START_S = 60.0
 
 @contextmanager
 def scheduler(folder: Path, *words: str) -> Iterator[str]:
-    """A scheduler with those words beside its own, on a free port: its address. It is ended after the block.
+    """Run a scheduler with those words beside its own, on a free port; yield its address. It ends after the block.
 
     TimeoutError if it doesn't start; its log is in the folder.
     """
@@ -50,14 +50,14 @@ def scheduler(folder: Path, *words: str) -> Iterator[str]:
 
 
 def worker(folder: Path, address: str, *words: str) -> subprocess.Popen[bytes]:
-    """A worker of one thread, without a nanny, with those words beside its own; it may not be connected yet."""
+    """Return a worker of one thread, without a nanny, with those words beside its own; it may not be connected yet."""
     here = ("--host", "127.0.0.1", "--no-dashboard", "--dashboard-address", "127.0.0.1:0")
     own = (*here, "--nthreads", "1", "--no-nanny", "--local-directory", str(folder))
     return _started(folder / "worker.log", "worker", address, *own, *words)
 
 
 def tls_words(keys: Path) -> tuple[str, ...]:
-    """The words with which either program takes a machine's keys."""
+    """Return the words with which either program takes a machine's keys."""
     return ("--tls-ca-file", str(keys / AUTHORITY), "--tls-cert", str(keys / CERTIFICATE), "--tls-key", str(keys / KEY))
 
 

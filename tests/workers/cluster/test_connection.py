@@ -37,7 +37,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def open_to_all(tmp_path_factory: pytest.TempPathFactory) -> Iterator[SchedulerAddress]:
-    """A scheduler without TLS, and without a worker, which would take longer to start than all else here."""
+    """Run a scheduler without TLS, and without a worker, which would take longer to start than all else here."""
     with scheduler(tmp_path_factory.mktemp("open")) as url:
         yield SchedulerAddress(url, None)
 
@@ -78,7 +78,7 @@ def test_without_tls_nobody_is_let_in(secured: str) -> None:
 
 
 def is_let_in(address: str, keys: Path, *, certificate: bool) -> bool:
-    """Whether whoever listens there answers a peer that trusts it and speaks TLS, with a certificate or without."""
+    """Return whether the listener there answers a peer that trusts it and speaks TLS, with or without a certificate."""
     context = ssl.create_default_context(cafile=str(keys / AUTHORITY))
     context.check_hostname = False
     if certificate:

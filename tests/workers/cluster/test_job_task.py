@@ -39,7 +39,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Client]:
 
 
 def left(client: Client) -> list[str]:
-    """What jobs have left on the worker's disk."""
+    """Return what jobs have left on the worker's disk."""
     (folder,) = client.run(lambda dask_worker: dask_worker.local_directory).values()
     return [path.name for path in Path(folder).iterdir() if path.name.startswith("mc-nested")]
 

@@ -15,7 +15,7 @@ from mc_nested.workers.cluster.keys import AUTHORITY, AUTHORITY_KEY, CERTIFICATE
 
 
 def context(folder: Path, purpose: ssl.Purpose) -> ssl.SSLContext:
-    """As Dask makes it: each end shows its certificate, whose host isn't looked at."""
+    """Return a context as Dask makes it: each end shows its certificate, whose host isn't looked at."""
     made = ssl.create_default_context(purpose, cafile=str(folder / AUTHORITY))
     made.verify_flags |= ssl.VERIFY_X509_STRICT
     made.check_hostname = False
@@ -25,7 +25,7 @@ def context(folder: Path, purpose: ssl.Purpose) -> ssl.SSLContext:
 
 
 def say_hello(server: Path, client: Path) -> bytes:
-    """What the server's end hears of a client with these keys; SSLError or OSError if either refuses."""
+    """Return what the server's end hears of a client with these keys; SSLError or OSError if either refuses."""
     ours, theirs = socket.socketpair()
 
     def hello() -> None:

@@ -40,7 +40,7 @@ PATIENCE_S = 60.0
 
 @pytest.fixture(autouse=True)
 def hasty(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Games and learners that wait shortly where nothing comes: for an answer's fetching, a look, a scheduler."""
+    """Shorten all waits of games and learners: for an answer's fetching, a look, a scheduler."""
     monkeypatch.setattr(game_worker, "FETCHED_S", 0.5)
     monkeypatch.setattr(game_worker, "TRY_AGAIN_S", 0.2)
     monkeypatch.setattr(game_worker, "CONNECT_S", 2.0)
@@ -75,7 +75,7 @@ def desk(monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
 
 
 def until(games: DaskGames, count: int) -> list[GameEvent]:
-    """The next events, so many."""
+    """Return the next so many events."""
     events: list[GameEvent] = []
     end = time.monotonic() + PATIENCE_S
     while len(events) < count and time.monotonic() < end:
@@ -90,7 +90,7 @@ def next_request(desk: Desk) -> Request:
 
 
 def listening() -> set[tuple[str, int]]:
-    """Addresses and ports on which this process listens."""
+    """Return the addresses and ports on which this process listens."""
     psutil = pytest.importorskip("psutil")
     return {tuple(each.laddr) for each in psutil.Process().net_connections() if each.status == "LISTEN"}
 

@@ -60,7 +60,7 @@ class Served:
             self.closed += 1
 
     def ask(self, *plans: EpisodePlan | None, wanted: Callable[[], bool] = lambda: True) -> list[GameAnswer]:
-        """The answers to these requests, after which the player ends it."""
+        """Return the answers to these requests, after which the player ends it."""
         desk = Desk()
         requests = [Request(ORDER, plan, wanted, Future()) for plan in plans]
         for request in requests:

@@ -13,7 +13,7 @@ BETA_1, BETA_2, EPSILON = 0.9, 0.999, 1e-8
 def adam_step(
     parameters: Float32s, first: Float32s, second: Float32s, gradient: Float32s, steps: int, rate: float
 ) -> None:
-    """One step by the gradient; all arrays (parameters,), the moments' included.
+    """Take one step of Adam by the gradient; all arrays are (parameters,), the moments' included.
 
     ``steps`` is the number of steps including this one.
     """

@@ -28,7 +28,7 @@ class CellPasses(NamedTuple):
 
 
 def passes_for(sizes: Sizes, batch: int) -> CellPasses:
-    """The arrays for passes of that many states through networks of that shape, of two hidden layers or more."""
+    """Return the arrays for passes of that many states through networks of that shape, of two hidden layers or more."""
     first, *hidden = hidden_for(sizes, batch)
     turned, values = np.empty((batch, sizes[1]), np.float32), np.empty((sizes[-1], batch), np.float32)
     return CellPasses(first, turned, tuple(hidden), values)

@@ -128,7 +128,7 @@ class CompiledEngine:
         return self._last.errors.take(rows, axis=0)  # a third of the time of an index of many rows
 
     def row(self, row: int) -> tuple[Float32s, Float32s, Float32s, Float32s, Int64s]:
-        """One row's online and target network, Adam's moments, (parameters,) each, and its updates (1,): no copies.
+        """Return one row's online and target network, Adam's moments, (parameters,) each, and its updates (1,); no copies.
 
         For what updates them itself.
         """
@@ -136,7 +136,7 @@ class CompiledEngine:
         return self.online[row], self.target[row], *moments, self.updates[row : row + 1]
 
     def check_finite(self, row: int, online: Float32s | None = None) -> None:
-        """DivergedError if a parameter of that row's online network, or of what it is to become, is no number."""
+        """Raise DivergedError if a parameter of that row's online network, or of what it is to become, is no number."""
         if not np.isfinite(self.online[row] if online is None else online).all():
             raise diverged(self.rule, self.updates[row : row + 1])
 
@@ -162,7 +162,7 @@ class CompiledEngine:
 
 
 def compiled_engine(engine: Engine) -> CompiledEngine:
-    """That engine, whose parameters something else is to update; TypeError if it isn't the compiled one."""
+    """Return that engine, whose parameters something else is to update; TypeError if it isn't the compiled one."""
     if not isinstance(engine, CompiledEngine):
         raise TypeError("the networks' parameters are only handed out by the compiled engine")
     return engine
@@ -186,7 +186,7 @@ def greedy_actions(values: Float32s, greedy: Int32s) -> None:
 
 @compiled(nogil=True)
 def td_target(reward: float, discount: float, next_value: float) -> float:
-    """Y = r + γ Q(s', argmax Q(s'; θ); θ⁻), the bootstrap dropped where the episode terminated (paper, equation 4).
+    """Return Y = r + γ Q(s', argmax Q(s'; θ); θ⁻), without the bootstrap after termination (paper, equation 4).
 
     ``next_value`` is the target network's value, θ⁻, of the online network's greedy action in s'.
     """
@@ -223,7 +223,7 @@ def _value(
     hidden: Sequence[Float32s],
     values: Float32s,
 ) -> None:
-    """``CompiledEngine.q_values``; ``parts`` are those of StateParts."""
+    """Compute ``CompiledEngine.q_values``; ``parts`` are those of StateParts."""
     inputs = np.empty((sizes[0] + 1, 1), np.float32)
     for at in range(len(rows)):
         _look_up(states[at : at + 1], firsts[at], StateParts(*parts), inputs)
@@ -241,7 +241,7 @@ def _update_rows(
     work: tuple[Any, ...],
     estimates: tuple[Any, ...],
 ) -> tuple[bool, bool]:
-    """``_update`` of plain tuples: compiled code takes them over in a third of the time that named ones take."""
+    """Return ``_update`` of plain tuples: compiled code takes them over in a third of the time that named ones take."""
     return _update(
         rows,
         _Networks(*networks),
@@ -265,7 +265,7 @@ def _update(
     work: _Workspace,
     estimates: _Estimates,
 ) -> tuple[bool, bool]:
-    """``CompiledEngine.update``, row by row.
+    """Return ``CompiledEngine.update``, row by row.
 
     Returns whether all parameters are numbers afterwards, and whether any row's target is due.
     """
@@ -319,7 +319,7 @@ def _update(
 
 @compiled()
 def all_finite(values: Float32s) -> bool:
-    """Whether all of the values are numbers, by their bits: fast mathematics may take for granted that they are."""
+    """Return whether no value is nan or infinite, by their bits: fast mathematics may assume that none is."""
     bits = values.view(np.uint32)
     highest = np.uint32(0)
     for at in range(len(bits)):

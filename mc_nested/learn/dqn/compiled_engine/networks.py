@@ -22,18 +22,18 @@ Sizes = tuple[int, ...]
 
 
 def parameter_count(sizes: Sizes) -> int:
-    """Parameters of one network of that shape."""
+    """Return parameters of one network of that shape."""
     return sum((inputs + 1) * outputs for inputs, outputs in pairwise(sizes))
 
 
 def initial_parameters(sizes: Sizes, random: np.random.Generator) -> Float32s:
-    """One network's parameters (parameters,), uniform in ±1/√inputs of each layer (docs/explanation/task.md)."""
+    """Return one network's parameters (parameters,), uniform in ±1/√inputs of each layer (docs/explanation/task.md)."""
     parts = [random.uniform(-1.0, 1.0, (inputs + 1) * outputs) / np.sqrt(inputs) for inputs, outputs in pairwise(sizes)]
     return np.concatenate(parts).astype(np.float32)
 
 
 def hidden_for(sizes: Sizes, batch: int) -> tuple[Float32s, ...]:
-    """An array (width + 1, batch) for each hidden layer's nodes, the last row being 1."""
+    """Return an array (width + 1, batch) for each hidden layer's nodes, the last row being 1."""
     return tuple(np.ones((width + 1, batch), np.float32) for width in sizes[1:-1])
 
 
@@ -88,7 +88,7 @@ def backward(
 
 @compiled(fused=True)
 def tanh_in_place(values: Float32s) -> None:
-    """The hyperbolic tangent as a quotient of polynomials, which vectorises; within 3e-7.
+    """Replace values by their hyperbolic tangent, a quotient of polynomials, which vectorises; within 3e-7.
 
     Beyond ±7.9 it stays at its value there. The coefficients are those of the minimax approximation in the library
     Eigen. The terms are added in pairs (Estrin's scheme), which need not wait for each other.

@@ -46,7 +46,7 @@ def multiply(a: Float32s, b: Float32s, out: Float32s) -> None:
 
 @compiled(nogil=True)
 def _multiply_rest(a: Float32s, b: Float32s, first: int, out: Float32s) -> None:
-    """The product with the columns of ``b`` from that one on, fewer than WIDTH, as that of both transposed."""
+    """Multiply by the columns of ``b`` from that one on, fewer than WIDTH, as the product of both transposed."""
     rows, terms = a.shape
     rest = b.shape[1] - first
     room = np.zeros((terms + rest, WIDTH), np.float32)
@@ -61,7 +61,7 @@ def _multiply_rest(a: Float32s, b: Float32s, first: int, out: Float32s) -> None:
 
 @compiled(nogil=True)
 def _multiply_few(a: Float32s, b: Float32s, first: int, out: Float32s) -> None:
-    """The product with the columns of ``b`` from that one on, one sum at a time."""
+    """Multiply by the columns of ``b`` from that one on, one sum at a time."""
     terms = b.shape[0]
     in_lanes = terms // LANES * LANES if a.strides[1] == a.itemsize else 0
     factors = np.empty((1, terms), np.float32)
@@ -95,7 +95,7 @@ def _transpose(a: Float32s, row: int, out: Float32s) -> None:
 
 @compiled(nogil=True)
 def _multiply_columns(a: Float32s, b: Float32s, column: int, out: Float32s, to_column: int) -> None:
-    """The product with WIDTH columns of ``b``, whose rows lie in one piece each."""
+    """Multiply by WIDTH columns of ``b``, whose rows lie in one piece each."""
     rows = out.shape[0]
     if rows < ROWS:
         for row in range(rows):

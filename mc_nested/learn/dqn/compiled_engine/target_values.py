@@ -19,7 +19,7 @@ AT_ONCE = 256
 
 
 def table_pays(states: int, batch: int, target_period: int) -> bool:
-    """Whether all states are no more than those that the updates of a period value: one costs as much either way."""
+    """Return whether there are no more states than a target period's updates value; a state costs the same either way."""
     return states <= batch * target_period
 
 

@@ -48,11 +48,11 @@ class Vectors:
         return self._builder.extract_value(self._array.shape, 0)
 
     def number(self, row: Any, column: Any) -> Any:
-        """The number at a place."""
+        """Return the number at a place."""
         return self._builder.load(self._place(row, column))
 
     def load(self, row: Any, column: Any) -> Any:
-        """The vector of a row's numbers from that column on."""
+        """Return the vector of a row's numbers from that column on."""
         return self._builder.load(self._begin(row, column), align=ALIGNED)
 
     def store(self, vector: Any, row: Any, column: Any) -> None:
@@ -125,7 +125,7 @@ plain Python only.
 
 
 def _tile_of(rows: int) -> Tile:
-    """The tile of so many rows, for compiled code."""
+    """Return the tile of so many rows, for compiled code."""
 
     def in_python(a: Float32s, row: int, b: Float32s, column: int, out: Float32s, to: tuple[int, int]) -> None:
         factors, vectors = a.take(range(row, row + rows), axis=0), b.take(range(column, column + WIDTH), axis=1)
@@ -157,7 +157,7 @@ def _tile_of(rows: int) -> Tile:
 
 
 def _everywhere(builder: Any, number: Any) -> Any:
-    """A vector with that number everywhere."""
+    """Return a vector with that number everywhere."""
     unknown, first = ir.Constant(_VECTOR, ir.Undefined), ir.Constant(INDEX, 0)
     with_one = builder.insert_element(unknown, number, first)
     return builder.shuffle_vector(with_one, unknown, ir.Constant(ir.VectorType(INDEX, WIDTH), [0] * WIDTH))
@@ -178,7 +178,7 @@ A row of either lies in one piece. The bounds are checked in plain Python only.
 
 
 def _mask(*numbers: int) -> ir.Constant:
-    """Which numbers of two vectors, one after the other, a new vector has."""
+    """Return which numbers of two vectors, one after the other, a new vector has."""
     return ir.Constant(ir.VectorType(INDEX, SIDE), list(numbers))
 
 

@@ -103,7 +103,7 @@ class TorchEngine:
         return found
 
     def _both_values(self, rows: Int64s, states: Tensor) -> tuple[Tensor, Tensor, Sequence[Tensor]]:
-        """The online networks' values of s and of s', (k, batch, actions), and the leaves that those of s depend on.
+        """Return the online networks' values of s and s', (k, batch, actions), and the leaves that those of s depend on.
 
         ``states`` are every s and every s', (2, k, batch, …).
         """
@@ -117,7 +117,7 @@ class TorchEngine:
         return values, following_values, leaves
 
     def _step(self, rows: Int64s, gradient: Tensor) -> None:
-        """One step of Adam in the named rows; DivergedError if a parameter is no number afterwards."""
+        """Take one step of Adam in the named rows; DivergedError if a parameter is no number afterwards."""
         steps, rate = self.updates[rows], self.rule.learning_rate
         if np.array_equal(rows, self._every_row):
             adam_step(self._online, self._first, self._second, gradient, steps, rate)
@@ -168,7 +168,7 @@ class TorchEngine:
 
 
 def device_named(name: str) -> torch.device:
-    """The device of that name; PresetError if this torch finds none."""
+    """Return the device of that name; PresetError if this torch finds none."""
     there = {"cpu": True, "cuda": torch.cuda.is_available(), "mps": torch.backends.mps.is_available()}
     if not there[name]:
         found = ", ".join(each for each, is_there in there.items() if is_there)
@@ -178,7 +178,7 @@ def device_named(name: str) -> torch.device:
 
 @contextmanager
 def _enough_memory(device: torch.device) -> Iterator[None]:
-    """PresetError, one line, where the device's memory is too small."""
+    """Raise PresetError, one line, where the device's memory is too small."""
     try:
         yield
     except torch.cuda.OutOfMemoryError as error:

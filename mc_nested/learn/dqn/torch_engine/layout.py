@@ -24,7 +24,7 @@ class Slot(NamedTuple):
 
 
 def slots_of(module: nn.Module) -> tuple[Slot, ...]:
-    """The slots of a module's parameters, in the order of the module."""
+    """Return the slots of a module's parameters, in the order of the module."""
     slots = []
     for path, part in module.named_modules():
         own = {f"{path}.{name}".lstrip("."): each for name, each in part.named_parameters(recurse=False)}
@@ -36,7 +36,7 @@ def slots_of(module: nn.Module) -> tuple[Slot, ...]:
 
 
 def parts_of(rows: Tensor, slots: Sequence[Slot]) -> dict[str, Tensor]:
-    """Views of each parameter in the rows (…, parameters), (…, *its shape), by name."""
+    """Return views of each parameter in the rows (…, parameters), (…, *its shape), by name."""
     parts, start = {}, 0
     for slot in slots:
         end = start + math.prod(slot.shape)
@@ -50,7 +50,7 @@ def parts_of(rows: Tensor, slots: Sequence[Slot]) -> dict[str, Tensor]:
 
 
 def laid_out(parts: Sequence[Tensor], slots: Sequence[Slot], rows: int) -> Tensor:
-    """Rows (rows, parameters) of the parameters (rows, *shape) of every slot, in its order."""
+    """Return rows (rows, parameters) of the parameters (rows, *shape) of every slot, in its order."""
     each = iter(parts)
     lying = []
     for slot in slots:
@@ -70,7 +70,7 @@ def bind(module: nn.Module, row: Tensor) -> None:
 
 
 def flat_of(module: nn.Module) -> Float32s:
-    """A module's parameters as one row (parameters,)."""
+    """Return a module's parameters as one row (parameters,)."""
     slots, own = slots_of(module), dict(module.named_parameters())
     flat: Float32s = laid_out([own[name] for slot in slots for name in slot.names], slots, 1)[0].detach().numpy()
     return flat

@@ -37,7 +37,7 @@ Make = Callable[[tuple[int, ...], int], nn.Module]
 
 
 def mlp(shape: tuple[int, ...], hidden: Sequence[int], actions: int) -> nn.Module:
-    """Dense layers: hidden ones of those widths with tanh, a linear output (paper, appendix: hyper-parameters)."""
+    """Make dense layers: hidden ones of those widths with tanh, a linear output (paper, appendix: hyper-parameters)."""
     layers: list[nn.Module] = [nn.Flatten()] if len(shape) > 1 else []
     for inputs, outputs in pairwise((int(np.prod(shape)), *hidden, actions)):
         layers += [nn.Linear(inputs, outputs), nn.Tanh()]
@@ -45,7 +45,7 @@ def mlp(shape: tuple[int, ...], hidden: Sequence[int], actions: int) -> nn.Modul
 
 
 def cnn(shape: tuple[int, ...], hidden: Sequence[int], actions: int) -> nn.Module:
-    """Convolutions, then dense layers of the ``hidden`` widths, all with ReLU, and a linear output."""
+    """Make convolutions, then dense layers of the ``hidden`` widths, all with ReLU, and a linear output."""
     planes, height, width = shape
     if max(height, width) > LARGEST_SIDE_OF_SMALL:
         layers: list[nn.Module] = [
@@ -65,7 +65,7 @@ def cnn(shape: tuple[int, ...], hidden: Sequence[int], actions: int) -> nn.Modul
 
 
 def network_maker(network: str, hidden: Sequence[int]) -> Make:
-    """What makes the network of that name, with dense layers of those widths; PresetError if there is none."""
+    """Return what makes the network of that name, with dense layers of those widths; PresetError if there is none."""
     if network == MLP:
         return lambda shape, actions: mlp(shape, hidden, actions)
     if network == CNN:
@@ -74,7 +74,7 @@ def network_maker(network: str, hidden: Sequence[int]) -> Make:
 
 
 def own_maker(network: str) -> Make:
-    """The function that ``my_module:make`` names; the working directory counts among the places of modules."""
+    """Return the function that ``my_module:make`` names; the working directory counts among the places of modules."""
     module_name, _, name = network.partition(":")
     if str(Path.cwd()) not in sys.path:
         sys.path.insert(0, str(Path.cwd()))
@@ -104,7 +104,10 @@ def own_maker(network: str) -> Make:
 
 
 def _misfit(module: object, values: object, states: int, actions: int) -> str | None:
-    """What keeps a module that gave these values for so many states from being a network; None if it can be one."""
+    """Return what keeps a module that gave these values for so many states from being a network.
+
+    It is None if it can be one.
+    """
     if not isinstance(module, nn.Module) or not isinstance(values, Tensor):
         return "its function should give a torch module, and that a tensor"
     if values.shape != (states, actions):
@@ -117,7 +120,7 @@ def _misfit(module: object, values: object, states: int, actions: int) -> str | 
 
 
 def _untrainable(module: nn.Module) -> str | None:
-    """What keeps the module's parameters from being trained as rows of networks are; None if nothing does."""
+    """Return what keeps the module's parameters from being trained as rows of networks are; None if nothing does."""
     if next(module.parameters(), None) is None:
         return "has no parameter: there is nothing to train"
     if next(module.buffers(), None) is not None:
@@ -130,14 +133,14 @@ def _untrainable(module: nn.Module) -> str | None:
 
 
 def form_of(network: str, shape: tuple[int, ...], hidden: Sequence[int], actions: int) -> NetworkForm:
-    """What that network is: of dense layers alone their widths, otherwise the shape of a state before them."""
+    """Return what that network is: of dense layers alone their widths, otherwise the shape of a state before them."""
     if network == MLP:
         return NetworkForm(MLP, (int(np.prod(shape)), *hidden, actions))
     return NetworkForm(network, (*shape, *(hidden if network == CNN else ()), actions))
 
 
 def initial_rows(form: NetworkForm, make: Callable[[], nn.Module], streams: Sequence[np.random.Generator]) -> Float32s:
-    """Initial parameters for each row (rows, parameters), by its generator; an mlp's as the compiled engine's."""
+    """Draw each row's initial parameters (rows, parameters), by its generator; an mlp's as the compiled engine's."""
     if form.network == MLP:
         sizes: Sizes = form.numbers
         return np.stack([initial_parameters(sizes, stream) for stream in streams])
@@ -155,12 +158,12 @@ Inputs = Callable[[NDArray[Any], Int64s], Tensor]
 
 
 def input_shape(states: States) -> tuple[int, ...]:
-    """The shape of one state as a network takes it."""
+    """Return the shape of one state as a network takes it."""
     return (states.inputs,) if isinstance(states, StateSpace) else states.shape
 
 
 def inputs_of(states: States, device: torch.device) -> Inputs:
-    """What turns those states into a network's inputs on that device."""
+    """Return what turns those states into a network's inputs on that device."""
     if isinstance(states, StateSpace):
         return _features(states, device)
     return lambda kept, _: torch.from_numpy(kept).to(device).float().mul_(1 / 255)

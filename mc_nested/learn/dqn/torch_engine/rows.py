@@ -48,7 +48,7 @@ class NetworkRows:
         self._stacked = vmap(lambda parameters, inputs: functional_call(first, parameters, (inputs,)))
 
     def values(self, rows: Int64s, inputs: Tensor) -> Values:
-        """The values of inputs (k, batch, …) in the named rows (k,)."""
+        """Return the values of inputs (k, batch, …) in the named rows (k,)."""
         if len(rows) == 1:
             return Values(self._modules[rows[0]](inputs[0])[None], self._leaves[rows[0]])
         if not self._stacks:
@@ -59,7 +59,7 @@ class NetworkRows:
         return Values(self._stacked(leaves, inputs), list(leaves.values()))
 
     def gradient(self, values: Tensor, slopes: Tensor, leaves: Sequence[Tensor], rows: int) -> Tensor:
-        """The gradient (rows, parameters) of a loss with these slopes in the values (rows, batch, actions).
+        """Return the gradient (rows, parameters) of a loss with these slopes in the values (rows, batch, actions).
 
         ``leaves`` are as ``values`` gave them. The next call writes over what this one returns.
         """
@@ -75,7 +75,7 @@ class NetworkRows:
 
 
 def can_be_stacked(module: nn.Module, shape: tuple[int, ...]) -> bool:
-    """Whether torch.func can compute several rows of such a module at once, from states of that shape.
+    """Return whether torch.func can compute several rows of such a module at once, from states of that shape.
 
     It can't with a recurrent layer, or with one that draws random numbers.
     """

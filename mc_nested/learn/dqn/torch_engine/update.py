@@ -15,7 +15,7 @@ from mc_nested.learn.dqn.engine import UpdateRule
 
 
 def huber_slopes(values: Tensor, taken: Tensor, errors: Tensor, weights: Tensor, rule: UpdateRule) -> Tensor:
-    """The slope of each value (k, batch, actions) in the mean Huber loss: the error, at most δ either way.
+    """Return the slope of each value (k, batch, actions) in the mean Huber loss: the error, at most δ either way.
 
     ``taken`` (k, batch, 1) are the actions; ``errors`` (k, batch) are Q(s, a) less its goal, times ``weights``.
     """
@@ -24,7 +24,7 @@ def huber_slopes(values: Tensor, taken: Tensor, errors: Tensor, weights: Tensor,
 
 
 def margin_slopes(values: Tensor, taken: Tensor, imitated: Tensor, rule: UpdateRule) -> Tensor:
-    """The slope of each value (k, batch, actions) in the mean large-margin loss of what is imitated (k, batch).
+    """Return the slope of each value (k, batch, actions) in the mean large-margin loss of what is imitated (k, batch).
 
     The loss (self_imitation.py) rises with the rival's value, and falls with that of the action that was taken; where
     they are the same, it is flat.
@@ -35,7 +35,7 @@ def margin_slopes(values: Tensor, taken: Tensor, imitated: Tensor, rule: UpdateR
 
 
 def adam_step(parameters: Tensor, first: Tensor, second: Tensor, gradient: Tensor, steps: Int64s, rate: float) -> None:
-    """One step by the gradient, in place; all (rows, parameters), but ``steps`` (rows,), which count this one."""
+    """Take one step by the gradient, in place; all (rows, parameters), but ``steps`` (rows,), which count this one."""
     first.lerp_(gradient, 1 - BETA_1)
     second.mul_(BETA_2).addcmul_(gradient, gradient, value=1 - BETA_2)
     if (steps == steps[0]).all():
@@ -48,6 +48,6 @@ def adam_step(parameters: Tensor, first: Tensor, second: Tensor, gradient: Tenso
 
 
 def _scales(step: int, rate: float) -> tuple[float, float]:
-    """The rate and ε with the corrections of both moments in them."""
+    """Return the rate and ε with the corrections of both moments in them."""
     correction = math.sqrt(1 - BETA_2**step)
     return rate * correction / (1 - BETA_1**step), EPSILON * correction

@@ -30,13 +30,13 @@ HIDDEN = [(6, 5), (4, 6, 3)]
 
 
 def numbers_of(space: StateSpace) -> Float32s:
-    """The inputs after the cell's, as the passes take them."""
+    """Return the inputs after the cell's, as the passes take them."""
     rest = space.count // space.cells
     return np.ascontiguousarray(space.table[:rest, space.cells :])
 
 
 def drawn(space: StateSpace, sizes: Sizes) -> tuple[Float32s, Int64s, Float32s]:
-    """Parameters, states with one of them twice, and slopes."""
+    """Return parameters, states with one of them twice, and slopes."""
     random = np.random.default_rng(2)
     parameters = random.standard_normal(parameter_count(sizes)).astype(np.float32)
     states = random.integers(0, space.count, BATCH)
@@ -46,7 +46,7 @@ def drawn(space: StateSpace, sizes: Sizes) -> tuple[Float32s, Int64s, Float32s]:
 
 
 def passed(space: StateSpace, sizes: Sizes) -> tuple[CellPasses, Float32s]:
-    """The values and hidden nodes, and the gradient."""
+    """Return the values and hidden nodes, and the gradient."""
     parameters, states, slope = drawn(space, sizes)
     passes, scratch = passes_for(sizes, BATCH), passes_for(sizes, BATCH)
     gradient = np.full(parameter_count(sizes), np.nan, np.float32)

@@ -43,7 +43,7 @@ def test_tanh_is_right_to_the_last_bits(values: list[float]) -> None:
 
 
 def reference(flat: Tensor, sizes: Sizes, inputs: Tensor) -> Tensor:
-    """One network by torch.nn, sharing no code with ours, for inputs (batch, inputs)."""
+    """Return one network by torch.nn, sharing no code with ours, for inputs (batch, inputs)."""
     start = 0
     for index in range(len(sizes) - 1):
         width_in, width_out = sizes[index], sizes[index + 1]
@@ -57,7 +57,7 @@ def reference(flat: Tensor, sizes: Sizes, inputs: Tensor) -> Tensor:
 
 
 def columns(inputs: Tensor) -> Float32s:
-    """(batch, inputs) as ``forward`` takes them: states as columns, a 1 below each."""
+    """Return (batch, inputs) as ``forward`` takes them: states as columns, a 1 below each."""
     return np.ascontiguousarray(torch.cat((inputs, torch.ones(len(inputs), 1)), 1).numpy().T)
 
 

@@ -23,7 +23,7 @@ SIZES = st.integers(2, 40)
 
 
 def product(a: Float32s, b: Float32s) -> Float32s:
-    """It, written between two columns that must stay as they are.
+    """Return the product, written between two columns that must stay as they are.
 
     All three are parts of larger arrays: compiled once for all that lie so, and in seconds for each other layout.
     """
@@ -34,7 +34,10 @@ def product(a: Float32s, b: Float32s) -> Float32s:
 
 
 def part(matrix: Float32s) -> Float32s:
-    """The same matrix, which lies by rows or by columns, as a part of a larger one; the rest is not to be read."""
+    """Return the same matrix, which lies by rows or by columns, as a part of a larger one.
+
+    The rest is not to be read.
+    """
     if matrix.flags.f_contiguous:
         turned: Float32s = part(matrix.T).T
         return turned

@@ -7,24 +7,24 @@ from torch import Tensor, nn
 
 
 def pooled(shape: tuple[int, ...], actions: int) -> nn.Module:
-    """It fits any states."""
+    """Make a network that fits any states."""
     size = torch.zeros(shape).numel()
     return nn.Sequential(nn.Flatten(), nn.LayerNorm(size), nn.Linear(size, actions))
 
 
 def one_value(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - that's what is wrong with it
-    """It doesn't give a value for each action."""
+    """Make a network that doesn't give a value for each action."""
     return nn.Sequential(nn.Flatten(), nn.Linear(torch.zeros(shape).numel(), 1))
 
 
 def normed(shape: tuple[int, ...], actions: int) -> nn.Module:
-    """It has buffers."""
+    """Make a network with buffers."""
     size = torch.zeros(shape).numel()
     return nn.Sequential(nn.Flatten(), nn.BatchNorm1d(size), nn.Linear(size, actions))
 
 
 def for_pictures(shape: tuple[int, ...], actions: int) -> nn.Module:
-    """It only takes planes."""
+    """Make a network that only takes planes."""
     return nn.Sequential(nn.Conv2d(shape[0], 1, 3), nn.Flatten(), nn.LazyLinear(actions))
 
 
@@ -36,7 +36,7 @@ class Fails(nn.Module):
 
 
 def fails(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - it never gets that far
-    """It can't be called."""
+    """Make a network that can't be called."""
     return Fails()
 
 
@@ -48,7 +48,7 @@ class Halves(nn.Linear):
 
 
 def halves(shape: tuple[int, ...], actions: int) -> nn.Module:
-    """Its values can't be compared with the rewards."""
+    """Return a network whose values can't be compared with the rewards."""
     return Halves(shape[0], actions)
 
 
@@ -60,17 +60,17 @@ class ForTwo(nn.Linear):
 
 
 def for_two(shape: tuple[int, ...], actions: int) -> nn.Module:
-    """It fails on a batch."""
+    """Make a network that fails on a batch."""
     return ForTwo(shape[0], actions)
 
 
 def without_parameters(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - it takes any
-    """There is nothing to train in it."""
+    """Make a network with nothing to train in it."""
     return nn.AdaptiveAvgPool1d(actions)
 
 
 def leaves(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - it never gets that far
-    """It ends the program."""
+    """End the program."""
     sys.exit(5)
 
 
@@ -90,17 +90,17 @@ class Recurrent(nn.Module):
 
 
 def recurrent(shape: tuple[int, ...], actions: int) -> nn.Module:  # noqa: ARG001 - it takes numbers, however many
-    """It can't be stacked, and one layer is never used."""
+    """Make a network that can't be stacked, and one layer of which is never used."""
     return Recurrent(actions)
 
 
 def dropped(shape: tuple[int, ...], actions: int) -> nn.Module:
-    """It draws random numbers."""
+    """Make a network that draws random numbers."""
     return nn.Sequential(nn.Flatten(), nn.Dropout(0.1), nn.Linear(torch.zeros(shape).numel(), actions))
 
 
 def tied(shape: tuple[int, ...], actions: int) -> nn.Module:
-    """One parameter is in two layers."""
+    """Return a network with one parameter in two layers."""
     size = torch.zeros(shape).numel()
     first, second = nn.Linear(size, size), nn.Linear(size, size)
     second.weight = first.weight
@@ -108,11 +108,11 @@ def tied(shape: tuple[int, ...], actions: int) -> nn.Module:
 
 
 def frozen(shape: tuple[int, ...], actions: int) -> nn.Module:
-    """A layer isn't to be trained."""
+    """Return a network with a layer that isn't to be trained."""
     module = nn.Sequential(nn.Flatten(), nn.Linear(torch.zeros(shape).numel(), actions))
     module[1].bias.requires_grad_(False)
     return module
 
 
 def nothing(shape: tuple[int, ...], actions: int) -> None:
-    """It makes no module."""
+    """Make no module."""
