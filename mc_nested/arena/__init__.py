@@ -1,1 +1,1 @@
-"""The task: scenarios, rules, the Game seam and the Env over it. Pure: no picture files, no torch, no screen."""
+"""The task: scenarios, designs, the rules, the Game seam, and the Envs over it. No torch, no screen, no picture files."""

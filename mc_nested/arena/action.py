@@ -1,4 +1,4 @@
-"""What an agent can do, and where: the eight actions and a cell. What an action leads to is for the rules to say."""
+"""What an agent can do, and where: the eight actions and a cell. What an action leads to is in rules.py."""
 
 from enum import IntEnum
 

@@ -5,8 +5,8 @@ in the way, and no state (x, y, b) repeats between two blocks.
 
 In a design in parts, what was built first may stand in the way of what comes later. The order is found backwards, from
 the whole design: a block can have been the last one if the agent can get from the cell before it to where it goes next.
-Taking a block away only opens ways. So whichever is taken first, every order that there is will be found, and a design
-for which none is found can't be built.
+Taking a block away never closes a way. So it doesn't matter which block is taken away first: if there is an order, one
+is found, and a design for which none is found can't be built.
 """
 
 from collections import deque
@@ -100,7 +100,7 @@ def _spread(reached: set[Cell], cell: Cell, placed: Collection[Cell], size: int)
 
 
 def _way(start: Cell, goal: Cell, placed: Collection[Cell], size: int) -> tuple[Cell, list[Action]]:
-    """Return the goal, and the fewest moves that end there, at least one: every action that places a block moves first."""
+    """Return the goal, and the fewest moves that end there, one at least: a block is only placed after a move."""
     waiting: deque[tuple[Cell, list[Action]]] = deque([(start, [])])
     seen: set[Cell] = set()
     while waiting:

@@ -1,6 +1,6 @@
-"""What a design is by itself: how its blocks hang together, and its scenario, with a step limit by one rule.
+"""What a design is by itself: how its blocks are joined, and its scenario, with a step limit by one rule.
 
-They hang together by their edges, by corners at least, or not at all. All else is as in another scenario.
+The blocks are joined by their edges, by edges and corners, or not at all. All else comes from another scenario.
 """
 
 from collections.abc import Collection, Sequence
@@ -28,7 +28,7 @@ def kind_of_design(design: Collection[Cell]) -> str:
     """Return the kind of a design of at least one block.
 
     ``edge``: every block is reached from every other over shared edges. ``corner``: over edges and corners, but not
-    over edges alone, like the zigzag and the diamond. ``scattered``: not even so.
+    over edges alone, like the zigzag and the diamond. ``scattered``: not even over corners.
     """
     if _is_connected(design, BESIDE):
         return EDGE

@@ -1,7 +1,7 @@
 """The arena from above, the far edge on top, as text and as a picture: what an Env renders, and what a film shows.
 
-A picture takes NumPy alone. Every cell is a tile of its kind, drawn once a size; the agent lies over its cell, an arrow
-in the direction it looks. Edges are smooth: each pixel is the mean of SAMPLES x SAMPLES points.
+A picture takes NumPy alone. Every cell is a tile of its kind, drawn once for each size; the agent lies over its cell,
+an arrow in the direction it looks. Edges are smooth: each pixel is the mean of SAMPLES x SAMPLES points.
 """
 
 from collections.abc import Collection

@@ -173,7 +173,7 @@ class Scenario:
         return sum((max(part.worth) for part in self.in_order), start=float(self.blocks))
 
     def score(self, placed: Collection[Cell], material: int) -> float:
-        """Return r_M of what stands, all of the material of that index: the blocks on the design, plus p. Without parts."""
+        """Return r_M of what stands, all of that material: the blocks on the design, plus p; without parts only."""
         return len(self.design.intersection(placed)) + self.materials[material].p
 
     def material_index(self, name: str) -> int:

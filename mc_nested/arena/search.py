@@ -58,7 +58,7 @@ def _search(scenario: Scenario) -> int:
 
 
 def _out_of_turn(blocks: list[Cell], scenario: Scenario) -> Int64s:
-    """Return the subsets with a block of a part but not all of an earlier part: they never come up in the parts' order."""
+    """Return the subsets with a block of a part but not all of an earlier one, which never come up."""
     subsets = np.arange(1 << len(blocks))
     wrong = np.zeros(len(subsets), dtype=np.bool_)
     begun = np.zeros(len(subsets), dtype=np.bool_)

@@ -1,4 +1,4 @@
-"""The tally of arenas with parts: whose turn it is, what was laid of which material, and what that earns."""
+"""The tally of arenas with parts: which part is being built, what was laid of which material, and what that earns."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -42,7 +42,7 @@ class Tally:
             for number, part in enumerate(scenario.in_order):
                 self._sizes[run, number] = len(part.cells)
                 self._worth[run, number, : len(part.worth)] = part.worth
-                # Materials of one worth count as one: so their shares add up to p exactly.
+                # Materials that are worth the same count as one, so that their shares add up to p exactly.
                 self._counts_for[run, number, : len(part.worth)] = [part.worth.index(p) for p in part.worth]
                 for x, y in part.cells:
                     self._part_of[run, x, y] = number

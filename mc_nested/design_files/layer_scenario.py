@@ -4,7 +4,7 @@ As on a map, with north on top: the volume's north is the arena's far edge, its 
 become the design, of one material, which the main agent chooses; what they were made of is only told.
 
 The cells that have blocks are put into the middle of an arena of 15 x 15 cells, or of as many as they need, up to 32 x
-32: 32 cells across and 31 along, since no block can land on the near edge. Of a larger layer the middle is kept. The
+32: 32 cells across and 31 along, since no block can land on the near edge. A larger layer is cut to its middle. The
 start cell is the far edge's middle; materials and step limit are as in a benchmark (arena/design.py).
 """
 

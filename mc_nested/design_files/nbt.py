@@ -1,6 +1,6 @@
-"""NBT from a file that nobody vouches for: bounded before anything is allocated, and typed where it is read.
+"""NBT from a file that can't be trusted: sizes are limited before memory is allocated, and types are checked.
 
-pynbt, which is an extra, believes every length in the file. So it reads from a stream that hands out no byte which
+pynbt, which is an extra, trusts every length in the file. So it reads from a stream that hands out no byte which
 isn't there and no more than so many values, and the stream's bytes were unpacked up to a limit.
 
 A file whose stated size is too large is refused at once: decoding it first takes seconds. A size is a tag of a known
@@ -137,7 +137,7 @@ class _BoundedStream:
 
 
 SMALL_BYTES = 1 << 18
-"""Unpacked bytes that are decoded so quickly that nothing is gained."""
+"""Unpacked bytes up to which the check gains nothing: they are decoded quickly."""
 
 READS_A_BLOCK = 12
 """Reads of pynbt for a block that a structure lists, at least."""

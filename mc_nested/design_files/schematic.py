@@ -3,8 +3,8 @@
 Sponge's blocks are variable-length integers, seven bits a byte, the lowest first; the highest bit says that more
 follow. Source: https://github.com/SpongePowered/Schematic-Specification
 
-MCEdit, before 1.13, has a number for each block, and four bits of data. ``legacy_blocks.txt`` has the names of today: a
-number, and a name for each value of the data, from 0 on; data beyond has the first name. They are taken from
+MCEdit, before 1.13, has a number for each block, and four bits of data. ``legacy_blocks.txt`` has today's names: a
+number, then a name for each value of the data, from 0 on; higher values have the first name. They are taken from
 minecraft-data (MIT licence), https://github.com/PrismarineJS/minecraft-data.
 """
 

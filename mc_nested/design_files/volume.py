@@ -14,7 +14,7 @@ from mc_nested.errors import ScenarioError
 AIR = "air"
 
 NOTHING = frozenset({AIR, "cave_air", "void_air", "structure_void"})
-"""Blocks that are none: the three kinds of air, and what a structure block leaves as it is."""
+"""Names that count as no block: the three kinds of air, and what a structure block leaves as it is."""
 
 MOST_CELLS = 8 * 1024 * 1024
 """Cells of a file: 256 x 128 x 256, far more than any design has."""

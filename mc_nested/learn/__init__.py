@@ -1,1 +1,4 @@
-"""How the task is learned: networks, DDQN, replay, agents, trainer. Knows observations and actions, never Minecraft."""
+"""How the task is learned: agents, DDQN, exploration, a learnt game, trainers, and trainings on disk.
+
+It knows observations and actions, never Minecraft.
+"""

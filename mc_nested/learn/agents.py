@@ -154,7 +154,7 @@ class Agent:
         return self._low_levels * self.builders // self._share_a_row
 
     def low_level_states(self, observations: NDArray[Any], materials: Int64s) -> NDArray[Any]:
-        """Return the low-level agents' states, (runs * builders, …). The nested agent's is s_N = [s_M, a_M] (section 4.1).
+        """Return the low-level agents' states, (runs * builders, …); the nested agent's s_N = [s_M, a_M] (section 4.1).
 
         ``materials`` are (runs,). To numbers, a_M is one number more. To planes, it is one plane more: "one extra
         dimension".
@@ -213,7 +213,7 @@ class Agent:
         return [runs * self.builders + number for number in range(self.builders)]
 
     def low_level_rows(self, places: Int64s, materials: Int64s) -> Int64s:
-        """Return the rows of ``low_level`` that act for the builders at these places (k,), by the materials of all runs."""
+        """Return the ``low_level`` rows that act for the builders at these places (k,), by all runs' materials."""
         acting = places if self._share_a_row == 1 else places // self._share_a_row
         return acting if self._low_levels == 1 else acting * self._low_levels + materials[places]
 

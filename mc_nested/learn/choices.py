@@ -41,7 +41,7 @@ class ChoiceStep(NamedTuple):
 
 
 class OwnChoices:
-    """The choices of runs whose single agent makes them by its actions: nobody else has anything to do."""
+    """The choices of runs whose single agent makes them by its actions: there is nothing else to do."""
 
     def __init__(self, agent: Agent) -> None:
         self._agent = agent
@@ -116,7 +116,7 @@ class MainChoices(OwnChoices):
         rows = np.flatnonzero(step.due)
         self._chosen_in[rows] = step.states[rows]
         self._earned[rows] = step.earned[rows]
-        # Drawn only when they are needed: so the numbers of every tick are as they always were.
+        # Drawn only when they are needed, which leaves the numbers of every tick as they were without choices.
         runs = [self._agent.runs[row] for row in rows.tolist()]
         drawn = [choice_stream(self._seed, run, step.tick).random(CHOICE_NUMBERS) for run in runs]
         chosen: Int64s = materials.copy()

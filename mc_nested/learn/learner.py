@@ -111,7 +111,7 @@ class Learner:
                     self.priorities.update_priorities(rows[drew], indices[drew], own[drew])
 
     def state(self) -> Arrays:
-        """Return networks, optimisers and priorities, by name. With the replay they are all that later updates depend on."""
+        """Return networks, optimisers and priorities, by name; later updates depend on these and the replay alone."""
         return {**self.engine.state(), **named_for("priorities", self.priorities.state() if self.priorities else {})}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
@@ -129,7 +129,7 @@ class Learner:
         imitated = self.best.mix_in(rows, drawn, uniforms) if self.best else self._not_imitated[: len(rows)]
         weights = self._of_equal_weight[: len(rows)]
         if self.priorities:
-            # What is imitated wasn't drawn: it has no part in the largest weight either.
+            # Imitated transitions weren't drawn, so they don't count for the largest weight either.
             indices = np.where(imitated, indices[:, -1:], indices)
             weights = self.priorities.weights(rows, indices, self.replay.sizes()[rows])
             weights[imitated] = 1.0

@@ -86,7 +86,7 @@ class LearntGame(Practice):
 
 
 class LearntGameBesideIt(LearntGame):
-    """The same beside a live game, which can't wait: while it resets, a little longer, and on while an episode runs.
+    """Practice beside a live game, which can't wait: while the game resets, a little longer, and while an episode runs.
 
     Args:
         agent: what learns.

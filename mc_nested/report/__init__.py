@@ -1,1 +1,1 @@
-"""Results for people: curves, terminal views, tables, the report."""
+"""Results for people: learning curves, maps of the arena, films, terminal views, and TensorBoard events."""

@@ -138,7 +138,7 @@ def open_film(path: Path) -> Iterator[Film]:
 
 
 class _NothingShownError(Exception):
-    """Leaves the writing of a film that shows nothing."""
+    """Ends the writing of a film that shows nothing."""
 
 
 @contextmanager

@@ -19,7 +19,7 @@ def minutes_of(episodes: int, steps: int) -> float:
 
 
 def episodes_without_a_prior(blocks: int, size: int = DEFAULT_SIZE) -> float:
-    """Return how many episodes a design of so many blocks should take if no cell is likelier than another.
+    """Return how many episodes a design of so many blocks should take if every cell is equally likely.
 
     The blocks stand on n of the N = size x (size - 1) cells where one can land. Tested in any order, the last of them
     is expected at test (N + 1) n / (n + 1). An episode tests n cells, and one more builds them all.

@@ -19,7 +19,7 @@ EDGES = tuple(
     tuple(round(ink + (paper - ink) * share) for ink, paper in zip(colour, PAPER, strict=True))
     for colour, share in ((INK, 0.25), (INK, 0.5), (INK, 0.75), (PALE_INK, 0.33), (PALE_INK, 0.66))
 )
-"""Those of letters."""
+"""Colours of the letters."""
 
 
 class GifEncoder:

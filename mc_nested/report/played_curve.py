@@ -32,7 +32,7 @@ def draw_played_curve(path: Path, title: str, trials: Sequence[Played], optimum:
     above.xaxis.set_major_locator(MaxNLocator(integer=True))
     below.set_xlabel(f"minutes of game time, at {ACTION_S:g} s an action and {RESET_S:g} s a reset")
     below.set_xlim(left=0)
-    # Outside: points may be anywhere in it.
+    # The legend stands outside the plot: points may be anywhere in it.
     figure.legend(*above.get_legend_handles_labels(), loc="outside lower center", ncols=3, frameon=False)
     figure.savefig(path, format="png", metadata={"Software": None})
 

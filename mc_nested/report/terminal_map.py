@@ -10,7 +10,7 @@ from mc_nested.learn.imagination.known_arena import KnownArena
 
 SIGNS = {Belief.UNKNOWN: ".", Belief.BELIEVED: "?", Belief.PAYS: "o", Belief.PAYS_NOT: "-"}
 BUILT_SIGNS = {True: "#", False: "x"}
-"""Built in the last episode: where it is known to pay, and elsewhere."""
+"""Signs of a cell built in the last episode: where it is known to pay, and elsewhere."""
 
 STYLES = {
     ".": "bright_black",

@@ -1,6 +1,6 @@
 """The ablation: the preset model-based with each part off in turn, beside the model-free preset tuned (ablation.toml).
 
-The presets aren't chosen: the parts are theirs.
+The study takes no preset as an option: its parts belong to those two.
 """
 
 from collections.abc import Sequence
@@ -191,7 +191,7 @@ TRIAL, MEDIAN, WITHOUT = "#56B4E9", "#0072B2", "#D55E00"
 """Okabe and Ito's colours, distinguishable with any colour vision: a trial, a median, and a median of never."""
 
 NEVER = 1.8
-"""How far beyond the longest trial the line stands that says never, as a factor."""
+"""How far beyond the longest trial the line for "never" stands, as a factor."""
 
 SPREAD = 0.28
 """How far the trials of a line lie apart from its middle at most, in lines."""

@@ -238,7 +238,7 @@ ROOM = 1.2
 """How far a profile goes on after the longest trial, as a factor."""
 
 NEVER = 1.6
-"""How far above the longest trial the line stands that says never, as a factor."""
+"""How far above the longest trial the line for "never" stands, as a factor."""
 
 
 def _figure(contestants: Mapping[str, Sequence[Trial]]) -> Figure:

@@ -17,7 +17,7 @@ from mc_nested.studies.table import number_of_trials
 
 COLUMNS = 3
 CURVE_PANELS = 4
-"""Panels of scores against episodes: three of images, one of parts. The others are of means."""
+"""Panels of scores against episodes: three of images, one of parts. The other panels show means."""
 
 LOOKS: Mapping[str, Mapping[str, Any]] = {
     **CURVES,

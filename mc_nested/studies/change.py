@@ -20,8 +20,8 @@ from mc_nested.toml_file import parse_toml
 class Change(BaseModel):
     """One changed choice; what isn't given stays as it is. An empty choice is the base: nothing is changed.
 
-    ``needs``: a table of the preset without which it is no choice. ``designs``: other drawings for the scenarios of
-    those names. ``sees_choice`` is the single agent's. ``agent`` is who learns where not all do.
+    ``needs``: a table of the preset; where the preset lacks it, the change is left out. ``designs``: other drawings for
+    the scenarios of those names. ``sees_choice`` is the single agent's. ``agent`` is who learns where not all do.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)

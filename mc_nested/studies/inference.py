@@ -3,7 +3,7 @@
 The trials of two agents are independent samples: a shared seed gives both the same random numbers, but they are spent
 on other networks and other choices, so nothing pairs them. The tests permute trials between the agents, and compare
 Welch's t, not the difference itself: so they keep their level where the spreads differ (Janssen, 1997). The intervals
-are Welch's and Student's t: at ten trials they came nearest to their 95 % (tests/report/test_coverage.py).
+are Welch's and Student's t: at ten trials they came nearest to their 95 % (tests/studies/test_coverage.py).
 """
 
 from collections.abc import Sequence
@@ -170,5 +170,5 @@ def holm(p_values: Sequence[float]) -> list[float]:
 def _centre_and_scale(left: Float64s, right: Float64s) -> tuple[float, float]:
     both = np.concatenate((left, right))
     centre = float(both.mean())
-    # Where nothing but rounding differs, nothing is blown up to look like a difference.
+    # Where trials differ by rounding alone, that must not be scaled up to look like a difference.
     return centre, max(float(np.abs(both - centre).max()), 1e-5 * (1.0 + abs(centre)))

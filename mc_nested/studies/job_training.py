@@ -161,15 +161,15 @@ class JobTraining:
         return {**self.trainer.state(), "job.seconds": np.array([self._seconds()]), **spent}
 
     def marks(self) -> Arrays:
-        """Do what a checkpoint asks of a training."""
+        """Return the trainer's marks, for the checkpoint."""
         return self.trainer.marks()
 
     def journal(self, since: Mapping[str, NDArray[Any]] | None) -> Arrays:
-        """Do what a checkpoint asks of a training."""
+        """Return the trainer's journal, for the checkpoint."""
         return self.trainer.journal(since)
 
     def load(self, state: Mapping[str, NDArray[Any]], journals: list[Arrays]) -> None:
-        """Do what a checkpoint asks of a training."""
+        """Go on from what the checkpoint has saved."""
         self.trainer.load(state, journals)
         self._seconds_before = float(state["job.seconds"][0])
         self._spent.load(part_of(state, "spent"), self.trainer)

@@ -1,4 +1,4 @@
-"""How many trials would decide a claim, if what was measured were so: with a power of 0.8, at the level of its verdict.
+"""How many trials would decide a claim if the measured effect were true: with a power of 0.8, at the verdict's level.
 
 An estimate from few trials is rough, and so is the number that follows from it.
 """
@@ -17,7 +17,7 @@ from mc_nested.studies.inference import ALPHA
 POWER = 0.8
 
 MOST_TRIALS = 1000
-"""Nobody trains more."""
+"""The most trials that are considered: nobody trains more."""
 
 
 class TestedEffect(Protocol):
@@ -93,7 +93,7 @@ def deciding_trials(effects: Sequence[TestedEffect]) -> int | None:
     shown = np.prod([effect.power_for(trials, ALPHA) for effect in effects], axis=0)
     level = ALPHA / len(effects)
     opposed = 1 - np.prod([1 - effect.power_against(trials, level) for effect in effects], axis=0)
-    # A share's power rises in a saw-tooth: counted from where it stays.
+    # A share's power rises in a saw-tooth: the number counts from where the power stays above.
     too_few = np.flatnonzero(np.minimum(shown + opposed, 1.0) < POWER)
     if not len(too_few):
         return int(trials[0])

@@ -5,7 +5,7 @@ NeurIPS 2021), with one difference: a trial's result is how many episodes it too
 that was never at the optimum took infinitely many. A profile is the share of trials within a number of episodes.
 
 The bootstrap is stratified: designs are drawn again within their kind, and trials within their design. That is
-rliable's bootstrap over tasks and runs. Over runs alone it has no width where a design has one trial.
+rliable's bootstrap over tasks and runs. A bootstrap over runs alone would have no width where a design has one trial.
 """
 
 from collections.abc import Iterator, Sequence

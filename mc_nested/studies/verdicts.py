@@ -1,9 +1,9 @@
 """From the evidence on a claim to its verdict.
 
-A claim holds where all its lines do. To say so wrongly, a line that isn't so must pass for one that is, and each line
-alone lets that happen with a probability below α: an intersection-union test (Berger, 1982), which needs no
-correction. A claim does not hold where the opposite of any line is shown. To say so wrongly, one error among all its
-lines is enough: so the tests of the opposites are corrected by Holm's method, within the claim.
+A claim holds where all its lines do. That verdict is wrong only if a false line passes its test, which each line allows
+with a probability below α: an intersection-union test (Berger, 1982), which needs no correction. A claim does not hold
+where the opposite of any line is shown. For that verdict to be wrong, one error among all its lines is enough. So the
+tests of the opposites are corrected by Holm's method, within the claim.
 
 Each claim is a question of its own, and none is an alternative to another: nothing is corrected across claims.
 """

@@ -1,1 +1,1 @@
-"""Who does a study's work: processes of this computer, or the workers of a cluster (Dask)."""
+"""Who does the work: processes of this computer, a cluster's workers (Dask), or games that play for one learner."""

@@ -70,9 +70,9 @@ def train_jobs(
 
 
 def _arrived(done: "SimpleQueue[Future[JobEnded]]") -> list[Future[JobEnded]]:
-    """Return how jobs have ended since the last call.
+    """Return the jobs that have ended since the last call; wait a moment for the first.
 
-    Wait a moment for it. Ten thousand jobs take no longer than one.
+    It takes no longer for ten thousand jobs than for one.
     """
     with suppress(Empty):
         first = done.get(timeout=LOOK_EVERY_S)

@@ -24,7 +24,7 @@ Cells = dict[tuple[int, int, int], str]
 
 
 def filled(size: tuple[int, int, int], kinds: int, low: tuple[int, int, int] = (0, 0, 0)) -> tuple[Any, Cells]:
-    """Return a region of that size, which may be negative, of random blocks, and their names from its lowest corner on."""
+    """Return a region of random blocks, and their names from its lowest corner on; its size may be negative."""
     region = Region(*low, *size)
     random = np.random.default_rng(kinds)
     starts = [min(0, along + 1) for along in size]

@@ -7,7 +7,7 @@ from mc_nested.learn.imagination.known_arena import KnownArena, Spent
 
 
 def made_seen(size: int = 4, episodes: int = 3) -> KnownArena:
-    """Return a view with two cells that pay, one of them built; one that doesn't, and was built on; one believed to pay."""
+    """Return two cells that pay, one of them built; one that doesn't, and was built on; one believed to pay."""
     cells = np.full((size, size), Belief.UNKNOWN, dtype=np.int8)
     cells[0, 0] = cells[1, 0] = Belief.PAYS
     cells[2, 0] = Belief.BELIEVED

@@ -1,7 +1,7 @@
 """Team: one scenario, built by k builders at once, each from a start cell of its own; their game and its rules.
 
-Who acts first within a tick, and what stops whom: all act at the same tick. Their actions are resolved one after the
-other, by builder number: each whole, the move first and then the block, in the arena as those before it left it. A
+All builders act at the same tick. Their actions are resolved one after the other, by builder number: first the
+whole action of builder 0, its move and then its block, then that of builder 1 in the arena as 0 left it, and so on. A
 builder is as solid as a block: nobody moves into its cell, and no block lands on it. The blocks left are the team's:
 once none is left, an action with +D only moves. None instead of an action does nothing.
 """

@@ -86,8 +86,8 @@ class TeamVectorEnv(VectorEnv[Int64s, Int64s, Any]):
     def step(self, actions: Int64s) -> tuple[Int64s, Float64s, Bools, Bools, dict[str, Any]]:
         """Do one tick, an action or NO_ACTION of each builder, in every arena whose episode runs.
 
-        ResetNeeded if no episode runs. In an arena where nobody acts nothing happens. A game that fails leaves its arena
-        without an episode.
+        ResetNeeded before the first reset. In an arena where nobody acts nothing happens. A game that fails leaves its
+        arena without an episode.
         """
         wanted, _ = taken_apart(actions, self.num_envs)
         rewards, scores = np.zeros(self.num_envs), np.zeros(len(self.games))

@@ -1,1 +1,1 @@
-"""Double deep Q-learning over numbered states: the networks, the update, the replay."""
+"""Double deep Q-learning: two engines for the networks and their updates, the states, replay and self-imitation."""

@@ -75,7 +75,7 @@ class Engine(Protocol):
         """The target networks' parameters, (rows, parameters): to be read, not written."""
 
     def q_values(self, states: NDArray[Any], rows: Int64s | None = None) -> Float32s:
-        """Return the online networks' values (k, actions) of one kept state for each named row (k,), or for every row."""
+        """Return the online networks' values (k, actions) of one kept state for each named row (k,), or for all."""
 
     def update(self, rows: Int64s, batch: Batch) -> Float32s:
         """Update each of the named rows (k,), each on its own part of the batch; return the TD errors, (k, batch).

@@ -62,7 +62,7 @@ class Replay:
         return np.minimum(self.added, self.capacity)
 
     def bytes_held(self) -> Int64s:
-        """Return the bytes of the transitions that each run holds, (runs,); room that isn't filled yet doesn't count."""
+        """Return the bytes of the transitions that each run holds, (runs,); room not yet filled doesn't count."""
         held: Int64s = self.sizes() * sum(kept[0, 0].nbytes for kept in self._kept)
         return held
 
@@ -96,10 +96,10 @@ class Replay:
         return {"added": self.added.copy(), "taken_back": np.array([len(self._taken_back_to)])}
 
     def added_since(self, marks: Mapping[str, Int64s] | None) -> dict[str, NDArray[Any]]:
-        """Return what ``extend`` needs to know since those marks: by name, run after run, oldest first.
+        """Return what was added since those marks, for ``extend``: by name, run after run, oldest first.
 
-        Without marks, that is everything. What was overwritten since is left out. Where the replay was taken back to before the
-        marks, it begins there.
+        Without marks, that is everything. What was overwritten since is left out. Where the replay was taken back to
+        before the marks, it begins there.
         """
         oldest = self.added - self.sizes()
         begins = oldest if marks is None else np.maximum(self._known_since(marks), oldest)
@@ -142,12 +142,12 @@ class Replay:
     def _known_since(self, marks: Mapping[str, Int64s]) -> Int64s:
         """Return from which count on each run's transitions may differ from those at the marks, (runs,)."""
         lowest: Int64s = np.min([marks["added"], *self._taken_back_to[int(marks["taken_back"][0]) :]], axis=0)
-        # What was forgotten had overwritten the oldest, which are held again: a journal brings them too.
+        # The forgotten transitions had overwritten the oldest, which are held again, so a journal brings those, too.
         overwrote = (marks["added"] > self.added) & (marks["added"] > self.capacity)
         return np.where(overwrote, 0, lowest)
 
     def _spans(self, begins: Int64s, counts: Int64s) -> list[tuple[int, slice]]:
-        """Return where each run's transitions from ``begins`` on are, oldest first. Two spans, since they may wrap around."""
+        """Return where each run's transitions from ``begins`` on are, oldest first: two spans, since they may wrap."""
         spans = []
         for run, (begin, count) in enumerate(zip(begins % self.capacity, counts, strict=True)):
             behind = max(begin + count - self.capacity, 0)

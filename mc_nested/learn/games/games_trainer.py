@@ -32,7 +32,7 @@ from mc_nested.learn.streams import episode_stream, plan_stream
 from mc_nested.learn.training import Training
 
 PROCESSES = 1 << 62
-"""So many that no two of a training's processes draw the same name."""
+"""Names to draw from, so many that no two of a training's processes draw the same."""
 
 RUN = np.zeros(1, dtype=np.int64)
 """The one run, as rows are named."""
@@ -92,7 +92,7 @@ class GamesTrainer(Training):
         is_ready = self.practice.practise(0, material, self._planned, elsewhere)
         greedy = (is_ready and is_due) or is_begun_from or self._is_last
         if not greedy and self.practice.knows_nothing(0) and len(self._out):
-            # Another game plays already what a network says that knows nothing, which may stand still. By chance
+            # Another game already plays what an untaught network says, which may stand still. By chance
             # other cells are tried in each game, and an episode ends sooner.
             nested = 1.0
         row = int(self.agent.low_level_rows(RUN, np.array([material]))[0])

@@ -1,1 +1,1 @@
-"""A learnt game, made of the agent's own transitions, and practice in it."""
+"""The learnt game: rules and beliefs made of the agent's own transitions, and practice in it."""

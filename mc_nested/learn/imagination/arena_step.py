@@ -18,7 +18,7 @@ from mc_nested.learn.imagination.first_tries import FirstTries
 from mc_nested.learn.imagination.learnt_rules import LearntRules
 
 NOWHERE = 0
-"""Where a block landed that didn't: a corner of the border."""
+"""Stands for no cell where no block landed: a corner of the border."""
 
 
 class ImaginedArena(NamedTuple):

@@ -1,9 +1,9 @@
 """Where a block pays, as far as is known, and what is taken optimistically where it isn't.
 
 Each cell's tries are counted, the later ones for more: one odd outcome is outvoted, two in a row are believed, so that
-a design changed in mid-training is unlearnt. As long as fewer paying cells are known than there are blocks, what is
-unknown is taken to pay (R-max; Brafman and Tennenholtz, 2002), and more than what is known, since trying it teaches:
-first what lies beside a paying cell, where designs go on; everything, if nothing unknown lies there.
+a design changed in mid-training is unlearnt. As long as fewer paying cells are known than there are blocks, an unknown
+cell is taken to pay (R-max; Brafman and Tennenholtz, 2002), and more than what is known, since trying it teaches: first
+what lies beside a paying cell, where designs go on; everything, if nothing unknown lies there.
 """
 
 from collections.abc import Collection
@@ -17,7 +17,7 @@ from mc_nested.arrays import Bools, Float32s, Int8s, Int64s
 from mc_nested.learn.imagination.experience import UNTOLD
 
 FADES = 0.7
-"""What a try counts for once there is a later one of the same cell: at above a half, one odd try is outvoted by two."""
+"""The weight of a try once there is a later one of the same cell: above a half, two tries outvote an odd one."""
 
 FAR_FROM_PAYING, KNOWN_TO_PAY = 0.2, 0.05
 """While exploring, what is imagined for an unknown cell that isn't beside a paying one, and for one known to pay; for

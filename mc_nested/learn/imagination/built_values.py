@@ -1,8 +1,8 @@
 """Q-values by the cell and the cells built, which is all that the learnt game depends on: a table that grows, compiled.
 
-The learnt game leaves nothing to chance, so that a value here is what the best continuation found so far brings, and
-stays true. Each state has a name: random bits for the agent's cell and for each cell built, combined by exclusive or
-(Zobrist, 1970). Open addressing finds its row.
+The learnt game has no chance in it. So a value here, what the best continuation found so far brings, stays true. Each
+state has a name: random bits for the agent's cell and for each cell built, combined by exclusive or (Zobrist, 1970).
+Open addressing finds its row.
 """
 
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from mc_nested.arrays import Float32s, Int64s
 from mc_nested.compiled import compiled
 
 NAME_BITS = 62
-"""So many that two of a practice's states share a name less than once in a million practices."""
+"""Random bits of a name: two of a practice's states share one less than once in a million practices."""
 
 FULL = 0.75
 """Above this share of rows in use, finding a row takes long."""

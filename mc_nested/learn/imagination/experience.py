@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from mc_nested.arrays import Arrays, Float64s, Int64s
 
 RECENT = 100
-"""Episodes that are remembered: what a game did longer ago counts no more, so that a change is unlearnt."""
+"""Episodes that are remembered: older ones no longer count, so that a change of the game is unlearnt."""
 
 UNTOLD = -1
 """In place of whether a step was paid: it was, or wasn't, by another design."""

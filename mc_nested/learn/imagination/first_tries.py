@@ -1,6 +1,6 @@
 """The first tries of a run: actions of which it isn't known yet where they lead, before the policy's.
 
-They need nothing but what the episode has shown so far, so that a game can go on with them by itself (learn/games).
+They depend only on what the episode has shown so far, so a game can go on with them by itself (learn/games).
 """
 
 from collections.abc import Collection
@@ -14,7 +14,7 @@ FIRST_TRIES = 0.125
 """This share of the steps tries an action of which it isn't known where it leads."""
 
 CLAIMED = 2
-"""So many of the next tries are left to each other game: with four games, each begins with actions of its own."""
+"""How many next tries are left to each other game: with four games, each begins with actions of its own."""
 
 
 @dataclass(frozen=True)

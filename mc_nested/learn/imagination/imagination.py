@@ -2,8 +2,8 @@
 
 Between two real episodes: learn the rules and beliefs anew from all transitions, let the main agent learn from the
 scores that each material would bring, and practise the nested agent in the learnt game. Then a real episode is played
-greedily. All exploration of the real game follows from optimism in the learnt one (beliefs.py), but for the first
-steps of all, which try the actions.
+greedily. The real game is explored only by optimism in the learnt one (beliefs.py), except for the very first
+steps, which try the actions.
 """
 
 from collections.abc import Collection, Mapping, Sequence
@@ -35,7 +35,7 @@ from mc_nested.learn.state_dict import named_for, part_of
 from mc_nested.learn.streams import practice_stream
 
 THOROUGH = 0.999
-"""In place of ``enough`` beside other games: a policy that leaves a block over takes all the steps that there are."""
+"""Replaces ``enough`` beside other games: a policy that leaves a block over would take all the steps of an episode."""
 
 
 def learnt_game(state: Mapping[str, NDArray[Any]], run: int) -> Arrays:
@@ -137,10 +137,10 @@ class Imagination:
     ) -> PracticeSession:
         """Return a practice of that run's agent with that material, to be run.
 
-        It is over at once before the game's first step. Where the last one fell short of building all of a known design, the
-        networks begin anew. ``number`` is the practice's, on which its random numbers depend; how many episodes the run
-        has begun, unless given. What is probed ``elsewhere``, in games whose episodes are still to come, is taken to
-        pay nothing; None where there are no such games.
+        It is over at once before the game's first step. Where the last one fell short of building all of a known
+        design, the networks begin anew. ``number`` is the practice's: its random numbers depend on it. Unless given, it
+        is how many episodes the run has begun. What is probed ``elsewhere``, in games whose episodes are still to come,
+        is taken to pay nothing; None where there are no such games.
         """
         seen, here = self._experience[run], self._surroundings[run]
         rules = self.rules(run)
@@ -173,7 +173,7 @@ class Imagination:
             self._experience[run].begin()
 
     def act(self, runs: Int64s, actions: Int64s) -> Int64s:
-        """Return the actions of all runs. Those of the named runs (k,) may be first tries (first_tries.py)."""
+        """Return the named runs' actions (k,): first tries (first_tries.py), or those in ``actions`` (all runs')."""
         chosen: Int64s = actions[runs].copy()
         for at, run in enumerate(runs.tolist()):
             chosen[at] = self.first_tries(run).act(int(chosen[at]), self._experience[run].tried_here())
@@ -210,7 +210,7 @@ class Imagination:
         )
 
     def probes(self, run: int, material: int) -> frozenset[Cell]:
-        """Return the unknown cells where that run's policy should place a block in its next episode with that material."""
+        """Return the unknown cells where that run's policy should place blocks next, with that material."""
         if not self.has_experience(run):
             return frozenset()
         here, rules = self._surroundings[run], self.rules(run)

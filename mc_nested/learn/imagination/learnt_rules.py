@@ -20,7 +20,7 @@ PLACES_ABOVE = 0.5
 
 
 CLEAR = 2
-"""By so many votes an action's commonest step has to lead, where actions slip."""
+"""How many votes an action's commonest step must be ahead by, where actions slip."""
 
 
 @dataclass(frozen=True)

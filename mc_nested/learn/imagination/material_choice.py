@@ -9,7 +9,7 @@ from mc_nested.learn.dqn.engine import Batch
 from mc_nested.learn.learner import Learner
 
 LAST = 3
-"""Episodes of a material whose mean is what it brings: fewer follow a change sooner, more outvote an odd one."""
+"""A material brings the mean of so many episodes: fewer would follow a change sooner, more would outvote an odd one."""
 
 MOST_UPDATES, CLOSE = 3000, 0.25
 """Updates at most, once an episode; it ends earlier once every value is as close as this to the imagined score."""

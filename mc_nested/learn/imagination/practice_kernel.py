@@ -249,7 +249,7 @@ def _update(
 
 @compiled(nogil=True)
 def followed(replay: PracticeReplay, first: int, arena: ImaginedArena, rule: PracticeRule) -> tuple[int, float, float]:
-    """Return the transition up to n steps later, the discounted rewards until then, and the factor of the value after it.
+    """Return the transition up to n steps later, the discounted rewards until then, and the next value's factor.
 
     It ends earlier where the episode does, where a block is wasted, or where what followed isn't held.
     """

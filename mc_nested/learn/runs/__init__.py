@@ -1,1 +1,1 @@
-"""A training on disk: its folder and its checkpoint."""
+"""A training on disk: its folder, its checkpoint, and the lock that lets one process write there."""

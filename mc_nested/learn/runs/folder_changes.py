@@ -34,7 +34,7 @@ def delete_folder(folder: Path) -> None:
         raise RunError(f"{folder}: is a link to {folder.readlink()}: delete that one, or remove the link yourself")
     try:
         with folder_lock(folder):
-            # Until the last moment it is known as a run, so that what was interrupted can be done again.
+            # The folder counts as a run until the last moment, so that an interrupted deletion can be repeated.
             for entry in sorted(folder.iterdir(), key=lambda entry: entry.name == CONFIG):
                 if entry.name == LOCK:
                     continue

@@ -1,1 +1,1 @@
-"""The paper's claims about its three agents: what is measured for each, and the test."""
+"""The paper's claims, about its three agents and beyond them: what is measured for each, and how it is tested."""

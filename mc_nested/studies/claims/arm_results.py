@@ -15,7 +15,7 @@ from mc_nested.studies.outcome import Evaluated
 from mc_nested.studies.trial import Trial, on_each
 
 Budget = Literal["steps", "updates"]
-"""What two agents are given the same of."""
+"""What two agents are given the same amount of."""
 
 
 @dataclass(frozen=True)

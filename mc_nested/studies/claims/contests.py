@@ -12,7 +12,7 @@ NESTED, HIERARCHICAL, SINGLE = "nested", "hierarchical", "single"
 
 LINE = "line"
 UNSOLVED = ("zigzag", "diamond")
-"""The paper's scenarios 1, and 2 and 3, which it left unsolved."""
+"""The paper's scenario 1, and its scenarios 2 and 3, which it left unsolved."""
 
 MARGIN = 1.0
 """Scores that differ by less than one block count as alike."""

@@ -81,9 +81,9 @@ Result = TypeVar("Result")
 
 
 def _in_time(work: Callable[[], Result]) -> Result | None:
-    """Return what the coroutine returns.
+    """Return what ``work`` returns.
 
-    It is None if it takes longer than CONNECT_S: Dask waits for ever for a scheduler that hangs.
+    None if it takes longer than CONNECT_S: Dask waits for ever for a scheduler that hangs.
     """
     done: Future[Result] = Future()
 

@@ -125,11 +125,11 @@ class DaskJobs:
     def _hand_over(self, job: Job, folder: Path, landed: Future[JobEnded], tries: int) -> None:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of large tasks: a checkpoint has to get there
-            # One group of tasks for Dask, whose books of groups would take longer with each.
+            # One group of tasks for Dask: its bookkeeping of groups takes longer with each group.
             key = (f"train-{self._topic}", job.name, tries)
             package = packed(job, folder)
             with self._lock:  # until it is known, nothing is heard of it
-                # In their order, the longest first: by itself Dask would go by their names.
+                # In the jobs' own order, the longest first: unless told, Dask would order them by name.
                 asked = own_versions(job.library), job.library, package, self._topic
                 trained = self._executor.submit(train_on_worker, *asked, key=key, priority=-len(self._futures))
                 self._futures[job.name] = trained

@@ -1,4 +1,4 @@
-"""A private authority and a pair of certificate and key for each machine: who has one may join the cluster.
+"""A private authority, and a certificate with its key for each machine: a machine that has them may join the cluster.
 
 Both ends of a connection show theirs. A certificate names its machine, but isn't tied to a host's name or address,
 which change in a home network: Dask checks that the authority has signed it.
@@ -25,7 +25,7 @@ LONGEST_NAME = 64
 """Characters that a certificate's name may have."""
 
 VALID_DAYS = 3650
-"""Days that what is made is valid."""
+"""Days for which a new certificate is valid."""
 
 _YESTERDAY = datetime.timedelta(days=1)
 """A machine's clock may be behind."""

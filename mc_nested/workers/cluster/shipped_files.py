@@ -1,4 +1,4 @@
-"""A job's files between two machines: what it goes on from, there; its outcome or where it stopped, back."""
+"""A job's files between two machines: what it goes on from is sent to the worker, its outcome or last save back."""
 
 import shutil
 from collections.abc import Mapping

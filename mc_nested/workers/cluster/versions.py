@@ -1,4 +1,4 @@
-"""What decides what a training computes, on this machine: a worker has to have the same as who sends it jobs."""
+"""The versions that decide what a training computes: a worker needs the same as the machine that sends it jobs."""
 
 import hashlib
 import importlib.metadata
@@ -15,7 +15,7 @@ LIBRARIES = ("numpy", "numba", "llvmlite", "torch", "distributed")
 """Whose versions they depend on, or the messages between the machines."""
 
 BESIDE_ANOTHER = ("gymnasium",)
-"""What an agent of another library depends on beside that."""
+"""What an agent of another library also depends on."""
 
 MISSING = "missing"
 

@@ -41,7 +41,7 @@ class WorkersSeen:
     def note(self, said: dict[str, Any]) -> None:
         """Note an event of the scheduler's topic ``all``: a worker came, or went."""
         if said.get("action") == "add-worker":
-            # A game is one, too, and isn't told apart here; nor has it jobs to lose.
+            # A game is a worker, too. It isn't told apart here, and has no jobs to lose.
             self._workers.add(said["worker"])
         elif said.get("action") == "remove-worker":
             self._workers.discard(said["worker"])
@@ -53,7 +53,7 @@ class WorkersSeen:
                 self._lost_jobs += len(its_jobs)
 
     def in_words(self, unfinished: int) -> str:
-        """Say in a line how many workers there are, which jobs of those ``unfinished`` they do, and what was lost."""
+        """Say in a line how many workers there are, how many ``unfinished`` jobs train or wait, and what was lost."""
         waiting = unfinished - self.trained
         words = f"{counted(self.count, 'worker')}, {counted(self.trained, 'job')} training, {waiting} waiting"
         if self._lost_workers:

@@ -24,13 +24,13 @@ ALL = "all"
 """The topic under which a scheduler tells who comes and goes."""
 
 LOOK_EVERY_S = 2.0
-"""Seconds between two looks at who is there, where nobody tells."""
+"""Seconds between two looks at who is there, where the scheduler doesn't tell."""
 
 LOOKS_S = 5.0
 """Seconds that such a look may take: in them nobody sees a Ctrl+C."""
 
 FETCHED_S = 15.0
-"""Seconds in which an answer is fetched from its game, or it can't be."""
+"""Seconds after which an answer that isn't fetched from its game counts as unreachable."""
 
 LOST = "the scheduler was lost: start it again"
 
@@ -147,7 +147,7 @@ class DaskGames:
         """
         heard = self._heard(timeout_s)
         answers = [each for each in heard if isinstance(each, Done) and self._asked.get(each.game) is each.future]
-        # First who has answered: it was played and confirmed, whatever has become of the game, or the scheduler, since.
+        # Answers come first: they were played and confirmed, whatever has become of the game or the scheduler since.
         found: list[GameEvent] = [NameTaken(each.game) for each in heard if isinstance(each, NameTaken)]
         found += [self._answered(each) for each in answers if not each.future.cancelled()]
         withdrawn = [each for each in answers if each.future.cancelled()]

@@ -40,7 +40,7 @@ Opener = Callable[[GameOrder], AbstractContextManager[OpenGame]]
 
 
 class UnwantedError(LiveError):
-    """Nobody waits for the episode any more: the learner or the network is gone, or this game is to end."""
+    """Raised when nobody waits for the episode any more: learner or network are gone, or this game is to end."""
 
 
 class GameServer:

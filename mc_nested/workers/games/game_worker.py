@@ -132,7 +132,7 @@ class GameWorker:
             try:
                 return await self._joined()
             except Exception as error:
-                # Its own name is taken, too, for as long as the scheduler hasn't noticed that it was gone.
+                # This game's own name counts as taken as long as the scheduler hasn't noticed that it was gone.
                 if isinstance(error, NameTakenError) and not is_said and time.monotonic() - began > NOTICED_S:
                     is_said = True
                     self._say(str(error))

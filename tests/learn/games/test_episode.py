@@ -6,7 +6,7 @@ from mc_nested.learn.games.episode import EpisodeOut, EpisodePlan, EpisodesOut
 
 
 def an_episode(number: int, *, greedy: bool = False, probes: frozenset[tuple[int, int]] = frozenset()) -> EpisodeOut:
-    """Return the episode of that number, played by the game of that number, planned after ten times so many episodes."""
+    """Return the episode of that number, played by the game of that number, planned after ten times as many."""
     plan = EpisodePlan(number, 0, number % 2, greedy, np.zeros(1, np.float32), 0.0, np.zeros((0, 2)), None)
     return EpisodeOut(plan, f"game {number}", 10 * number, (0.0, 0.0), probes, {})
 

@@ -87,7 +87,7 @@ TRUE_PLACES = [action in PLACES for action in Action]
 
 
 def play(game: Game, scenario: Scenario, actions: Sequence[int], seen: Experience, material: int = 0) -> int:
-    """Play one episode of these actions, until it ends; return how many were done. A slip is recorded as what was meant."""
+    """Play one episode of these actions; return how many were done. A slip is recorded as what was meant."""
     return play_by(game, scenario, lambda step: actions[step], len(actions), seen, material)
 
 

@@ -21,7 +21,7 @@ from mc_nested.learn.dqn.self_imitation import rival
 from mc_nested.learn.dqn.states import StateParts, StateSpace
 
 EXPONENT = np.uint32(0x7F800000)
-"""The bits of a 32-bit float's exponent: all are set in what is infinite or no number."""
+"""The bits of a 32-bit float's exponent: all are set where a number is infinite or nan."""
 
 
 class _Networks(NamedTuple):
@@ -128,7 +128,7 @@ class CompiledEngine:
         return self._last.errors.take(rows, axis=0)  # a third of the time of an index of many rows
 
     def row(self, row: int) -> tuple[Float32s, Float32s, Float32s, Float32s, Int64s]:
-        """Return one row's online and target network, Adam's moments, (parameters,) each, and its updates (1,); no copies.
+        """Return a row's online and target network, Adam's moments, (parameters,) each, and updates (1,), uncopied.
 
         For what updates them itself.
         """

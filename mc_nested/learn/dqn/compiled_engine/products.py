@@ -19,7 +19,7 @@ from mc_nested.learn.dqn.compiled_engine.vectors import (
 )
 
 FEW = 2
-"""Up to so many columns, a sum after the other takes less time than a tile."""
+"""Up to so many columns, one sum after the other takes less time than a tile."""
 
 
 @compiled(nogil=True)

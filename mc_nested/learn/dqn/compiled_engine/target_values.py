@@ -19,7 +19,7 @@ AT_ONCE = 256
 
 
 def table_pays(states: int, batch: int, target_period: int) -> bool:
-    """Return whether there are no more states than a target period's updates value; a state costs the same either way."""
+    """Return whether a target period's updates value at least as many states as there are: each costs the same."""
     return states <= batch * target_period
 
 

@@ -103,7 +103,7 @@ class TorchEngine:
         return found
 
     def _both_values(self, rows: Int64s, states: Tensor) -> tuple[Tensor, Tensor, Sequence[Tensor]]:
-        """Return the online networks' values of s and s', (k, batch, actions), and the leaves that those of s depend on.
+        """Return the online networks' values of s and s', (k, batch, actions), and the leaves behind those of s.
 
         ``states`` are every s and every s', (2, k, batch, …).
         """
@@ -129,7 +129,7 @@ class TorchEngine:
             for whole, part in zip((self._online, self._first, self._second), own, strict=True):
                 whole[named] = part
             after = own[0]
-        # A sum is no number if any part of it is none.
+        # A sum is nan or infinite if any of its terms is.
         if not math.isfinite(float(after.sum())):
             raise diverged(self.rule, self.updates[rows])
 
