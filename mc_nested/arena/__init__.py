@@ -1,1 +1,1 @@
-"""The task: scenarios, designs, the rules, the Game seam, and the Envs over it. No torch, no screen, no picture files."""
+"""The task: scenarios, designs, rules, the Game seam, and the Envs over it. No torch, no screen, no picture files."""

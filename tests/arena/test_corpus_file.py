@@ -58,13 +58,13 @@ def test_a_drawing_of_fourteen_rows_keeps_the_near_edge_free() -> None:
         ("[[designs]", "mine: not TOML"),
     ],
 )
-def test_a_mistake_is_one_line_that_says_where(text: str, says: str) -> None:
+def test_a_mistake_is_refused_in_one_line_that_says_where(text: str, says: str) -> None:
     with pytest.raises(ScenarioError, match=f"^{says}") as caught:
         parse_corpus(text, "mine", LINE)
     assert "\n" not in str(caught.value)
 
 
-def test_a_file_that_is_not_there_is_one_line(tmp_path: Path) -> None:
+def test_a_missing_file_is_refused_in_one_line(tmp_path: Path) -> None:
     with pytest.raises(ScenarioError, match="can't be read"):
         load_corpus(tmp_path / "none.toml", LINE)
 

@@ -42,7 +42,7 @@ def test_the_shipped_designs(name: str, kind: str) -> None:
         ({(3, 3), (4, 4), (6, 5)}, SCATTERED),
     ],
 )
-def test_edges_then_corners_then_nothing(design: set[Cell], kind: str) -> None:
+def test_a_design_is_joined_by_edges_or_by_corners_or_scattered(design: set[Cell], kind: str) -> None:
     assert kind_of_design(design) == kind
 
 
@@ -70,7 +70,7 @@ def test_a_long_way_has_half_as_many_steps_again_as_the_builder_takes() -> None:
     assert (scenario.start, scenario.materials) == (LINE.start, LINE.materials)
 
 
-def test_what_the_builder_can_not_build_is_none() -> None:
+def test_a_design_that_the_builder_can_not_build_gives_no_scenario() -> None:
     # No block can land on the near edge: the builder walks against the arena's edge, and places it elsewhere.
     assert scenario_of_design("near", frozenset({(3, 0), (3, 1)}), LINE) is None
     assert not is_buildable(replace(LINE, step_limit=10))

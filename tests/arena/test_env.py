@@ -112,7 +112,7 @@ class BreaksDown(GridGame):
         return super().act(action, material)
 
 
-def test_a_game_that_broke_down_needs_a_reset_before_it_goes_on() -> None:
+def test_a_game_that_failed_needs_a_reset_before_it_goes_on() -> None:
     line = load_scenario("line")
     env = ArenaEnv(BreaksDown(line), line)
     env.reset()

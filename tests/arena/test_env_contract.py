@@ -58,7 +58,7 @@ class ShowsFloats(ArenaEnv):
         return observation.astype(np.float64), info
 
 
-def test_the_simulators_env_passes() -> None:
+def test_the_simulators_env_passes_the_contract() -> None:
     check_env_contract(ArenaEnv(GridGame(LINE), LINE), LINE, BUMPS)
 
 

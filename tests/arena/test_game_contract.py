@@ -145,7 +145,7 @@ def test_a_game_that_places_another_material_fails(liar: Callable[..., NotesItsB
         check_materials(game, STRIPES, steps, lambda: game.stands)
 
 
-def test_the_simulator_passes() -> None:
+def test_the_simulator_passes_the_contract() -> None:
     check_game(GridGame(LINE), LINE, BUMPS)
     check_game(GridGame(LINE), LINE, build(LINE))
 

@@ -44,7 +44,7 @@ def test_the_choice_earns_p_and_shows_in_the_state(choice: int, worth: float) ->
 
 
 @pytest.mark.parametrize("action", range(FIRST_MOVE, 10))
-def test_a_first_action_that_is_no_material_ends_the_episode_with_score_0(action: int) -> None:
+def test_a_first_action_that_chooses_no_material_ends_the_episode_with_score_0(action: int) -> None:
     env = single()
     observations, rewards, terminated, _, info = env.step(np.array([action]))
     assert observations.tolist() == [[7, 14, 11, 0]]

@@ -155,19 +155,19 @@ def test_nothing_is_done_before_the_first_reset() -> None:
 
 
 @pytest.mark.parametrize("actions", [[0, 1, 8], [0, 1, -1], [0, 1], [0.0, 1.0, 2.0], 3])
-def test_what_is_no_action_for_each_arena_is_refused(actions: Any) -> None:
+def test_anything_but_an_action_for_each_arena_is_refused(actions: Any) -> None:
     env = arrays()
     env.reset()
     with pytest.raises(ValueError, match="one of 0 to 7 for each of the 3 arenas"):
         env.step(actions)
 
 
-def test_a_list_of_actions_will_do() -> None:
+def test_actions_may_be_a_list() -> None:
     env = arrays()
     env.reset()
     assert env.step([0, 1, 2])[0].tolist() == [[7, 14, 11], [7, 13, 11], [6, 14, 11]]  # type: ignore[arg-type]
 
 
-def test_a_material_that_there_is_none_of_is_refused() -> None:
+def test_an_unknown_material_is_refused() -> None:
     with pytest.raises(ScenarioError, match="no material 'gold'"):
         arrays().reset(options={"material": "gold"})

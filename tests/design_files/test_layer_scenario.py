@@ -94,7 +94,7 @@ def test_kinds_of_blocks_are_told_the_most_frequent_first() -> None:
         ("\n", 1, "design"),
     ],
 )
-def test_its_name_is_one_that_a_run_can_store(name: str, layers: int, becomes: str) -> None:
+def test_a_scenarios_name_is_one_that_a_run_can_store(name: str, layers: int, becomes: str) -> None:
     volume = Volume(("air", "stone"), np.ones((layers, 1, 1), np.int32))
     scenario, _ = scenario_of_layer(name, volume, layers - 1)
     assert scenario.name == becomes

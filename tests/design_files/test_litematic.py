@@ -69,7 +69,7 @@ def test_a_palette_of_one_kind_still_takes_two_bits_a_block() -> None:
         ({"BlockStates": b"\0" * 24}, "BlockStates is not an array of numbers"),
     ],
 )
-def test_what_does_not_fit_together_is_refused(changes: dict[str, Any], says: str) -> None:
+def test_a_region_whose_parts_do_not_fit_together_is_refused(changes: dict[str, Any], says: str) -> None:
     with pytest.raises(ScenarioError, match=says):
         read_litematic(read_nbt(litematic({"all": region(HUT) | changes})))
 
@@ -89,6 +89,6 @@ def test_a_file_without_regions_is_refused() -> None:
         read_litematic(read_nbt(litematic({})))
 
 
-def test_it_is_known_by_its_tags() -> None:
+def test_a_litematic_is_known_by_its_tags() -> None:
     assert is_litematic(read_nbt(litematic({})))
     assert not is_litematic(read_nbt(nbt_file({"Metadata": {}})))

@@ -75,7 +75,7 @@ def test_the_content_decides_the_format_and_not_the_ending(write: Write) -> None
         assert names_in(read_volume(write(name, sponge(HUT)))) == names_of(HUT, "hut.schem")
 
 
-def test_what_is_no_design_file_is_a_shipped_scenario_or_a_toml_file() -> None:
+def test_other_names_are_shipped_scenarios_or_toml_files() -> None:
     assert load_any_scenario("zigzag").scenario == load_scenario("zigzag")
     assert not is_design_file("house.toml")
     assert is_design_file("My House.PNG")
@@ -141,7 +141,7 @@ def test_a_volume_without_blocks_is_refused() -> None:
         (list(range(0, 40, 2)), "0, 2, 4, 6, 8 or others up to 38"),
     ],
 )
-def test_layers_are_told_in_words(numbers: list[int], words: str) -> None:
+def test_layer_numbers_are_listed_in_words(numbers: list[int], words: str) -> None:
     assert ranges(numbers) == words
 
 

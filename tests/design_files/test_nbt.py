@@ -57,14 +57,14 @@ def test_a_text_longer_than_pynbts_signed_length_is_read() -> None:
         (gzip.compress(b"an old text", mtime=0), "its NBT can't be read"),
     ],
 )
-def test_what_is_no_nbt_or_damaged_is_refused(data: bytes, says: str) -> None:
+def test_damaged_or_other_data_is_refused(data: bytes, says: str) -> None:
     with pytest.raises(ScenarioError, match=says):
         read_nbt(data)
 
 
 @pytest.mark.parametrize("kind", [7, 11, 12])
 @pytest.mark.parametrize("length", [2**31 - 1, -1, -5, -(2**31), 10**6])
-def test_an_arrays_length_is_not_believed(kind: int, length: int) -> None:
+def test_an_arrays_false_length_is_refused(kind: int, length: int) -> None:
     data = ROOT + bytes([kind]) + b"\0\1a" + struct.pack(">i", length) + b"\0" * 200
     tracemalloc.start()
     try:
@@ -77,7 +77,7 @@ def test_an_arrays_length_is_not_believed(kind: int, length: int) -> None:
 
 @pytest.mark.parametrize("kind", range(13))
 @pytest.mark.parametrize("length", [2**31 - 1, 10**6])
-def test_a_lists_length_is_not_believed(kind: int, length: int) -> None:
+def test_a_lists_false_length_is_refused(kind: int, length: int) -> None:
     with pytest.raises(ScenarioError):
         read_nbt(ROOT + list_of(kind, length) + b"\0" * 50)
 
@@ -87,7 +87,7 @@ def test_a_list_of_a_negative_length_is_empty() -> None:
 
 
 @pytest.mark.parametrize("data", [b"\x0a\0\0" * 100_000, ROOT + list_of(9, 1) + b"\x09\0\0\0\1" * 100_000])
-def test_what_lies_nested_too_deeply_is_refused_at_once(data: bytes) -> None:
+def test_too_deeply_nested_data_is_refused_at_once(data: bytes) -> None:
     began = time.process_time()
     with pytest.raises(ScenarioError, match="its values lie nested too deeply"):
         read_nbt(gzip.compress(data, 1))
@@ -105,7 +105,7 @@ def test_a_file_that_unpacks_to_more_than_the_limit_is_not_unpacked_further() ->
         tracemalloc.stop()
 
 
-def test_more_values_than_any_design_has_are_not_read() -> None:
+def test_reading_stops_beyond_as_many_values_as_any_design_has() -> None:
     values = ROOT + list_of(10, 1000) + b"\0" * 1001
     reads = 3 + 4 + 1000 + 1  # the root's type and name; the list's, with its length; each compound's end; the root's
     assert len(value_of(read_nbt(values, reads), "a", list)) == 1000
@@ -155,7 +155,7 @@ LARGE: dict[str, Any] = {
 
 @pytest.mark.parametrize("is_size_last", [False, True])
 @pytest.mark.parametrize("name", LARGE)
-def test_it_takes_less_than_a_second(name: str, is_size_last: bool, tmp_path: Path) -> None:
+def test_a_too_large_size_is_refused_in_less_than_a_second(name: str, is_size_last: bool, tmp_path: Path) -> None:
     tags, says = LARGE[name]
     root = in_order(tags, is_size_last=is_size_last)
     data = named("", {"Regions": {"one": root}} if name.endswith("litematic") else root)
@@ -166,7 +166,7 @@ def test_it_takes_less_than_a_second(name: str, is_size_last: bool, tmp_path: Pa
     assert time.process_time() - began < MOST_S
 
 
-def test_the_message_is_that_of_decoding_it() -> None:
+def test_a_too_large_size_is_refused_with_the_message_of_decoding_it() -> None:
     root = {**WIDE, "Version": 2, "Palette": {"a": 0}, "BlockData": bytes(SMALL_BYTES)}
     said = []
     for refuse in (lambda: check_stated_size(named("", root)), lambda: read_sponge(read_nbt(nbt_file(root)))):
@@ -176,7 +176,7 @@ def test_the_message_is_that_of_decoding_it() -> None:
     assert said[0] == said[1]
 
 
-def test_one_of_the_largest_size_is_let_pass_and_so_is_one_that_states_none() -> None:
+def test_the_largest_size_passes_and_so_does_a_file_without_a_size() -> None:
     rest = {"filler": bytes(SMALL_BYTES)}
     check_stated_size(named("", {**rest, "size": [256, MOST_CELLS // 256**2, 256]}))
     check_stated_size(named("", {**rest, "size": [-1, -1, -(2**31)]}))

@@ -53,7 +53,7 @@ def test_a_pixel_is_a_block_unless_it_is_transparent_or_white(pixel: tuple[int, 
     assert read_picture(file.getvalue()).filled(0).tolist() == [[is_block]]
 
 
-def test_a_kind_is_a_colour() -> None:
+def test_each_colour_is_a_kind_of_block() -> None:
     assert dict(read_picture(picture(HUT[0])).kinds(0)) == {"#5a5a5a": 10, "#966e3c": 1}
 
 
@@ -70,7 +70,7 @@ def test_a_kind_is_a_colour() -> None:
         (picture(HUT[0])[:-40], "damaged, or ends in the middle"),
     ],
 )
-def test_what_is_no_picture_is_refused(data: bytes, says: str) -> None:
+def test_a_file_that_is_no_picture_is_refused(data: bytes, says: str) -> None:
     with pytest.raises(ScenarioError, match=says):
         read_picture(data)
 

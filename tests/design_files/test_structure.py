@@ -44,11 +44,11 @@ def test_of_several_palettes_the_first_is_taken() -> None:
         ({"palettes": []}, "palettes: the first is missing"),
     ],
 )
-def test_what_does_not_fit_together_is_refused(changes: dict[str, Any], says: str) -> None:
+def test_a_structure_whose_parts_do_not_fit_together_is_refused(changes: dict[str, Any], says: str) -> None:
     with pytest.raises(ScenarioError, match=says):
         read_structure(read_nbt(saved(**changes)))
 
 
-def test_it_is_known_by_its_tags() -> None:
+def test_a_structure_is_known_by_its_tags() -> None:
     assert is_structure(read_nbt(structure(HUT)))
     assert not is_structure(read_nbt(nbt_file({"blocks": []})))

@@ -58,7 +58,9 @@ ALONE, NUMBERED, SINGLE = (5 * 32 + 33 * 32 + 33 * 8), (6 * 32 + 33 * 32 + 33 * 
         ("single", 4, 4, 4 * SINGLE),
     ],
 )
-def test_networks_and_parameters(networks: Networks, builders: int, count: int, parameters: int) -> None:
+def test_ways_to_learn_differ_in_their_networks_and_parameters(
+    networks: Networks, builders: int, count: int, parameters: int
+) -> None:
     agent = agent_of(networks, builders)
     assert (agent.networks, agent.parameters) == (count, parameters)
 

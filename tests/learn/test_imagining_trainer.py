@@ -73,7 +73,7 @@ def test_a_small_design_is_built_within_a_few_episodes(spec: AgentSpec, seed: in
     assert [episode.score for episode in played] == [BENT.optimum]
 
 
-def test_the_single_agent_is_refused_in_one_line() -> None:
+def test_the_single_agent_can_not_imagine_and_is_refused_in_one_line() -> None:
     with pytest.raises(PresetError, match=r"\[imagination\] is not for the single agent: take") as caught:
         Agent(SINGLE, [BENT], SMALL, 0)
     assert "\n" not in str(caught.value)

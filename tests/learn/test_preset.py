@@ -146,7 +146,7 @@ def test_an_unknown_name_lists_the_known_ones() -> None:
         load_preset("papr")
 
 
-def test_a_file_that_is_no_text_is_refused(tmp_path: Path) -> None:
+def test_a_binary_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "bad.toml").write_bytes(b"\xff\xfe\x00")
     with pytest.raises(PresetError, match="not UTF-8 text"):
         load_preset(tmp_path / "bad.toml")

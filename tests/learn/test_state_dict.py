@@ -7,7 +7,7 @@ from mc_nested.learn.state_dict import named_for, part_of
 ONE, TWO = np.array([1]), np.array([2])
 
 
-def test_a_part_of_a_state_has_the_parts_own_names() -> None:
+def test_a_part_of_a_state_is_found_under_its_own_names() -> None:
     state = {"main.x": ONE, "nested.main.x": TWO, "maintain": np.array([3])}
     assert part_of(state, "main") == {"x": ONE}
 

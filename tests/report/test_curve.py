@@ -49,7 +49,7 @@ def test_the_interval_ends_at_the_highest_score() -> None:
 
 @pytest.mark.parametrize("trials", [1, 5])
 @pytest.mark.parametrize("evaluations", [0, 1, 20])
-def test_a_curve_is_a_picture(tmp_path: Path, trials: int, evaluations: int) -> None:
+def test_a_curve_is_drawn_as_a_picture(tmp_path: Path, trials: int, evaluations: int) -> None:
     path = tmp_path / "curve.png"
     episodes = [30 * (index + 1) for index in range(evaluations)]
     draw_curve(path, "line", episodes, np.random.default_rng(0).random((trials, evaluations)) * 21, 21.0)

@@ -34,7 +34,7 @@ def test_every_picture_is_shown_until_the_next_one_and_the_last_one_a_while(kind
 
 
 @KINDS
-def test_times_that_are_no_tenths_do_not_add_up_to_a_drift(kind: str, tmp_path: Path) -> None:
+def test_times_between_two_frames_do_not_add_up_to_a_drift(kind: str, tmp_path: Path) -> None:
     path = tmp_path / f"film{kind}"
     with open_film(path) as film:
         for number in range(31):
@@ -56,7 +56,7 @@ def test_a_film_that_begins_anew_shows_nothing_of_before(kind: str, tmp_path: Pa
 
 @KINDS
 @pytest.mark.parametrize("error", [LiveError("it lagged"), KeyboardInterrupt(), OSError("another file"), SystemExit(3)])
-def test_what_was_shown_until_an_error_is_a_whole_film(kind: str, error: BaseException, tmp_path: Path) -> None:
+def test_a_film_that_an_error_ends_is_a_whole_film(kind: str, error: BaseException, tmp_path: Path) -> None:
     path = tmp_path / f"film{kind}"
 
     def play() -> None:
@@ -107,7 +107,9 @@ def test_a_picture_of_any_size_will_do(kind: str, tmp_path: Path) -> None:
         ("file/film.gif", "file is no folder"),
     ],
 )
-def test_what_is_no_film_is_refused_before_anything_is_played(name: str, says: str, tmp_path: Path) -> None:
+def test_a_path_that_can_not_become_a_film_is_refused_before_anything_is_played(
+    name: str, says: str, tmp_path: Path
+) -> None:
     (tmp_path / "folder.gif").mkdir()
     (tmp_path / "file").touch()
     with pytest.raises(FilmError, match=says):
@@ -115,7 +117,7 @@ def test_what_is_no_film_is_refused_before_anything_is_played(name: str, says: s
     assert len(list(tmp_path.iterdir())) == 2
 
 
-def test_capitals_are_a_format_too(tmp_path: Path) -> None:
+def test_a_format_in_capitals_is_accepted(tmp_path: Path) -> None:
     check_film(tmp_path / "FILM.MP4")
     assert list(tmp_path.iterdir()) == []
 

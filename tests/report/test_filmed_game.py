@@ -39,7 +39,7 @@ class NotedFilm(Film):
         return [at for _, at in self.shown]
 
 
-def test_it_is_the_same_game() -> None:
+def test_a_filmed_game_behaves_as_the_game_itself() -> None:
     check_game(FilmedGame(GridGame(LINE), LINE, NotedFilm()), LINE, [*BUMPS, *build(LINE)])
 
 

@@ -9,7 +9,7 @@ from mc_nested.report.game_time import expected, minutes_of
 LINE = load_scenario("line")
 
 
-def test_actions_and_resets_take_their_time() -> None:
+def test_game_time_counts_actions_and_resets() -> None:
     assert minutes_of(4, 120) == pytest.approx((120 * 0.35 + 4 * 1.5) / 60)
 
 
@@ -33,7 +33,7 @@ def test_all_episodes_are_played_where_nothing_stops_it() -> None:
     assert expected(live, LINE, stop_at_optimum=False).episodes >= live.episodes
 
 
-def test_without_an_imagination_every_episode_and_evaluation_counts_and_may_be_spared() -> None:
+def test_without_an_imagination_every_episode_and_evaluation_counts_and_the_optimum_may_end_it_sooner() -> None:
     paper = load_preset("paper")
     found = expected(paper, LINE, stop_at_optimum=False)
     assert found.episodes == paper.episodes + paper.episodes // paper.evaluate_every

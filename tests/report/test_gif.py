@@ -22,7 +22,7 @@ def test_the_same_picture_again_is_shown_longer(tmp_path: Path) -> None:
     assert [seconds for _, seconds in pictures_of(path)] == [0.5, 0.1]
 
 
-def test_it_repeats_for_ever(tmp_path: Path) -> None:
+def test_a_gif_repeats_for_ever(tmp_path: Path) -> None:
     encoder = GifEncoder(tmp_path / "film.gif", 10)
     encoder.add(RED, 1)
     encoder.add(GREEN, 1)
@@ -44,7 +44,7 @@ def test_a_noisy_window_crowds_out_none_of_the_arenas_colours(tmp_path: Path) ->
     assert np.abs(kept[:, :240].astype(int) - arena)[flat].max() <= 8
 
 
-def test_colours_that_come_later_are_as_near_as_the_first_ones(tmp_path: Path) -> None:
+def test_later_colours_are_shown_as_closely_as_the_first_ones(tmp_path: Path) -> None:
     path = tmp_path / "film.gif"
     shown = [draw_picture(LINE, LINE.start, placed, 24) for placed in ((), {(7, 5)}, {(7, 5), (0, 0)})]
     encoder = GifEncoder(path, 10)

@@ -10,7 +10,7 @@ from mc_nested.report.mp4 import Mp4Encoder
 from tests.report.films import BLUE, RED, shown
 
 
-def test_ffmpegs_own_word_says_why_a_film_can_not_be_written(tmp_path: Path) -> None:
+def test_ffmpegs_own_message_says_why_a_film_can_not_be_written(tmp_path: Path) -> None:
     encoder = Mp4Encoder(tmp_path / "none" / "film.mp4", 10)
     encoder.add(RED, 3)
     with pytest.raises(OSError, match="No such file or directory"):

@@ -51,7 +51,7 @@ def test_what_was_evaluated_before_is_not_written_again(tmp_path: Path) -> None:
     assert [event.step for event in read(tmp_path).Scalars("score/greedy")] == [5, 10, 15, 20]
 
 
-def test_it_is_off_where_it_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_nothing_is_written_where_tensorboard_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     assert tensorboard.is_installed()
     monkeypatch.setattr("importlib.util.find_spec", lambda _: None)
     assert not tensorboard.is_installed()

@@ -93,7 +93,7 @@ def test_a_folder_is_opened_with_the_same_jobs(tmp_path: Path) -> None:
     assert again.jobs == folder.jobs
 
 
-def test_two_of_a_name_are_refused() -> None:
+def test_two_contestants_of_one_name_are_refused() -> None:
     with pytest.raises(RunError, match="two arms are named 'sb3, dqn'"):
         config_of("benchmark", [*contestants(), contestants()[1]], trials=2, seed=0, jobs=1)
 
@@ -125,7 +125,7 @@ def test_sb3_is_capped_and_explores_by_epsilon() -> None:
 
 
 @pytest.mark.parametrize(("blocks", "episodes"), [(11, 18.6), (16, 13.4), (210, 2.0)])
-def test_what_a_design_takes_without_a_prior(blocks: int, episodes: float) -> None:
+def test_each_design_has_its_expected_episodes_without_a_prior(blocks: int, episodes: float) -> None:
     assert episodes_without_a_prior(blocks) == pytest.approx(episodes, abs=0.05)
 
 

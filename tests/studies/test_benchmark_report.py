@@ -20,7 +20,7 @@ def text() -> str:
     return "\n\n".join(report(made_config("benchmark", TRIALS, 4), TRIALS).text)
 
 
-def test_it_says_what_was_measured(text: str) -> None:
+def test_the_report_says_what_was_measured(text: str) -> None:
     blocks = [trial.scenario.blocks for trial in TRIALS]
     assert f"12 designs of {min(blocks)} to {max(blocks)} blocks drawn from seed 4. 2 trials on each, seed 4." in text
     assert "Agarwal et al., Deep Reinforcement Learning at the Edge of the Statistical Precipice" in text
@@ -42,7 +42,7 @@ def test_a_bar_in_a_name_does_not_break_the_table(text: str) -> None:
     assert {line.replace(r"\|", "").count("|") for line in lines} == {9}
 
 
-def test_three_files_and_the_same_again(tmp_path: Path) -> None:
+def test_a_report_is_three_files_and_the_same_each_time(tmp_path: Path) -> None:
     found = []
     for name in ("first", "second"):
         (tmp_path / name).mkdir()

@@ -145,7 +145,7 @@ def test_the_exact_interval_of_a_share() -> None:
     assert share_interval(0, 10) == pytest.approx((0, 1 - 0.025**0.1))
 
 
-def test_holm_by_hand() -> None:
+def test_holms_correction_by_hand() -> None:
     # 3 x 0.01, 2 x 0.03, and the last no less than the one before it.
     assert holm([0.04, 0.01, 0.03]) == pytest.approx([0.06, 0.03, 0.06])
     assert holm([0.9, 0.6]) == [1, 1]

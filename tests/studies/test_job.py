@@ -87,7 +87,7 @@ def test_a_long_run_weighs_as_much_as_ten_short_ones() -> None:
     assert [len(job.trials) for job in cut_into_jobs(runs, 3, seed=0)] == [10, 1, 1]
 
 
-def test_units_of_other_runs_presets_or_seeds_have_other_identities() -> None:
+def test_jobs_of_other_runs_presets_or_seeds_have_other_identities() -> None:
     runs = runs_of(["nested"], [DOT, BAR], 2, small_preset())
     shorter = runs_of(["nested"], [DOT, BAR], 2, small_preset(19))
     jobs = [
@@ -108,7 +108,7 @@ def test_what_ends_a_run_and_who_trains_it_are_part_of_the_identity() -> None:
     assert len({str(each.identity()) for each in (job, *others)}) == 3
 
 
-def test_runs_that_say_so_train_a_few_trials_at_a_time_on_one_design_each() -> None:
+def test_runs_with_a_limit_train_a_few_trials_at_a_time_on_one_design_each() -> None:
     runs = [replace(run, together=2) for run in runs_of(["nested"], [DOT, BAR], 5, small_preset())]
     jobs = cut_into_jobs(runs, 7, seed=0)
     assert [(job.scenarios[0].name, job.trials) for job in jobs] == [

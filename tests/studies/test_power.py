@@ -34,13 +34,13 @@ def test_a_difference_without_spread_takes_as_many_trials_as_a_permutation_test_
     assert deciding_trials([MeanEffect(2.0, -1.0, (0.0, 0.0))]) == 4
 
 
-def test_no_difference_is_never_shown() -> None:
+def test_a_difference_of_zero_is_never_shown() -> None:
     assert deciding_trials([MeanEffect(0.0, 0.0, (1.0, 1.0))]) is None
     assert deciding_trials([MeanEffect(0.0, 0.0, (0.0, 0.0))]) is None
 
 
 @given(st.floats(0.05, 3.0), st.floats(0.1, 5.0), st.floats(0.1, 5.0), st.integers(4, 500))
-def test_more_trials_show_more(above: float, left: float, right: float, trials: int) -> None:
+def test_more_trials_have_more_power(above: float, left: float, right: float, trials: int) -> None:
     effect = MeanEffect(above, -above, (left, right))
     assert one(effect, trials) <= one(effect, trials + 1) + 1e-9
 
@@ -98,7 +98,7 @@ def test_all_lines_of_a_claim_have_to_be_shown() -> None:
     assert one(alone, found) * one(other, found) >= 0.8 > one(alone, found - 1) * one(other, found - 1)
 
 
-def test_one_line_against_it_is_enough_at_its_share_of_alpha() -> None:
+def test_one_line_against_a_claim_is_enough_at_its_share_of_alpha() -> None:
     against, for_it = MeanEffect(-2.0, 2.0, (1.0, 1.0)), MeanEffect(5.0, -4.0, (1.0, 1.0))
     found = deciding_trials([against, for_it])
     assert found

@@ -89,7 +89,7 @@ def test_without_any_finite_resample_there_is_no_interval_to_show() -> None:
     assert measures_of(trials([[INF], [INF]], ["edge"] * 2)).in_words()[2] == "∞"
 
 
-def test_twice_is_each_designs_own() -> None:
+def test_within_twice_counts_by_each_designs_own_number_without_a_prior() -> None:
     own = PlayedDesigns(np.array([[30.0], [30.0]]), np.array([14.0, 15.0]), ["edge", "edge"])
     assert measures_of(own).within_twice == 0.5
 

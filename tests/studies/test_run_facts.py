@@ -70,7 +70,7 @@ def test_its_size_is_that_of_all_files_and_links_are_not_followed(tmp_path: Path
     assert after.size - before.size < 1000
 
 
-def test_one_that_was_stopped_can_be_resumed(tmp_path: Path) -> None:
+def test_a_stopped_training_can_be_resumed(tmp_path: Path) -> None:
     folder = begun(tmp_path / "run")
     facts = facts_of(folder.path)
     assert facts is not None
@@ -85,7 +85,7 @@ def test_one_that_was_stopped_can_be_resumed(tmp_path: Path) -> None:
     assert facts.episodes_done == trainer.episodes_done.sum()
 
 
-def test_one_where_a_process_writes_is_in_use(trained: Path) -> None:
+def test_a_folder_where_a_process_writes_is_in_use(trained: Path) -> None:
     with folder_lock(trained):
         facts = facts_of(trained)
     assert facts is not None
@@ -106,7 +106,7 @@ def test_one_where_a_process_writes_is_in_use(trained: Path) -> None:
         (f"checkpoint/{STATE}", None, "the checkpoint is gone"),
     ],
 )
-def test_a_damaged_one_says_why(trained: Path, tmp_path: Path, file: str, content: str | None, why: str) -> None:
+def test_a_damaged_folder_says_why(trained: Path, tmp_path: Path, file: str, content: str | None, why: str) -> None:
     run = tmp_path / "run"
     shutil.copytree(trained, run)
     (run / file).unlink()
@@ -156,7 +156,7 @@ def test_a_study_counts_the_episodes_of_finished_jobs(
 
 
 @pytest.mark.parametrize("text", [None, "[tool]\nname = 'another program'\n", "agent = ["])
-def test_what_is_no_run_of_ours_is_not_listed(text: str | None, tmp_path: Path) -> None:
+def test_folders_that_are_no_runs_of_this_project_are_not_listed(text: str | None, tmp_path: Path) -> None:
     if text is not None:
         (tmp_path / "config.toml").write_text(text)
     assert facts_of(tmp_path) is None

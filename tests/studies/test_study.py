@@ -46,7 +46,7 @@ THREE_MATERIALS = Study(
 )
 
 
-def test_a_study_of_ones_own_trains_and_reports(tmp_path: Path) -> None:
+def test_a_study_that_a_user_declares_trains_and_reports(tmp_path: Path) -> None:
     declared = THREE_MATERIALS.arms(StudyOptions(trials=1, episodes=2))
     folder = StudyFolder.new(tmp_path / "run", config_of("three-materials", declared, trials=1, seed=0, jobs=1))
     run_study(THREE_MATERIALS, folder, Output(quiet=True))

@@ -42,7 +42,7 @@ def test_the_base_of_each_agent_comes_first() -> None:
         assert [variant.scenario_from(scenario) for scenario in SCENARIOS] == SCENARIOS
 
 
-def test_one_choice_at_a_time_is_otherwise() -> None:
+def test_one_choice_at_a_time_is_changed() -> None:
     for variant in varied(PAPER, SCENARIOS)[2:]:
         preset = variant.preset_from(PAPER).model_dump()
         tables = [key for key, value in PAPER.model_dump().items() if preset[key] != value]

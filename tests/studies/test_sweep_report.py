@@ -60,7 +60,7 @@ def test_a_base_has_no_effect_and_no_interval() -> None:
     assert base.final_interval is base.mean_interval is None
 
 
-def test_the_same_in_another_order_is_no_clear_effect() -> None:
+def test_the_same_scores_in_another_order_are_no_clear_effect() -> None:
     interval = next(effect for effect in effects_on(TRIALS, "line") if effect.choice == "rate").final_interval
     assert interval
     assert interval.low < 0 < interval.high
@@ -91,7 +91,7 @@ def test_it_says_what_was_run_and_how_many_intervals_there_are() -> None:
     assert "](sweep.png)" in TEXT
 
 
-def test_three_files_and_the_same_again(tmp_path: Path) -> None:
+def test_a_report_is_three_files_and_the_same_each_time(tmp_path: Path) -> None:
     found = []
     for name in ("first", "second"):
         (tmp_path / name).mkdir()

@@ -51,7 +51,7 @@ def never() -> bool:
     return False
 
 
-def test_all_that_is_reported_and_how_each_job_ended_is_passed_on() -> None:
+def test_every_report_and_every_job_end_is_passed_on() -> None:
     heard: list[JobReport | JobEnded | None] = []
     executor = MadeExecutor(finished)
     train_jobs(executor, JOBS, never, heard.append)
@@ -89,7 +89,7 @@ def test_a_failure_is_named_before_a_loss() -> None:
         train_jobs(MadeExecutor(act), JOBS, never, lambda _: None)
 
 
-def test_who_asks_to_stop_gets_no_error_of_what_is_lost_then() -> None:
+def test_a_loss_after_a_stop_was_asked_for_is_no_error() -> None:
     def act(executor: MadeExecutor) -> None:
         if executor.looks == 4:
             executor.futures[0].set_exception(RunError("a process was killed"))
@@ -100,7 +100,7 @@ def test_who_asks_to_stop_gets_no_error_of_what_is_lost_then() -> None:
     assert executor.stopped == 1
 
 
-def test_an_error_that_is_no_ones_mistake_is_a_bug_and_passes_through() -> None:
+def test_an_unexpected_error_passes_through() -> None:
     def act(executor: MadeExecutor) -> None:
         if executor.looks == 1:
             executor.futures[0].set_exception(ZeroDivisionError())

@@ -38,7 +38,7 @@ def heard(pipe: Connection) -> list[JobReport | JobEnded]:
     return messages
 
 
-def test_units_are_trained_one_after_the_other(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
+def test_jobs_are_trained_one_after_the_other(pipe: tuple[Connection, Connection], tmp_path: Path) -> None:
     ours, theirs = pipe
     said: list[JobReport | JobEnded] = []
 
@@ -81,7 +81,7 @@ def test_without_its_parent_it_saves_and_ends(pipe: tuple[Connection, Connection
     assert not (tmp_path / OUTCOME).exists()
 
 
-def test_a_job_that_a_process_without_its_parent_still_saves_waits_for_that(
+def test_a_job_waits_until_a_process_without_its_parent_has_saved_it(
     pipe: tuple[Connection, Connection], tmp_path: Path
 ) -> None:
     ours, theirs = pipe
@@ -96,7 +96,7 @@ def test_a_job_that_a_process_without_its_parent_still_saves_waits_for_that(
     assert heard(ours)[-1] == JobEnded(JOB.name, finished=False)
 
 
-def test_a_job_that_another_process_keeps_is_reported(
+def test_a_job_whose_folder_another_process_holds_is_reported(
     pipe: tuple[Connection, Connection], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("mc_nested.workers.training.PATIENCE_S", 0.1)

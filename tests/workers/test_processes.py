@@ -180,7 +180,7 @@ def test_a_process_that_is_free_takes_the_next_job_while_another_trains(workers:
     assert sorted(name for name, _ in workers.trained) == ["a", "b", "c", "long"]
 
 
-def test_all_that_a_process_says_is_passed_on_and_now_and_then_nothing(workers: Workers) -> None:
+def test_every_message_of_a_process_is_passed_on_and_none_now_and_then(workers: Workers) -> None:
     report = JobReport("a", (3,), (None,), 7)
 
     def act(pipe: Connection) -> Ending:
@@ -233,7 +233,7 @@ def test_a_failure_is_reported_before_a_loss(workers: Workers) -> None:
         train(2, "a", "b")
 
 
-def test_asked_to_stop_all_are_saved_and_that_is_no_error(workers: Workers) -> None:
+def test_stopping_saves_all_jobs_and_is_no_error(workers: Workers) -> None:
     stopped = threading.Event()
 
     def interrupted(pipe: Connection) -> Ending:

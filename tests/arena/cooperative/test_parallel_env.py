@@ -51,7 +51,7 @@ def test_all_end_at_the_same_tick_with_the_teams_score() -> None:
         env.step({})
 
 
-def test_it_is_drawn() -> None:
+def test_the_arena_is_drawn_as_a_picture_or_as_text() -> None:
     env = cooperative_env("line", 2, render_mode="ansi")
     env.reset()
     assert env.render().splitlines()[0].split()[7::7] == ["0", "1"]
@@ -60,7 +60,7 @@ def test_it_is_drawn() -> None:
     assert pictured.render().dtype == np.uint8
 
 
-def test_an_unknown_material_is_one_line() -> None:
+def test_an_unknown_material_is_refused_in_one_line() -> None:
     with pytest.raises(ScenarioError, match="no material 'gold'"):
         cooperative_env("line", 2).reset(options={"material": "gold"})
 

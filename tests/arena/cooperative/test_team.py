@@ -41,7 +41,7 @@ def test_every_builder_has_a_cell_of_its_own_in_any_arena(size: int, builders: i
 
 
 @pytest.mark.parametrize("builders", [0, 5])
-def test_an_arena_takes_one_to_four(builders: int) -> None:
+def test_an_arena_takes_one_to_four_builders(builders: int) -> None:
     with pytest.raises(ScenarioError, match=f"^{builders} builders: an arena takes 1 to 4$"):
         team_of(LINE, builders)
 
@@ -51,7 +51,7 @@ def test_two_builders_never_start_on_one_cell() -> None:
         Team(LINE, ((7, 14), (3, 3), (7, 14)))
 
 
-def test_nobody_starts_outside() -> None:
+def test_a_start_outside_the_arena_is_refused() -> None:
     with pytest.raises(ScenarioError, match=r"^builder 1 starts on \(15, 0\), outside: choose 0 to 14 for x and y$"):
         Team(LINE, ((7, 14), (15, 0)))
 
@@ -105,7 +105,7 @@ def test_the_blocks_left_are_the_teams(left: int, second: Cell | None) -> None:
     assert tick([(3, 5), (9, 5)], [BD, BD], left=left) == (Outcome((3, 4), (3, 5)), Outcome((9, 4), second))
 
 
-def test_nothing_is_done_instead_of_no_action() -> None:
+def test_none_instead_of_an_action_does_nothing() -> None:
     assert tick([(3, 3)], [None]) == (Outcome((3, 3), None),)
 
 

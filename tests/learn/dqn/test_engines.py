@@ -35,7 +35,7 @@ def test_the_torch_engine_takes_the_presets_of_numbers(name: str) -> None:
         ("paper", {"device": "tpu", "engine": "torch"}, "must be cpu, cuda or mps"),
     ],
 )
-def test_what_does_not_go_together_is_one_line(name: str, keys: dict[str, str], says: str) -> None:
+def test_settings_that_do_not_go_together_are_refused_in_one_line(name: str, keys: dict[str, str], says: str) -> None:
     with pytest.raises(PresetError, match=says) as caught:
         load_preset(name).changed(**keys)
     assert "\n" not in str(caught.value)

@@ -91,7 +91,7 @@ def test_an_action_that_wasted_a_block_in_a_cell_is_not_repeated_there() -> None
     assert elsewhere == set(range(8))
 
 
-def test_where_everything_was_wasted_anything_goes() -> None:
+def test_where_every_action_wasted_a_block_any_action_is_allowed() -> None:
     excursions = after([step(7, 14, action, used=True, reward=0.0) for action in range(8)])
     excursions.begin(numbers(NEVER, 0.0, 0.0))
     assert excursions.next_action(7, 14, numbers(NEVER, NEVER, 0.99)) == 7
@@ -104,7 +104,7 @@ def test_a_placing_known_to_lie_on_the_design_is_repeated_as_often_as_the_rule_s
     assert excursions.next_action(7, 13, numbers(NEVER, 0.81, 0.3)) == 2
 
 
-def test_an_occupied_front_teaches_nothing_about_a_placing() -> None:
+def test_an_occupied_cell_in_front_teaches_nothing_about_a_placing() -> None:
     excursions = after([WALK[0], WALK[1], step(7, 13, 5, used=False)])
     excursions.begin(numbers(NEVER, 0.0, 0.0))
     assert excursions.next_action(7, 13, numbers(NEVER, 0.0, 0.0)) == 5

@@ -152,7 +152,7 @@ def test_episodes_that_are_out_together_probe_different_cells() -> None:
     assert sum(map(len, probed)) == len(set.union(*probed))
 
 
-def test_what_a_dead_game_should_have_probed_is_probed_by_the_next() -> None:
+def test_the_next_game_probes_what_a_dead_game_should_have_probed() -> None:
     learner = with_a_known_game()
     dead = learner.plan("game 0")
     cells = cells_of(play(dead))

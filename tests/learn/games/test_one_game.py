@@ -66,7 +66,7 @@ def assert_same(learner: GamesTrainer, trainer: Trainer) -> None:
 @pytest.mark.parametrize("agent", ["nested", "hierarchical"])
 @pytest.mark.parametrize("design", [BENT, TWO], ids=["bent", "two"])
 @pytest.mark.parametrize("seed", range(2))
-def test_it_trains_as_a_trainer_does(design: Scenario, agent: str, seed: int) -> None:
+def test_a_learner_with_one_game_trains_as_a_trainer_does(design: Scenario, agent: str, seed: int) -> None:
     learner = finish(learner_of(design, SMALL, agent=agent, seed=seed), game_of(design, SMALL, agent))
     assert_same(learner, trainer_of(design, SMALL, agent, seed))
 

@@ -59,7 +59,7 @@ def imagined(game: Game, scenario: Scenario, episodes: int) -> ImaginedGame:
 TAUGHT = imagined(GridGame(LINE), LINE, 20)
 
 
-def test_taught_by_the_real_rules_it_passes_what_every_game_does() -> None:
+def test_a_learnt_game_of_the_real_rules_passes_the_game_contract() -> None:
     check_game(TAUGHT, LINE, BUMPS)
     check_game(TAUGHT, LINE, build(LINE))
 
@@ -73,13 +73,13 @@ def test_taught_by_a_game_where_actions_slip_it_passes_too() -> None:
     check_game(imagined(Slipping(GridGame(LINE), 0.05, np.random.default_rng(1)), LINE, 30), LINE, BUMPS)
 
 
-def test_taught_too_little_it_does_not_pass() -> None:
+def test_a_game_learnt_from_too_little_fails_the_contract() -> None:
     with pytest.raises(AssertionError):
         check_game(imagined(GridGame(LINE), LINE, 0), LINE, BUMPS)
 
 
 @given(st.lists(st.sampled_from(Action), max_size=40))
-def test_taught_by_other_rules_it_does_what_those_say(actions: list[Action]) -> None:
+def test_a_game_learnt_from_other_rules_follows_those(actions: list[Action]) -> None:
     def other() -> MadeUpGame:
         return MadeUpGame(TRUE_MOVES[::-1], TRUE_PLACES[::-1], (1, 0), BENT)
 

@@ -148,7 +148,7 @@ def test_a_practice_that_is_told_to_end_at_once_changes_nothing() -> None:
     assert session.practised == Practised(0, 0, 0.0, False)
 
 
-def test_networks_that_diverge_are_one_line() -> None:
+def test_networks_that_diverge_are_reported_in_one_line() -> None:
     diverging = with_update(SMALL, learning_rate=1e38)
     learner = learner_of()
     with pytest.raises(DivergedError, match="lower it in the preset") as caught:

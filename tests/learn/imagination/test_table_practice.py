@@ -76,7 +76,7 @@ def test_it_finds_how_to_build_a_house_of_forty_blocks(seed: int) -> None:
     assert table.aim == pytest.approx(house.blocks)
 
 
-def test_no_numbers_only_compile_it() -> None:
+def test_practice_without_random_numbers_only_compiles() -> None:
     table = practice()
     table.learn(np.empty(0))
     assert (table.steps, table.is_over) == (0, False)

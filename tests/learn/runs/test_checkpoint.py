@@ -122,7 +122,7 @@ def test_a_save_that_breaks_off_leaves_the_last_one(
 
 @pytest.mark.parametrize("name", [FILE, "journal-000000.npz"])
 @pytest.mark.parametrize("kept", [0, 1, 100, 200, -1])
-def test_a_truncated_checkpoint_is_one_clear_line(tmp_path: Path, kept: int, name: str) -> None:
+def test_a_truncated_checkpoint_is_refused_in_one_line(tmp_path: Path, kept: int, name: str) -> None:
     Checkpoint(tmp_path, IDENTITY).save(Counts().count(3))
     whole = (tmp_path / name).read_bytes()
     (tmp_path / name).write_bytes(whole[:kept])
@@ -146,7 +146,7 @@ def test_a_file_of_one_array_is_no_checkpoint(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("says", ["no JSON", "[1]", "{}", '{"identity": "0", "journals": null}'])
-def test_a_file_that_says_something_else_of_itself_is_no_checkpoint(tmp_path: Path, says: str) -> None:
+def test_a_file_with_another_description_of_itself_is_no_checkpoint(tmp_path: Path, says: str) -> None:
     Checkpoint(tmp_path, IDENTITY).save(Counts())
     change_arrays(tmp_path / FILE, lambda arrays: arrays.update({ABOUT: np.array(says)}))
     with pytest.raises(RunError, match="damaged or cut short"):
@@ -181,6 +181,6 @@ def test_what_a_killed_save_left_is_removed_when_the_training_goes_on(tmp_path: 
     assert sorted(path.name for path in tmp_path.iterdir()) == ["journal-000000.npz", FILE]
 
 
-def test_no_checkpoint_is_one_clear_line(tmp_path: Path) -> None:
+def test_a_missing_checkpoint_is_refused_in_one_line(tmp_path: Path) -> None:
     with pytest.raises(RunError, match="checkpoint is gone"):
         loaded(tmp_path)

@@ -27,7 +27,7 @@ def test_a_run_gets_another_name_where_it_is(run: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["", " ", "../two", "a/b", "/two", ".", ".."])
-def test_a_name_leads_nowhere_else(run: Path, name: str) -> None:
+def test_a_new_name_can_not_lead_into_another_folder(run: Path, name: str) -> None:
     with pytest.raises(RunError, match="is no name: it stays in"):
         rename_folder(run, name)
     assert run.exists()
@@ -40,7 +40,7 @@ def test_a_name_that_is_taken_is_refused(run: Path) -> None:
             rename_folder(run, name)
 
 
-def test_where_somebody_writes_nothing_is_changed(run: Path) -> None:
+def test_a_folder_in_use_is_not_changed(run: Path) -> None:
     with folder_lock(run):
         for change in (lambda: rename_folder(run, "two"), lambda: delete_folder(run)):
             with pytest.raises(RunError, match=f"process {os.getpid()} is writing there"):
@@ -55,7 +55,7 @@ def test_a_run_is_deleted_with_all_it_holds_and_nothing_else(run: Path) -> None:
     assert [path.name for path in run.parent.iterdir()] == ["other"]
 
 
-def test_of_a_link_in_it_the_link_alone_is_deleted(run: Path, tmp_path: Path) -> None:
+def test_of_a_link_inside_only_the_link_is_deleted(run: Path, tmp_path: Path) -> None:
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "letter.txt").touch()
     (run / "folder").symlink_to(tmp_path / "mine")

@@ -15,7 +15,7 @@ from mc_nested.learn.runs import folder_lock as module
 from mc_nested.learn.runs.folder_lock import FILE, folder_lock, holder_of
 
 
-def test_a_second_one_is_refused_by_the_folder_and_the_process_that_has_it(tmp_path: Path) -> None:
+def test_a_second_process_is_refused_and_told_the_folder_and_who_holds_it(tmp_path: Path) -> None:
     run = tmp_path / "runs" / "one"
     with (
         folder_lock(run),
@@ -28,7 +28,7 @@ def test_a_second_one_is_refused_by_the_folder_and_the_process_that_has_it(tmp_p
     assert list(run.iterdir()) == []
 
 
-def test_who_has_patience_waits_until_it_is_free(tmp_path: Path) -> None:
+def test_a_patient_process_waits_until_the_folder_is_free(tmp_path: Path) -> None:
     is_held, may_end = threading.Event(), threading.Event()
 
     def hold() -> None:
@@ -45,7 +45,7 @@ def test_who_has_patience_waits_until_it_is_free(tmp_path: Path) -> None:
     holder.join()
 
 
-def test_whether_somebody_holds_it_is_seen_without_taking_it(tmp_path: Path) -> None:
+def test_a_lock_is_seen_without_being_taken(tmp_path: Path) -> None:
     assert holder_of(tmp_path / "nothing") is None
     with folder_lock(tmp_path):
         assert holder_of(tmp_path) == f"process {os.getpid()}"
@@ -54,7 +54,7 @@ def test_whether_somebody_holds_it_is_seen_without_taking_it(tmp_path: Path) -> 
     assert holder_of(tmp_path) is None, "that process was killed"
 
 
-def test_a_disk_without_locks_refuses_nobody(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_disk_without_locks_lets_every_process_in(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     @contextmanager
     def no_locks(path: Path) -> Iterator[Lock]:
         raise OSError(errno.ENOLCK, "No locks available", str(path))
@@ -65,7 +65,7 @@ def test_a_disk_without_locks_refuses_nobody(tmp_path: Path, monkeypatch: pytest
         assert holder_of(tmp_path) is None
 
 
-def test_a_file_in_its_place_is_one_line(tmp_path: Path) -> None:
+def test_a_file_in_the_folders_place_is_refused_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with (
         pytest.raises(RunError, match="can't be written, File exists: name another folder"),

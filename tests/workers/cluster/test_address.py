@@ -27,12 +27,12 @@ def keys(tmp_path: Path) -> Path:
         ("127.3.2.1", "tcp://127.3.2.1:8786"),
     ],
 )
-def test_on_this_computer_it_is_plain_tcp(text: str, url: str) -> None:
+def test_an_address_on_this_computer_is_plain_tcp(text: str, url: str) -> None:
     assert scheduler_address(text) == SchedulerAddress(url, None)
 
 
 @pytest.mark.parametrize("text", ["192.168.0.7:8786", "tls://192.168.0.7:8786", "tls://127.0.0.1:8786", "learner"])
-def test_with_keys_it_is_tls(text: str, keys: Path) -> None:
+def test_an_address_with_keys_is_tls(text: str, keys: Path) -> None:
     address = scheduler_address(text, keys)
     assert address.url.startswith("tls://")
     assert address.url.endswith(":8786")
@@ -56,7 +56,7 @@ def test_insecure_means_plain_tcp_where_no_scheme_is_named() -> None:
     assert scheduler_address("10.0.0.1", insecure=True).url == "tcp://10.0.0.1:8786"
 
 
-def test_keys_for_plain_tcp_are_a_mistake(keys: Path) -> None:
+def test_keys_for_plain_tcp_are_refused(keys: Path) -> None:
     with pytest.raises(ClusterError, match="plain TCP, which takes no keys"):
         scheduler_address("tcp://127.0.0.1:8786", keys)
 
@@ -91,14 +91,14 @@ def test_a_pair_of_two_machines_is_refused(keys: Path, tmp_path: Path) -> None:
         "a b",
     ],
 )
-def test_what_is_no_address_is_refused_in_one_line(text: str) -> None:
+def test_an_invalid_address_is_refused_in_one_line(text: str) -> None:
     with pytest.raises(ClusterError) as caught:
         scheduler_address(text)
     assert "\n" not in str(caught.value)
 
 
 @given(st.ip_addresses(), st.integers(1, 65535))
-def test_no_address_off_this_computer_is_plain_by_itself(host: object, port: int) -> None:
+def test_an_address_of_another_computer_is_never_plain_tcp_by_default(host: object, port: int) -> None:
     is_loopback = str(host).startswith("127.") or str(host) == "::1"
     text = f"[{host}]:{port}" if ":" in str(host) else f"{host}:{port}"
     if is_loopback:

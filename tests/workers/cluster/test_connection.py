@@ -99,14 +99,14 @@ def test_the_scheduler_lets_nobody_in_without_a_certificate(secured: str, folder
     assert not is_let_in(secured, folder / "own" / "pc", certificate=False)
 
 
-def test_nor_does_a_game(secured: str, folder: Path) -> None:
+def test_a_game_without_a_certificate_is_refused(secured: str, folder: Path) -> None:
     with GameWorker(SchedulerAddress(secured, folder / "own" / "pc"), "pc", lambda _: None) as game:
         assert is_let_in(game.listens_at, folder / "own" / "learner", certificate=True)
         assert not is_let_in(game.listens_at, folder / "own" / "learner", certificate=False)
         assert not is_let_in(game.listens_at, folder / "other" / "pc", certificate=True)
 
 
-def test_a_scheduler_without_tls_is_refused_by_who_has_keys(open_to_all: SchedulerAddress, folder: Path) -> None:
+def test_a_client_with_keys_refuses_a_scheduler_without_tls(open_to_all: SchedulerAddress, folder: Path) -> None:
     address = SchedulerAddress(open_to_all.url.replace("tcp://", "tls://"), folder / "own" / "pc")
     with pytest.raises(ClusterError, match="with keys of the same authority as"), connected(address):
         pytest.fail("let in")
@@ -119,7 +119,7 @@ def test_a_client_listens_on_no_port(open_to_all: SchedulerAddress) -> None:
         assert {each.laddr.port for each in psutil.Process().net_connections() if each.status == "LISTEN"} == before
 
 
-def test_a_scheduler_that_is_not_there_is_said_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_scheduler_is_reported_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(connection, "CONNECT_S", 0.5)
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))

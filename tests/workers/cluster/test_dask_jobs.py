@@ -75,7 +75,7 @@ def named(job: Job, name: str) -> Job:
     return dataclasses.replace(job, name=name)
 
 
-def test_a_job_ends_as_it_does_here(client: Client, tmp_path: Path) -> None:
+def test_a_job_on_a_worker_ends_as_it_does_on_this_computer(client: Client, tmp_path: Path) -> None:
     here, there = tmp_path / "here" / "jobs" / JOB.name, tmp_path / "there" / "jobs" / JOB.name
     train_job(JOB, here, goes_on, 1.0)
     heard = Heard()
@@ -105,7 +105,7 @@ def test_it_goes_on_from_a_checkpoint_of_this_computer(client: Client, tmp_path:
     assert one.runs == other.runs
 
 
-def test_asked_to_stop_what_trains_comes_back_and_what_waits_does_not_begin(client: Client, tmp_path: Path) -> None:
+def test_when_stopped_jobs_in_training_come_back_and_waiting_jobs_do_not_begin(client: Client, tmp_path: Path) -> None:
     jobs = [(named(LONG, name), tmp_path / "jobs" / name) for name in ("one", "two", "three")]
     heard = Heard()
     train_jobs(DaskJobs(client), jobs, lambda: bool(heard.reports), heard)

@@ -21,20 +21,20 @@ def test_a_job_that_failed_changes_nothing_in_its_folder(tmp_path: Path) -> None
     assert not folder.exists()
 
 
-def test_a_disk_that_refuses_is_said_in_a_line(tmp_path: Path) -> None:
+def test_a_disk_error_is_reported_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "jobs").write_text("a file where the folder would be")
     folder = tmp_path / "jobs" / JOB.name
     with pytest.raises(RunError, match=r"can't be written .*: make room$"):
         landed_from(Trained(JobEnded(JOB.name, finished=True), {"outcome.json": b"{}"}, {}), folder)
 
 
-def test_who_waits_for_a_cancelled_job_hears_of_it() -> None:
+def test_whoever_waits_for_a_cancelled_job_is_told() -> None:
     future: Future[JobEnded] = Future()
     cancel(future)
     assert wait([future], 0).done == {future}
     assert future.cancelled()
 
 
-def test_what_a_user_can_mend_is_said_as_it_is_and_the_rest_with_its_name() -> None:
+def test_a_users_mistake_is_reported_as_it_is_and_any_other_error_with_its_name() -> None:
     assert str(in_words(JOB, RunError("make room"))) == "make room"
     assert str(in_words(JOB, ValueError("odd"))) == f"job {JOB.name} failed on a worker: ValueError: odd"

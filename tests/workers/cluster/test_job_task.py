@@ -64,7 +64,7 @@ def test_a_finished_job_sends_its_outcome_back_and_leaves_nothing(client: Client
     assert left(client) == []
 
 
-def test_of_a_stopped_experiment_a_job_sends_its_checkpoint_back(client: Client, tmp_path: Path) -> None:
+def test_a_job_of_a_stopped_experiment_sends_its_checkpoint_back(client: Client, tmp_path: Path) -> None:
     client.run(stop_training, "stopped")
     done = train(client, tmp_path, "stopped", LONG)
     assert done.ended == JobEnded(LONG.name, finished=False)

@@ -59,7 +59,7 @@ def test_a_machine_of_another_authority_is_refused(tmp_path: Path) -> None:
         say_hello(own, other)
 
 
-def test_a_folder_holds_what_its_machine_needs_and_no_more(tmp_path: Path) -> None:
+def test_a_folder_holds_only_the_files_that_its_machine_needs(tmp_path: Path) -> None:
     (own,) = make_keys(tmp_path / "keys", ["pc"])
     assert {path.name for path in own.iterdir()} == {AUTHORITY, CERTIFICATE, KEY}
     assert {path.name for path in (tmp_path / "keys").iterdir()} == {AUTHORITY, AUTHORITY_KEY, "pc"}

@@ -13,7 +13,7 @@ NAMES = st.sampled_from(["a", "b", "checkpoint/a", "checkpoint/deep/b"])
 
 
 @given(files=st.dictionaries(NAMES, st.binary(max_size=20)))
-def test_what_is_written_is_found_again(files: dict[str, bytes], tmp_path_factory: object) -> None:
+def test_written_files_are_read_back(files: dict[str, bytes], tmp_path_factory: object) -> None:
     folder = tmp_path_factory.mktemp("files")  # type: ignore[attr-defined]  # pytest's
     write_below(folder, files)
     assert files_below(folder) == files

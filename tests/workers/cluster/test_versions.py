@@ -26,7 +26,7 @@ def test_what_differs_is_named_with_both_versions() -> None:
     assert differences(wanted, own) == "mc-nested 0.1.0 (b) instead of 0.1.0 (a), numba missing instead of 1"
 
 
-def test_any_change_of_a_file_counts_but_its_line_ends(tmp_path: Path) -> None:
+def test_any_change_of_a_file_counts_except_its_line_endings(tmp_path: Path) -> None:
     for package in versions.PACKAGES:
         (tmp_path / package).mkdir()
     file = tmp_path / versions.PACKAGES[0] / "a.py"

@@ -13,7 +13,7 @@ def went(worker: str, *, expected: bool) -> dict[str, object]:
     return {"action": "remove-worker", "worker": worker, "expected": expected}
 
 
-def test_what_is_unfinished_and_trained_by_nobody_waits() -> None:
+def test_an_unfinished_job_that_no_worker_trains_counts_as_waiting() -> None:
     seen = WorkersSeen([ONE])
     assert seen.in_words(3) == "1 worker, 0 jobs training, 3 waiting"
     seen.begins("a", ONE)
@@ -43,7 +43,7 @@ def test_a_worker_that_was_told_to_go_while_it_had_no_job_is_not_lost() -> None:
     assert seen.in_words(0) == "0 workers, 0 jobs training, 0 waiting"
 
 
-def test_other_events_of_the_scheduler_are_passed_over() -> None:
+def test_other_events_of_the_scheduler_are_ignored() -> None:
     seen = WorkersSeen([ONE])
     seen.note({"action": "retire-workers"})
     seen.note({})

@@ -186,7 +186,7 @@ def test_a_learner_whose_network_was_gone_asks_its_games_anew(
         assert until(games, 1) == [Answered("one", GameAnswer())]
 
 
-def test_what_had_come_back_before_the_scheduler_was_lost_counts(
+def test_an_episode_that_came_back_before_the_scheduler_was_lost_counts(
     tmp_path: Path, desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(connection, "CONNECT_S", 1.0)
@@ -311,7 +311,7 @@ def test_each_try_to_join_again_leaves_nothing_open(tmp_path: Path, monkeypatch:
         assert len(listening() - before) <= 4
 
 
-def test_a_scheduler_that_is_lost_for_good_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_scheduler_that_is_lost_for_good_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(connection, "CONNECT_S", 1.0)
     with ExitStack() as stack:
         killed = ExitStack()

@@ -17,7 +17,7 @@ def asked(desk: Desk) -> tuple[threading.Thread, list[GameAnswer]]:
     return thread, answers
 
 
-def test_who_asks_waits_for_the_answer() -> None:
+def test_whoever_asks_waits_for_the_answer() -> None:
     desk = Desk()
     thread, answers = asked(desk)
     request = desk.next()
@@ -32,7 +32,7 @@ def test_without_a_request_there_is_none_after_a_moment() -> None:
     assert Desk().next() is None
 
 
-def test_when_it_is_closed_whoever_waits_or_asks_later_is_told() -> None:
+def test_closing_the_desk_tells_whoever_waits_or_asks_later() -> None:
     desk = Desk()
     thread, answers = asked(desk)
     desk.close()

@@ -165,7 +165,7 @@ def test_loss_and_value_are_those_of_each_rows_last_update() -> None:
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("place", [0, 500, -1])
-def test_what_is_no_number_is_noticed_wherever_it_is(value: float, place: int) -> None:
+def test_nan_and_infinity_are_noticed_wherever_they_are(value: float, place: int) -> None:
     values = np.random.default_rng(0).standard_normal(1480).astype(np.float32)
     values[:3] = 0.0, -0.0, np.finfo(np.float32).max
     assert all_finite(values)

@@ -66,14 +66,14 @@ def test_planes_are_seen_from_0_to_1() -> None:
     assert engine.q_values(empty)[0].tolist() == [0.0, 0.0, 0.0]
 
 
-def test_a_device_that_is_not_there_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_device_is_refused_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(torch.cuda, "is_available", lambda: False)
     assert device_named("cpu") == torch.device("cpu")
     with pytest.raises(PresetError, match="device 'cuda': torch finds no such device on this computer: take cpu"):
         device_named("cuda")
 
 
-def test_too_little_memory_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_too_little_memory_is_refused_in_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
     engine = engine_of(1)
 
     def runs_out(*_: object, **__: object) -> None:

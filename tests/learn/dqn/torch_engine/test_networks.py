@@ -84,7 +84,7 @@ def test_a_module_in_the_working_directory_is_found(tmp_path: Path, monkeypatch:
         (f"{OWN}:fails", r"fails on states of \(4,\) \(no idea\)"),
     ],
 )
-def test_a_network_that_does_not_fit_is_one_line(network: str, says: str) -> None:
+def test_a_network_that_does_not_fit_is_refused_in_one_line(network: str, says: str) -> None:
     with pytest.raises(PresetError, match=says) as caught:
         network_maker(network, [])((4,), 8)
     assert "\n" not in str(caught.value)
