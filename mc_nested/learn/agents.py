@@ -169,7 +169,7 @@ class Agent:
         return np.column_stack((observations, numbers, self._of_builders(materials)))
 
     def _of_builders(self, of_runs: NDArray[Any]) -> NDArray[Any]:
-        """Return what is said of each run, for each of its builders: (runs * builders,)."""
+        """Repeat what is given for each run for each of its builders: (runs * builders,)."""
         return of_runs if self.builders == 1 else np.repeat(of_runs, self.builders)
 
     def _with_material(self, planes: Bytes, materials: Int64s) -> Bytes:

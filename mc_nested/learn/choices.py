@@ -62,11 +62,11 @@ class OwnChoices:
         """Learn nothing: the agent's own steps say all."""
 
     def state(self) -> Arrays:
-        """Nothing."""
+        """Return nothing: there is no state."""
         return {}
 
     def load(self, state: Mapping[str, NDArray[Any]]) -> None:
-        """Nothing."""
+        """Load nothing."""
 
 
 class MainChoices(OwnChoices):

@@ -40,7 +40,7 @@ class Expected:
     is_a_limit: bool
 
     def line(self, scenario: Scenario) -> str:
-        """Return one line for whoever waits."""
+        """Return one line for the person who waits."""
         about = "at most about" if self.is_a_limit else "about"
         return (
             f"expected: {about} {self.minutes:.0f} minutes of game time, {self.episodes} episodes of up to "

@@ -104,7 +104,7 @@ class _Process:
         theirs.close()  # so that the pipe ends when the process does
 
     def say(self, message: tuple[Job, Path]) -> bool:
-        """Give it a job, unless it was asked to stop; whether it was given."""
+        """Give it a job, unless it was asked to stop; return whether it was given."""
         with self._speaking, suppress(ConnectionError):  # it is gone, which ``hear`` will notice
             if not self._asked_to_stop:
                 self.pipe.send(message)

@@ -102,7 +102,7 @@ class BackgroundPractice:
         self._begin()
 
     def end_of_episode(self) -> None:
-        """End what goes on; the best networks that it came to stay."""
+        """End the practice that goes on; the best networks that it found stay."""
         self._background.end()
         for session in self._sessions.values():
             session.take_over()

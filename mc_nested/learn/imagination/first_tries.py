@@ -53,7 +53,7 @@ class FirstTries:
         self.tries[action] += action not in tried_here
 
     def copied(self) -> "FirstTries":
-        """Return the same, with arrays of its own."""
+        """Return a copy with arrays of its own."""
         return replace(self, untried=self.untried.copy(), unclear=self.unclear.copy(), tries=self.tries.copy())
 
     def beside(self, games: int) -> "FirstTries":

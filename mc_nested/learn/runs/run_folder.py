@@ -107,7 +107,7 @@ class RunFolder:
 
     @contextmanager
     def writing(self) -> Iterator[None]:
-        """Surround writing here: RunError, one line that says how to resume, if the disk refuses."""
+        """Turn a disk error in the block into a RunError, one line that says how to resume."""
         try:
             yield
         except OSError as error:

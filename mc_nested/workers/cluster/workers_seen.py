@@ -18,7 +18,7 @@ class WorkersSeen:
 
     @property
     def count(self) -> int:
-        """How many are there."""
+        """How many workers there are."""
         return len(self._workers)
 
     @property

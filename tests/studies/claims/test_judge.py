@@ -62,7 +62,7 @@ def test_the_last_evaluation_and_the_mean_of_the_last_ten_can_say_otherwise() ->
     results = made({("nested", "line"): level(20), ("hierarchical", "line"): level(17)})
 
     def ending(agent: str, last: float) -> Results:
-        """Return the same, but that agent's last evaluation."""
+        """Return the same results but for that agent's last evaluation."""
         curve = results.curves[agent, "line"]
         scores = curve.scores.copy()
         scores[:, -1] = last
