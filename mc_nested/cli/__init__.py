@@ -1,4 +1,4 @@
-"""The command line, one file per verb, and the processes that train an experiment's runs."""
+"""The command line: one file for each verb, what the verbs share, and the loops that train and show their progress."""
 
 import io
 import os

@@ -46,7 +46,7 @@ class Interrupt:
 
 @contextmanager
 def catch_interrupts() -> Iterator[Interrupt]:
-    """Inside, the first Ctrl+C, SIGTERM, or SIGHUP of a closed terminal is only recorded.
+    """Only record the first Ctrl+C, SIGTERM, or SIGHUP of a closed terminal, while the block runs.
 
     A SIGHUP that is ignored, as under nohup, stays so. Outside the main thread nothing changes.
     """

@@ -120,7 +120,7 @@ def _watch(
     *,
     is_quiet: bool,
 ) -> GreedyEpisode:
-    """One greedy episode, shown as it is built."""
+    """Play one greedy episode, shown as it is built."""
     scenario = folder.scenario
     env = ArenaEnv(game, scenario)
     if pictures:
@@ -137,7 +137,7 @@ def _watch(
 
 
 def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
-    """The agent of one trial, and which trial: the one asked for, or the best in the simulator.
+    """Return the agent of one trial, and which trial: the one asked for, or the best in the simulator.
 
     One that sees a window is the best by the scores that it was kept for: the simulator has no window.
     """

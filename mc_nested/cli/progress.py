@@ -46,7 +46,7 @@ class _BarAndMap(Progress):
     stops: Callable[[], bool] = staticmethod(lambda: False)
 
     def get_renderable(self) -> RenderableType:
-        """The bar, what is below it, and whether it is stopping."""
+        """Return the bar, what is below it, and whether it is stopping."""
         below = [] if self.map is None else [self.map]
         return Group(super().get_renderable(), Text(self.figures), *below, *([Text(STOPPING)] if self.stops() else []))
 

@@ -79,7 +79,7 @@ def run_training(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Pa
 def begin_or_resume(folder: RunFolder, trainer: Training, earlier: EarlierRun | None, resumed: bool) -> None:
     """Let the trainer go on from the folder's checkpoint; otherwise from an earlier run, if any, in a new folder.
 
-    RunError as ``RunFolder`` and ``EarlierRun`` raise it.
+    Raise RunError as ``RunFolder`` and ``EarlierRun`` raise it.
     """
     if resumed:
         folder.checkpoint.load_into(trainer)
@@ -92,7 +92,7 @@ def begin_or_resume(folder: RunFolder, trainer: Training, earlier: EarlierRun | 
 
 @contextmanager
 def published(folder: RunFolder, how: HowToRun) -> Iterator[Viewed]:
-    """The run where ``mc-nested view`` finds it; nothing is left of one that never began."""
+    """Yield the run where ``mc-nested view`` finds it; nothing is left of one that never began."""
     title = f"{folder.config.title}, {where_words(Backend(folder.config.backend))}"
     try:
         with viewed(how.is_viewed, "train", title, folder.path) as view:

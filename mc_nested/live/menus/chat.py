@@ -80,7 +80,7 @@ class Chat:
             self._controller.wait(self._timing.chat_close_s)
 
     def _would_cover(self, line: str) -> bool:
-        """Whether its answer would make the chat cover lines of the debug screen.
+        """Return whether its answer would make the chat cover lines of the debug screen.
 
         The window's height is asked for only where the smallest window wouldn't have the room.
         """
@@ -112,7 +112,7 @@ class Chat:
             self._controller.wait(self._timing.chat_open_s)
 
     def _is_empty(self) -> bool:
-        """Whether the line is seen open and empty. Where it holds something, a Backspace is pressed.
+        """Return whether the line is seen open and empty. Where it holds something, a Backspace is pressed.
 
         A draft, which the game itself brings back, is gone with the first one (FACTS: The chat's line).
         """

@@ -32,7 +32,7 @@ class Tape:
         """Whether a call is under way whose own calls to the devices are part of it."""
 
     def add(self, *call: Any) -> None:
-        """Set down a call, now."""
+        """Add a call, at the time of now."""
         if threading.get_ident() != self._thread:
             call = ("elsewhere", *call)
         elif self.inside:
@@ -40,11 +40,11 @@ class Tape:
         self._calls.append((time.time_ns(), list(call)))
 
     def note(self, kind: NoteKind, /, **facts: Fact) -> None:
-        """Set down a note of the journal."""
+        """Add a note of the journal."""
         self.add("note", kind, facts)
 
     def take(self) -> list[tuple[int, Call]]:
-        """What was set down since the last time, with the time of day in nanoseconds; any thread may take it."""
+        """Take what was added since the last time, with the time of day in nanoseconds; any thread may do so."""
         taken: list[tuple[int, Call]] = []
         while self._calls:
             taken.append(self._calls.popleft())
