@@ -147,7 +147,7 @@ def test_a_real_bash_completes_with_the_script_that_it_is_given(folder: Path) ->
     assert done.stdout.splitlines() == ["complete -o default -F _mc_nested_completion mc-nested", "runs/line"]
 
 
-def test_no_verb_is_loaded_and_nothing_heavy(folder: Path) -> None:
+def test_completion_loads_no_verb_and_no_large_library(folder: Path) -> None:
     code = f"""
         import atexit, sys
         atexit.register(lambda: print([name for name in {HEAVY} if name in sys.modules], file=sys.stderr))
@@ -167,7 +167,7 @@ def test_no_verb_is_loaded_and_nothing_heavy(folder: Path) -> None:
     assert done.stderr.splitlines() == ["False", "[]"]
 
 
-def test_what_is_quick_is_what_the_verbs_complete(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_option_that_completes_names_is_completed_quickly(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
     monkeypatch.setenv("XDG_CONFIG_HOME", str(folder))
     found = set()
@@ -204,7 +204,7 @@ def test_runs_are_also_those_where_the_path_leads(here: Path) -> None:
     assert complete_runs("other/x") == []
 
 
-def test_where_nothing_is_there_is_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_runs_or_profiles_nothing_is_completed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path / "missing")
     assert complete_runs("") == complete_runs("a/b/c") == complete_profiles("") == []

@@ -195,7 +195,7 @@ def pressed(folder: Path, *keys: str, status: Status = LIVE, closes_at_end: bool
         (["ctrl+c"], Heard(pause=False, stop=False)),
     ],
 )
-def test_keys_ask_the_run(live: Path, keys: list[str], wanted: Heard) -> None:
+def test_keys_send_requests_to_the_run(live: Path, keys: list[str], wanted: Heard) -> None:
     assert pressed(live, *keys)[1] == wanted
 
 
@@ -338,7 +338,7 @@ def test_it_closes_by_itself_once_the_run_has_ended(live: Path) -> None:
     shown(live, LIVE, SIZES["80x24"], end, closes_at_end=True)
 
 
-def test_a_folder_that_disappears_leaves_what_was_seen(live: Path) -> None:
+def test_the_view_keeps_what_it_shows_if_the_folder_disappears(live: Path) -> None:
     async def lose(app: ViewApp, pilot: Pilot[None]) -> None:
         (live / "view" / "now.json").unlink()
         await until_it_looks(app, pilot)

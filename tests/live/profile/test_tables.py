@@ -63,7 +63,7 @@ def test_the_default_title_is_the_games_and_no_other_windows(title: str, is_the_
     ("version", "dialect"),
     [("1.8", "1.12"), ("1.12.2", "1.12"), ("1.13", "1.13"), ("1.16.5", "1.13"), ("1.17", "1.17"), ("26.1", "1.17")],
 )
-def test_every_version_has_its_dialect(version: str, dialect: str) -> None:
+def test_each_version_has_its_dialect_of_commands(version: str, dialect: str) -> None:
     assert GameVersion(version=version).dialect == dialect
 
 

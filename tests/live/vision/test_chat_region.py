@@ -64,7 +64,7 @@ def test_without_a_scale_all_is_blanked_that_is_at_any_scale(width: int, height:
 
 
 @given(st.integers(1, 3000), st.integers(1, 2000), st.one_of(st.none(), st.integers(1, 8)))
-def test_it_never_reaches_out_of_the_window(width: int, height: int, scale: int | None) -> None:
+def test_the_chat_regions_never_reach_out_of_the_window(width: int, height: int, scale: int | None) -> None:
     for region in chat_regions((width, height), scale):
         assert region.left >= 0
         assert region.left + region.width <= width
@@ -169,7 +169,7 @@ def shades(paths: list[Path]) -> list[int]:
     return [int(picture[0, -1, 0]) for path in paths if (picture := cv2.imread(str(path))) is not None]
 
 
-def test_the_last_three_are_written_the_oldest_first(tmp_path: Path) -> None:
+def test_the_last_three_frames_are_written_the_oldest_first(tmp_path: Path) -> None:
     display = GreyDisplay()
     last = LastFrames(display, tmp_path / "new" / "evidence", lambda: 1)
     for display.shade in (10, 20, 30, 40):

@@ -54,7 +54,7 @@ def test_a_label_is_known_below_any_ground_and_whether_it_can_be_pressed(
     assert found(frame) == (TOP + 10, colour == WHITE)
 
 
-def test_letters_over_it_and_two_grounds_that_meet_there_hide_it_not() -> None:
+def test_a_label_is_found_under_letters_and_across_two_grounds() -> None:
     frame = button()
     below(frame, 80, right=230)
     below(frame, 80, left=200)
@@ -64,7 +64,7 @@ def test_letters_over_it_and_two_grounds_that_meet_there_hide_it_not() -> None:
 
 
 @pytest.mark.parametrize("shown", ["Disconnect", "Back to Game", "Respawn", "Save and Exit to Titles", ""])
-def test_another_label_there_is_not_taken_for_it(shown: str) -> None:
+def test_another_label_is_not_taken_for_the_one_looked_for(shown: str) -> None:
     frame = button(shown)
     below(frame, 80, right=214)
     write(frame, "[F3+3] Ping hidden", LEFT + 10)
@@ -72,7 +72,7 @@ def test_another_label_there_is_not_taken_for_it(shown: str) -> None:
 
 
 @pytest.mark.parametrize("label", ["Disconnect", "Respawn", "Back to Game"])
-def test_nor_is_it_taken_for_another(label: str) -> None:
+def test_a_label_is_not_taken_for_another_one(label: str) -> None:
     frame = button()
     below(frame, 80, right=214)
     write(frame, "Display: 854x480 (AMD)", LEFT + 60)
@@ -81,13 +81,13 @@ def test_nor_is_it_taken_for_another(label: str) -> None:
 
 @pytest.mark.parametrize("label", ["Disconnect", "Respawn", "Back to Game"])
 @pytest.mark.parametrize("shown", ["Game Paused", LABEL])
-def test_nor_on_a_ground_as_bright_as_letters(shown: str, label: str) -> None:
+def test_no_label_is_seen_on_a_ground_as_bright_as_letters(shown: str, label: str) -> None:
     frame = np.full((480, 854, 3), 240, np.uint8)
     MenuPainter(frame, SCALE, FONT, np.random.default_rng(0)).text(shown, 213 - len(FONT.columns(shown)) // 2, TOP)
     assert found(frame, label) is None
 
 
-def test_what_letters_hide_almost_wholly_is_not_known() -> None:
+def test_a_label_that_letters_hide_almost_wholly_is_not_found() -> None:
     frame = button()
     frame[SCALE * TOP : SCALE * (TOP + 20), SCALE * 150 : SCALE * 270] = 224
     assert found(frame) is None

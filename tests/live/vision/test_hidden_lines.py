@@ -42,7 +42,7 @@ def test_however_many_notices_lie_over_it_a_block_that_is_looked_at_is_never_non
 
 @pytest.mark.parametrize("place", range(5))
 @pytest.mark.parametrize("layout", GAME_LAYOUTS)
-def test_nor_where_one_notice_is_left_of_several(layout: Layout, place: int) -> None:
+def test_a_block_under_a_single_notice_left_is_never_none(layout: Layout, place: int) -> None:
     reading = read_debug_screen(painted(layout, ("",) * place + ("Look around",)), FONT)
     assert reading.problem is not None or reading.target == TARGET
 
