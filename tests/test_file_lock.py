@@ -25,7 +25,7 @@ with file_lock(Path(sys.argv[1])) as lock:
 
 @contextmanager
 def held_elsewhere(path: Path) -> Iterator["subprocess.Popen[str]"]:
-    """Another process, which has the lock until its input ends."""
+    """Yield another process, which has the lock until its input ends."""
     command = [sys.executable, "-c", HOLD, str(path)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None

@@ -69,11 +69,11 @@ class Installed:
         self.env = {**kept, "HOME": str(folder), "XDG_CONFIG_HOME": str(folder), "XDG_DATA_HOME": str(folder)}
 
     def python(self, code: str, *words: str) -> str:
-        """What the code prints."""
+        """Return what the code prints."""
         return self._done([str(self.bin / "python"), "-c", code, *words])
 
     def mc_nested(self, *words: str) -> str:
-        """What the command prints."""
+        """Return what the command prints."""
         return self._done([str(self.bin / "mc-nested"), *words])
 
     def _done(self, command: list[str]) -> str:
@@ -97,7 +97,10 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Installed]:
-    """The wheel with its dependencies, of the versions in constraints.txt; removed at the end, since it is large."""
+    """Return the wheel with its dependencies, of the versions in constraints.txt.
+
+    It is removed at the end, since it is large.
+    """
     folder = tmp_path_factory.mktemp("installed")
     subprocess.run([sys.executable, "-m", "venv", str(folder / "venv")], check=True)
     try:
@@ -111,7 +114,7 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator
 
 
 def missing(why: str) -> NoReturn:
-    """A machine that can't install anything skips the test; with CI set, that is a failure."""
+    """Skip the test on a machine that can't install anything; with CI set, fail."""
     if os.environ.get("CI"):
         pytest.fail(why)
     pytest.skip(why)

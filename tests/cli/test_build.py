@@ -30,7 +30,7 @@ UNCOPIED = {"arena": Arena.around((0, 64, 0), "south")}
 
 @pytest.fixture
 def profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A user's profile ``mine``, whose arena has a copy of what stood there."""
+    """Return a user's profile ``mine``, whose arena has a copy of what stood there."""
     monkeypatch.setattr("mc_nested.live.profile.store.profile_folder", lambda: tmp_path / "config")
     path = tmp_path / "config" / "mine.toml"
     save_profile(Profile(arena=COPIED), path)

@@ -36,7 +36,7 @@ def code_of(profile: Path, *options: str) -> int | str | None:
 def set_up(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, *steps: CalibrationStep, failing: str | None = None
 ) -> None:
-    """From here on the desktop has that client's window alone, and these are the steps."""
+    """Make that client's window the only one of the desktop, and these the steps."""
     rows = [
         Check(name, "fail", "it is wrong", "mend it") if name == failing else Check(name, "pass", "")
         for name in CheckName

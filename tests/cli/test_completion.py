@@ -24,7 +24,7 @@ HEAVY = ("torch", "numba", "cv2", "matplotlib", "scipy", "tomlkit")
 
 
 def asked(folder: Path, **variables: str) -> subprocess.CompletedProcess[str]:
-    """What the command answers a shell that asks by these variables."""
+    """Return what the command answers a shell that asks by these variables."""
     env = {**os.environ, **variables, "HOME": str(folder), "XDG_CONFIG_HOME": str(folder)}
     env["PYTHONPATH"] = os.pathsep.join(filter(None, (str(Path(__file__).parents[2]), os.environ.get("PYTHONPATH"))))
     return subprocess.run(
@@ -36,7 +36,7 @@ class AskedHere(Protocol):
     """Asks as a shell does, but in this process: one of its own takes thirty times as long."""
 
     def __call__(self, **variables: str) -> tuple[int, str]:
-        """Its exit code, and what it prints; nothing is printed as an error."""
+        """Return its exit code and what it prints; check that nothing is printed as an error."""
 
 
 @pytest.fixture
@@ -181,7 +181,7 @@ def test_every_option_that_completes_names_is_completed_quickly(folder: Path, mo
 
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with runs/a, runs/b, other/c, and what is none."""
+    """Return a folder with runs/a, runs/b, other/c, and what is none."""
     monkeypatch.chdir(tmp_path)
     for name in ("runs/a", "runs/b", "other/c"):
         (tmp_path / name).mkdir(parents=True)

@@ -23,7 +23,7 @@ class Found:
 
 
 def said(output: Output, capsys: pytest.CaptureFixture[str]) -> tuple[str, str]:
-    """What a verb prints on both streams."""
+    """Return what a verb prints on both streams."""
     output.note("begins")
     print_line(output.progress, "half of it")
     output.result(Found(Path("runs/x"), [21.0, float("inf")], True, None), "done")

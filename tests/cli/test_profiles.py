@@ -21,7 +21,7 @@ CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 4
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The profile folder, with three profiles; a game's window is open that one of them doesn't fit."""
+    """Return the profile folder, with three profiles; a game's window is open that one of them doesn't fit."""
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path)
     monkeypatch.setattr(profiles, "window_of", lambda _: Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480)))
     save_profile(Profile(arena=ARENA, calibrated=CALIBRATED), profile_folder() / "laptop.toml")

@@ -29,7 +29,7 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def kept(recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """One recording among those that are kept, named "play"."""
+    """Return one recording among those that are kept, named "play"."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     recordings_folder().mkdir(parents=True)
     (recordings_folder() / "play").symlink_to(recorded)

@@ -51,7 +51,7 @@ def done(words: list[str], tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def written(folder: Path) -> dict[str, bytes]:
-    """The files that it ends with, the report without its lines that name seconds."""
+    """Return the files that it ends with, the report without its lines that name seconds."""
     found = {name: (folder / name).read_bytes() for name in WRITTEN}
     return {**found, "report.md": re.sub(rb"(?m)^.*[Ss]econds.*$", b"", found["report.md"])}
 
@@ -160,7 +160,10 @@ def test_any_number_of_processes_gives_the_same_files(done: Path, words: list[st
 
 @contextlib.contextmanager
 def long_one(words: list[str], out: Path, episodes: int) -> Iterator[subprocess.Popen[str]]:
-    """A run of its own, from the moment at which both its processes have saved something; at the end all is killed."""
+    """Yield a run of its own, from the moment at which both its processes have saved something.
+
+    All its processes are killed at the end.
+    """
     command = [sys.executable, "-m", "mc_nested.cli", *words, "--episodes", f"{episodes}", "--jobs", "2"]
     process = subprocess.Popen([*command, "--out", str(out)], stderr=subprocess.PIPE, text=True, start_new_session=True)
     try:
@@ -184,7 +187,7 @@ def children(process: subprocess.Popen[str]) -> list[int]:
 
 
 def training_processes(process: subprocess.Popen[str]) -> list[int]:
-    """Those of the children that aren't multiprocessing's own."""
+    """Return those of the children that aren't multiprocessing's own."""
     return [pid for pid in children(process) if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()]
 
 

@@ -14,7 +14,7 @@ from tests.cli.running import run
 
 @pytest.fixture(autouse=True)
 def here(trained: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with two runs in runs/, one of them damaged, and one beside it."""
+    """Return a folder with two runs in runs/, one of them damaged, and one beside it."""
     monkeypatch.chdir(tmp_path)
     shutil.copytree(trained, tmp_path / "runs" / "whole")
     shutil.copytree(trained, tmp_path / "runs" / "torn")

@@ -16,7 +16,7 @@ from tests.learn.made_experiments import BAR, DOT, scenario_text
 
 
 def config(*names: str) -> StudyConfig:
-    """The named parts on two designs, two trials of 20 episodes."""
+    """Return the named parts on two designs, two trials of 20 episodes."""
     shipped = arms(StudyOptions(trials=2, episodes=20, scenarios=[DOT, BAR]))
     return config_of("ablation", [arm for arm in shipped if arm.name in names], trials=2, seed=0, jobs=1)
 

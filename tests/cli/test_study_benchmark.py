@@ -39,7 +39,7 @@ def files(tmp_path: Path) -> Path:
 
 
 def written(folder: Path) -> dict[str, bytes]:
-    """The files that it ends with, the report without its line of seconds."""
+    """Return the files that it ends with, the report without its line of seconds."""
     found = {name: (folder / name).read_bytes() for name in WRITTEN}
     return {**found, "benchmark.md": re.sub(rb"(?m)^Seconds.*$", b"", found["benchmark.md"])}
 

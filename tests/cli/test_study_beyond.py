@@ -21,13 +21,13 @@ FILES = STUDY.files
 
 
 def small_arms() -> list[Arm]:
-    """All arms with small networks over numbers."""
+    """Return all arms with small networks over numbers."""
     return [replace(arm, preset=small_preset(10)) for arm in arms(StudyOptions(trials=2))]
 
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Begun as by the command, and gone on with by --resume."""
+    """Return a study that the command began, and --resume went on with."""
     out = tmp_path_factory.mktemp("beyond") / "run"
     StudyFolder.new(out, config_of("beyond", small_arms(), trials=2, seed=0, jobs=1)).begin()
     assert run("reproduce", "--resume", out, "--quiet") == 0

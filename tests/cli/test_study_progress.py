@@ -59,7 +59,7 @@ def test_of_many_designs_only_the_trials_are_counted() -> None:
 
 
 def two_jobs() -> list[Job]:
-    """Of two trials on the dot and on the bar each, 20 episodes a run: nested in the first, single in the second."""
+    """Return two jobs, nested and single, of two trials each on the dot and on the bar, 20 episodes a run."""
     return cut_into_jobs(runs_of(["nested", "single"], [DOT, BAR], 2, small_preset(20)), 1, seed=0)
 
 

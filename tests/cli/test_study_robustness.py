@@ -33,7 +33,7 @@ def config(*choices: Change) -> StudyConfig:
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Begun as by the command, and gone on with by --resume."""
+    """Return a study that the command began, and --resume went on with."""
     out = tmp_path_factory.mktemp("robust") / "run"
     StudyFolder.new(out, config(GAMMA, START)).begin()
     assert run("reproduce", "--resume", out, "--quiet") == 0

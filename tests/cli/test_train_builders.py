@@ -20,7 +20,7 @@ def team_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def files_of(path: Path) -> dict[str, bytes]:
-    """Everything but what names the time or the order of saves."""
+    """Return everything but what names the time or the order of saves."""
     names = ("config.toml", "episodes.csv", "evaluations.csv", "curve.png", "team.png", "checkpoint/state.npz")
     return {name: (path / name).read_bytes() for name in names}
 

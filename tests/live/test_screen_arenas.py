@@ -137,7 +137,7 @@ def client_looking(pitch: float = 65.0, yaw: float = 0.0, scale: int = 1, versio
 
 
 def bare(client: VirtualClient) -> Frame:
-    """The window with nothing over the world."""
+    """Return the window with nothing over the world."""
     client.game.hides_hud = True
     client.clock.sleep(0.2)
     frame = client.display.grab()
@@ -152,7 +152,7 @@ def plainly(frame: Frame) -> np.ndarray:
 
 
 def hidden(size: tuple[int, int], scale: int) -> np.ndarray:
-    """Which dots have any part of what may be hidden."""
+    """Return which dots have any part of what may be hidden."""
     mask = np.zeros((size[1], size[0]), np.float32)
     for region in hidden_regions(size, scale):
         mask[region.top : region.top + region.height, region.left : region.left + region.width] = 1

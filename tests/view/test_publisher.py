@@ -19,7 +19,7 @@ PATIENCE_S = 20.0
 
 @pytest.fixture(autouse=True)
 def often(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It publishes, and hears, fifty times a second, so that nothing here waits long for it."""
+    """Make it publish, and hear requests, fifty times a second, so that no test waits long for it."""
     monkeypatch.setattr(publishing, "PUBLISH_EVERY_S", 0.02)
 
 
@@ -50,7 +50,7 @@ class Counted:
         return ["it said this"]
 
     def until_asked_again(self) -> None:
-        """Once more from beginning to end: one may be going on."""
+        """Wait for one more publishing from beginning to end: one may be going on."""
         before = self.times
         until(lambda: self.times >= before + 2)
 

@@ -32,7 +32,7 @@ def run(tmp_path: Path) -> Path:
 
 
 def renewed(run: Path, nanoseconds: int) -> None:
-    """As a view renews it, at that time."""
+    """Renew the pause as a view does, at that time."""
     os.utime(run / FOLDER / PAUSE, ns=(nanoseconds, nanoseconds))
 
 

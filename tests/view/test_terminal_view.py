@@ -45,14 +45,14 @@ def opened(tmp_path: Path) -> Iterator[Opens]:
 
 
 def viewed_training(opened: Opens) -> Terminal:
-    """A long training in a terminal, once its view shows that it trains."""
+    """Return a long training in a terminal, once its view shows that it trains."""
     terminal = opened(*LONG, "--view")
     terminal.until("trains in the simulator")
     return terminal
 
 
 def child_of(process: int) -> int:
-    """The one child of a process: its view."""
+    """Return the one child of a process: its view."""
     (child,) = Path(f"/proc/{process}/task/{process}/children").read_text().split()
     return int(child)
 

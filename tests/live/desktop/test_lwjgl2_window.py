@@ -36,7 +36,7 @@ SHIFT = "RSHIFT"
 
 
 def pressed(key: str, *, has_shift: bool = False) -> list[list[object]]:
-    """LWJGL's key, pressed and released, perhaps with the right Shift around it."""
+    """Return LWJGL's key, pressed and released, perhaps with the right Shift around it."""
     name = _NAMES.get(key, key.upper())
     events: list[list[object]] = [[name, 1], [name, 0]]
     return [[SHIFT, 1], *events, [SHIFT, 0]] if has_shift else events

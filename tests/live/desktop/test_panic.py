@@ -13,13 +13,13 @@ from tests.live.desktop.real_windows.probed import probed
 
 @pytest.fixture
 def mouse(monkeypatch: pytest.MonkeyPatch) -> Mouse:
-    """Over a screen of 1024 x 768."""
+    """Return a mouse over a screen of 1024 x 768."""
     return install_mouse(monkeypatch)
 
 
 @pytest.fixture
 def moves(mouse: Mouse, monkeypatch: pytest.MonkeyPatch) -> list[Listener]:  # noqa: ARG001 - the mouse that is asked
-    """The listeners of the mouse."""
+    """Return the listeners of the mouse."""
     return install_pynput(monkeypatch)[1]
 
 

@@ -71,7 +71,7 @@ def test_a_text_too_long_to_be_put_back_is_refused(clipboard: X11Clipboard) -> N
 
 @pytest.fixture
 def owner(clipboard: X11Clipboard) -> Iterator[Display]:
-    """Another program that owns the clipboard, and hasn't answered yet."""
+    """Return another program that owns the clipboard, and hasn't answered yet."""
     assert clipboard.read() == ""
     display = Display()
     window = display.screen().root.create_window(0, 0, 1, 1, 0, X.CopyFromParent)

@@ -27,7 +27,7 @@ PROFILE = Profile(arena=Arena.around((0, 64, 0), "south"))
 
 
 def _controller(game: FakeGame, fail_after: int = -1) -> InputController:
-    """A controller for which the world was just confirmed."""
+    """Return a controller for which the world was just confirmed."""
     controller = InputController(devices_of(game, FakeKeyboard(game, fail_after)), game.profile.input)
     controller.confirm_screen("world")
     return controller

@@ -58,7 +58,7 @@ def test_a_fraction_leads_back_to_within_a_pixel(width: int, height: int, data: 
 
 
 def buttons_of(client: VirtualClient, screen: ScreenName) -> list[tuple[Widget, tuple[int, int]]]:
-    """The buttons of a screen that are as wide as a picture, and their middles in pixels."""
+    """Return the buttons of a screen that are as wide as a picture, and their middles in pixels."""
     width, height = client.window.size
     gui = -(-width // client.scale), -(-height // client.scale)
     shown = menu(MenuState(screen, is_chosen=True), client.edition, *gui).buttons
@@ -111,7 +111,7 @@ def test_no_button_is_taken_for_another_nor_seen_on_another_screen(version: str,
 
 
 def named(name: str, seed: int, ground: int = 30, colour: Colour = WHITE) -> Frame:
-    """A list of worlds with that one in it, before a ground with some noise in it."""
+    """Return a list of worlds with that one in it, before a ground with some noise in it."""
     rng = np.random.default_rng(seed)
     frame = rng.integers(ground, ground + 20, (240, 400, 3), np.uint8)
     MenuPainter(frame, 2, FONT, rng).text(name, 80, 40, colour)

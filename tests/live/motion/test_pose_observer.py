@@ -274,7 +274,7 @@ TICK = 0.05
 
 
 def _sightings(count: int, phase: float, seed: int) -> list[float]:
-    """When steps are seen first: half a frame and 10 to 30 ms behind ticks."""
+    """Return when steps are seen first: half a frame and 10 to 30 ms behind ticks."""
     rng = random.Random(seed)  # noqa: S311 - chance, not secrets
     return [
         100 + phase + TICK * rng.randrange(2000) + rng.uniform(0, 1 / 60) + rng.uniform(0.01, 0.03)

@@ -42,7 +42,7 @@ with Recorder(Path(sys.argv[1]), {"format": str(FORMAT)}, (320, 240), print) as 
 
 
 def killed(folder: Path, after_s: float) -> float:
-    """Kill a process that records without end; the seconds of its last words that are lost."""
+    """Kill a process that records without end, and return how many seconds of its end are lost."""
     process = subprocess.Popen([sys.executable, "-c", WRITES, str(folder)])
     try:
         # By what is there, not by the time: on a busy machine the first files come late.

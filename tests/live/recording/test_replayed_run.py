@@ -22,7 +22,7 @@ from tests.sim.client.playing import FONT
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Sixty actions in three episodes, on a virtual client."""
+    """Record sixty actions in three episodes, on a virtual client."""
     folder = tmp_path_factory.mktemp("recordings") / "play"
     assert record_play(folder, 60, seed=5) == []
     return folder

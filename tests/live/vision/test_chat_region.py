@@ -103,7 +103,7 @@ def test_nothing_that_is_being_typed_is_left_on_the_picture(version: str) -> Non
 
 
 def chat_over(size: tuple[int, int], scale: int, version: str, said: list[str], typed: str) -> Frame:
-    """A grey window with a chat in it, painted as the facts say."""
+    """Return a grey window with a chat in it, painted as the facts say."""
     letters, gui = Letters(FONT, scale), (-(-size[0] // scale), -(-size[1] // scale))
     lines = tuple(ChatLine(text, WHITE, 8) for text in said)
     frame: Frame = np.full((size[1], size[0], 3), 120, np.uint8)
@@ -165,7 +165,7 @@ class GreyDisplay:
 
 
 def shades(paths: list[Path]) -> list[int]:
-    """The shade in the upper right of each picture, where no chat is."""
+    """Return the shade in the upper right of each picture, where no chat is."""
     return [int(picture[0, -1, 0]) for path in paths if (picture := cv2.imread(str(path))) is not None]
 
 
@@ -281,7 +281,7 @@ def test_after_each_command_of_two_resets_the_debug_screen_is_read_in_the_smalle
 
 
 def cleared(version: str, size: tuple[int, int], scale: int) -> int:
-    """How often the chat is cleared in a reset of five lines."""
+    """Return how often the chat is cleared in a reset of five lines."""
     client = VirtualClient(version=version, size=size, scale=scale, pitch=65.0)
     connection, count = connection_to(client), 0
     forget = client.game.chat.clear

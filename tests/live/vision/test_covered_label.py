@@ -38,7 +38,7 @@ def write(frame: Frame, text: str, left: int, top: int = TOP + 6) -> None:
 
 
 def found(frame: Frame, label: str = LABEL) -> tuple[int, bool] | None:
-    """The row of the label's middle, and whether it can be pressed."""
+    """Return the row of the label's middle, and whether it can be pressed."""
     covered = CoveredLabels(GlyphGrid(frame, SCALE, 150)).find(FONT.columns(label)[:-1])
     return (covered.middle[1], covered.is_enabled) if covered else None
 
@@ -103,7 +103,7 @@ WORDS_TOP = 1
 
 
 def picture(words: str, *, covered: int = 0, ground: int = 90, row: int = WORDS_TOP, aside: int = 0) -> Frame:
-    """The words, with their shadow, in the middle of their region; so many of their columns covered by a box."""
+    """Return the words, with their shadow, in the middle of their region; so many of their columns covered by a box."""
     region = pause_region((854, 480), SCALE)
     dots = np.full((region.height // SCALE + 20, region.width // SCALE, 3), ground, np.uint8)
     columns = np.frombuffer(FONT.columns(words), np.uint8)

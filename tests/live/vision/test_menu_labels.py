@@ -19,7 +19,7 @@ ShownButton = tuple[str, int, int, int]
 
 
 def buttons_of(screen: str, width: int, height: int) -> list[ShownButton]:
-    """Label, left, top and width of each button of a screen, in GUI pixels (FACTS: Screens and their buttons)."""
+    """Return each button's label, left, top and width, in GUI pixels (FACTS: Screens and their buttons)."""
     middle, quarter = width // 2, height // 4
     if screen == "title":
         top, last = quarter + 48, quarter + 132

@@ -122,7 +122,7 @@ def window(layout: Layout, scale: int = 2) -> Frame:
 
 
 def on_desktop(frame: Frame, left: int, top: int, right: int, below: int) -> Frame:
-    """The window with so many pixels of the desktop around it, and a title bar above it if there is room."""
+    """Return the window with so many pixels of the desktop around it, and a title bar above it if there is room."""
     desktop = np.full((HEIGHT + top + below, WIDTH + left + right, 3), DESKTOP, np.uint8)
     desktop[max(0, top - 25) : top, left : left + WIDTH] = TITLE_BAR
     desktop[top : top + HEIGHT, left : left + WIDTH] = frame

@@ -59,7 +59,7 @@ def painted(shown: F3Screen, width: int = 860, height: int = 480) -> Frame:
 
 
 def opened(shown: F3Screen) -> tuple[ScreenReader, Pictures]:
-    """A reader that has read this screen once."""
+    """Return a reader that has read this screen once."""
     pictures = Pictures(painted(shown))
     reader = ScreenReader(pictures, FONT)
     assert reader.read() == expected(shown)

@@ -29,7 +29,7 @@ SIZE, GUI_HEIGHT = (854, 480), 240
 
 
 def dots(black: float = 0, light: float = 0x93, grey: float = 0x7E) -> Frame:
-    """The bottom of a window at GUI scale 2, noise with a hotbar whose rows have these greys."""
+    """Return the bottom of a window at GUI scale 2, noise with a hotbar whose rows have these greys."""
     region = bottom_region(SIZE, 2)
     noise = np.random.default_rng(0).integers(0, 256, (21, region.width // 2, 3)).astype(np.uint8)
     for row, shade in ((0, black), (1, light), (19, grey)):
@@ -104,7 +104,7 @@ PLAIN, GOLD = (224, 224, 224), (255, 170, 0)
 
 
 def painted(text: str, colour: tuple[int, int, int] = PLAIN, columns: int = 100) -> Frame:
-    """The dots of a typed line, nine rows high, over a dark ground."""
+    """Return the dots of a typed line, nine rows high, over a dark ground."""
     frame: Frame = np.full((9, columns, 3), 40, np.uint8)
     MenuPainter(frame, 1, FONT, np.random.default_rng(0)).text(text, 0, 0, colour)
     return frame
