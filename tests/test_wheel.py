@@ -121,7 +121,7 @@ def missing(why: str) -> NoReturn:
 
 
 @pytest.mark.slow
-def test_every_file_of_the_packages_is_in_it(wheel: Path) -> None:
+def test_every_file_of_the_packages_is_in_the_wheel(wheel: Path) -> None:
     inside = set(zipfile.ZipFile(wheel).namelist())
     files = (path.relative_to(ROOT).as_posix() for package in PACKAGES for path in (ROOT / package).rglob("*.*"))
     assert [name for name in files if "__pycache__" not in name and name not in inside] == []
@@ -131,7 +131,7 @@ def test_every_file_of_the_packages_is_in_it(wheel: Path) -> None:
 
 
 @pytest.mark.slow
-def test_it_is_what_is_installed_and_reads_all_its_files(installed: Installed) -> None:
+def test_the_installed_wheel_reads_all_its_files(installed: Installed) -> None:
     where = installed.python(PLACES)
     assert all(Path(path).is_relative_to(installed.bin.parent) for path in where.split())
     assert installed.python(READS_ALL).splitlines() == [
@@ -142,7 +142,7 @@ def test_it_is_what_is_installed_and_reads_all_its_files(installed: Installed) -
 
 
 @pytest.mark.slow
-def test_it_lists_trains_and_plays(installed: Installed) -> None:
+def test_the_installed_command_lists_trains_and_plays(installed: Installed) -> None:
     assert "optimum    21" in installed.mc_nested("scenarios", "line")
     printed = json.loads(installed.mc_nested("train", "--episodes", "20", "--json", "--quiet"))
     assert printed["episodes_done"] == [20]
@@ -153,7 +153,7 @@ def test_it_lists_trains_and_plays(installed: Installed) -> None:
 
 
 @pytest.mark.slow
-def test_it_reads_a_picture(installed: Installed) -> None:
+def test_the_installed_command_reads_a_picture(installed: Installed) -> None:
     installed.python(DRAWS, "screen.png", "font.png")
     (line,) = installed.mc_nested("read", "screen.png", "--font", "font.png", "--json").splitlines()
     found = json.loads(line)
@@ -163,7 +163,7 @@ def test_it_reads_a_picture(installed: Installed) -> None:
 
 @pytest.mark.slow  # and not of the windows: it opens one and closes it, and plays nothing
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the display is Xvfb's")
-def test_it_rehearses(installed: Installed, display: dict[str, str]) -> None:
+def test_the_installed_command_rehearses(installed: Installed, display: dict[str, str]) -> None:
     from Xlib import X  # Linux alone has it
     from Xlib.display import Display
     from Xlib.protocol import event

@@ -98,7 +98,7 @@ def test_a_device_that_is_not_there_is_refused_before_anything_is_written(
     assert not out.exists()
 
 
-def test_a_folder_that_is_none_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_folder_without_a_study_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("reproduce", "--resume", tmp_path) == 2
     assert "no config.toml there" in capsys.readouterr().err
     (tmp_path / "config.toml").write_text("study = [\n", "utf-8")

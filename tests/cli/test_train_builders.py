@@ -73,7 +73,7 @@ def test_a_training_killed_before_its_first_checkpoint_begins_again(team_run: Pa
     assert files_of(begun) == files_of(team_run)
 
 
-def test_for_a_program_it_prints_its_summary_and_its_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_has_the_summary_and_the_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "run"
     assert run("train", "--episodes", "5", "--start", "7,14", "--start", "0,0", "--json", "--out", out) == 0
     said = json.loads(capsys.readouterr().out)

@@ -97,7 +97,7 @@ def test_a_game_that_never_begins_leaves_no_film_and_says_so(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_without_a_film_the_game_is_as_it_is() -> None:
+def test_without_a_film_the_game_is_left_as_it_is() -> None:
     game = GridGame(LINE)
     with filmed(game, None, LINE, None) as same:
         assert same is game

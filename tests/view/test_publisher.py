@@ -66,7 +66,7 @@ def test_a_run_is_published_at_once_and_while_it_goes_on(tmp_path: Path) -> None
     assert not is_published(tmp_path)
 
 
-def test_how_it_failed_is_published(tmp_path: Path) -> None:
+def test_how_a_run_failed_is_published(tmp_path: Path) -> None:
     def fail() -> None:
         with a_publisher(tmp_path):
             raise LiveError("the game\nis gone")

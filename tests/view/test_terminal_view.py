@@ -58,7 +58,7 @@ def child_of(process: int) -> int:
 
 
 @pytest.mark.slow
-def test_a_viewed_training_ends_as_one_that_is_not(opened: Opens, tmp_path: Path) -> None:
+def test_a_viewed_training_ends_like_one_without_a_view(opened: Opens, tmp_path: Path) -> None:
     terminal = opened(*SHORT, "--view")
     terminal.until("zigzag, nested agent, preset model-based, in the simulator")
     terminal.until("next:")
@@ -69,7 +69,7 @@ def test_a_viewed_training_ends_as_one_that_is_not(opened: Opens, tmp_path: Path
 
 
 @pytest.mark.slow
-def test_it_is_paused_and_stopped_by_keys_and_can_be_resumed(opened: Opens, tmp_path: Path) -> None:
+def test_a_viewed_training_is_paused_and_stopped_by_keys_and_can_be_resumed(opened: Opens, tmp_path: Path) -> None:
     terminal = viewed_training(opened)
     terminal.press("p")
     terminal.until("paused; press p to go on")

@@ -170,7 +170,7 @@ def back_to_game(client: VirtualClient) -> ClickPoint:
     return record_point("back_to_game", client.display.grab(), place, client.scale)
 
 
-def test_a_point_that_is_there_is_clicked(client: VirtualClient) -> None:
+def test_a_point_that_looks_like_its_picture_is_clicked(client: VirtualClient) -> None:
     assert click_on(back_to_game(client), hands_of(client), client.display)
     client.clock.sleep(0.3)
     assert (client.game.screen, client.window.down) == ("world", set())
@@ -242,7 +242,7 @@ def test_two_names_are_two_files(one: str, other: str) -> None:
     assert (picture_file(Path("p.toml"), one) == picture_file(Path("p.toml"), other)) == (one == other)
 
 
-def test_what_was_written_is_read_to_the_pixel(tmp_path: Path) -> None:
+def test_a_saved_picture_is_read_back_to_the_pixel(tmp_path: Path) -> None:
     profile, path = Profile(points={"world": (0.25, 0.5)}), tmp_path / "mine.toml"
     pictures_folder(path).mkdir()
     picture_file(path, "world").write_bytes(picture_bytes(PICTURE))
@@ -252,9 +252,7 @@ def test_what_was_written_is_read_to_the_pixel(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("content", [None, b"", b"no picture"])
-def test_a_point_whose_picture_is_missing_or_broken_is_not_there_to_click(
-    content: bytes | None, tmp_path: Path
-) -> None:
+def test_a_point_whose_picture_is_missing_or_broken_is_left_out(content: bytes | None, tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     if content is not None:
         pictures_folder(path).mkdir()

@@ -228,7 +228,7 @@ def _seconds_until_reached(places: list[float], tick_s: float = 0.05) -> float:
 
 
 @given(st.integers(1, 12))
-def test_after_a_walk_it_comes_soon_after_the_last_step(ticks: int) -> None:
+def test_standstill_is_found_soon_after_the_last_step_of_a_walk(ticks: int) -> None:
     places = _walked(ticks)
     last_step_s = places.index(places[-1]) * 0.05
     assert last_step_s + SETTLE_S <= _seconds_until_reached(places) <= last_step_s + SETTLE_S + 0.02

@@ -109,5 +109,5 @@ def test_during_a_hold_the_position_tells_how_many_ticks_felt_the_key(position: 
     assert WalkTracker(AT_REST, Hold(1, 1, 5, PUSH)).ticks_held(GroundVector(3.0, 5.0 + position)) == ticks
 
 
-def test_without_a_hold_no_tick_felt_one() -> None:
+def test_without_a_hold_no_tick_has_felt_a_key() -> None:
     assert WalkTracker(AT_REST).ticks_held(GroundVector(3.0, 5.0)) is None

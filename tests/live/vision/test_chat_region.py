@@ -40,7 +40,7 @@ from sim.client.settings import gui_scale
 from tests.sim.client.playing import FONT, tap
 
 
-def test_at_854_x_480_and_scale_2_it_is_the_lower_left_and_the_lowest_line() -> None:
+def test_at_854_x_480_and_scale_2_the_chat_is_the_lower_left_and_the_lowest_line() -> None:
     # 228 to 38 dots above the lower edge, 332 wide; all of the 38 below, where lines are typed.
     assert chat_regions((854, 480), 2) == (Region(0, 24, 664, 380), Region(0, 404, 854, 76))
 
@@ -205,7 +205,7 @@ def test_a_picture_that_the_disk_refuses_is_not_named(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("version", ["1.12.2", "26.1"])
 @pytest.mark.parametrize(("size", "scale"), [((854, 480), 2), ((1280, 721), 3)])
-def test_what_is_being_typed_can_not_be_read_on_them(
+def test_a_line_being_typed_can_not_be_read_on_the_last_frames(
     version: str, size: tuple[int, int], scale: int, tmp_path: Path
 ) -> None:
     def saved(words: str) -> Frame:
@@ -245,7 +245,7 @@ def test_where_no_debug_screen_says_the_scale_what_is_typed_can_not_be_read_eith
     assert np.array_equal(saved("meet me at the oak " * 6), saved("i will be a bit late " * 6))
 
 
-def test_what_a_long_open_chat_shows_can_not_be_read_on_them(tmp_path: Path) -> None:
+def test_a_long_open_chat_can_not_be_read_on_the_last_frames(tmp_path: Path) -> None:
     # Of 180 dots, 20 lines, from 40 above the lower edge, in 1.12 48.
     display = GreyDisplay()
     last = LastFrames(display, tmp_path, lambda: 1)

@@ -94,7 +94,7 @@ def test_a_label_that_letters_hide_almost_wholly_is_not_found() -> None:
 
 
 @pytest.mark.parametrize("shape", [(0, 0), (10, 10), (7, 900), (300, 60)])
-def test_a_frame_too_small_for_it_has_none(shape: tuple[int, int]) -> None:
+def test_a_frame_too_small_for_a_label_has_none(shape: tuple[int, int]) -> None:
     assert found(np.full((*shape, 3), 156, np.uint8)) is None
 
 
@@ -132,20 +132,20 @@ def test_words_of_other_languages_there_are_a_pause_too(words: str, ground: int)
 
 
 @pytest.mark.parametrize("row", [-7, -1, 3, 4])
-def test_a_text_in_other_rows_is_none_as_a_bosss_name_or_a_line_of_the_chat(row: int) -> None:
+def test_a_text_in_other_rows_as_a_bosss_name_or_the_chat_is_no_pause(row: int) -> None:
     assert not shows_pause(picture("Ender Dragon", row=row), SCALE, FONT)
 
 
-def test_a_text_beside_the_middle_is_none() -> None:
+def test_a_text_beside_the_middle_is_no_pause() -> None:
     assert not shows_pause(picture("Ender Dragon", aside=10), SCALE, FONT)
 
 
-def test_a_text_without_a_shadow_is_none() -> None:
+def test_a_text_without_a_shadow_is_no_pause() -> None:
     frame = picture("Game Paused")
     frame[(frame == 63).all(2)] = 90
     assert not shows_pause(frame, SCALE, FONT)
 
 
 @pytest.mark.parametrize("ground", [0, 63, 90, 255])
-def test_a_ground_without_words_is_none(ground: int) -> None:
+def test_a_ground_without_words_is_no_pause(ground: int) -> None:
     assert not shows_pause(picture(" ", ground=ground), SCALE, FONT)

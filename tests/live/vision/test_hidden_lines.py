@@ -59,13 +59,13 @@ def test_a_notice_is_seen_before_any_world(world: str) -> None:
     assert may_hide_lines(dots)
 
 
-def test_random_debug_screens_without_notices_are_none() -> None:
+def test_random_debug_screens_without_notices_show_no_notice() -> None:
     cases = (next_case for next_case, _ in zip(frames(FONT, 5), range(120), strict=False))
     for shown, frame in cases:
         if shown.layout != "standin":
             assert not may_hide_lines(GlyphGrid(frame, shown.gui_scale, 200)), dataclasses.astuple(shown)
 
 
-def test_a_plain_sky_is_none() -> None:
+def test_a_plain_sky_shows_no_notice() -> None:
     assert not may_hide_lines(GlyphGrid(np.full((480, 854, 3), 200, np.uint8), 2, 200))
     assert not may_hide_lines(GlyphGrid(np.full((20, 30, 3), 200, np.uint8), 2, 200))

@@ -170,7 +170,7 @@ def test_three_letters_with_an_unknown_one_are_no_text() -> None:
 
 @pytest.mark.parametrize("overlay", [DRAWN, STANDIN_DRAWN])
 @pytest.mark.parametrize("shade", [0, 30, 100, 240])
-def test_something_over_a_lines_last_columns_leaves_it_not_whole(overlay: Overlay, shade: int) -> None:
+def test_a_line_with_something_over_its_last_columns_is_not_whole(overlay: Overlay, shade: int) -> None:
     frame = painted("abcdef", overlay)
     assert read(frame, overlay).whole
     end = START + len(FONT.columns("abcd"))
