@@ -1,4 +1,4 @@
-"""A lock by a file, for one process at a time; the system lifts it when that process ends, even if it is killed."""
+"""A lock by a file, for one process at a time; the system releases it when that process ends, even if it is killed."""
 
 import contextlib
 import os
@@ -69,7 +69,7 @@ class Lock:
 def file_lock(path: Path) -> Iterator[Lock]:
     """Try to take the lock for the block, and yield whether this process has it; don't wait for another to give it up.
 
-    The file is removed after the block, and stays after a process was killed; whether it is there says nothing.
+    The file is removed after the block, but stays if the process is killed: its presence proves no lock.
     OSError if the file can't be made, or is on a disk that knows no locks.
     """
     file, is_mine = _opened(path)

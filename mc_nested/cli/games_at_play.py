@@ -53,7 +53,7 @@ def games_of(games: str | None, keys: Path | None, insecure: bool, options: Coll
 
 @dataclass
 class GameRecord:
-    """What is known of one game: the number of the plan that it plays, and what it said last of what playing took."""
+    """What is known of one game: the number of the plan that it plays, and what it last reported that playing took."""
 
     playing: int | None = None
     is_here: bool = True
@@ -93,7 +93,7 @@ class GamesAtPlay:
         return lines
 
     def end(self) -> None:
-        """Take what has come back by now; nobody is asked for anything any more."""
+        """Take the episodes that have come back by now, and ask the games for nothing more."""
         self._is_over = True
         for event in self._games.events(0):
             if isinstance(event, Answered):

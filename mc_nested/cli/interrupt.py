@@ -25,7 +25,7 @@ class Stopped(Exception):  # noqa: N818 - no error: it was asked for
 
 
 class Interrupt:
-    """Whether somebody asked to stop. ``says``, unless empty, is written to standard error at the first request."""
+    """A request to stop, if any. ``says``, unless empty, is written to standard error at the first request."""
 
     def __init__(self) -> None:
         self.requested = False

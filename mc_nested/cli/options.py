@@ -1,4 +1,4 @@
-"""Options that several verbs share: what is built, where it is played, with which profile, whether it is recorded."""
+"""Options that several verbs share: the design, where it is built, the profile, and whether a recording is kept."""
 
 from collections.abc import Sequence
 from functools import partial

@@ -102,7 +102,7 @@ class Output:
 def print_line(console: Console, line: str) -> None:
     """Print a line of progress where there is no terminal, whole.
 
-    Where nobody reads any more, as behind a pipe after Ctrl+C, the work goes on, and is saved.
+    If the reader is gone, as behind a pipe after Ctrl+C, the work goes on, and is saved.
     """
     if console.quiet:
         return

@@ -33,7 +33,7 @@ class OwnPlayer:
     def play_on(self) -> list[str]:
         """Play one tick. A mishap in a running game costs its episode, and is counted.
 
-        Not counted is that a person who pauses, or did so shortly before, is in another window.
+        A person in another window who pauses, or did so shortly before, is not counted as a mishap.
         """
         try:
             self.training.tick()

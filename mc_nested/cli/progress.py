@@ -39,7 +39,7 @@ LINES_BESIDE = 8
 
 
 class _BarAndMap(Progress):
-    """A progress bar with figures and a map below it; rich asks several times a second, while a tick lasts, too."""
+    """A progress bar with figures and a map below it. Rich draws it several times a second, even while a tick lasts."""
 
     figures: str = ""
     map: RenderableType | None = None

@@ -1,4 +1,4 @@
-"""A training as the command line runs it: begun or resumed, played until it is over, drawn and told."""
+"""A training as the command line runs it: begun or resumed, played until it is over, then drawn and printed."""
 
 import time
 from collections.abc import Iterator
@@ -38,7 +38,7 @@ class HowToRun:
 
 
 def run_training(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Path | None = None) -> None:
-    """Train until the run is finished or somebody stops it; saved on the way and at the end."""
+    """Train until the run is finished or somebody stops it; save it on the way and at the end."""
     config, output, path = folder.config, how.output, folder.path
     earlier = earlier_run(begin_from, folder) if begin_from else None
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)

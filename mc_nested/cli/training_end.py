@@ -1,4 +1,4 @@
-"""What a training leaves at its end: its pictures, its scores and files in words, and what to do next."""
+"""The end of a training: its pictures, and lines about its scores, its files and what to do next."""
 
 import shlex
 import subprocess

@@ -1,4 +1,4 @@
-"""The loop of every training here: play on, show it, save it now and then, until it is done or somebody stops it."""
+"""The loop of every training: play on, show it, and save it now and then, until it is finished or stopped."""
 
 import time
 from dataclasses import dataclass
@@ -36,7 +36,7 @@ class Player(Protocol):
         """
 
     def end(self) -> None:
-        """Take what is still under way; nothing is played any more."""
+        """Take what is still under way, and play nothing more."""
 
     def in_words(self) -> str:
         """Return who plays, where there are several; otherwise an empty text."""

@@ -33,7 +33,7 @@ class Arenas(Protocol):
 
 
 class TrainingView:
-    """Sets down how a training is, no more often than a view shows it.
+    """Writes the state of a training to its board, no more often than a view shows it.
 
     Args:
         board: takes it.

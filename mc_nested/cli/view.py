@@ -1,4 +1,4 @@
-"""``mc-nested view``, and --view: a run that is published while it goes on, and shown in a terminal.
+"""``mc-nested view``, and --view: publish a run while it goes on, and show it in a terminal.
 
 A finished run is shown the same way. Where there is no terminal to draw in, what it does is printed as lines.
 """

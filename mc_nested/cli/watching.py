@@ -54,7 +54,7 @@ def arena_seen(env: ArenaEnv) -> ArenaSeen:
 def watched(env: ArenaEnv, title: str, viewing: Viewed, *, quiet: bool = False) -> Iterator[Callable[[], None]]:
     """Yield a function that shows the arena as it is now, in the place of what it showed before, while the block runs.
 
-    It publishes the arena, too, and returns once nobody wants a pause any more. A view leaves no room for anything else
+    It publishes the arena, too, and returns once no pause is wanted. A view leaves no room for anything else
     here; in it, simulated steps are slowed down, so that they can be followed.
     """
     quiet = quiet or viewing.is_shown

@@ -1,4 +1,4 @@
-"""What playing live took, for a training's summary, and how many failed episodes a training accepts.
+"""Count what playing live took, for a training's summary, and limit the failed episodes that a training accepts.
 
 Failed episodes are thrown away and counted, up to a limit.
 """
@@ -12,7 +12,7 @@ from mc_nested.errors import LiveError, StoppedError
 
 @dataclass
 class Effort:
-    """Counts so far: moves and the corrections after them, clicks and those that had to be repeated."""
+    """Counts so far: moves and their corrections, clicks and repeated clicks."""
 
     moves: int = 0
     corrections: int = 0
@@ -31,7 +31,7 @@ class ActionLog:
     recoveries: int = 0
 
     def summary(self) -> dict[str, Any]:
-        """Return everything as plain numbers; the seconds as percentiles, None before the first action."""
+        """Return all counts as plain numbers; the seconds as percentiles, None before the first action."""
         return {
             "actions": len(self.seconds),
             "action_s": {f"p{share}": percentile(self.seconds, share) for share in (50, 95, 99)},

@@ -194,7 +194,7 @@ class LiveGame:
         return outcome
 
     def _with_evidence(self, error: LiveError) -> LiveError:
-        """Return the same error, which also says where the last frames were saved, if there are any."""
+        """Return the error with a note of where the last frames were saved, if there are any."""
         files = self._last_frames.save()
         return type(error)(f"{error}; what was seen last: {files[-1]}") if files else error
 

@@ -37,7 +37,7 @@ class Panel(Widget):
         self._text = Text()
 
     def show(self, shown: StatusShown) -> None:
-        """Show a status, if it differs from what is there."""
+        """Show a status, if it differs from the one shown."""
         self._shown = shown
         text = self._draw(shown, self.size.width, self.size.height)
         if text != self._text or text.spans != self._text.spans:
@@ -70,7 +70,7 @@ CLOSES_AFTER_S = 0.5
 
 
 class _Layout(NamedTuple):
-    """What the places of the parts depend on; a new one costs as much as twenty drawings."""
+    """What the places of the parts depend on; laying out anew costs as much as drawing twenty times."""
 
     is_narrow: bool
     status_lines: int

@@ -1,4 +1,4 @@
-"""Board: what a run does now, in plain words, set down by the thread that plays and read by one that publishes."""
+"""Board: what a run does now, in plain words. The thread that plays writes it, another one publishes it."""
 
 import threading
 import time
@@ -19,7 +19,7 @@ DETAIL: tuple[NoteKind, ...] = ("plans", "clicks", "types")
 
 @dataclass(frozen=True)
 class Doing:
-    """What a run does from a note on, and how it goes."""
+    """What a run does from a note on, and in which mood (``Mood``)."""
 
     text: str
     mood: Mood = "works"

@@ -1,6 +1,6 @@
 """The parts of the view, each from a status to text: title, status line, arena, side, and where in time it is.
 
-Beside the arena are how far the training is, its curve, the reading, the last actions, and what the run said. Where
+Beside the arena are the training's progress, its curve, the reading, the last actions and what the run said. Where
 there is no terminal to draw in, the view is lines of text.
 """
 
@@ -104,7 +104,7 @@ def _cell(cell: tuple[int, int]) -> str:
 
 
 def _said(lines: tuple[str, ...], width: int) -> list[Text]:
-    """Return the last lines, whole: an instruction that is cut off helps nobody."""
+    """Return the last lines, whole: an instruction must not be cut off."""
     if not lines:
         return []
     whole = [Text(part) for line in lines[-3:] for part in wrapped(line, width)]

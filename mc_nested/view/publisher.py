@@ -31,7 +31,7 @@ BACK_WITHIN_S = 60.0
 class Publisher:
     """Publishes a board in a run's folder while the block runs, as a context manager.
 
-    A folder that can't be written costs the view, never the run. What is asked is heard at every publishing.
+    If the folder can't be written, the view is lost, never the run. Requests are read at every publishing.
 
     Args:
         board: what is published.

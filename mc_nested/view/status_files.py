@@ -1,4 +1,4 @@
-"""A run's status as files: now.json is its status now, history.jsonl how it came to be, coarser the longer it lasts.
+"""A run's status as files: now.json is its status now, history.jsonl its earlier ones, coarser the longer it lasts.
 
 They lie in the folder ``view`` of a run. A reader sees either the old status or the new one, never a half. A scrubber
 is at one moment of the history.

@@ -35,7 +35,7 @@ def wait_for_front(devices: Devices) -> None:
 def wait_until_standing_still(connection: GameConnection, say: Callable[[str], None] = lambda _: None) -> Reading:
     """Return the first reading that is the same twice in a row while the game is in front.
 
-    Where the debug screen can't be read for SAID_AFTER_S there, ``say`` is told why.
+    If the debug screen can't be read for SAID_AFTER_S meanwhile, ``say`` is told why.
 
     Raises:
         NotInFrontError: the game was not in front when time ran out.

@@ -196,7 +196,7 @@ class PoseObserver:
         return pose
 
     def look_and_check(self) -> PoseEstimate:
-        """Return the same, and the view and the height are the frame's."""
+        """Look as ``look`` does, and check that the view and the height are the frame's."""
         return check_pose(self.look())
 
     def watch(self, is_done: Callable[[PoseEstimate], bool], seconds: float) -> PoseEstimate:

@@ -139,7 +139,7 @@ def _replace(path: Path, text: str) -> None:
 
 
 def _merge(table: tomlkit.TOMLDocument | Table, values: dict[str, Any], kind: type[BaseModel] | None) -> None:
-    """Make a TOML table hold ``values``, without those that are None; what is equal already isn't touched."""
+    """Write ``values`` into a TOML table, without those that are None; leave equal ones untouched."""
     for key in [key for key in table if values.get(key) is None]:
         table.remove(key)
     for key, value in values.items():

@@ -83,7 +83,7 @@ def cut(
 
 
 def trim(path: Path, seconds: float) -> None:
-    """Keep a recording's last seconds alone; where that can't be done, raise RecordingError and leave it as it was."""
+    """Keep only a recording's last seconds; if that can't be done, raise RecordingError and leave it as it was."""
     parts = parts_of(path)
     ends = [each.at for each in read_recording(path) if isinstance(each, TimedCall)]
     if not ends:

@@ -1,4 +1,4 @@
-"""The devices and the screen of a window, each call of which is set down on a tape, with the pixels of what was read.
+"""The devices and the screen of a window that add each call to a tape, with the pixels of what was read.
 
 What a clipboard holds is not.
 """

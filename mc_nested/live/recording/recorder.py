@@ -26,7 +26,7 @@ Stop = Callable[[str], None]
 
 
 class Recording(Protocol):
-    """Is put between a run and its window. It is a journal, too."""
+    """Sits between a run and its window, and records what passes. It is a journal, too."""
 
     def devices(self, devices: Devices) -> Devices:
         """Return the same devices, recorded."""
@@ -42,7 +42,7 @@ class Recording(Protocol):
 
 
 class NoRecording:
-    """Puts nothing between them."""
+    """Sits between a run and its window, and records nothing."""
 
     def devices(self, devices: Devices) -> Devices:
         return devices

@@ -66,7 +66,7 @@ def parts_of(path: Path) -> list[Path]:
 
 
 def facts_of(path: Path) -> Mapping[str, str]:
-    """Return what a recording says it is of. Raise RecordingError if it is none of ours, or of another format."""
+    """Return the facts that a recording states. Raise RecordingError if it is foreign, or of another format."""
     for part in parts_of(path):
         for record in _records(part):
             if isinstance(record, Metadata) and record.name == FACTS:

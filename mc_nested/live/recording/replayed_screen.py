@@ -129,7 +129,7 @@ class _Canvas:
 
 
 class ReplayedScreen:
-    """A screen that answers as it did, whatever is read now: so the run can be followed on.
+    """A screen that answers as it was recorded, whatever is read now: so the replay can go on.
 
     Args:
         tape: the calls.

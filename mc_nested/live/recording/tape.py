@@ -1,4 +1,4 @@
-"""Tape: what crossed the devices of a run, call after call, with what each returned.
+"""Tape: every call to the devices of a run, in order, with what it returned.
 
 A call is a list of plain values: its name, what it was asked, what it answered. Calls of the thread that plays are in
 their order, and nothing else decides what it does next; so the same calls, answered alike, are the same run.

@@ -91,7 +91,7 @@ def find_debug_screen(frame: Frame, font: Font, overlay: Overlay | None = None) 
 
 
 def _is_alone(dots: GlyphGrid, font: Font, label: str) -> bool:
-    """Return whether no other line that is known stands on the screen."""
+    """Return whether no other known line stands on the screen."""
     return not any(positions_of(dots, font, other) for other in _KNOWN if other != label)
 
 

@@ -22,7 +22,7 @@ class Unreadable(Exception):  # noqa: N818 - no error: it carries the reason why
 
 
 class DebugLines(Protocol):
-    """The lines of one screen. What is read of them depends on nothing else."""
+    """The lines of one debug screen: a reading depends on them alone."""
 
     @property
     def layout(self) -> ScreenLayout:
@@ -159,7 +159,7 @@ def _right_end(dots: GlyphGrid, layout: ScreenLayout) -> int | None:
 def only_line(lines: DebugLines, label: str) -> Line | None:
     """Return the one line that begins with ``label``, or None.
 
-    Two of them are unreadable: one may be somebody's chat.
+    Raise Unreadable for two of them: one may be somebody's chat.
     """
     found = lines.starting(label)
     if len(found) > 1:
