@@ -70,7 +70,7 @@ def file_lock(path: Path) -> Iterator[Lock]:
     """Try to take the lock for the block, and yield whether this process has it; don't wait for another to give it up.
 
     The file is removed after the block, but stays if the process is killed: its presence proves no lock.
-    OSError if the file can't be made, or is on a disk that knows no locks.
+    Raise OSError if the file can't be made, or is on a disk that knows no locks.
     """
     file, is_mine = _opened(path)
     try:

@@ -158,7 +158,7 @@ def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
 class _Screenshots:
     """Pictures of the game's window alone, numbered in the order they are taken.
 
-    Those of an earlier episode are removed. RunError if one can't be written.
+    Those of an earlier episode are removed. Raises RunError if one can't be written.
     """
 
     def __init__(self, folder: Path, display: Display) -> None:

@@ -111,7 +111,7 @@ class Win32KeySender:
         _send((key, place.scan & 0xFF, flags if key else flags | _SCANCODE))
 
     def layout(self) -> Layout:
-        """Return the layout by the virtual keys of the window in front."""
+        """Return what LWJGL 2 takes each key for, by the virtual keys of the layout in front."""
         layout = _layout_in_front()
         keys = {name: _user32.MapVirtualKeyExW(PLACES[name].scan, _TO_VIRTUAL_KEY, layout) for name in CHARACTERS}
         return {name: (_LWJGL_2.get(key, ""),) * 2 for name, key in keys.items()}

@@ -47,7 +47,7 @@ def game_window(title: str, windows: Sequence[TitledWindow]) -> int:
     """Return the index of the one window in whose title the regular expression ``title`` is found.
 
     A browser's and a launcher's windows are none of the game's, unless the title is one of the player's own choice.
-    NoWindowError where there is none, SeveralWindowsError where there are several.
+    Raise NoWindowError where there is none, SeveralWindowsError where there are several.
     """
     found = [index for index, each in enumerate(windows) if re.search(title, each.title)]
     if title == GAME_TITLE:

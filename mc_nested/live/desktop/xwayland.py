@@ -64,7 +64,7 @@ def no_x_server_error() -> DesktopError:
 
 
 def no_x11_window_error(error: NoWindowError) -> NoWindowError:
-    """Return ``error``, or a hint where the missing window may be a Wayland one, which no X server knows."""
+    """Return ``error`` with a hint that the missing window may be a Wayland one, which no X server knows."""
     return NoWindowError(
         f"{error}; a game that uses Wayland itself isn't seen: start its launcher with {_AS_X11} before the command"
     )

@@ -175,7 +175,7 @@ class ScreenReader:
         return reading if reading.target else None
 
     def _read_none_again(self, frame: Frame, stood: _Stood, sign: bytes) -> Reading | None:
-        """Return the last reading if surely still no block is looked at; None where that isn't sure."""
+        """Read the lines again, still without a block looked at; return None where that isn't sure."""
         if reading := self._read_before(frame):
             return reading
         if frame.shape[:2] != (stood.region.height, stood.region.width) or not shows_no_block(
