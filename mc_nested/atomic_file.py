@@ -12,9 +12,9 @@ SUFFIX = ".unfinished"
 
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
-    """A temporary path to write to; when the block ends, its file replaces ``path``, after an error it is removed.
+    """Yield a temporary path to write to; its file replaces ``path`` when the block ends, or is removed after an error.
 
-    OSError if the disk refuses.
+    Raise OSError if the disk refuses.
     """
     unfinished = path.with_name(f"{path.name}.{secrets.token_hex(4)}{SUFFIX}")
     try:
@@ -29,7 +29,7 @@ def atomic_write(path: Path) -> Iterator[Path]:
 
 
 def is_leftover(path: Path) -> bool:
-    """Whether the file was being written when a process was killed; only for files that nobody writes now."""
+    """Return whether the file was being written when a process was killed; only for files that nobody writes now."""
     return path.name.endswith(SUFFIX)
 
 

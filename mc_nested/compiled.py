@@ -1,4 +1,4 @@
-"""The compiler of everything that is compiled here: Numba's, with a cache that notices a change in any file it needs.
+"""Compile functions with Numba, and keep them on disk in a cache that notices a change in any file they need.
 
 Numba keeps compiled functions on disk and looks at the file of each function, to see whether it has changed. Functions
 of other files, and their constants, are compiled into it, too: with Numba's own cache, an update of one file would go
@@ -47,7 +47,7 @@ def compiled(*, fused: bool = False, nogil: bool = False) -> Callable[[Function]
 
 @cache
 def fingerprint_of(source: Path, root: Path = ROOT, package: str = PACKAGE) -> str:
-    """A hash of the file and of every file of the package below ``root`` that it imports, directly or not."""
+    """Return a hash of the file and of every file of the package below ``root`` that it imports, directly or not."""
     found, new = {source}, [source]
     while new:
         imported = _imported_by(new.pop(), root, package)
@@ -60,7 +60,7 @@ def fingerprint_of(source: Path, root: Path = ROOT, package: str = PACKAGE) -> s
 
 
 def _imported_by(source: Path, root: Path, package: str) -> set[Path]:
-    """The files of the package below ``root`` that the file imports by their full names."""
+    """Return the files of the package below ``root`` that the file imports by their full names."""
     modules: set[str] = set()
     for node in ast.walk(ast.parse(source.read_bytes())):
         if isinstance(node, ast.Import):
@@ -72,7 +72,7 @@ def _imported_by(source: Path, root: Path, package: str) -> set[Path]:
 
 
 class _Locator:
-    """Where Numba's own locator keeps a function, as long as no file has changed that it needs."""
+    """A locator that keeps a function where Numba's own does, as long as no file that it needs has changed."""
 
     def __init__(self, numbas_own: Any, source: Path) -> None:
         self._numbas_own = numbas_own
@@ -99,7 +99,10 @@ class _Cache(FunctionCache):
     _impl_class = _CacheFiles
 
     def load_overload(self, signature: Any, target_context: Any) -> Any:
-        """Load what was compiled for that signature, if it is still there; forget all where a kept class is gone."""
+        """Load what was compiled for that signature, if it is there.
+
+        Forget all of it where a class that it needs is gone.
+        """
         try:
             return super().load_overload(signature, target_context)  # type: ignore[no-untyped-call]  # Numba's
         except (ModuleNotFoundError, AttributeError):  # its file was renamed since

@@ -90,7 +90,7 @@ def made_vector_env(
     backend: str = SIM,
     **live: Any,
 ) -> VectorEnv[Int64s, Int64s, Any]:
-    """What ``gymnasium.make_vec`` makes: arenas in NumPy arrays, or one live game.
+    """Make what ``gymnasium.make_vec`` returns: arenas in NumPy arrays, or one live game.
 
     ``reset(options={"material": name})`` chooses for all, a list of indices for each. ``info`` holds the score alone.
     With parts, actions are (num_envs, 2), each beside a material, and ``info`` holds ``earned`` and ``chooses``, too.

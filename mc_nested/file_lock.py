@@ -1,4 +1,4 @@
-"""A lock by a file, for one process at a time; the system lifts it when that process ends, even if it is killed."""
+"""A lock by a file, for one process at a time; the system releases it when that process ends, even if it is killed."""
 
 import contextlib
 import os
@@ -28,7 +28,10 @@ if sys.platform == "win32":
         msvcrt.locking(file, msvcrt.LK_UNLCK, 1)
 
     def _open(path: Path) -> int:
-        """Open or make it. While another process removes it, Windows refuses that, as if it were not permitted."""
+        """Open or make the file.
+
+        While another process removes it, Windows refuses that, as if it were not permitted.
+        """
         until = time.monotonic() + _BEING_REMOVED_S
         while True:
             try:
@@ -56,7 +59,7 @@ _LONGEST_ID = 20
 
 @dataclass(frozen=True)
 class Lock:
-    """Whether it is this process's, and the id of the process that has it; None where the file doesn't say."""
+    """A lock: whether it is this process's, and the id of the process that has it; None where the file doesn't say."""
 
     is_mine: bool
     holder: int | None
@@ -64,10 +67,10 @@ class Lock:
 
 @contextmanager
 def file_lock(path: Path) -> Iterator[Lock]:
-    """Take the lock for the block, and say whether it is this process's: it doesn't wait for another to give it up.
+    """Try to take the lock for the block, and yield whether this process has it; don't wait for another to give it up.
 
-    The file is removed after the block, and stays after a process was killed; whether it is there says nothing.
-    OSError if the file can't be made, or is on a disk that knows no locks.
+    The file is removed after the block, but stays if the process is killed: its presence proves no lock.
+    Raise OSError if the file can't be made, or is on a disk that knows no locks.
     """
     file, is_mine = _opened(path)
     try:
@@ -90,7 +93,7 @@ def file_lock(path: Path) -> Iterator[Lock]:
 
 
 def _opened(path: Path) -> tuple[int, bool]:
-    """The open file, and whether it is locked by this process."""
+    """Open the file, and return it with whether this process has locked it."""
     while True:
         file = _open(path)
         try:

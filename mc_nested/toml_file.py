@@ -21,7 +21,7 @@ _SHOWN = 60
 
 
 def read_toml_text(path: Path, error: type[UserError]) -> str:
-    """The text of a TOML file; ``error``, one line, if it can't be read."""
+    """Return the text of a TOML file; raise ``error``, one line, if it can't be read."""
     try:
         return path.read_text("utf-8-sig")
     except (OSError, UnicodeDecodeError) as cause:
@@ -32,9 +32,9 @@ def read_toml_text(path: Path, error: type[UserError]) -> str:
 def read_shipped_or_named(
     name_or_file: str | Path, what: str, folder: str, shipped: Sequence[str], error: type[UserError]
 ) -> str:
-    """The text of a shipped TOML file, by its name in a package's folder, or of any TOML file, by its path.
+    """Return the text of a shipped TOML file, by its name in a package's folder, or of any TOML file, by its path.
 
-    ``error``, one line that says ``what`` was looked for and what there is, if there is none or it can't be read.
+    Raise ``error``, one line that says ``what`` was looked for and what there is, if there is none or it can't be read.
     """
     name = str(name_or_file)
     if name in shipped:
@@ -47,7 +47,7 @@ def read_shipped_or_named(
 
 
 def parse_document(text: str, source: str, error: type[UserError]) -> tomlkit.TOMLDocument:
-    """A TOML text with its comments; ``error``, one line that names ``source``, if it isn't TOML."""
+    """Return a TOML text with its comments; raise ``error``, one line that names ``source``, if it isn't TOML."""
     try:
         return tomlkit.parse(text)
     except TOMLKitError as cause:
@@ -55,14 +55,17 @@ def parse_document(text: str, source: str, error: type[UserError]) -> tomlkit.TO
 
 
 def _broken_toml(text: str, cause: TOMLKitError) -> str:
-    """What is wrong with a text that isn't TOML, and what to do. A NUL stands for the end of the text."""
+    """Return what is wrong with a text that isn't TOML, and what to do. A NUL stands for the end of the text."""
     if "\\x00" in str(cause) and "\0" not in text:
         return f"not TOML, it ends in the middle of line {len(text.splitlines())}: write the rest of it"
     return f"not TOML ({cause}): mend that line"
 
 
 def parse_toml(model: type[Model], text: str, source: str, error: type[UserError]) -> Model:
-    """The model that a TOML text describes; ``error``, one line that names ``source`` and the key, if it doesn't."""
+    """Return the model that a TOML text describes.
+
+    Raise ``error``, one line with ``source`` and the key, if it doesn't fit.
+    """
     tables = parse_document(text, source, error).unwrap()
     try:
         # Through JSON, since TOML's arrays are lists, and strict tuples accept lists only from JSON.
@@ -75,7 +78,10 @@ def parse_toml(model: type[Model], text: str, source: str, error: type[UserError
 
 
 def table_of_key(model: type[BaseModel], key: str) -> type[BaseModel] | None:
-    """The model of the table, or of the tables, under a key; None if it holds something else, or is unknown."""
+    """Return the model of the table, or of the tables, under a key.
+
+    Return None if the key holds something else, or is unknown.
+    """
     field = model.model_fields.get(key)
     kinds = (field.annotation, *get_args(field.annotation)) if field else ()
     return next((each for each in kinds if isinstance(each, type) and issubclass(each, BaseModel)), None)

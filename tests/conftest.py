@@ -36,7 +36,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 
 @pytest.fixture(autouse=True)
 def handlers() -> Iterator[None]:
-    """A test that leaves other handlers of signals behind is named, since a later one would fail for it."""
+    """Fail a test that leaves other handlers of signals behind, since a later one would fail for it."""
     before = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
     yield
     after = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
@@ -44,13 +44,13 @@ def handlers() -> Iterator[None]:
 
 
 def pytest_report_header() -> str:
-    """Whether pictures of the real game are read, and why not."""
+    """Say whether pictures of the real game are read, and why not."""
     folder = os.environ.get(VARIABLE)
     return f"real pictures: {folder}" if folder else f"real pictures: none are read, {VARIABLE} names no folder"
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Every test has a limit; those that need the stand-in come last: once up, it takes more than a core to itself."""
+    """Give every test its limit, and put those that need the stand-in last: once up, it takes more than a core."""
     if config.pluginmanager.hasplugin("timeout"):
         for item in items:
             bound(item)
@@ -59,7 +59,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 @pytest.hookimpl(optionalhook=True)  # under Wine there is no xdist
 def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object:
-    """With ``--dist loadgroup``, tests that share what is opened once are run by one process."""
+    """Let one process run the tests that share what is opened once, with ``--dist loadgroup``."""
     from tests.together import scheduler
 
     return scheduler(config, log)

@@ -14,7 +14,7 @@ LEFTOVERS = pytest.mark.filterwarnings(
 
 @pytest.fixture(autouse=True, scope="module")
 def leftovers() -> Iterator[None]:
-    """They are collected before the next module; after each test, it would cost more than most of the tests."""
+    """Collect leftovers before the next module; after each test it would cost more than most of the tests."""
     yield
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")

@@ -12,7 +12,7 @@ Found = TypeVar("Found")
 
 
 def found_or_skipped(find: Callable[[], Found]) -> Found:
-    """What was found."""
+    """Return what was found."""
     try:
         return find()
     except MissingError as error:

@@ -11,7 +11,9 @@ from scripts.programs import alone
 
 
 def made_once(name: str, make: Callable[[Path], None], factory: pytest.TempPathFactory) -> Path:
-    """The folder of that name, which ``make`` has filled; who asks meanwhile waits. Nobody changes what is in it.
+    """Return the folder of that name, which ``make`` fills once; other processes wait meanwhile.
+
+    Never change its files.
 
     Linux only, for its lock. Where ``make`` fails, the next that asks tries anew.
     """

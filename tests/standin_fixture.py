@@ -36,29 +36,29 @@ class Standin:
         return {**os.environ, "DISPLAY": self.display}
 
     def position(self) -> tuple[float, float, float]:
-        """Where the server has the player."""
+        """Return where the server has the player."""
         x, y, z = standin_game.ask(self.oracle, "/player")["position"]
         return x, y, z
 
     def held(self) -> str | None:
-        """The item that the server has in the player's hand; None for an empty one."""
+        """Return the item that the server has in the player's hand; None for an empty one."""
         held = standin_game.ask(self.oracle, "/player")["held"]
         return str(held["name"]) if held else None
 
     def blocks(self, low: Block, high: Block) -> dict[Block, str]:
-        """The blocks, not air, that the server has between two corners, both inside, by position."""
+        """Return the blocks, not air, that the server has between two corners, both inside, by position."""
         return standin_game.blocks(self.oracle, low, high)
 
     def is_playing(self) -> bool:
-        """Whether the page shows the world, and neither a menu nor an error instead of it."""
+        """Return whether the page shows the world, and neither a menu nor an error instead of it."""
         return bool(standin_game.ask(self.oracle, "/screen")["playing"])
 
     def is_chatting(self) -> bool:
-        """Whether the page has its chat line open."""
+        """Return whether the page has its chat line open."""
         return bool(standin_game.ask(self.oracle, "/screen")["chat"])
 
     def errors(self) -> list[str]:
-        """The errors of the page since it was opened."""
+        """Return the errors of the page since it was opened."""
         return [str(error) for error in standin_game.ask(self.oracle, "/errors")]
 
 
@@ -77,7 +77,7 @@ def _run(command: str) -> subprocess.CompletedProcess[str]:
 
 @pytest.fixture(scope="session")
 def standin() -> Iterator[Standin]:
-    """The stand-in, up for the session; one that was up before stays up.
+    """Return the stand-in, up for the session; one that was up before stays up.
 
     A machine that lacks what it needs skips the test and says how to get it; with CI set, that is a failure.
     """

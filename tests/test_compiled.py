@@ -52,13 +52,13 @@ print(engine.online.astype(np.float64).sum())
 
 @pytest.fixture
 def copy(tmp_path: Path) -> Path:
-    """A copy of the package, whose files a test may change."""
+    """Return a copy of the package, whose files a test may change."""
     shutil.copytree(ROOT / "mc_nested", tmp_path / "mc_nested", ignore=shutil.ignore_patterns("__pycache__"))
     return tmp_path / "mc_nested"
 
 
 def run(copy: Path, code: str, cache: str = "cache") -> str:
-    """What the code prints in a new process with that copy of the package."""
+    """Return what the code prints in a new process with that copy of the package."""
     script = copy.parent / "script.py"
     script.write_text(code)
     variables = {**os.environ, "PYTHONPATH": str(copy.parent), "NUMBA_CACHE_DIR": str(copy.parent / cache)}

@@ -22,7 +22,7 @@ from tests.standin_fixture import Block, Standin
 
 
 def completed(*arguments: str | Path, env: Mapping[str, str] = os.environ) -> subprocess.CompletedProcess[str]:
-    """The command, after it has ended; the test fails with what it says where it doesn't succeed."""
+    """Run the command to its end, and return it; the test fails with what it says where it doesn't succeed."""
     words = [str(argument) for argument in arguments]
     command = [sys.executable, "-m", "mc_nested.cli", *words]
     done = subprocess.run(command, env=env, capture_output=True, text=True, check=False)
@@ -31,17 +31,17 @@ def completed(*arguments: str | Path, env: Mapping[str, str] = os.environ) -> su
 
 
 def mc_nested(*arguments: str | Path, env: Mapping[str, str] = os.environ) -> str:
-    """What the command prints, as ``completed``."""
+    """Return what the command prints, as ``completed``."""
     return completed(*arguments, env=env).stdout
 
 
 def standing(standin: Standin, arena: Arena) -> dict[Block, str]:
-    """The blocks that the server has in the region that a reset clears."""
+    """Return the blocks that the server has in the region that a reset clears."""
     return standin.blocks(*arena.region)
 
 
 def built(arena: Arena, scenario: Scenario, material: str) -> dict[Block, str]:
-    """The blocks of the whole design in that material."""
+    """Return the blocks of the whole design in that material."""
     block = scenario.materials[scenario.material_index(material)].block
     return {arena.block_of(cell): block for cell in scenario.design}
 

@@ -25,7 +25,7 @@ with file_lock(Path(sys.argv[1])) as lock:
 
 @contextmanager
 def held_elsewhere(path: Path) -> Iterator["subprocess.Popen[str]"]:
-    """Another process, which has the lock until its input ends."""
+    """Yield another process, which has the lock until its input ends."""
     command = [sys.executable, "-c", HOLD, str(path)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
@@ -33,7 +33,7 @@ def held_elsewhere(path: Path) -> Iterator["subprocess.Popen[str]"]:
         yield process
 
 
-def test_one_at_a_time_has_it_and_then_it_is_free(tmp_path: Path) -> None:
+def test_one_process_at_a_time_has_the_lock_and_then_it_is_free(tmp_path: Path) -> None:
     path = tmp_path / "one.lock"
     with file_lock(path) as first:
         assert first == Lock(True, os.getpid())
@@ -44,20 +44,20 @@ def test_one_at_a_time_has_it_and_then_it_is_free(tmp_path: Path) -> None:
         assert again.is_mine
 
 
-def test_locks_of_other_names_are_others(tmp_path: Path) -> None:
+def test_locks_of_different_names_are_independent(tmp_path: Path) -> None:
     with file_lock(tmp_path / "one.lock") as one, file_lock(tmp_path / "other.lock") as other:
         assert one.is_mine
         assert other.is_mine
 
 
-def test_a_process_that_has_it_is_named_by_its_id(tmp_path: Path) -> None:
+def test_the_process_that_has_the_lock_is_named_by_its_id(tmp_path: Path) -> None:
     path = tmp_path / "one.lock"
     path.write_text("4000000000, or whatever was there before")
     with held_elsewhere(path) as process, file_lock(path) as lock:
         assert lock == Lock(False, process.pid)
 
 
-def test_a_killed_process_holds_it_no_longer(tmp_path: Path) -> None:
+def test_a_killed_process_no_longer_holds_the_lock(tmp_path: Path) -> None:
     path = tmp_path / "one.lock"
     with held_elsewhere(path) as process:
         process.kill()
@@ -66,7 +66,7 @@ def test_a_killed_process_holds_it_no_longer(tmp_path: Path) -> None:
             assert lock.is_mine
 
 
-def test_its_file_is_gone_after_the_block_and_after_an_error(tmp_path: Path) -> None:
+def test_the_lock_file_is_removed_after_the_block_and_after_an_error(tmp_path: Path) -> None:
     path = tmp_path / "one.lock"
     with file_lock(path):
         assert path.exists()
@@ -76,7 +76,7 @@ def test_its_file_is_gone_after_the_block_and_after_an_error(tmp_path: Path) -> 
     assert not path.exists()
 
 
-def test_who_is_refused_leaves_the_file_to_who_has_it(tmp_path: Path) -> None:
+def test_a_refused_process_leaves_the_lock_file_alone(tmp_path: Path) -> None:
     path = tmp_path / "one.lock"
     with file_lock(path):
         with file_lock(path):
@@ -85,7 +85,7 @@ def test_who_is_refused_leaves_the_file_to_who_has_it(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(sys.platform != "win32", reason="only Windows refuses to open a file that is being removed")
-def test_it_waits_while_another_process_removes_the_file(tmp_path: Path) -> None:
+def test_opening_waits_while_another_process_removes_the_lock_file(tmp_path: Path) -> None:
     path = tmp_path / "one.lock"
     path.touch()
     kernel = ctypes.WinDLL("kernel32")  # type: ignore[attr-defined,unused-ignore]  # there is none elsewhere
@@ -105,7 +105,7 @@ def test_a_file_that_may_not_be_opened_is_an_error(tmp_path: Path) -> None:
         pass
 
 
-def test_many_at_once_never_have_it_together(tmp_path: Path) -> None:
+def test_no_two_of_many_processes_have_the_lock_together(tmp_path: Path) -> None:
     path, inside, most, taken = tmp_path / "one.lock", [0], [0], [0]
 
     def take_often() -> None:

@@ -54,12 +54,12 @@ class Window:
     url: str
 
     def keys_down(self) -> list[str]:
-        """What is held down, as the window's client has it."""
+        """Return what is held down, as the window's client has it."""
         down: list[str] = self.rehearsal.truth.now()["keys_down"]
         return down
 
     def is_walking(self) -> bool:
-        """Whether the agent takes a step: an episode has begun, and its reset is over."""
+        """Return whether the agent takes a step: an episode has begun, and its reset is over."""
         now = self.rehearsal.truth.now()
         keys = set(now["keys_down"])
         # With F3 the key D clears the chat, in a reset.
@@ -73,7 +73,7 @@ class Window:
 
     @contextmanager
     def behind_another(self) -> Iterator[None]:
-        """Another window has the focus."""
+        """Give another window the focus, while the block runs."""
         game = self.display.get_input_focus().focus
         other = self.display.screen().root.create_window(1200, 800, 100, 100, 0, X.CopyFromParent)
         other.map()
@@ -107,7 +107,7 @@ class Program:
             self.process = subprocess.Popen(command, cwd=folder, env=env, stdout=log, stderr=log)
 
     def lines(self) -> list[str]:
-        """All that it has said."""
+        """Return all that it has said."""
         return self._log.read_text("utf-8").splitlines()
 
     def says(self, *words: str) -> None:
@@ -115,14 +115,17 @@ class Program:
         wait_until(lambda: any(all(word in line for word in words) for line in self.lines()), self.lines)
 
     def end(self) -> int:
-        """Ctrl+C: its exit code."""
+        """Press Ctrl+C, and return the exit code."""
         self.process.send_signal(signal.SIGINT)
         return self.process.wait(SOON_S)
 
 
 @pytest.fixture(scope="module")
 def window(tmp_path_factory: pytest.TempPathFactory, window_programs: None) -> Iterator[Window]:  # noqa: ARG001
-    """One for all tests. Its profile has a font and an arena alone: a whole calibration takes a minute longer."""
+    """Open a window for all tests.
+
+    Its profile has a font and an arena alone: a whole calibration takes a minute longer.
+    """
     folder = tmp_path_factory.mktemp("window")
     with open_display() as env, open_rehearsal(env, folder, "--size", SIZE) as rehearsal, scheduler(folder) as url:
         profile = folder / "profile.toml"
@@ -148,18 +151,18 @@ class Ends:
         return self.folder / "run"
 
     def game(self, profile: str | Path | None = None) -> Program:
-        """The window's game, served."""
+        """Return the window's game, served."""
         words = ["train", "serve", "--scheduler", self.window.url, "--name", "pc", "--backend", "live"]
         return self._program([*words, "--profile", str(profile or self.window.profile)])
 
     def learner(self, scenario: Scenario = DOT) -> Program:
-        """A training in whatever game is served."""
+        """Return a training in whatever game is served."""
         (self.folder / "scenario.toml").write_text(scenario_text(scenario), "utf-8")
         words = ["train", "--scenario", "scenario.toml", "--preset", "model-based", "--backend", "live", "--seed", "3"]
         return self._program([*words, "--games", self.window.url, "--out", str(self.run)])
 
     def counted_and_lost(self) -> tuple[int, int]:
-        """Episodes of a training that was saved: those that taught it, with evaluations, and those that it lost."""
+        """Return a saved training's episodes: those that it learnt from, with evaluations, and those that it lost."""
         tables = (self.run / "episodes.csv", self.run / "evaluations.csv")
         summary = json.loads((self.run / "summary.json").read_text("utf-8"))
         rows = sum(len(table.read_text("utf-8").splitlines()) - 1 for table in tables)
@@ -184,12 +187,12 @@ def ends(window: Window, tmp_path: Path) -> Iterator[Ends]:
 
 
 def played(game: Program) -> int:
-    """Whole episodes, as the game says."""
+    """Return how many whole episodes the game says it has played."""
     return sum(": score " in line for line in game.lines())
 
 
 def stops_and_saves(learner: Program) -> bool:
-    """Whether the learner has gone on until now, and ends well at Ctrl+C."""
+    """Return whether the learner has gone on until now, and ends well at Ctrl+C."""
     return learner.process.poll() is None and learner.end() == 130 and "stopped and saved" in learner.lines()[-1]
 
 

@@ -42,7 +42,7 @@ def difference(one: Picture, other: Picture) -> float:
 
 
 def drawn(scenario: Scenario, actions: list[Action]) -> list[Picture]:
-    """What the Env draws after its reset and after each action."""
+    """Return what the Env draws after its reset and after each action."""
     env = gymnasium.make(ID, scenario=scenario, render_mode="rgb_array")
     env.reset()
     pictures = [env.render()]
@@ -53,7 +53,7 @@ def drawn(scenario: Scenario, actions: list[Action]) -> list[Picture]:
 
 
 def play(env: gymnasium.Env[Any, Any], actions: list[Action]) -> dict[str, Any]:
-    """The last step's info."""
+    """Return the last step's info."""
     env.reset()
     info: dict[str, Any] = {}
     for action in actions:

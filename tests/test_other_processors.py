@@ -30,7 +30,7 @@ pytestmark = pytest.mark.skipif(IN_PYTHON or not FUSES, reason="without fused mu
 
 
 def trained() -> str:
-    """A hash of the networks of three runs after 1,500 ticks, in which targets were renewed and policies evaluated."""
+    """Return a hash of three runs' networks after 1,500 ticks, with targets renewed and policies evaluated."""
     scenarios, preset = [load_scenario("line")] * 3, load_preset("paper")
     agent = Agent(AGENT_SPECS["nested"], scenarios, preset, seed=1)
     trainer = Trainer(agent.view_of(GridVectorEnv(scenarios), scenarios), scenarios, agent, preset, seed=1)

@@ -62,7 +62,7 @@ class Calibrated:
 
 @pytest.fixture(scope="module")
 def calibrated(tmp_path_factory: pytest.TempPathFactory, window_programs: None) -> Calibrated:  # noqa: ARG001
-    """Calibrated in a window at 60 frames a second, for all of xdist's processes."""
+    """Return a profile calibrated in a window at 60 frames a second, for all of xdist's processes."""
 
     def make(folder: Path) -> None:
         with open_display() as env, open_rehearsal(env, folder) as rehearsal:
@@ -85,7 +85,7 @@ def test_calibrating_from_nothing_is_done_before_long(calibrated: Calibrated) ->
 
 @contextmanager
 def in_its_arena(profile: Path, folder: Path, condition: Condition = USUAL) -> Iterator[RehearsalWindow]:
-    """A rehearsal under that condition. Its world is new: the arena is only where the profile says."""
+    """Yield a rehearsal under that condition. Its world is new: the arena is only where the profile says."""
     with (
         open_display(layout=condition.layout, has_window_manager=condition.has_window_manager) as env,
         open_rehearsal(env, folder, "--fps", str(condition.fps)) as rehearsal,
@@ -166,7 +166,7 @@ def test_nothing_is_ever_wrong_at_any_rate_on_any_layout_with_a_window_manager(
 
 
 def soon(is_so: Callable[[], bool]) -> bool:
-    """Whether it comes true before long."""
+    """Return whether it comes true before long."""
     end = time.monotonic() + SOON_S
     while not is_so():
         if time.monotonic() > end:
@@ -205,7 +205,7 @@ class Training:
         return subprocess.Popen(command, env=env, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def is_moving(self) -> bool:
-        """Whether the agent holds a key in the world."""
+        """Return whether the agent holds a key in the world."""
         return bool(self.rehearsal.truth.now()["keys_down"])
 
     def is_resting(self) -> bool:

@@ -70,7 +70,7 @@ def test_a_test_of_two_kinds_has_the_longer_ones_limit(markers: set[str], longes
 
 
 @pytest.mark.parametrize("kind", LIMITS_S)
-def test_a_kinds_limit_is_its_own(kind: str) -> None:
+def test_each_kind_of_test_has_its_own_limit(kind: str) -> None:
     assert limit_s({kind}) == LIMITS_S[kind]
 
 

@@ -69,11 +69,11 @@ class Installed:
         self.env = {**kept, "HOME": str(folder), "XDG_CONFIG_HOME": str(folder), "XDG_DATA_HOME": str(folder)}
 
     def python(self, code: str, *words: str) -> str:
-        """What the code prints."""
+        """Return what the code prints."""
         return self._done([str(self.bin / "python"), "-c", code, *words])
 
     def mc_nested(self, *words: str) -> str:
-        """What the command prints."""
+        """Return what the command prints."""
         return self._done([str(self.bin / "mc-nested"), *words])
 
     def _done(self, command: list[str]) -> str:
@@ -97,7 +97,10 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Installed]:
-    """The wheel with its dependencies, of the versions in constraints.txt; removed at the end, since it is large."""
+    """Return the wheel with its dependencies, of the versions in constraints.txt.
+
+    It is removed at the end, since it is large.
+    """
     folder = tmp_path_factory.mktemp("installed")
     subprocess.run([sys.executable, "-m", "venv", str(folder / "venv")], check=True)
     try:
@@ -111,14 +114,14 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator
 
 
 def missing(why: str) -> NoReturn:
-    """A machine that can't install anything skips the test; with CI set, that is a failure."""
+    """Skip the test on a machine that can't install anything; with CI set, fail."""
     if os.environ.get("CI"):
         pytest.fail(why)
     pytest.skip(why)
 
 
 @pytest.mark.slow
-def test_every_file_of_the_packages_is_in_it(wheel: Path) -> None:
+def test_every_file_of_the_packages_is_in_the_wheel(wheel: Path) -> None:
     inside = set(zipfile.ZipFile(wheel).namelist())
     files = (path.relative_to(ROOT).as_posix() for package in PACKAGES for path in (ROOT / package).rglob("*.*"))
     assert [name for name in files if "__pycache__" not in name and name not in inside] == []
@@ -128,7 +131,7 @@ def test_every_file_of_the_packages_is_in_it(wheel: Path) -> None:
 
 
 @pytest.mark.slow
-def test_it_is_what_is_installed_and_reads_all_its_files(installed: Installed) -> None:
+def test_the_installed_wheel_reads_all_its_files(installed: Installed) -> None:
     where = installed.python(PLACES)
     assert all(Path(path).is_relative_to(installed.bin.parent) for path in where.split())
     assert installed.python(READS_ALL).splitlines() == [
@@ -139,7 +142,7 @@ def test_it_is_what_is_installed_and_reads_all_its_files(installed: Installed) -
 
 
 @pytest.mark.slow
-def test_it_lists_trains_and_plays(installed: Installed) -> None:
+def test_the_installed_command_lists_trains_and_plays(installed: Installed) -> None:
     assert "optimum    21" in installed.mc_nested("scenarios", "line")
     printed = json.loads(installed.mc_nested("train", "--episodes", "20", "--json", "--quiet"))
     assert printed["episodes_done"] == [20]
@@ -150,7 +153,7 @@ def test_it_lists_trains_and_plays(installed: Installed) -> None:
 
 
 @pytest.mark.slow
-def test_it_reads_a_picture(installed: Installed) -> None:
+def test_the_installed_command_reads_a_picture(installed: Installed) -> None:
     installed.python(DRAWS, "screen.png", "font.png")
     (line,) = installed.mc_nested("read", "screen.png", "--font", "font.png", "--json").splitlines()
     found = json.loads(line)
@@ -160,7 +163,7 @@ def test_it_reads_a_picture(installed: Installed) -> None:
 
 @pytest.mark.slow  # and not of the windows: it opens one and closes it, and plays nothing
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="the display is Xvfb's")
-def test_it_rehearses(installed: Installed, display: dict[str, str]) -> None:
+def test_the_installed_command_rehearses(installed: Installed, display: dict[str, str]) -> None:
     from Xlib import X  # Linux alone has it
     from Xlib.display import Display
     from Xlib.protocol import event

@@ -13,7 +13,7 @@ LIMITS_S = {"slow": 1200.0, "realtime": 600.0, "window": 1200.0, "standin": 2400
 
 
 def limit_s(kinds: set[str]) -> float:
-    """Seconds for a test with these markers: the most that any of them needs."""
+    """Return the seconds for a test with these markers: the most that any of them needs."""
     return max((seconds for kind, seconds in LIMITS_S.items() if kind in kinds), default=UNIT_S)
 
 

@@ -26,10 +26,10 @@ class TogetherScheduling(LoadScopeScheduling):  # type: ignore[misc]  # xdist ha
 
 
 def scope_of(nodeid: str) -> str:
-    """What a test is given out with: the same for those that share something, and its own name for any other."""
+    """Return the name of a test's group: the same for those that share something, its own name for any other."""
     return next((place for place in TOGETHER if nodeid.startswith(place)), nodeid)
 
 
 def scheduler(config: pytest.Config, log: object) -> TogetherScheduling | None:
-    """Who gives out the tests; None where xdist does it in a way of its own."""
+    """Return the scheduler that gives out the tests; None where xdist does it in a way of its own."""
     return TogetherScheduling(config, log) if config.getoption("dist") == "loadgroup" else None

@@ -10,12 +10,12 @@ from tests.found_or_skipped import found_or_skipped
 
 @pytest.fixture(scope="session")
 def window_programs(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """Everything that a real window needs is installed."""
+    """Install everything that a real window needs, or skip."""
     found_or_skipped(lambda: install_programs(print, tmp_path_factory.mktemp("apt") / "apt.log"))
 
 
 @pytest.fixture
 def display(window_programs: None) -> Iterator[dict[str, str]]:  # noqa: ARG001 - installs what is missing
-    """The environment of programs on an empty display without a window manager."""
+    """Return the environment of programs on an empty display without a window manager."""
     with open_display() as env:
         yield env

@@ -12,7 +12,7 @@ from tests.found_or_skipped import found_or_skipped
 
 @pytest.fixture(scope="session")
 def windows() -> Iterator[Session]:
-    """A desktop with a Windows Python and this project's packages, for the session; fetched if it is missing."""
+    """Return a desktop with a Windows Python and this project's packages, for the session; fetched if it is missing."""
     with ExitStack() as stack:
         found_or_skipped(lambda: stack.enter_context(set_up(CACHE)))
         yield stack.enter_context(open_session(CACHE))

@@ -1,4 +1,4 @@
-"""The command line, one file per verb, and the processes that train an experiment's runs."""
+"""The command line: one file for each verb, what the verbs share, and the loops that train and show their progress."""
 
 import io
 import os
@@ -29,7 +29,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def _flush(stream: TextIO) -> None:
-    """Write what is left; where nobody reads any more, drop it, or Python would exit with a code of its own, 120."""
+    """Write what is left to print; if the reader is gone, drop it, or Python would exit with its own code, 120."""
     try:
         stream.flush()
     except OSError:

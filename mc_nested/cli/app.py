@@ -53,10 +53,10 @@ MOVED = {
 
 
 def app_for(words: Sequence[str]) -> TyperCommand | TyperGroup:
-    """The command with the verb that the words begin with, or with all verbs if they begin with none.
+    """Return the command with the verb that the words begin with, or with all verbs if they begin with none.
 
-    A verb's module is loaded only if it is needed: together they take seconds and hundreds of megabytes. UserError for
-    a verb's former name.
+    A verb's module is loaded only if it is needed: together they take seconds and hundreds of megabytes. Raise
+    UserError for a verb's former name.
     """
     if COMPLETES in os.environ:
         if quick := quick_app(VERBS):

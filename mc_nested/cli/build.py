@@ -101,7 +101,7 @@ def build(  # noqa: PLR0913 - a Typer verb: a parameter for each option
 
 
 def _built(game: Game, scenario: Scenario, steps: Sequence[tuple[Action, int]], viewing: Viewed, *, quiet: bool) -> int:
-    """Build the design from a reset on; how many of its blocks stand then."""
+    """Build the design from a reset on, and return how many of its blocks stand then."""
     env = ArenaEnv(game, scenario)
     with watched(env, scenario.name, viewing, quiet=quiet) as show:
         env.reset(options={"material": scenario.materials[steps[0][1]].name})
@@ -113,10 +113,10 @@ def _built(game: Game, scenario: Scenario, steps: Sequence[tuple[Action, int]], 
 
 
 def _how_to_put_back(profile_name: str, *, yes: bool) -> str:
-    """How what stood in the arena before comes back.
+    """Return how what stood in the arena before comes back.
 
-    ProfileError if the profile can't be read, or has no arena; UserError if it can't come back, and nobody agreed to
-    that.
+    Raise ProfileError if the profile can't be read, or has no arena; raise UserError if it can't come back, and nobody
+    agreed to that.
     """
     profile = load_profile(profile_name)
     if profile.world is not None:

@@ -127,7 +127,7 @@ class Lines:
         self._publisher = publisher
 
     def doctor_done(self, checks: Sequence[Check]) -> None:
-        """How many of the doctor's rows have each status, and the rows where something is to be done."""
+        """Say how many of the doctor's rows have each status, and name the rows where something is to be done."""
         counts = [(status, sum(check.status == status for check in checks)) for status in ("pass", "warn", "fail")]
         self._say(f"doctor: {', '.join(f'{count} {status}' for status, count in counts if count)}")
         for check in checks:
@@ -135,20 +135,20 @@ class Lines:
                 self._say(f"    {check.status}: {check.name}: {check.detail}{f'; {check.fix}' if check.fix else ''}")
 
     def begin(self, name: str, number: int, of: int) -> None:
-        """Its name and number, once nobody wants a pause any more."""
+        """Wait while somebody wants a pause, then show the step's name and number."""
         self._publisher.wait_while_paused()
         self._publisher.board.does(f"step {number} of {of}: {TITLES.get(name, name)}")
         self._say(f"{number}/{of} {TITLES.get(name, name)}")
 
     def end(self, result: StepResult, seconds: float) -> None:
-        """Its findings."""
+        """Say what the step found."""
         self._took(seconds)
         for line in result.lines:
             self._say(f"    {line}")
         self._say(f"    [{seconds:.0f} s, {self.seconds:.0f} s in all]")
 
     def skip(self, reason: str, seconds: float) -> None:
-        """Why it isn't there."""
+        """Say why the step is left out."""
         self._took(seconds)
         self._say(f"    warning: {reason}; the run goes on without it")
 

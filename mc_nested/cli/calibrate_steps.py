@@ -61,7 +61,7 @@ def calibrating(
     ask: Callable[[str], bool] = typer.confirm,
     yes: bool = False,
 ) -> Iterator[Calibrating]:
-    """A calibration that can be viewed, for the block.
+    """Yield a calibration that can be viewed, for the block.
 
     Args:
         step: the step's name, or "all".

@@ -30,7 +30,7 @@ LOOK_EVERY_S, NOTE_AFTER_S = 0.2, 1.0
 
 
 def cluster_of(address: str | None, keys: Path | None, insecure: bool) -> SchedulerAddress | None:
-    """The scheduler that was named, None if none was; ClusterError as ``scheduler_address`` raises it."""
+    """Return the scheduler that was named, None if none was; raise ClusterError as ``scheduler_address`` raises it."""
     if address is not None:
         return scheduler_address(address, keys, insecure=insecure)
     if keys is not None or insecure:
@@ -39,9 +39,9 @@ def cluster_of(address: str | None, keys: Path | None, insecure: bool) -> Schedu
 
 
 def workers_of(cluster: SchedulerAddress, output: Output) -> int:
-    """How many workers it has, which train a job at a time each; waits for the first.
+    """Wait for the first worker, and return how many there are; each trains one job at a time.
 
-    ClusterError if the scheduler can't be reached, or no worker comes.
+    Raise ClusterError if the scheduler can't be reached, or no worker comes.
     """
     with connected(cluster) as client:
         end, note_at = time.monotonic() + FIRST_WORKER_S, time.monotonic() + NOTE_AFTER_S

@@ -149,7 +149,7 @@ def _line(found: PictureReading) -> str:
 
 
 def table_of(checks: Sequence[Check]) -> Table:
-    """The rows as a table, with coloured statuses."""
+    """Return the rows as a table, with coloured statuses."""
     table = Table(show_edge=False, pad_edge=False)
     for name, ratio in (("check", None), ("", None), ("found", 5), ("to do", 4)):
         table.add_column(name, ratio=ratio, no_wrap=ratio is None, overflow="fold")
@@ -160,7 +160,7 @@ def table_of(checks: Sequence[Check]) -> Table:
 
 
 def summary_of(checks: Sequence[Check]) -> str:
-    """How many rows have each status."""
+    """Return how many rows have each status."""
     counts = {status: sum(check.status == status for check in checks) for status in STYLES}
     return ", ".join(f"{count} {status}" for status, count in counts.items() if count)
 

@@ -37,9 +37,9 @@ OF_THIS_GAME = ("--profile", "--server-allowed", "--record")
 
 
 def games_of(games: str | None, keys: Path | None, insecure: bool, options: Collection[str]) -> SchedulerAddress | None:
-    """The scheduler whose games play, None for this computer's; ``options`` are those that were given.
+    """Return the scheduler whose games play, None for this computer's; ``options`` are those that were given.
 
-    ClusterError or UserError if that can't be.
+    Raise ClusterError or UserError if that can't be.
     """
     if games is None:
         if keys is not None or insecure:
@@ -53,7 +53,7 @@ def games_of(games: str | None, keys: Path | None, insecure: bool, options: Coll
 
 @dataclass
 class GameRecord:
-    """What is known of one game: the number of the plan that it plays, and what it said last of what playing took."""
+    """What is known of one game: the number of the plan that it plays, and what it last reported that playing took."""
 
     playing: int | None = None
     is_here: bool = True
@@ -83,9 +83,9 @@ class GamesAtPlay:
         self.last: PlayedEpisode | None = None
 
     def play_on(self) -> list[str]:
-        """Deal with what has happened, or wait for a moment; lines about who came and what was lost.
+        """Deal with what has happened, or wait for a moment; return lines about who came and what was lost.
 
-        ClusterError if the only games that ever came have refused.
+        Raise ClusterError if the only games that ever came have refused.
         """
         lines = [line for event in self._games.events(LOOK_EVERY_S) if (line := self._handle(event))]
         if self._refused and not self._has_played and not any(record.is_here for record in self._records.values()):
@@ -93,21 +93,21 @@ class GamesAtPlay:
         return lines
 
     def end(self) -> None:
-        """Take what has come back by now; nobody is asked for anything any more."""
+        """Take the episodes that have come back by now, and ask the games for nothing more."""
         self._is_over = True
         for event in self._games.events(0):
             if isinstance(event, Answered):
                 self._handle(event)
 
     def in_words(self) -> str:
-        """How many games there are, and what is lost."""
+        """Return how many games there are, and what is lost."""
         records = self._records.values()
         here, playing = sum(each.is_here for each in records), sum(each.playing is not None for each in records)
         words = f"{counted(here, 'game')}, {playing} playing" if here else "waiting for a game (mc-nested train serve)"
         return words + (f", {counted(self._lost, 'episode')} lost" if self._lost else "")
 
     def summary(self) -> dict[str, Any]:
-        """For a training's summary: what playing took in each game, and what was lost."""
+        """Return, for a training's summary, what playing took in each game, and what was lost."""
         logs = {game: record.log for game, record in self._records.items()}
         seconds = [each for log in logs.values() for each in log.get("game_s", ())]
         lost = {"spoiled_episodes": self._lost, "last_problems": self._problems[-3:]}
@@ -134,7 +134,7 @@ class GamesAtPlay:
         return "" if game in self._refused else f"{game} is gone{lost}"
 
     def _take(self, game: str, answer: GameAnswer) -> str:
-        """Take a game's answer, and ask it for the next episode; what is to be said of it."""
+        """Take a game's answer, ask it for the next episode, and return the lines to say about it."""
         record = self._records[game]
         record.log = dict(answer.log) or record.log
         if answer.is_refusal:
@@ -159,7 +159,7 @@ class GamesAtPlay:
         return f"{game} can't play: {why}"
 
     def _lose(self, record: GameRecord, why: str) -> str:
-        """Leave out the episode that the game was playing; says so. Nothing if it played none."""
+        """Leave out the episode that the game was playing, if any, and return a line that says so."""
         if record.playing is None:
             return ""
         self.training.abandon(record.playing)
@@ -183,10 +183,10 @@ ASK_AGAIN_S = 1.0
 def games_at_play(
     folder: RunFolder, cluster: SchedulerAddress, interrupt: Interrupt, say: Callable[[str], None]
 ) -> Iterator[GamesAtPlay]:
-    """The games of that scheduler, for an untrained learner of that folder's training.
+    """Yield the games of that scheduler, for an untrained learner of that folder's training.
 
-    UserError if games can't play it; ClusterError if the scheduler can't be reached, or another training has its games;
-    Stopped if somebody asks to stop while that is seen.
+    Raise UserError if games can't play it; raise ClusterError if the scheduler can't be reached, or another training
+    has its games; raise Stopped if somebody asks to stop while that is seen.
     """
     config = folder.config
     if config.backend == Backend.SIM.value:
@@ -238,12 +238,12 @@ class LastEpisode:
         self._choices = choices
 
     def cell(self, _run: int) -> Cell:
-        """Where its agent stood at its end."""
+        """Return where the agent stood at the episode's end."""
         last = self._shown
         return (int(last.observations[-1, 0]), int(last.observations[-1, 1])) if last else self._scenario.start
 
     def placed(self, _run: int) -> frozenset[Cell]:
-        """Where its blocks landed."""
+        """Return where the episode's blocks landed."""
         return blocks_of(self._shown, self._scenario.size, self._choices) if self._shown else frozenset()
 
     @property
@@ -253,7 +253,7 @@ class LastEpisode:
 
 
 def blocks_of(episode: PlayedEpisode, size: int, choices: int) -> frozenset[Cell]:
-    """Where an episode's blocks landed, by the rules and by (x, y, b) of each step."""
+    """Return where an episode's blocks landed, by the rules and by (x, y, b) of each step."""
     placed: set[Cell] = set()
     seen = episode.observations[:, :3].tolist()
     for action, (_, _, before), (x, y, after) in zip(episode.actions.tolist(), seen[:-1], seen[1:], strict=True):

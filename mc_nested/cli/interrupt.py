@@ -25,7 +25,7 @@ class Stopped(Exception):  # noqa: N818 - no error: it was asked for
 
 
 class Interrupt:
-    """Whether somebody asked to stop. ``says``, unless empty, is written to standard error at the first request."""
+    """A request to stop, if any. ``says``, unless empty, is written to standard error at the first request."""
 
     def __init__(self) -> None:
         self.requested = False
@@ -46,7 +46,7 @@ class Interrupt:
 
 @contextmanager
 def catch_interrupts() -> Iterator[Interrupt]:
-    """Inside, the first Ctrl+C, SIGTERM, or SIGHUP of a closed terminal is only recorded.
+    """Only record the first Ctrl+C, SIGTERM, or SIGHUP of a closed terminal, while the block runs.
 
     A SIGHUP that is ignored, as under nohup, stays so. Outside the main thread nothing changes.
     """

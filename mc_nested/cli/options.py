@@ -1,4 +1,4 @@
-"""Options that several verbs share: what is built, where it is played, with which profile, whether it is recorded."""
+"""Options that several verbs share: the design, where it is built, the profile, and whether a recording is kept."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -138,23 +138,26 @@ def check_nothing_before(context: typer.Context) -> None:
 def opening_of(
     profile: str, what: str, record: str | None, *, server_allowed: bool = False, evidence: Path | None = None
 ) -> Opening:
-    """Say how a live run is opened, by its options; ``what`` it is, in a word or two, names its recording.
+    """Return how a live run is opened, by its options; ``what``, a word or two about the run, names its recording.
 
-    RecordingError if the recording's folder holds something already.
+    Raise RecordingError if the recording's folder holds something already.
     """
     say = partial(typer.echo, err=True)
     return Opening(profile, say, what, record, is_server_allowed=server_allowed, evidence=evidence)
 
 
 def played_live(log: PlayLog | None, failure_budget: FailureBudget) -> dict[str, Any]:
-    """What playing in a running game, or on the virtual client, took, for a summary; nothing for the simulator."""
+    """Return what playing in a running game, or on the virtual client, took, for a summary.
+
+    Return nothing for the simulator.
+    """
     return {"live": {**log.summary(), **failure_budget.summary()}} if log else {}
 
 
 def named_scenario(name: str, layer: int | None, *, must_choose: bool = False) -> Scenario:
-    """The scenario of that name or file; what a person should know about it is printed, a line each.
+    """Return the scenario of that name or file; what a person should know about it is printed, a line each.
 
-    ``must_choose``: a file with several layers needs ``layer``. ScenarioError, one line, if it can't be used.
+    ``must_choose``: a file with several layers needs ``layer``. Raise ScenarioError, one line, if it can't be used.
     """
     loaded = load_any_scenario(name, layer, must_choose=must_choose)
     print_notes(loaded)
@@ -168,14 +171,15 @@ def print_notes(loaded: Loaded) -> None:
 
 
 def named_scenarios(names: Sequence[str], layer: int | None) -> list[Scenario]:
-    """The scenarios of several names and files, each as ``named_scenario``."""
+    """Return the scenarios of several names and files, each as ``named_scenario``."""
     return [named_scenario(name, layer) for name in names]
 
 
 def arena_size(size: int | None, scenario: str | None, layer: int | None = None) -> int:
-    """Cells along each side of the arena to calibrate; ``layer`` is the scenario file's.
+    """Return how many cells each side of the arena to calibrate has; ``layer`` is the scenario file's.
 
-    UserError if a size and a scenario are given, or a layer alone; ScenarioError if the scenario can't be used.
+    Raise UserError if a size and a scenario are given, or a layer alone; raise ScenarioError if the scenario can't be
+    used.
     """
     if size is not None and scenario is not None:
         raise UserError("--size and --scenario both say how large the arena is: give one of them")

@@ -65,17 +65,17 @@ class Output:
     as_json: bool = False
 
     def note(self, line: str) -> None:
-        """A line that can be left out, as where nobody reads any more; with --json it goes to standard error."""
+        """Print a line that can be left out, as where nobody reads any more; with --json it goes to standard error."""
         if not self.quiet:
             with contextlib.suppress(OSError):
                 typer.echo(line, err=self.as_json)
 
     def instruction(self, line: str) -> None:
-        """What a person has to do now: it is never left out."""
+        """Print what a person has to do now: it is never left out."""
         typer.echo(line, err=self.quiet or self.as_json)
 
     def result(self, found: Any, *lines: RenderableType) -> None:
-        """What was asked for: a dataclass for a program, and the same as lines or tables for a person."""
+        """Print what was asked for: a dataclass for a program, and the same as lines or tables for a person."""
         if self.as_json:
             typer.echo(json.dumps(_plain(found)))
             return
@@ -89,7 +89,7 @@ class Output:
                 console.print(line)
 
     def hint(self, line: str) -> None:
-        """What a person may do next."""
+        """Print what a person may do next."""
         if not self.as_json:
             self.note(line)
 
@@ -102,7 +102,7 @@ class Output:
 def print_line(console: Console, line: str) -> None:
     """Print a line of progress where there is no terminal, whole.
 
-    Where nobody reads any more, as behind a pipe after Ctrl+C, the work goes on, and is saved.
+    If the reader is gone, as behind a pipe after Ctrl+C, the work goes on, and is saved.
     """
     if console.quiet:
         return
@@ -111,7 +111,7 @@ def print_line(console: Console, line: str) -> None:
 
 
 def _plain(found: Any) -> Any:
-    """What JSON can hold: a dataclass is an object, a path is text, and what is infinite is null."""
+    """Return a value as JSON can hold it: a dataclass as an object, a path as text, and what is infinite as null."""
     if dataclasses.is_dataclass(found):
         return {field.name: _plain(getattr(found, field.name)) for field in dataclasses.fields(found)}
     if isinstance(found, Mapping):
@@ -159,7 +159,7 @@ class FittingTable:
 
 
 def facts_table(facts: Iterable[tuple[str, str]]) -> Table:
-    """Facts by what they are, one a line; those that say nothing are left out."""
+    """Return a table of named facts, one a line; empty ones are left out."""
     table = Table(box=None, show_header=False, padding=(0, 2, 0, 0), pad_edge=False)
     for name, value in facts:
         if value:

@@ -19,10 +19,10 @@ LONGEST_NAME = 50
 
 @contextmanager
 def output_folder(out: Path | None, name: str, now: datetime.datetime | None = None) -> Iterator[Path]:
-    """The folder ``out``, or runs/NAME-DATE, held for the block by this process alone.
+    """Yield the folder ``out``, or runs/NAME-DATE, held for the block by this process alone.
 
-    It is made, and removed again where the block writes nothing there. RunError if it holds anything already, is held
-    by another process, or can't be made.
+    It is made, and removed again where the block writes nothing there. Raise RunError if it holds anything already, is
+    held by another process, or can't be made.
     """
     if out is None:
         made = _missing(RUNS)
@@ -41,12 +41,12 @@ def output_folder(out: Path | None, name: str, now: datetime.datetime | None = N
 
 
 def _missing(path: Path) -> list[Path]:
-    """Of a folder and those around it, the ones that aren't there yet, the innermost first."""
+    """Return which of a folder and those around it aren't there yet, the innermost first."""
     return list(itertools.takewhile(lambda folder: not folder.exists(), (path, *path.parents)))
 
 
 def _reserved(name: str, now: datetime.datetime) -> Path:
-    """A new empty folder under runs/ that no other process has, even one that began in the same second."""
+    """Make a new empty folder under runs/ that no other process has, even one that began in the same second."""
     safe = re.sub(r"[^\w.-]+", "-", name).strip("-.")[:LONGEST_NAME]
     dated = f"{safe or 'run'}-{now:%Y-%m-%d-%H%M%S}"
     names = (dated if number == 1 else f"{dated}-{number}" for number in itertools.count(1))
@@ -54,7 +54,7 @@ def _reserved(name: str, now: datetime.datetime) -> Path:
 
 
 def _is_made(path: Path) -> bool:
-    """Make a folder; False if there is something of that name, RunError if it can't be made."""
+    """Make a folder; return False if there is something of that name, raise RunError if it can't be made."""
     try:
         path.mkdir(parents=True)
     except OSError as error:

@@ -31,9 +31,9 @@ class OwnPlayer:
     failures: FailureBudget = field(default_factory=FailureBudget)
 
     def play_on(self) -> list[str]:
-        """One tick. A mishap in a running game costs its episode, and is counted.
+        """Play one tick. A mishap in a running game costs its episode, and is counted.
 
-        Not counted is that a person who pauses, or did so shortly before, is in another window.
+        A person in another window who pauses, or did so shortly before, is not counted as a mishap.
         """
         try:
             self.training.tick()
@@ -47,20 +47,20 @@ class OwnPlayer:
         return []
 
     def end(self) -> None:
-        """Nothing: what is under way is saved half-way, or starts over."""
+        """Do nothing: what is under way is saved half-way, or starts over."""
 
     def in_words(self) -> str:
-        """Nothing: it is this computer."""
+        """Return an empty text: this computer alone plays."""
         return ""
 
     def summary(self) -> dict[str, Any]:
-        """What playing in a running game, or on the virtual client, took; nothing for the simulator."""
+        """Return what playing in a running game, or on the virtual client, took; nothing for the simulator."""
         return played_live(self.log, self.failures)
 
 
 @contextmanager
 def own_player(folder: RunFolder, opening: Opening, publisher: Publisher) -> Iterator[OwnPlayer]:
-    """An untrained trainer for that folder's training, in arenas that are open for the block.
+    """Yield an untrained trainer for that folder's training, in arenas that are open for the block.
 
     Errors as ``open_arenas`` raises them.
     """

@@ -120,7 +120,7 @@ def _watch(
     *,
     is_quiet: bool,
 ) -> GreedyEpisode:
-    """One greedy episode, shown as it is built."""
+    """Play one greedy episode, shown as it is built."""
     scenario = folder.scenario
     env = ArenaEnv(game, scenario)
     if pictures:
@@ -137,7 +137,7 @@ def _watch(
 
 
 def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
-    """The agent of one trial, and which trial: the one asked for, or the best in the simulator.
+    """Return the agent of one trial, and which trial: the one asked for, or the best in the simulator.
 
     One that sees a window is the best by the scores that it was kept for: the simulator has no window.
     """
@@ -158,7 +158,7 @@ def _choose(folder: RunFolder, trial: int | None) -> tuple[Agent, int]:
 class _Screenshots:
     """Pictures of the game's window alone, numbered in the order they are taken.
 
-    Those of an earlier episode are removed. RunError if one can't be written.
+    Those of an earlier episode are removed. Raises RunError if one can't be written.
     """
 
     def __init__(self, folder: Path, display: Display) -> None:

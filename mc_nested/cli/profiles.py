@@ -108,7 +108,7 @@ def delete(
 
 
 def window_of(title: str) -> Fingerprint | None:
-    """The open window in whose title that regular expression is found; None if there is none, or no desktop."""
+    """Return the open window in whose title that regular expression is found; None if there is none, or no desktop."""
     try:
         with this_system().open_window(title) as window, open_camera(window) as camera:
             display = WindowDisplay(window, camera)
@@ -126,7 +126,7 @@ def _style(name: str, value: str) -> str:
 
 
 def _facts(facts: ProfileFacts) -> list[tuple[str, str]]:
-    """The facts in words, by what they are."""
+    """Return the facts in words, by their names."""
     gui, debug, cells = facts.gui_scale, facts.debug_scale, facts.arena_size
     fits = "damaged" if facts.is_damaged else {True: "yes", False: "no", None: "unknown"}[facts.fits]
     return [

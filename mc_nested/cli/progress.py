@@ -39,14 +39,14 @@ LINES_BESIDE = 8
 
 
 class _BarAndMap(Progress):
-    """A progress bar with figures and a map below it; rich asks several times a second, while a tick lasts, too."""
+    """A progress bar with figures and a map below it. Rich draws it several times a second, even while a tick lasts."""
 
     figures: str = ""
     map: RenderableType | None = None
     stops: Callable[[], bool] = staticmethod(lambda: False)
 
     def get_renderable(self) -> RenderableType:
-        """The bar, what is below it, and whether it is stopping."""
+        """Return the bar, what is below it, and whether it is stopping."""
         below = [] if self.map is None else [self.map]
         return Group(super().get_renderable(), Text(self.figures), *below, *([Text(STOPPING)] if self.stops() else []))
 

@@ -47,7 +47,7 @@ class RecordingFound:
 
     @classmethod
     def of(cls, path: Path, seen: Overview) -> "RecordingFound":
-        """A recording at a glance."""
+        """Return a summary of a recording."""
         return cls(
             path,
             seen.what,
@@ -145,7 +145,7 @@ def cut_out(
 
 
 def _found(path: Path) -> RecordingFound:
-    """A recording at a glance; of one that can't be read, only what is wrong with it."""
+    """Return a summary of a recording; of one that can't be read, only what is wrong with it."""
     try:
         return RecordingFound.of(path, overview_of(path))
     except RecordingError as error:
@@ -168,7 +168,7 @@ def _state(seen: Overview) -> str:
 
 
 def recording_path(named: Path) -> Path:
-    """The recording of that name, or at that path; RecordingError if there is none."""
+    """Return the recording of that name, or at that path; raise RecordingError if there is none."""
     kept = recordings_folder() / named
     for path in (named, kept):
         if path.exists():
@@ -178,7 +178,7 @@ def recording_path(named: Path) -> Path:
 
 
 def last_recording() -> Path:
-    """The newest recording that is kept; RecordingError if there is none."""
+    """Return the newest recording that is kept; raise RecordingError if there is none."""
     kept = [path for path in kept_recordings() if is_recording(path)]
     if not kept:
         raise RecordingError("no recording is kept yet: play, train or calibrate in a running game first")

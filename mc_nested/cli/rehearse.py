@@ -123,7 +123,7 @@ def _version(name: str) -> str:
 
 
 def _lines(options: Iterable[str]) -> Iterator[str]:
-    """The lines of options.txt that these stand for."""
+    """Return the lines of options.txt that these options stand for."""
     for option in options:
         name, equals, value = option.partition("=")
         if not equals:
@@ -132,7 +132,7 @@ def _lines(options: Iterable[str]) -> Iterator[str]:
 
 
 def _entries(path: Path | None, edition: Edition) -> DebugEntries:
-    """The entries that a debug-profile.json stands for; the game's own without one."""
+    """Return the entries that a debug-profile.json stands for; the game's own without one."""
     if path is None:
         return GAME_DEFAULT
     if not edition.since(1, 21, 9):
@@ -160,7 +160,7 @@ def _size(text: str) -> Size:
 
 
 def _font_picture() -> Path:
-    """The project's own font as a picture on disk, for calibrating."""
+    """Write the project's own font as a picture on disk, for calibrating."""
     path = user_data_path("mc-nested") / "rehearsal-font.png"
     path.parent.mkdir(parents=True, exist_ok=True)
     cv2.imwrite(str(path), drawn_atlas())

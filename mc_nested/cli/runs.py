@@ -117,7 +117,10 @@ def evaluate(run: RunArgument, as_json: JsonOption = False) -> None:
 
 
 def greedy_episodes(folder: RunFolder, agent: Agent) -> list[GreedyEpisode]:
-    """One greedy episode of every trial in the simulator; UserError if it sees what the simulator can't show."""
+    """Play a greedy episode of every trial in the simulator.
+
+    Raise UserError if it sees what the simulator can't show.
+    """
     check_window(folder.config.preset.states, has_window=False)
     trials = folder.config.trials
     arenas = team_arenas(folder.team, trials) if folder.team else GridVectorEnv(folder.scenarios)
@@ -152,7 +155,7 @@ def delete(
 
 
 def _known(run: str) -> RunFacts:
-    """The facts of the run of that name in runs/, or in that folder; RunError if there is none."""
+    """Return the facts of the run of that name in runs/, or in that folder; raise RunError if there is none."""
     if not run.strip():
         raise RunError("'' names no run: mc-nested runs lists them")
     path = Path(run)
@@ -173,7 +176,7 @@ def _table(found: Sequence[RunFacts]) -> FittingTable:
 
 
 def _facts(facts: RunFacts) -> list[tuple[str, str]]:
-    """The facts in words, by what they are."""
+    """Return the facts in words, by their names."""
     done, most = facts.episodes_done, facts.episodes
     return [
         ("run", facts.folder.name),

@@ -64,7 +64,7 @@ def scenarios(
 
 
 def _shown(name: str, layer: int | None, console: Console) -> Scenario:
-    """The scenario of a name or file; of a file with several layers these are printed first."""
+    """Return the scenario of a name or file; of a file with several layers these are printed first."""
     if not is_design_file(name):
         return named_scenario(name, layer)
     volume = read_volume(Path(name))
@@ -76,7 +76,7 @@ def _shown(name: str, layer: int | None, console: Console) -> Scenario:
 
 
 def _layers(name: str, volume: Volume) -> Group:
-    """The layers that have blocks: how many, over how many cells, and of what."""
+    """Return the layers that have blocks: how many, over how many cells, and of what."""
     filled = volume.layers_with_blocks()
     lines = [f"  {'layer':>5}  {'blocks':>6}  {'cells':>9}  of"]
     for layer in filled[:MOST_LISTED]:

@@ -1,4 +1,4 @@
-"""How far a study is, from what its processes report, and the view of it: a bar, and each group's greedy scores."""
+"""The progress of a study, as its processes report it, and its view: a bar, and each group's greedy scores."""
 
 import time
 from collections.abc import Callable, Iterable

@@ -1,4 +1,4 @@
-"""Training all jobs of a study that aren't finished, in processes here or on a cluster, under one view of them."""
+"""Train all jobs of a study that aren't finished, in processes here or on a cluster, and show how far they are."""
 
 import os
 from collections.abc import Iterator
@@ -34,7 +34,8 @@ def jobs_at_once(cluster: SchedulerAddress | None, output: Output) -> int:
 def train_all(folder: StudyFolder, output: Output, cluster: SchedulerAddress | None) -> Outcomes:
     """Train all jobs that aren't finished, here or on a cluster; return the outcomes of all.
 
-    Stopped if somebody asked to stop, RunError if a job failed: all are saved, and the message says how to resume.
+    Raise Stopped if somebody asked to stop, or RunError if a job failed. All jobs are saved then, and the message says
+    how to resume.
     """
     before = folder.outcomes()
     missing = [(job, folder.folder_of(job)) for job, outcome in before if outcome is None]

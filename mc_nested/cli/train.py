@@ -203,7 +203,10 @@ app.command("keys")(make_keys)
 
 
 def _team(scenario: Scenario, builders: int | None, starts: list[str] | None, networks: str | None) -> TeamTable | None:
-    """The builders that were asked for, None for one agent; UserError or ScenarioError if there can't be such."""
+    """Return the builders that were asked for, None for one agent.
+
+    Raise UserError or ScenarioError if there can't be such.
+    """
     if builders is None and not starts and networks is None:
         return None
     if not starts:

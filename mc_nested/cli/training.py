@@ -1,4 +1,4 @@
-"""A training as the command line runs it: begun or resumed, played until it is over, drawn and told."""
+"""A training as the command line runs it: begun or resumed, played until it is over, then drawn and printed."""
 
 import time
 from collections.abc import Iterator
@@ -38,7 +38,7 @@ class HowToRun:
 
 
 def run_training(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Path | None = None) -> None:
-    """Train until the run is finished or somebody stops it; saved on the way and at the end."""
+    """Train until the run is finished or somebody stops it; save it on the way and at the end."""
     config, output, path = folder.config, how.output, folder.path
     earlier = earlier_run(begin_from, folder) if begin_from else None
     began = time.monotonic() - (folder.wall_s_so_far() if resumed else 0.0)
@@ -79,7 +79,7 @@ def run_training(folder: RunFolder, resumed: bool, how: HowToRun, begin_from: Pa
 def begin_or_resume(folder: RunFolder, trainer: Training, earlier: EarlierRun | None, resumed: bool) -> None:
     """Let the trainer go on from the folder's checkpoint; otherwise from an earlier run, if any, in a new folder.
 
-    RunError as ``RunFolder`` and ``EarlierRun`` raise it.
+    Raise RunError as ``RunFolder`` and ``EarlierRun`` raise it.
     """
     if resumed:
         folder.checkpoint.load_into(trainer)
@@ -92,7 +92,7 @@ def begin_or_resume(folder: RunFolder, trainer: Training, earlier: EarlierRun | 
 
 @contextmanager
 def published(folder: RunFolder, how: HowToRun) -> Iterator[Viewed]:
-    """The run where ``mc-nested view`` finds it; nothing is left of one that never began."""
+    """Yield the run where ``mc-nested view`` finds it; nothing is left of one that never began."""
     title = f"{folder.config.title}, {where_words(Backend(folder.config.backend))}"
     try:
         with viewed(how.is_viewed, "train", title, folder.path) as view:

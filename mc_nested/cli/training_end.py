@@ -1,4 +1,4 @@
-"""What a training leaves at its end: its pictures, its scores and files in words, and what to do next."""
+"""The end of a training: its pictures, and lines about its scores, its files and what to do next."""
 
 import shlex
 import subprocess
@@ -121,7 +121,7 @@ def say_end(output: Output, path: Path, config: RunConfig, summary: Mapping[str,
 
 
 def next_steps(path: Path, config: RunConfig, is_at_optimum: bool) -> list[str]:
-    """What to do with a finished training, one line each."""
+    """Return what to do with a finished training, one line each."""
     lines = [] if is_at_optimum else [f"below the optimum; for more: {command_line(words_for_more(path, config))}"]
     evaluate = f"{command_line(['mc-nested', 'runs', 'evaluate', str(path)])} plays each of its trials"
     if config.team:
@@ -136,7 +136,7 @@ def next_steps(path: Path, config: RunConfig, is_at_optimum: bool) -> list[str]:
 
 
 def words_for_more(path: Path, config: RunConfig) -> list[str]:
-    """The words that train twice as many episodes, beginning with the best policy of this training."""
+    """Return the words that train twice as many episodes, beginning with the best policy of this training."""
     words = ["mc-nested", "train", "--from", str(path), "--scenario", _named(config.scenario)]
     if config.team:
         words += ["--networks", config.team.networks]
@@ -151,7 +151,10 @@ def words_for_more(path: Path, config: RunConfig) -> list[str]:
 
 
 def _beside_preset(config: RunConfig) -> list[str]:
-    """The options that said something else than the preset, as far as it is known; in a file it may say so itself."""
+    """Return the options that said something else than the preset, as far as it is known.
+
+    A preset that is a file may set an option itself.
+    """
     usual = load_preset(config.preset_name if config.preset_name in shipped_presets() else "paper")
     keys = ("engine", "device", "states")
     changed = [key for key in keys if getattr(config.preset, key) != getattr(usual, key)]
@@ -159,7 +162,7 @@ def _beside_preset(config: RunConfig) -> list[str]:
 
 
 def command_line(words: Sequence[str]) -> str:
-    """Words as they are typed into this system's shell."""
+    """Return the words as they are typed into this system's shell."""
     return subprocess.list2cmdline(words) if sys.platform == "win32" else shlex.join(words)
 
 
@@ -173,6 +176,6 @@ def _live(config: RunConfig) -> list[str]:
 
 
 def _named(table: ScenarioTable) -> str:
-    """A shipped design's name; FILE for one whose file isn't known any more."""
+    """Return a shipped design's name; FILE for one whose file isn't known any more."""
     shipped = table.name in shipped_scenarios() and table_of(load_scenario(table.name)) == table
     return table.name if shipped else "FILE"

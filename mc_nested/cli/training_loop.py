@@ -1,4 +1,4 @@
-"""The loop of every training here: play on, show it, save it now and then, until it is done or somebody stops it."""
+"""The loop of every training: play on, show it, and save it now and then, until it is finished or stopped."""
 
 import time
 from dataclasses import dataclass
@@ -30,19 +30,19 @@ class Player(Protocol):
         """Where, for a view."""
 
     def play_on(self) -> list[str]:
-        """Play on for a moment; lines about who came and what was lost.
+        """Play on for a moment; return lines about who came and what was lost.
 
         LiveError, DesktopError or ClusterError if it can't go on.
         """
 
     def end(self) -> None:
-        """Take what is still under way; nothing is played any more."""
+        """Take what is still under way, and play nothing more."""
 
     def in_words(self) -> str:
-        """Who plays, where there are several; otherwise empty."""
+        """Return who plays, where there are several; otherwise an empty text."""
 
     def summary(self) -> dict[str, Any]:
-        """What playing took, for a training's summary; nothing for the simulator."""
+        """Return what playing took, for a training's summary; nothing for the simulator."""
 
 
 @dataclass(frozen=True)
@@ -92,7 +92,7 @@ class TrainingLoop:
         shown.show_end()
 
     def save(self) -> dict[str, Any]:
-        """Save it as it is now: the summary."""
+        """Save the training as it is now, and return its summary."""
         wall_s = time.monotonic() - self.began - self.publisher.paused_s
         return self.folder.save(self.player.training, wall_s, self.player.summary())
 
@@ -100,7 +100,7 @@ class TrainingLoop:
         return self.interrupt.requested
 
     def _events(self) -> TensorBoard | None:
-        """What writes the training's events for TensorBoard; None where that isn't installed."""
+        """Return what writes the training's events for TensorBoard; None where that isn't installed."""
         if not is_installed():
             return None
         trials = range(self.folder.config.trials)

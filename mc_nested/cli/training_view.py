@@ -33,7 +33,7 @@ class Arenas(Protocol):
 
 
 class TrainingView:
-    """Sets down how a training is, no more often than a view shows it.
+    """Writes the state of a training to its board, no more often than a view shows it.
 
     Args:
         board: takes it.
@@ -70,14 +70,14 @@ class TrainingView:
         self._began, self._steps_before = time.monotonic(), trainer.env_steps
 
     def show(self) -> None:
-        """Set it down, if it is time to."""
+        """Write down how the training is, if it is time to."""
         now = time.monotonic()
         if now >= self._next:
             self._next = now + SHOW_EVERY_S
             self._set_down()
 
     def show_end(self) -> None:
-        """Set down how it ended."""
+        """Write down how the training ended."""
         self._next_look = 0.0
         self._set_down()
 
@@ -151,7 +151,7 @@ class ScoreCurve:
         self._rows = 0
 
     def after(self, rows: Sequence[EpisodeRow]) -> tuple[float, ...]:
-        """The curve after those rows; they only ever become more."""
+        """Return the curve after those rows; they only ever become more."""
         for row in rows[self._rows :]:
             missing = row.episode - len(self._sums)
             self._sums += [0.0] * missing
@@ -174,7 +174,7 @@ class BestScores:
         self._episodes = self._evaluations = 0
 
     def after(self, trainer: Training) -> float | None:
-        """The mean after what the trainer did until now; None until every trial had a score."""
+        """Return the mean after what the trainer did until now; None until every trial had a score."""
         for episode in trainer.episode_rows[self._episodes :]:
             self._best[episode.trial] = max(self._best[episode.trial], episode.score)
         for evaluation in trainer.evaluation_rows[self._evaluations :]:

@@ -1,4 +1,4 @@
-"""``mc-nested view``, and --view: a run that is published while it goes on, and shown in a terminal.
+"""``mc-nested view``, and --view: publish a run while it goes on, and show it in a terminal.
 
 A finished run is shown the same way. Where there is no terminal to draw in, what it does is printed as lines.
 """
@@ -90,14 +90,17 @@ class Viewed:
         return self.view is not None and self.view.is_open
 
     def ask(self, question: str, otherwise: Callable[[str], bool]) -> bool:
-        """A person's yes or no, by the view; by ``otherwise`` where there is none, or it is closed meanwhile."""
+        """Ask a person for a yes or no, in the view.
+
+        Ask by ``otherwise`` where there is no view, or it is closed meanwhile.
+        """
         answer = self.publisher.answer(question, lambda: self.is_shown) if self.is_shown else None
         return otherwise(question) if answer is None else answer
 
 
 @contextmanager
 def viewed(is_viewed: bool, what: str, title: str, folder: Path | None = None) -> Iterator[Viewed]:
-    """A run that can be viewed, for the block; where there is no terminal, it prints its lines as without a view.
+    """Yield a run that can be viewed, for the block; where there is no terminal, it prints its lines as without a view.
 
     Args:
         is_viewed: whether it is shown in this terminal.

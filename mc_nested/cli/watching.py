@@ -45,16 +45,16 @@ Played = TypeVar("Played")
 
 
 def arena_seen(env: ArenaEnv) -> ArenaSeen:
-    """An Env's arena for the view."""
+    """Return an Env's arena for the view."""
     stands = tuple(Standing(x, y, 1) for x, y in sorted(env.placed))
     return ArenaSeen.of(env.scenario).model_copy(update={"stands": stands, "agents": (Standing(*env.cell, 1),)})
 
 
 @contextmanager
 def watched(env: ArenaEnv, title: str, viewing: Viewed, *, quiet: bool = False) -> Iterator[Callable[[], None]]:
-    """A function that shows the arena as it is now, in the place of what it showed before, while the block runs.
+    """Yield a function that shows the arena as it is now, in the place of what it showed before, while the block runs.
 
-    It publishes the arena, too, and returns once nobody wants a pause any more. A view leaves no room for anything else
+    It publishes the arena, too, and returns once no pause is wanted. A view leaves no room for anything else
     here; in it, simulated steps are slowed down, so that they can be followed.
     """
     quiet = quiet or viewing.is_shown
@@ -77,7 +77,7 @@ def watched(env: ArenaEnv, title: str, viewing: Viewed, *, quiet: bool = False) 
 
 
 def started_over(episode: Callable[[], Played]) -> Played:
-    """What the episode returns; it starts over after a mishap, and the last try's LiveError is raised.
+    """Play the episode and return what it returns; start over after a mishap, and raise the last try's LiveError.
 
     What a person did on purpose is no mishap: StoppedError and NotInFrontError are raised at once.
     """
@@ -95,9 +95,11 @@ def started_over(episode: Callable[[], Played]) -> Played:
 
 @contextmanager
 def filmed(game: Game, display: Display | None, scenario: Scenario, video: Path | None) -> Iterator[Game]:
-    """The game, filmed if there is a file for it; however the block ends, the film shows what was played until then.
+    """Yield the game, filmed if there is a file for it.
 
-    FilmError, one line, where it can't be written.
+    However the block ends, the film shows what was played until then.
+
+    Raise FilmError, one line, where it can't be written.
     """
     if video is None:
         yield game
@@ -115,7 +117,7 @@ def filmed(game: Game, display: Display | None, scenario: Scenario, video: Path 
 
 
 def _window_of(game: Game, display: Display) -> Window:
-    """The window's pictures, the chat blanked: a film is there to be shown to others."""
+    """Return the window's pictures, the chat blanked: a film is there to be shown to others."""
 
     def seen_scale() -> int | None:
         return seen_gui_scale(game.connection.screen) if isinstance(game, LiveGame) else None

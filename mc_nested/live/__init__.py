@@ -1,1 +1,1 @@
-"""The live path: from an action to timed keys, and from pixels back to a state."""
+"""Play in a running game: turn an action into timed keys, and the pixels of its window back into a state."""

@@ -1,4 +1,4 @@
-"""What playing live took, for a training's summary, and how many failed episodes a training accepts.
+"""Count what playing live took, for a training's summary, and limit the failed episodes that a training accepts.
 
 Failed episodes are thrown away and counted, up to a limit.
 """
@@ -12,7 +12,7 @@ from mc_nested.errors import LiveError, StoppedError
 
 @dataclass
 class Effort:
-    """Counts so far: moves and the corrections after them, clicks and those that had to be repeated."""
+    """Counts so far: moves and their corrections, clicks and repeated clicks."""
 
     moves: int = 0
     corrections: int = 0
@@ -31,7 +31,7 @@ class ActionLog:
     recoveries: int = 0
 
     def summary(self) -> dict[str, Any]:
-        """Everything as plain numbers; the seconds as percentiles, None before the first action."""
+        """Return all counts as plain numbers; the seconds as percentiles, None before the first action."""
         return {
             "actions": len(self.seconds),
             "action_s": {f"p{share}": percentile(self.seconds, share) for share in (50, 95, 99)},
@@ -46,7 +46,7 @@ class ActionLog:
 
 
 def percentile(values: list[float], share: int) -> float | None:
-    """The percentile of values in seconds, to the millisecond; None if there are no values."""
+    """Return the percentile of values in seconds, to the millisecond; None if there are no values."""
     if len(values) < 2:
         return round(values[0], 3) if values else None
     return round(statistics.quantiles(values, n=100, method="inclusive")[share - 1], 3)
@@ -81,5 +81,5 @@ class FailureBudget:
             raise error
 
     def summary(self) -> dict[str, Any]:
-        """How many episodes failed, and what the last errors said."""
+        """Return how many episodes failed, and what the last errors said."""
         return {"spoiled_episodes": len(self._reasons), "last_problems": self._reasons[-3:]}

@@ -66,14 +66,14 @@ class GameConnection:
         return self._screen
 
     def for_profile(self, profile: Profile) -> "GameConnection":
-        """The same game, read with that profile's font and layout.
+        """Return the same game, read with that profile's font and layout.
 
         Raises ProfileError or FontError where the profile names no font that can be used.
         """
         return self.with_screen(screen_for(profile, self.devices))
 
     def with_screen(self, screen: GameScreen) -> "GameConnection":
-        """The same game, read by that screen."""
+        """Return the same game, read by that screen."""
         return GameConnection(
             self.devices,
             self.controller,
@@ -85,12 +85,14 @@ class GameConnection:
         )
 
     def check_single_player(self) -> None:
-        """DesktopError if the window's title says that others may play there, unless that is allowed."""
+        """Raise DesktopError if the window's title says that others may play there, unless that is allowed."""
         check_single_player(self.devices.display.title(), is_server_allowed=self.is_server_allowed)
 
 
 def prepare_keyboard(profile: Profile, devices: Devices) -> None:
-    """Press keys as the game in that window takes them; DesktopError where this keyboard lacks one of the profile's.
+    """Have keys pressed as the game in that window takes them.
+
+    Raise DesktopError if this keyboard lacks a profile's key.
 
     Nothing is pressed. The version is the one in the window's title, or else the profile's.
     """
@@ -99,7 +101,7 @@ def prepare_keyboard(profile: Profile, devices: Devices) -> None:
 
 
 def connect(profile: Profile, devices: Devices, *, is_server_allowed: bool = False) -> GameConnection:
-    """A connection to the game in that window, read with the profile's font and layout.
+    """Return a connection to the game in that window, read with the profile's font and layout.
 
     Raises ProfileError or FontError where the profile names no font that can be used.
     """
@@ -108,7 +110,10 @@ def connect(profile: Profile, devices: Devices, *, is_server_allowed: bool = Fal
 
 
 def screen_for(profile: Profile, devices: Devices) -> WindowScreen:
-    """What reads the window with the profile's font and layout; ProfileError or FontError without a usable font."""
+    """Return the screen that reads the window as the profile says.
+
+    Raise ProfileError or FontError without a usable font.
+    """
     font, overlay, display = load_font(profile.screen.font_path()), overlay_of(profile), devices.display
     version = game_in(display.title(), profile.game).version
     return WindowScreen(display, font, overlay, version)

@@ -56,15 +56,15 @@ class Display(Protocol):
     """The game's window, and nothing of the desktop around it."""
 
     def size(self) -> tuple[int, int]:
-        """Width and height of the client area in framebuffer pixels."""
+        """Return the width and height of the client area in framebuffer pixels."""
 
     def title(self) -> str: ...
 
     def is_in_front(self) -> bool:
-        """Whether a key pressed now would reach this window."""
+        """Return whether a key pressed now would reach this window."""
 
     def grab(self, region: Region | None = None) -> Frame:
-        """A picture of the client area, or of a region of it.
+        """Return a picture of the client area, or of a region of it.
 
         Where one that can't be written to is returned again, the very same array, nothing has changed since.
         """
@@ -79,7 +79,7 @@ class Keyboard(Protocol):
     """
 
     def go_by_symbols(self, keys: Collection[str]) -> None:
-        """From now on press what the game takes as a key to 1.12, where it goes by symbols, and not by places.
+        """Press from now on what a game to 1.12 takes as a key: it goes by symbols, and not by places.
 
         DesktopError, before anything is pressed, where this keyboard's layout lacks one of ``keys``.
         """
@@ -143,5 +143,5 @@ class Deadline:
 
 
 def not_text_error() -> ClipboardError:
-    """The error for a clipboard with a picture or files on it."""
+    """Return the error for a clipboard with a picture or files on it."""
     return ClipboardError("the clipboard holds something other than text, and is left alone: copy a text, start again")

@@ -40,6 +40,6 @@ class Journals:
         self._journals = journals
 
     def note(self, kind: NoteKind, /, **facts: Fact) -> None:
-        """Give it to each."""
+        """Give the note to each journal."""
         for journal in self._journals:
             journal.note(kind, **facts)

@@ -26,7 +26,7 @@ RESET_TRIES = 4
 
 
 def check_fits(scenario: Scenario, profile: Profile, profile_name: str | None = None) -> None:
-    """ProfileError, one line, if a scenario can't be played with a profile: too many materials, or too small an arena.
+    """Raise ProfileError, one line, if a profile can't play a scenario: too many materials, or too small an arena.
 
     A smaller scenario is played in the arena's near left corner. ``profile_name`` is for the step to repeat.
     """
@@ -194,7 +194,7 @@ class LiveGame:
         return outcome
 
     def _with_evidence(self, error: LiveError) -> LiveError:
-        """The same error, which also says where the last frames were saved, if there are any."""
+        """Return the error with a note of where the last frames were saved, if there are any."""
         files = self._last_frames.save()
         return type(error)(f"{error}; what was seen last: {files[-1]}") if files else error
 

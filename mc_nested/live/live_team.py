@@ -43,7 +43,7 @@ class LiveTeam:
         return tuple(cells)
 
     def act(self, actions: Sequence[Action | None]) -> tuple[Outcome, ...]:
-        """Perform a tick; LiveError if an action fails, or the arena must be reset first."""
+        """Perform a tick; raise LiveError if an action fails, or the arena must be reset first."""
         if self._cells is None:
             raise LiveError("the arena must be reset first: the last reset or tick failed, or there was none")
         cells, self._cells = self._cells, None
@@ -52,7 +52,7 @@ class LiveTeam:
         return tuple(outcomes)
 
     def _act(self, number: int, action: Action | None, cells: list[Cell]) -> Outcome:
-        """One builder's action; the cells and the blocks are those after it then."""
+        """Perform one builder's action, and take in the cells and blocks after it."""
         if action is None:
             return Outcome(cells[number], None)
         game = self._games[number]

@@ -47,7 +47,7 @@ _OFF_HAND = 29
 
 
 def world_greys(frame: Frame, scales: Scales) -> NDArray[np.uint8]:
-    """The world on a picture of the whole window (height, width, 3) at these scales, as greys (84, 84)."""
+    """Return the world on a picture of the whole window (height, width, 3) at these scales, as greys (84, 84)."""
     greys = cv2.cvtColor(frame, cv2.COLOR_BGR2GRAY).astype(np.float32)
     seen = np.ones_like(greys)
     parts = ground_parts(frame, scales.debug)
@@ -65,7 +65,7 @@ def world_greys(frame: Frame, scales: Scales) -> NDArray[np.uint8]:
 
 
 def hidden_regions(size: tuple[int, int], scale: int) -> tuple[Region, ...]:
-    """What the chat's messages, the hotbar and the crosshair may hide of a window (width, height), in its pixels."""
+    """Return what the chat's messages, the hotbar and the crosshair may hide in a window (width, height), in pixels."""
     width, height = size
     across, down = -(-width // scale) // 2, -(-height // scale)
     bar = (across - _BAR_WIDTH // 2 - _OFF_HAND, down - _BAR_HEIGHT, _BAR_WIDTH + 2 * _OFF_HAND, _BAR_HEIGHT)
@@ -74,7 +74,7 @@ def hidden_regions(size: tuple[int, int], scale: int) -> tuple[Region, ...]:
 
 
 def _look_through(frame: Frame, greys: Float32s, seen: Float32s, box: Region, scale: int, grey: int = GREY) -> None:
-    """Undo a box's grey; what its letters hide isn't seen, nor what a line under them does, just below the box."""
+    """Undo a box's grey. What its letters hide isn't seen, nor what an underline hides just below the box."""
     part, below = _part(box), _part(Region(box.left, box.top + box.height, box.width, scale))
     # Where two boxes meet, what is left of the first one's world is not known.
     seen[part] *= (cv2.inRange(frame[part], (0, 0, 0), (BRIGHTEST,) * 3) > 0) & (greys[part] >= grey * ALPHA - 1)
@@ -130,17 +130,20 @@ class ScreenArenas(VectorWrapper[Pictures, Int64s, Int64s, Int64s, Any]):
         return self._arenas.scenario
 
     def cell(self, run: int) -> Cell:
-        """Where the agent stands in that arena."""
+        """Return where the agent stands in that arena."""
         return self._arenas.cell(run)
 
     def placed(self, run: int) -> frozenset[Cell]:
-        """The cells where a block landed in that arena since its last reset."""
+        """Return the cells where a block landed in that arena since its last reset."""
         return self._arenas.placed(run)
 
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Pictures, dict[str, Any]]:
-        """Begin an episode in the masked arenas, or in all; LiveError if a game can't, or its window isn't seen."""
+        """Begin an episode in the masked arenas, or in all.
+
+        Raise LiveError if a game can't, or its window isn't seen.
+        """
         _, info = self._arenas.reset(seed=seed, options=options)
         begun = np.asarray((options or {}).get("reset_mask", np.ones(self.num_envs)), np.bool_)
         for run in np.flatnonzero(begun).tolist():
@@ -149,7 +152,7 @@ class ScreenArenas(VectorWrapper[Pictures, Int64s, Int64s, Int64s, Any]):
         return self._pictures.copy(), info
 
     def step(self, actions: Int64s) -> tuple[Pictures, Float64s, Bools, Bools, dict[str, Any]]:
-        """One action in every arena whose episode runs, and a picture of it; LiveError as for ``reset``."""
+        """Perform an action in every arena whose episode runs, and picture it; raise LiveError as for ``reset``."""
         acts = ~self._has_ended & (taken_apart(actions, len(self._has_ended))[0] != NO_ACTION)
         _, rewards, terminated, truncated, info = self._arenas.step(actions)
         for run in np.flatnonzero(acts).tolist():
@@ -160,12 +163,12 @@ class ScreenArenas(VectorWrapper[Pictures, Int64s, Int64s, Int64s, Any]):
 
 
 def windows_of(arenas: ArenaVectorEnv) -> Sequence[GameConnection]:
-    """The connection of each arena's game; UserError if one isn't played in a window."""
+    """Return the connection of each arena's game; raise UserError if one isn't played in a window."""
     return [getattr(env.game, "connection", None) or _has_no_window() for env in arenas.envs]
 
 
 def seen_in(window: GameConnection) -> Pictures:
-    """The world in a game's window now, (84, 84); LiveError if its GUI scale can't be seen."""
+    """Return the world in a game's window now, (84, 84); raise LiveError if its GUI scale can't be seen."""
     scales = window.screen.seen_scales()
     if scales is None:
         raise LiveError("the debug screen isn't seen, and with it the GUI scale: press F3 in the game")

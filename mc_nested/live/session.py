@@ -17,7 +17,7 @@ from mc_nested.live.vision.layout import Scales
 
 @contextmanager
 def open_live_game(scenario: Scenario, opening: Opening) -> Iterator[tuple[LiveGame, Display]]:
-    """The scenario in the profile's window, and the window. Every key is up again when the block is left.
+    """Yield the scenario in the profile's window, and the window. Every key is up again when the block is left.
 
     Asks the player to switch to the game, and waits until it is in front and its debug screen can be read.
 
@@ -54,5 +54,5 @@ def open_live_game(scenario: Scenario, opening: Opening) -> Iterator[tuple[LiveG
 
 
 def fingerprint_of(display: Display, scales: Scales | None = None) -> Fingerprint:
-    """The window as it is now, to compare with the one that a profile was calibrated on."""
+    """Return the window as it is now, to compare with the one that a profile was calibrated on."""
     return Fingerprint(display.title(), display.size(), scales)

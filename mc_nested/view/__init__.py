@@ -1,1 +1,1 @@
-"""The live view: a run sets down what it does (board, publisher), another process reads and shows it (app)."""
+"""The live view: a run writes what it does to files (board, publisher), another process reads and shows it (app)."""

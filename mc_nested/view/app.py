@@ -37,7 +37,7 @@ class Panel(Widget):
         self._text = Text()
 
     def show(self, shown: StatusShown) -> None:
-        """Show a status, if it differs from what is there."""
+        """Show a status, if it differs from the one shown."""
         self._shown = shown
         text = self._draw(shown, self.size.width, self.size.height)
         if text != self._text or text.spans != self._text.spans:
@@ -50,7 +50,7 @@ class Panel(Widget):
             self.show(self._shown)
 
     def render(self) -> Text:
-        """The text."""
+        """Return the text."""
         return self._text
 
 
@@ -70,7 +70,7 @@ CLOSES_AFTER_S = 0.5
 
 
 class _Layout(NamedTuple):
-    """What the places of the parts depend on; a new one costs as much as twenty drawings."""
+    """What the places of the parts depend on; laying out anew costs as much as drawing twenty times."""
 
     is_narrow: bool
     status_lines: int
@@ -130,7 +130,7 @@ class ViewApp(App[None]):
         self._offered: object = None
 
     def compose(self) -> ComposeResult:
-        """The parts, from top to bottom."""
+        """Return the parts, from top to bottom."""
         yield Panel(panels.title, id="title")
         yield Panel(panels.status_line, id="status")
         with Container(id="body"):
@@ -140,7 +140,7 @@ class ViewApp(App[None]):
         yield Footer()
 
     def on_mount(self) -> None:
-        """Begin to look."""
+        """Begin to look for changes."""
         self._draw()
         self.set_interval(LOOK_EVERY_S, self._look)
 
@@ -174,7 +174,7 @@ class ViewApp(App[None]):
         self.exit()
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """Keys that can't do anything now aren't offered."""
+        """Return whether a key can do anything now: others aren't offered."""
         if action == "pause":
             return self._life == "runs" and self._status.can_pause
         if action == "stop":
@@ -184,7 +184,7 @@ class ViewApp(App[None]):
         return super().check_action(action, parameters)
 
     async def action_interrupt(self) -> None:
-        """Ctrl+C: stop the run whose own view this is; close another one."""
+        """Stop the run at Ctrl+C where this view is its own; else close the view."""
         if self._closes_at_end and self._life == "runs":
             self.action_stop()
         else:
@@ -195,32 +195,32 @@ class ViewApp(App[None]):
         self._ask(ask_to_stop)
 
     def action_answer(self, is_yes: bool) -> None:
-        """YesOrNo the run's question, if it has one and that is on the screen."""
+        """Answer the run's question, if it has one and that is on the screen."""
         answer = YesOrNo(number=self._status.question_number, is_yes=is_yes)
         self._ask(lambda folder: give_answer(folder, answer))
 
     def action_earlier(self) -> None:
-        """The moment before."""
+        """Show the moment before."""
         self._scrub(lambda past: past.moved(-1))
 
     def action_later(self) -> None:
-        """The moment after."""
+        """Show the moment after."""
         self._scrub(lambda past: past.moved(1))
 
     def action_far_earlier(self) -> None:
-        """A tenth of the run back."""
+        """Go a tenth of the run back."""
         self._scrub(lambda past: past.jumped(-1))
 
     def action_far_later(self) -> None:
-        """A tenth of the run on."""
+        """Go a tenth of the run on."""
         self._scrub(lambda past: past.jumped(1))
 
     def action_first(self) -> None:
-        """The first moment."""
+        """Show the first moment."""
         self._scrub(lambda past: past.moved(-len(past.history)))
 
     def action_now(self) -> None:
-        """What is now."""
+        """Show what is now."""
         self._past = None
         self._draw()
 
@@ -280,7 +280,7 @@ class ViewApp(App[None]):
         )
 
     def _lay_out(self, layout: _Layout) -> None:
-        """Arena and side stand side by side where there is room; a status that is long gets its lines."""
+        """Lay the parts out: arena and side stand side by side where there is room; a long status gets its lines."""
         body = self.query("#body")
         body.set_class(layout.is_narrow, "narrow")
         body.set_class(layout.arena_size is None, "bare")

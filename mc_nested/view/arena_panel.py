@@ -33,7 +33,7 @@ AGENT_STYLE = terminal.STYLES[AGENT]
 
 
 def arena_panel(arena: ArenaSeen, trials: int, width: int, height: int) -> Text:
-    """The arena, as large as it fits, with what its signs mean below it, where there is room.
+    """Return the arena, as large as it fits, with what its signs mean below it, where there is room.
 
     A cell is two columns by a row, or so many times that; in a narrow terminal one column.
     """
@@ -59,7 +59,7 @@ def arena_panel(arena: ArenaSeen, trials: int, width: int, height: int) -> Text:
 
 
 def _scale(size: int, width: int, height: int) -> tuple[int, int]:
-    """Columns and rows of a cell."""
+    """Return columns and rows of a cell."""
     legend = 3
     times = min(width // (2 * size), (height - legend) // size)
     if times >= 1:
@@ -68,7 +68,7 @@ def _scale(size: int, width: int, height: int) -> tuple[int, int]:
 
 
 def _signs(arena: ArenaSeen, trials: int) -> dict[Cell, tuple[str, str]]:
-    """The sign of each cell, and its style."""
+    """Return the sign of each cell, and its style."""
     design = set(arena.design)
     stands, agents = _by_cell(arena.stands), _by_cell(arena.agents)
     across = range(arena.size)
@@ -119,7 +119,7 @@ def _missing_sign(arena: ArenaSeen, cell: Cell) -> str:
 
 
 def _legend(arena: ArenaSeen, trials: int, width: int) -> list[Text]:
-    """What the signs mean, in as many lines as it takes."""
+    """Return what the signs mean, in as many lines as it takes."""
     if trials > 1:
         entries = [("1-9", AGENT_STYLE, f"agents, {MANY_SIGN} ten or more")]
         entries += [

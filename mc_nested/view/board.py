@@ -1,4 +1,4 @@
-"""Board: what a run does now, in plain words, set down by the thread that plays and read by one that publishes."""
+"""Board: what a run does now, in plain words. The thread that plays writes it, another one publishes it."""
 
 import threading
 import time
@@ -19,14 +19,14 @@ DETAIL: tuple[NoteKind, ...] = ("plans", "clicks", "types")
 
 @dataclass(frozen=True)
 class Doing:
-    """What a run does from a note on, and how it goes."""
+    """What a run does from a note on, and in which mood (``Mood``)."""
 
     text: str
     mood: Mood = "works"
 
 
 def doing_of(kind: NoteKind, facts: dict[str, Fact]) -> Doing | None:
-    """What begins with that note; None where nothing new does."""
+    """Return what the run begins with that note; None where it begins nothing new."""
     match kind:
         case "waits":
             doing = Doing(f"waits for {facts['on']}", "waits")
@@ -47,7 +47,7 @@ def doing_of(kind: NoteKind, facts: dict[str, Fact]) -> Doing | None:
 
 
 def detail_of(kind: NoteKind, facts: dict[str, Fact]) -> str:
-    """The part of it that is under way, in words; empty where the note is of no part."""
+    """Return which part of an activity is under way, in words; empty where the note is of no part."""
     match kind:
         case "plans":
             ticks = "1 tick" if facts["ticks"] == 1 else f"{facts['ticks']} ticks"
@@ -61,18 +61,18 @@ def detail_of(kind: NoteKind, facts: dict[str, Fact]) -> str:
 
 
 def words_of(action: Action) -> str:
-    """An action in words, with its name in the paper."""
+    """Return an action in words, with its name in the paper."""
     move, places = MOVES[action.name[0]], action.name.endswith("D")
     return f"moves {move}{' and places a block' if places else ''} ({named(action)})"
 
 
 def named(action: Action) -> str:
-    """An action's name in the paper (section 5.1.2), as B+D."""
+    """Return an action's name in the paper (section 5.1.2), as B+D."""
     return "+".join(action.name)
 
 
 def action_seen(action: Action, facts: dict[str, Fact]) -> ActionSeen:
-    """What the note ``done`` says of the action."""
+    """Return what the note ``done`` says of the action."""
     placed = facts["placed"]
     return ActionSeen(
         named(action),
@@ -83,7 +83,7 @@ def action_seen(action: Action, facts: dict[str, Fact]) -> ActionSeen:
 
 
 def reading_seen(facts: dict[str, Fact]) -> ReadingSeen:
-    """What the note ``reads`` says of the debug screen."""
+    """Return what the note ``reads`` says of the debug screen."""
     if facts.get("problem") is not None:
         return ReadingSeen(problem=str(facts["problem"]))
     xyz = cast("tuple[float, float, float] | None", facts.get("xyz"))
@@ -102,7 +102,7 @@ def _target_words(target: tuple[tuple[int, int, int], str]) -> str:
 
 
 class Board:
-    """Holds a run's status. It is a journal: what it is told takes microseconds, since an agent is at its keys.
+    """A journal that holds a run's status. It takes each note in microseconds, as the agent is pressing keys meanwhile.
 
     Args:
         what: the run's verb.
@@ -139,13 +139,13 @@ class Board:
             self._begin(doing)
 
     def does(self, text: str) -> None:
-        """What the run does from now on; said again, it goes on as before."""
+        """Set what the run does from now on; repeating it changes nothing."""
         if self._own != text:
             self._own = text
             self._begin(Doing(text, "works"))
 
     def go_on(self) -> None:
-        """A pause is over: what is done begins anew."""
+        """End a pause: what is done begins anew."""
         self.show(paused=False, since=self._clock())
 
     def show(self, **fields: Any) -> None:
@@ -154,7 +154,7 @@ class Board:
             self._fields.update(fields)
 
     def status(self) -> Status:
-        """All of it as it is now."""
+        """Return the whole status as it is now."""
         with self._lock:
             fields = {**self._fields, "actions": tuple(self._actions)}
         if (reading := self._reading) is not None:

@@ -1,6 +1,6 @@
 """The parts of the view, each from a status to text: title, status line, arena, side, and where in time it is.
 
-Beside the arena are how far the training is, its curve, the reading, the last actions, and what the run said. Where
+Beside the arena are the training's progress, its curve, the reading, the last actions and what the run said. Where
 there is no terminal to draw in, the view is lines of text.
 """
 
@@ -20,7 +20,7 @@ EIGHTHS = " ▁▂▃▄▅▆▇█"
 
 
 def curve_panel(scores: Sequence[float], highest: float, width: int, height: int) -> Text:
-    """The scores from 0 to the highest one, up to three columns each, or a column for the mean of several."""
+    """Draw the scores from 0 to the highest one, up to three columns each, or a column for the mean of several."""
     text = Text(no_wrap=True, end="")
     if not scores or width < 1 or height < 1:
         return text
@@ -42,7 +42,10 @@ MS = 1000
 
 
 def side_panel(status: Status, width: int, height: int) -> Text:
-    """All of it in so many lines; where they don't suffice, the curve and the oldest actions give way."""
+    """Return the side panel in so many lines.
+
+    Where they don't suffice, the curve and the oldest actions are left out.
+    """
     learning = status.learning
     head = [Text(line) for line in learning_lines(learning)] if learning else []
     reading = _reading(status.reading)
@@ -59,7 +62,7 @@ def side_panel(status: Status, width: int, height: int) -> Text:
 
 
 def _curve(learning: Learning, width: int, room: int) -> list[Text]:
-    """The curve below a heading, in at most so many lines."""
+    """Return the curve below a heading, in at most so many lines."""
     high = min(MOST_CURVE, room - 1)
     if not learning.scores or high < 1:
         return []
@@ -101,7 +104,7 @@ def _cell(cell: tuple[int, int]) -> str:
 
 
 def _said(lines: tuple[str, ...], width: int) -> list[Text]:
-    """The last lines, whole: an instruction that is cut off helps nobody."""
+    """Return the last lines, whole: an instruction must not be cut off."""
     if not lines:
         return []
     whole = [Text(part) for line in lines[-3:] for part in wrapped(line, width)]
@@ -128,14 +131,14 @@ INDENT = 2
 
 
 def title(shown: StatusShown, width: int, _height: int) -> Text:
-    """What is done, in a line."""
+    """Return what is done, in a line."""
     text = Text(f"{shown.status.what}: {shown.status.title}", "bold", no_wrap=True)
     text.truncate(width, overflow="ellipsis")
     return text
 
 
 def status_lines(shown: StatusShown, width: int) -> Text:
-    """What the run does, waits for, or is stuck on, and since when; whole, in as many lines as it takes."""
+    """Return what the run does, waits for, or is stuck on, and since when; whole, in as many lines as it takes."""
     word, sentence = status_words(shown)
     sign, style = SIGNS[word]
     prefix = "it seems stuck: " if word == "stuck" else ""
@@ -145,24 +148,24 @@ def status_lines(shown: StatusShown, width: int) -> Text:
 
 
 def status_line(shown: StatusShown, width: int, _height: int) -> Text:
-    """The same, as a part of the view draws it."""
+    """Return the status lines, as a part of the view draws them."""
     return status_lines(shown, width)
 
 
 def arena(shown: StatusShown, width: int, height: int) -> Text:
-    """The arena from above; empty where a run has none, as calibration."""
+    """Return the arena from above; empty where a run has none, as calibration."""
     seen = shown.status.arena
     trials = shown.status.learning.trials if shown.status.learning else 1
     return arena_panel(seen, trials, width, height) if seen and width and height else Text()
 
 
 def side(shown: StatusShown, width: int, height: int) -> Text:
-    """What is beside it."""
+    """Return what is shown beside the arena."""
     return side_panel(shown.status, width, height)
 
 
 def moment(shown: StatusShown, width: int, _height: int) -> Text:
-    """Which moment is shown."""
+    """Return which moment is shown."""
     at = clock_time(shown.status.at)
     text = Text(f"as it was at {at}" if shown.is_past else f"now, {at}", "reverse" if shown.is_past else "dim")
     text.truncate(width)
@@ -175,13 +178,13 @@ LEGEND = 3
 
 
 def plain_line(shown: StatusShown) -> str:
-    """What the run does now, in a line."""
+    """Return what the run does now, in a line."""
     word, sentence = status_words(shown)
     return sentence if word in ("ended", "gone") else f"{clock_time(shown.status.at)}  {sentence}"
 
 
 def plain_end(shown: StatusShown) -> list[str]:
-    """How far it is, and the arena."""
+    """Return how far the run is, and its arena."""
     status = shown.status
     lines = learning_lines(status.learning) if status.learning else []
     if status.arena:

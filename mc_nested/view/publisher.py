@@ -31,7 +31,7 @@ BACK_WITHIN_S = 60.0
 class Publisher:
     """Publishes a board in a run's folder while the block runs, as a context manager.
 
-    A folder that can't be written costs the view, never the run. What is asked is heard at every publishing.
+    If the folder can't be written, the view is lost, never the run. Requests are read at every publishing.
 
     Args:
         board: what is published.
@@ -105,7 +105,7 @@ class Publisher:
         self.paused_s += self._pause_ended_at - began
 
     def answer(self, question: str, is_seen: Callable[[], bool] = lambda: True) -> bool | None:
-        """A person's yes or no to a question, by the view; None once nobody sees it any more."""
+        """Wait for a person's yes or no to a question in the view; return None once nobody sees it any more."""
         number = next(self._questions)
         self.board.show(question=question, question_number=number)
         try:
@@ -149,7 +149,7 @@ def press_ctrl_c() -> None:
 
 
 def _end_of(error: BaseException | None) -> str:
-    """How a run ended, in words."""
+    """Return how a run ended, in words."""
     if error is None:
         return "finished"
     return " ".join(str(error).split()) or "stopped"

@@ -34,7 +34,7 @@ class YesOrNo(BaseModel):
 
 
 def ask_pause(folder: Path) -> None:
-    """Ask the run in a folder to pause. OSError if nothing can be written there."""
+    """Ask the run in a folder to pause. Raise OSError if nothing can be written there."""
     (folder / VIEW / PAUSE).touch()
 
 
@@ -49,17 +49,17 @@ def renew_pause(folder: Path) -> bool:
 
 
 def ask_to_go_on(folder: Path) -> None:
-    """Ask it to go on. OSError if the file can't be removed."""
+    """Ask the run to go on. Raise OSError if the file can't be removed."""
     (folder / VIEW / PAUSE).unlink(missing_ok=True)
 
 
 def ask_to_stop(folder: Path) -> None:
-    """Ask it to stop: that can't be taken back. OSError if nothing can be written there."""
+    """Ask the run to stop: that can't be taken back. Raise OSError if nothing can be written there."""
     (folder / VIEW / STOP).touch()
 
 
 def give_answer(folder: Path, answer: YesOrNo) -> None:
-    """YesOrNo its question. OSError if nothing can be written there."""
+    """Answer the run's question. Raise OSError if nothing can be written there."""
     for tries_left in reversed(range(TRIES)):
         try:
             with atomic_write(folder / VIEW / ANSWER) as path:
@@ -83,7 +83,7 @@ class Requests:
                 (self._folder / name).unlink(missing_ok=True)
 
     def is_pause_asked(self) -> bool:
-        """Whether somebody wants a pause now."""
+        """Return whether somebody wants a pause now."""
         try:
             at = (self._folder / PAUSE).stat().st_mtime_ns
         except OSError:
@@ -94,11 +94,11 @@ class Requests:
         return self._clock() - self._renewed[1] < RENEWED_S
 
     def is_stop_asked(self) -> bool:
-        """Whether somebody asked to stop."""
+        """Return whether somebody asked to stop."""
         return (self._folder / STOP).exists()
 
     def answer_to(self, number: int) -> bool | None:
-        """The answer to that question; None where there is none yet."""
+        """Return the answer to that question; None where there is none yet."""
         try:
             answer = YesOrNo.model_validate_json((self._folder / ANSWER).read_bytes())
         except (OSError, ValidationError):

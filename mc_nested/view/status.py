@@ -67,7 +67,7 @@ class ArenaSeen(BaseModel):
 
     @classmethod
     def of(cls, scenario: Scenario) -> "ArenaSeen":
-        """The empty arena of a scenario."""
+        """Return the empty arena of a scenario."""
         parts = tuple(tuple(sorted(part.cells)) for part in scenario.parts)
         return cls(size=scenario.size, design=tuple(sorted(scenario.design)), parts=parts)
 

@@ -1,4 +1,4 @@
-"""A run's status as files: now.json is its status now, history.jsonl how it came to be, coarser the longer it lasts.
+"""A run's status as files: now.json is its status now, history.jsonl its earlier ones, coarser the longer it lasts.
 
 They lie in the folder ``view`` of a run. A reader sees either the old status or the new one, never a half. A scrubber
 is at one moment of the history.
@@ -48,7 +48,7 @@ class History:
             self._thin()
 
     def add(self, at: float, line: str, is_last: bool) -> None:
-        """Keep a status if it is time to, or if it is the last one. OSError if the disk refuses."""
+        """Keep a status if it is time to, or if it is the last one. Raise OSError if the disk refuses."""
         if at < self._next and not is_last:
             return
         self._next = at + self._every_s
@@ -89,12 +89,12 @@ class StatusFiles:
 
 
 def is_published(folder: Path) -> bool:
-    """Whether a living process writes that run's status."""
+    """Return whether a living process writes that run's status."""
     return holder_of(folder / FOLDER) is not None
 
 
 def status_now(folder: Path) -> Status:
-    """The status of a run; RunError if there is none, or it can't be read."""
+    """Return the status of a run; raise RunError if there is none, or it can't be read."""
     path = folder / FOLDER / NOW
     try:
         return _status_of(_read(path), path)
@@ -108,7 +108,7 @@ def status_now(folder: Path) -> Status:
 
 
 def history_of(folder: Path) -> Sequence[Status]:
-    """The statuses kept of a run, the oldest first; a line that a kill cut off is left out."""
+    """Return the statuses kept of a run, the oldest first; a line that a kill cut off is left out."""
     path = folder / FOLDER / HISTORY
     kept = []
     for line in _lines(path):
@@ -128,7 +128,7 @@ def remove_status(folder: Path) -> None:
 
 
 def _read(path: Path) -> bytes:
-    """All of a file that another process replaces again and again: Windows refuses to open it in that moment."""
+    """Read all of a file that another process replaces again and again: Windows refuses to open it in that moment."""
     deadline = time.monotonic() + REPLACED_WITHIN_S
     while time.monotonic() < deadline:
         with contextlib.suppress(PermissionError):
@@ -153,7 +153,7 @@ def _status_of(text: str | bytes, path: Path) -> Status:
 
 
 def _replace(path: Path, text: str) -> None:
-    """Write all of it at once. Without waiting for the disk: what a power cut costs is a view of the past."""
+    """Write all of it at once, without waiting for the disk: a power cut costs no more than a view of the past."""
     unfinished = path.with_suffix(".unfinished")
     unfinished.write_text(text, encoding="utf-8")
     unfinished.replace(path)
@@ -172,16 +172,16 @@ class Scrubber:
         return self.history[self.place]
 
     def moved(self, places: int) -> "Scrubber":
-        """So many places on, or back where it is negative; it stops at both ends."""
+        """Return the history moved on by so many places, or back for a negative number; it stops at both ends."""
         return replace(self, place=min(max(self.place + places, 0), len(self.history) - 1))
 
     def jumped(self, tenths: int) -> "Scrubber":
-        """So many tenths of the whole on, by one place at least."""
+        """Return the history moved on by so many tenths of the whole, by one place at least."""
         step = max(1, len(self.history) // 10)
         return self.moved(tenths * step)
 
     def line(self, width: int) -> Text:
-        """The whole run as a line, with a mark where it is, and the times of its ends."""
+        """Return the whole run as a line, with a mark where it is, and the times of its ends."""
         first, last = clock_time(self.history[0].at), clock_time(self.history[-1].at)
         room = max(1, width - len(first) - len(last) - 2)
         mark = self.place * (room - 1) // max(1, len(self.history) - 1)

@@ -29,7 +29,7 @@ LEAVE = b"\x1b[?1049l\x1b[?1000l\x1b[?1003l\x1b[?1006l\x1b[?2004l\x1b[?25h\x1b[0
 
 
 def can_draw() -> bool:
-    """Whether there is a terminal to draw in and to take keys from."""
+    """Return whether there is a terminal to draw in and to take keys from."""
     are_terminals = all(stream.isatty() for stream in (sys.stdin, sys.stdout, sys.stderr))
     return are_terminals and os.environ.get("TERM", "") not in ("dumb", "unknown")
 
@@ -55,7 +55,7 @@ class TerminalView:
         return self._aside is not None
 
     def open(self) -> None:
-        """Open it; the run's status must be published by now. OSError or RuntimeError if the system refuses."""
+        """Open it; the run's status must be published by now. Raise OSError or RuntimeError if the system refuses."""
         self._put_aside()
         try:
             command = [sys.executable, "-m", "mc_nested.cli", "view", str(self._folder), "--close-at-end"]
@@ -71,7 +71,7 @@ class TerminalView:
             raise
 
     def lines(self) -> Sequence[str]:
-        """The last lines that the run printed."""
+        """Return the last lines that the run printed."""
         with self._lock:
             if self._aside is None:
                 return ()
@@ -90,7 +90,7 @@ class TerminalView:
         self._kept.cleanup()
 
     def _put_aside(self) -> None:
-        """From here on what is printed goes to a file, by this program and by the libraries that it uses."""
+        """Send what this program and its libraries print from now on to a file."""
         for stream in self._streams:
             stream.flush()
         aside = self._printed.open("a", encoding="utf-8", errors="replace", buffering=1)
@@ -101,7 +101,7 @@ class TerminalView:
         self._aside = sys.stdout = sys.stderr = aside
 
     def _put_back(self) -> None:
-        """From here on it is printed in the terminal again; what was kept is printed now."""
+        """Print in the terminal again from now on, and print what was kept."""
         if self._aside is None:
             return
         with contextlib.suppress(OSError):
@@ -126,7 +126,7 @@ class TerminalView:
 
 
 def _terminal_restorer() -> Callable[[], object]:
-    """What puts the terminal back as it is now."""
+    """Return a function that puts the terminal back as it is now."""
     if sys.platform == "win32":
         return partial(os.write, STDERR, LEAVE)
     import termios

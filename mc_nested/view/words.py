@@ -27,7 +27,7 @@ class StatusShown:
 
 
 def life_of(status: Status, is_published: bool, now: float) -> Life:
-    """Whether the run of a status is under way, if a living process is known to publish it or not.
+    """Return whether a run is under way, by its status and by whether a living process is known to publish it.
 
     Some disks know no locks: there, a status of just now says that it is.
     """
@@ -37,7 +37,7 @@ def life_of(status: Status, is_published: bool, now: float) -> Life:
 
 
 def lasting(seconds: float) -> str:
-    """A time span in its two largest units."""
+    """Return a time span in its two largest units."""
     whole = max(0, int(seconds))
     if whole < 60:
         return f"{whole} s"
@@ -47,12 +47,12 @@ def lasting(seconds: float) -> str:
 
 
 def clock_time(at: float) -> str:
-    """The time of day, here."""
+    """Return the time of day, here."""
     return time.strftime("%H:%M:%S", time.localtime(at))
 
 
 def status_words(shown: StatusShown) -> tuple[str, str]:
-    """What the run does, waits for, or is stuck on, and since when; and the word that says how it goes."""
+    """Return what the run does, waits for, or is stuck on, and since when; and the word that says how it goes."""
     status = shown.status
     if shown.life == "gone":
         return "gone", f"the run's process is gone; it was last seen at {clock_time(status.at)}: {status.doing}"
@@ -69,7 +69,7 @@ def status_words(shown: StatusShown) -> tuple[str, str]:
 
 
 def _asked_words(status: Status, since: str) -> tuple[str, str] | None:
-    """The same where a person was asked something, or asked for something; None where neither is so."""
+    """Return the words where a person was asked something, or asked for something; None where neither is so."""
     if status.question is not None:
         return "asks", f"{status.question} Press y for yes, n for no."
     if status.stopping:
@@ -82,7 +82,10 @@ def _asked_words(status: Status, since: str) -> tuple[str, str] | None:
 
 
 def wrapped(text: str, width: int) -> list[str]:
-    """A text as lines of at most so many characters, broken between words; a longer word has a line of its own."""
+    """Return a text as lines of at most so many characters, broken between words.
+
+    A longer word has a line of its own.
+    """
     lines, line = [], ""
     for word in text.split():
         if line and len(line) + 1 + len(word) > width:
@@ -94,7 +97,7 @@ def wrapped(text: str, width: int) -> list[str]:
 
 
 def learning_lines(learning: Learning) -> list[str]:
-    """Episodes, score and game time left, a line each."""
+    """Return episodes, score and game time left, a line each."""
     lines = [f"{learning.episodes:,} of at most {learning.episodes_at_most:,} episodes"]
     if learning.trials > 1:
         lines.append(f"{learning.trials} trials, {learning.at_optimum} at the optimum")

@@ -16,7 +16,7 @@ def trained(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def optimal(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A training that has reached the optimum on the line."""
+    """Return a training that has reached the optimum on the line."""
     out = tmp_path_factory.mktemp("runs") / "optimal"
     assert (
         run("train", "--preset", "model-based", "--stop-at-optimum", "--trials", "2", "--seed", "4", "--out", out) == 0

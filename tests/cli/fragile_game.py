@@ -60,7 +60,7 @@ class GreyDisplay:
 def open_live(
     monkeypatch: pytest.MonkeyPatch, lasts: float, error: McNestedError | None = None, failures: float = float("inf")
 ) -> None:
-    """From here on a live game is one that lasts so many actions."""
+    """Make every live game from here on one that lasts so many actions."""
 
     @contextmanager
     def opened(scenario: Scenario, opening: Opening) -> Iterator[tuple[FragileGame, GreyDisplay]]:

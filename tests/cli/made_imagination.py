@@ -13,7 +13,7 @@ BESIDE = Scenario("beside", frozenset({(1, 3), (1, 2)}), (2, 4), 16, MATERIALS, 
 
 
 def write_preset(path: Path) -> Path:
-    """A preset file of that name."""
+    """Return a preset file of that name."""
     live = load_preset("model-based").model_dump(exclude_none=True)
     live["hidden"] = [16, 16]
     path.write_text(tomlkit.dumps(live), "utf-8")
@@ -21,6 +21,6 @@ def write_preset(path: Path) -> Path:
 
 
 def write_scenario(path: Path, scenario: Scenario) -> Path:
-    """A design file of that name."""
+    """Return a design file of that name."""
     path.write_text(scenario_text(scenario), "utf-8")
     return path

@@ -27,7 +27,7 @@ def table(path: Path) -> list[dict[str, str]]:
 def check_mistake(
     arguments: list[str], says: str, trained: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """These words are refused in one line, and nothing is written.
+    """Check that these words are refused in one line, and nothing is written.
 
     In them, NEW stands for a path in ``tmp_path``, where nothing is yet, and TRAINED for a run's folder.
     """
@@ -45,7 +45,7 @@ def check_mistake(
 
 
 def verbs_of(command: Any, name: str = "") -> Iterator[tuple[str, Any]]:
-    """Every verb's words, and its command."""
+    """Return every verb's words, and its command."""
     yield name, command
     for verb, inner in getattr(command, "commands", {}).items():
         yield from verbs_of(inner, f"{name} {verb}".strip())

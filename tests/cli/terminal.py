@@ -79,7 +79,7 @@ class Terminal:
             self.read()
 
     def hang_up(self) -> int:
-        """Close the terminal, as a person closes its window; the program's exit code."""
+        """Close the terminal, as a person closes its window, and return the program's exit code."""
         self._close()
         return self.process.wait(PATIENCE_S)
 

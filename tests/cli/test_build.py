@@ -30,7 +30,7 @@ UNCOPIED = {"arena": Arena.around((0, 64, 0), "south")}
 
 @pytest.fixture
 def profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A user's profile ``mine``, whose arena has a copy of what stood there."""
+    """Return a user's profile ``mine``, whose arena has a copy of what stood there."""
     monkeypatch.setattr("mc_nested.live.profile.store.profile_folder", lambda: tmp_path / "config")
     path = tmp_path / "config" / "mine.toml"
     save_profile(Profile(arena=COPIED), path)
@@ -91,7 +91,7 @@ def test_what_can_not_be_built_is_one_line_and_exit_code_2(
     assert printed.err.count("\n") == 1
 
 
-def test_for_a_program_it_prints_what_was_built(capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_says_what_was_built(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("build", "line", "--json") == 0
     printed = capsys.readouterr()
     found = json.loads(printed.out)
@@ -100,13 +100,13 @@ def test_for_a_program_it_prints_what_was_built(capsys: pytest.CaptureFixture[st
     assert printed.err == ""
 
 
-def test_quietly_it_says_only_what_was_built(capsys: pytest.CaptureFixture[str]) -> None:
+def test_quiet_says_only_what_was_built(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("build", "line", "--quiet") == 0
     assert capsys.readouterr() == ("  built 11 of 11 blocks, of stone, in 13 steps\n", "")
 
 
 @pytest.mark.usefixtures("profile")
-def test_in_a_live_game_it_says_how_what_stood_there_comes_back(
+def test_in_a_live_game_build_says_how_to_put_back_what_stood_there(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     open_live(monkeypatch, float("inf"))
@@ -131,7 +131,7 @@ def test_in_a_live_game_it_says_how_what_stood_there_comes_back(
         ),
     ],
 )
-def test_where_nothing_was_copied_it_says_so_before_anything_is_changed(
+def test_if_nothing_was_copied_build_says_so_before_it_changes_anything(
     changes: dict[str, object],
     words: list[str],
     says: str,
@@ -160,7 +160,7 @@ def test_what_can_not_be_put_back_is_not_cleared_unless_that_is_said(
 
 @pytest.mark.usefixtures("profile")
 @pytest.mark.parametrize(("failures", "code"), [(1, 0), (2, 0), (3, 2)])
-def test_it_starts_over_twice_where_mishaps_spoil_it(
+def test_after_a_mishap_a_build_starts_over_twice_at_most(
     failures: int, code: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     open_live(monkeypatch, 5, LiveError("it lagged"), failures)
@@ -173,7 +173,7 @@ def test_it_starts_over_twice_where_mishaps_spoil_it(
 
 @pytest.mark.usefixtures("profile")
 @pytest.mark.parametrize("error", [StoppedError("stopped by f12"), NotInFrontError("another window")])
-def test_what_a_person_stops_does_not_start_over(
+def test_a_build_that_a_person_stops_does_not_start_over(
     error: LiveError, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     open_live(monkeypatch, 5, error, 1)

@@ -36,7 +36,7 @@ def code_of(profile: Path, *options: str) -> int | str | None:
 def set_up(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, *steps: CalibrationStep, failing: str | None = None
 ) -> None:
-    """From here on the desktop has that client's window alone, and these are the steps."""
+    """Make that client's window the only one of the desktop, and these the steps."""
     rows = [
         Check(name, "fail", "it is wrong", "mend it") if name == failing else Check(name, "pass", "")
         for name in CheckName
@@ -133,7 +133,7 @@ def test_what_the_player_has_to_do_is_said_in_any_case(
     assert "Switch to the game.\n" in (printed.err if words else printed.out)
 
 
-def test_what_fails_is_one_line_and_leaves_nothing(
+def test_a_failing_step_is_one_line_and_leaves_nothing(
     monkeypatch: pytest.MonkeyPatch, client: VirtualClient, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     set_up(monkeypatch, client, with_font(tmp_path), failing(LiveError("no button is to be seen")))
@@ -212,7 +212,7 @@ def test_a_report_that_can_not_be_made_is_a_warning(
 
 
 @pytest.mark.parametrize("verb", ["all", "undo", "report", "walk", "font", "clicks"])
-def test_an_empty_name_is_never_another_profile(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_empty_profile_name_is_refused(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("calibrate", verb, "--profile", "") == 2
     assert capsys.readouterr().err == "mc-nested: '' names no profile: give a name, or a file that ends in .toml\n"
 

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 @pytest.fixture
 def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
-    """The game on this desktop."""
+    """Return the game on this desktop."""
     client = started(VirtualClient(pitch=65.0))
     monkeypatch.setattr(calibrate_steps, "context_opener", lambda opening, ask: context_on(client, opening.say, ask))
     return client
@@ -35,7 +35,7 @@ def client(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
 
 @pytest.fixture
 def shared(monkeypatch: pytest.MonkeyPatch) -> VirtualClient:
-    """The game on this desktop, shared with others."""
+    """Return the game on this desktop, shared with others."""
     client = VirtualClient(pitch=65.0)
     monkeypatch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
 

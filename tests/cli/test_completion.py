@@ -24,7 +24,7 @@ HEAVY = ("torch", "numba", "cv2", "matplotlib", "scipy", "tomlkit")
 
 
 def asked(folder: Path, **variables: str) -> subprocess.CompletedProcess[str]:
-    """What the command answers a shell that asks by these variables."""
+    """Return what the command answers a shell that asks by these variables."""
     env = {**os.environ, **variables, "HOME": str(folder), "XDG_CONFIG_HOME": str(folder)}
     env["PYTHONPATH"] = os.pathsep.join(filter(None, (str(Path(__file__).parents[2]), os.environ.get("PYTHONPATH"))))
     return subprocess.run(
@@ -36,7 +36,7 @@ class AskedHere(Protocol):
     """Asks as a shell does, but in this process: one of its own takes thirty times as long."""
 
     def __call__(self, **variables: str) -> tuple[int, str]:
-        """Its exit code, and what it prints; nothing is printed as an error."""
+        """Return its exit code and what it prints; check that nothing is printed as an error."""
 
 
 @pytest.fixture
@@ -147,7 +147,7 @@ def test_a_real_bash_completes_with_the_script_that_it_is_given(folder: Path) ->
     assert done.stdout.splitlines() == ["complete -o default -F _mc_nested_completion mc-nested", "runs/line"]
 
 
-def test_no_verb_is_loaded_and_nothing_heavy(folder: Path) -> None:
+def test_completion_loads_no_verb_and_no_large_library(folder: Path) -> None:
     code = f"""
         import atexit, sys
         atexit.register(lambda: print([name for name in {HEAVY} if name in sys.modules], file=sys.stderr))
@@ -167,7 +167,7 @@ def test_no_verb_is_loaded_and_nothing_heavy(folder: Path) -> None:
     assert done.stderr.splitlines() == ["False", "[]"]
 
 
-def test_what_is_quick_is_what_the_verbs_complete(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_option_that_completes_names_is_completed_quickly(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
     monkeypatch.setenv("XDG_CONFIG_HOME", str(folder))
     found = set()
@@ -181,7 +181,7 @@ def test_what_is_quick_is_what_the_verbs_complete(folder: Path, monkeypatch: pyt
 
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with runs/a, runs/b, other/c, and what is none."""
+    """Return a folder with runs/a, runs/b, other/c, and what is none."""
     monkeypatch.chdir(tmp_path)
     for name in ("runs/a", "runs/b", "other/c"):
         (tmp_path / name).mkdir(parents=True)
@@ -204,7 +204,7 @@ def test_runs_are_also_those_where_the_path_leads(here: Path) -> None:
     assert complete_runs("other/x") == []
 
 
-def test_where_nothing_is_there_is_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_runs_or_profiles_nothing_is_completed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path / "missing")
     assert complete_runs("") == complete_runs("a/b/c") == complete_profiles("") == []

@@ -24,7 +24,7 @@ def code_of(*words: str | Path) -> int | str:
 
 @pytest.fixture
 def bare(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A home without a desktop, and nothing in it."""
+    """Return a home without a desktop, and nothing in it."""
 
     def no_session() -> str:
         raise DesktopError("no display (DISPLAY is not set): run this in the desktop session that shows the game")
@@ -36,7 +36,7 @@ def bare(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def with_rows(monkeypatch: pytest.MonkeyPatch, *statuses: Status) -> None:
-    """From here on the doctor finds rows of these statuses, over and over."""
+    """Make the doctor find rows of these statuses, over and over."""
     checks = [Check(name, statuses[i % len(statuses)], "found " * 30, "do " * 30) for i, name in enumerate(CheckName)]
     found = Examination(checks, Profile(), None, None, None, None)
     monkeypatch.setattr(doctor, "examine", lambda *_args, **_more: found)

@@ -177,7 +177,7 @@ def test_a_game_that_leaves_is_not_asked_again(play: Play) -> None:
     assert len(play.games.asked) == asked
 
 
-def test_without_a_game_it_waits_and_says_so(play: Play) -> None:
+def test_a_training_without_a_game_waits_and_says_so(play: Play) -> None:
     assert play.happens() == []
     assert play.at_play.in_words() == "waiting for a game (mc-nested train serve)"
 

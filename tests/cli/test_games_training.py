@@ -55,7 +55,7 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture(autouse=True)
 def own_desk(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A desk that is closed stays so: each test has its own."""
+    """Give each test a desk of its own: one that is closed stays so."""
     made = Desk()
     for module in (game_task, serve):
         monkeypatch.setattr(module, "desk", made)
@@ -94,7 +94,7 @@ def served(url: str, tmp_path: Path) -> Iterator[Served]:
 
 
 def serve_here(url: str, is_over: threading.Event) -> threading.Thread:
-    """A game on the virtual client that is served by a thread of this process, until that is set."""
+    """Serve a game on the virtual client in a thread of this process, until the event is set."""
 
     @contextmanager
     def opens(order: GameOrder) -> Iterator[OpenGame]:

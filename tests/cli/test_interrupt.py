@@ -9,7 +9,7 @@ from mc_nested.cli import interrupt as interrupt_module
 from mc_nested.cli.interrupt import catch_interrupts
 
 
-def test_the_first_is_noted_and_its_echo_is_not_a_second_one() -> None:
+def test_the_first_ctrl_c_is_recorded_and_its_echo_is_not_a_second_one() -> None:
     with catch_interrupts() as interrupt:
         assert not interrupt.requested
         signal.raise_signal(signal.SIGINT)
@@ -17,7 +17,7 @@ def test_the_first_is_noted_and_its_echo_is_not_a_second_one() -> None:
         signal.raise_signal(signal.SIGINT)
 
 
-def test_a_later_one_does_not_wait(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_later_ctrl_c_interrupts_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(interrupt_module, "SAME_REQUEST_S", -1.0)
     with catch_interrupts():
         signal.raise_signal(signal.SIGINT)
@@ -25,14 +25,14 @@ def test_a_later_one_does_not_wait(monkeypatch: pytest.MonkeyPatch) -> None:
             signal.raise_signal(signal.SIGINT)
 
 
-def test_afterwards_everything_is_as_before() -> None:
+def test_signal_handlers_are_restored_after_the_block() -> None:
     before = signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)
     with catch_interrupts():
         pass
     assert (signal.getsignal(signal.SIGINT), signal.getsignal(signal.SIGTERM)) == before
 
 
-def test_it_says_once_what_it_is_told_to_say(capfd: pytest.CaptureFixture[str]) -> None:
+def test_the_message_is_printed_once(capfd: pytest.CaptureFixture[str]) -> None:
     with catch_interrupts() as interrupt:
         interrupt.says = "stopping"
         signal.raise_signal(signal.SIGINT)
@@ -41,7 +41,7 @@ def test_it_says_once_what_it_is_told_to_say(capfd: pytest.CaptureFixture[str]) 
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGHUP")
-def test_a_closed_terminal_is_noted_unless_hang_ups_are_ignored() -> None:
+def test_a_closed_terminal_is_recorded_unless_hang_ups_are_ignored() -> None:
     before = signal.signal(signal.SIGHUP, signal.SIG_DFL)  # the tests may run under nohup
     try:
         with catch_interrupts() as interrupt:

@@ -50,11 +50,11 @@ def printed(capsys: pytest.CaptureFixture[str], *words: str | Path) -> dict[str,
 
 
 @pytest.mark.parametrize("verb", ["runs evaluate", "play", "runs show"])
-def test_of_a_run(verb: str, trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_fields_of_a_run(verb: str, trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert printed(capsys, *verb.split(), trained).keys() == fields_of(verb).keys()
 
 
-def test_of_a_training(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_fields_of_a_training(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     found = printed(capsys, "train", "--episodes", "2", "--out", tmp_path / "run")
     assert found.keys() == fields_of("train").keys()
     assert (found["builders"], found["live"]) == (None, None)
@@ -63,13 +63,15 @@ def test_of_a_training(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
     assert found["builders"] == 2
 
 
-def test_of_a_list_of_runs(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_fields_of_a_list_of_runs(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
     found = printed(capsys, "runs", "list", trained.parent)
     assert found.keys() == fields_of("runs list").keys()
     assert {*found["runs"][0], "files"} == fields_of("runs show").keys()
 
 
-def test_of_profiles(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_fields_of_profiles(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path)
     monkeypatch.setattr(profiles, "window_of", lambda _: None)
     save_profile(Profile(), profile_folder() / "mine.toml")
@@ -79,7 +81,7 @@ def test_of_profiles(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: py
     assert {*found["profiles"][0], "files"} == fields_of("profiles show").keys()
 
 
-def test_of_designs(capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_fields_of_designs(capsys: pytest.CaptureFixture[str]) -> None:
     (line,) = printed(capsys, "scenarios", "line")["scenarios"]
     meaning = fields_of("scenarios")["scenarios"]
     assert [name for name in line if name not in meaning] == []
@@ -87,7 +89,7 @@ def test_of_designs(capsys: pytest.CaptureFixture[str]) -> None:
     assert [row.count("#") for row in line["design"]] == [0, 0, *[1] * 11, 0, 0]
 
 
-def test_of_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_fields_of_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     screen = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
     grey = np.full((480, 854, 3), 60, np.uint8)
     cv2.imwrite(str(tmp_path / "sky.png"), paint(grey, screen, font_of(drawn_atlas())))
@@ -96,7 +98,7 @@ def test_of_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert found.keys() == fields_of("read").keys()
 
 
-def test_of_the_doctor(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_fields_of_the_doctor(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
     found = printed(capsys, "doctor")

@@ -114,12 +114,14 @@ def scenario_of(size: int, folder: Path) -> str:
     return str(folder / "own.toml")
 
 
-def test_it_is_15_cells_unless_something_else_is_said() -> None:
+def test_an_arena_to_calibrate_has_15_cells_by_default() -> None:
     assert (arena_size(None, None), arena_size(20, None), arena_size(None, "house")) == (15, 20, 15)
 
 
 @pytest.mark.parametrize(("size", "needed"), [(5, 15), (15, 15), (24, 24)])
-def test_a_scenario_gets_what_it_needs_and_never_less_than_the_papers(size: int, needed: int, tmp_path: Path) -> None:
+def test_a_scenario_gets_an_arena_as_large_as_it_needs_and_never_smaller_than_the_papers(
+    size: int, needed: int, tmp_path: Path
+) -> None:
     assert arena_size(None, scenario_of(size, tmp_path)) == needed
 
 

@@ -23,7 +23,7 @@ class Found:
 
 
 def said(output: Output, capsys: pytest.CaptureFixture[str]) -> tuple[str, str]:
-    """What a verb prints on both streams."""
+    """Return what a verb prints on both streams."""
     output.note("begins")
     print_line(output.progress, "half of it")
     output.result(Found(Path("runs/x"), [21.0, float("inf")], True, None), "done")
@@ -36,7 +36,7 @@ def test_a_person_sees_everything(capsys: pytest.CaptureFixture[str]) -> None:
     assert said(Output(), capsys) == ("begins\ndone\nlook at it\n", "half of it\n")
 
 
-def test_quiet_leaves_the_result(capsys: pytest.CaptureFixture[str]) -> None:
+def test_quiet_prints_only_the_result(capsys: pytest.CaptureFixture[str]) -> None:
     assert said(Output(quiet=True), capsys) == ("done\n", "")
 
 
@@ -86,7 +86,7 @@ def test_where_there_is_room_every_column_is_shown_numbers_to_the_right() -> Non
     assert shown(80) == ["run     episodes  size", "line       3,000  19 MB", "zigzag        20  1 MB"]
 
 
-def test_where_there_is_none_the_least_needed_are_left_out_first() -> None:
+def test_where_room_is_short_the_least_needed_columns_are_left_out_first() -> None:
     assert shown(20) == ["run     episodes", "line       3,000", "zigzag        20"]
     assert shown(10) == ["run", "line", "zigzag"]
 

@@ -19,14 +19,14 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
-def test_without_a_name_it_is_what_is_trained_and_when() -> None:
+def test_folder_without_a_name_is_named_after_what_is_trained_and_when() -> None:
     with output_folder(None, "line-nested", NOW) as path:
         assert path == Path("runs/line-nested-2026-11-23-094501")
         (path / "config.toml").touch()
     assert [entry.name for entry in path.iterdir()] == ["config.toml"]
 
 
-def test_those_that_begin_in_the_same_second_are_different() -> None:
+def test_folders_made_in_the_same_second_have_different_names() -> None:
     with (
         output_folder(None, "sweep", NOW) as first,
         output_folder(None, "sweep", NOW) as second,
@@ -51,21 +51,21 @@ def test_a_designs_name_makes_a_name_that_every_system_takes(name: str, folder: 
         assert path == RUNS / f"{folder}-2026-11-23-094501"
 
 
-def test_nothing_is_left_where_nothing_was_written(here: Path) -> None:
+def test_a_folder_into_which_nothing_was_written_is_removed(here: Path) -> None:
     for out in (None, Path("deep/er/one")):
         with pytest.raises(ValueError, match="no game"), output_folder(out, "line", NOW):
             raise ValueError("no game")
     assert list(here.iterdir()) == []
 
 
-def test_a_folder_that_was_there_stays(here: Path) -> None:
+def test_a_folder_that_was_there_before_is_kept(here: Path) -> None:
     (here / "mine").mkdir()
     with output_folder(Path("mine"), "line"):
         pass
     assert list((here / "mine").iterdir()) == []
 
 
-def test_what_holds_something_already_is_refused_and_left_alone(here: Path) -> None:
+def test_a_folder_that_holds_something_is_refused_and_left_alone(here: Path) -> None:
     (here / "mine").mkdir()
     (here / "mine" / "letter.txt").touch()
     with pytest.raises(RunError, match="not empty"), output_folder(Path("mine"), "line"):
@@ -73,7 +73,7 @@ def test_what_holds_something_already_is_refused_and_left_alone(here: Path) -> N
     assert [entry.name for entry in (here / "mine").iterdir()] == ["letter.txt"]
 
 
-def test_what_another_process_begins_just_now_is_refused_by_its_id() -> None:
+def test_a_folder_that_another_process_uses_is_refused_with_its_process_id() -> None:
     with (
         output_folder(Path("mine"), "line"),
         pytest.raises(RunError, match=f"^mine: process {os.getpid()} is writing there"),

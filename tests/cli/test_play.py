@@ -49,7 +49,7 @@ def test_the_pictures_of_an_episode_are_of_that_episode_alone(
 
 
 @pytest.mark.parametrize(("failures", "code"), [(1, 0), (2, 0), (3, 2)])
-def test_an_episode_that_is_watched_begins_anew_twice_where_mishaps_spoil_it(
+def test_after_a_mishap_a_watched_episode_starts_over_twice_at_most(
     failures: int, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run("train", "--episodes", "1", "--out", tmp_path / "run") == 0
@@ -62,7 +62,7 @@ def test_an_episode_that_is_watched_begins_anew_twice_where_mishaps_spoil_it(
 
 
 @pytest.mark.parametrize("error", [StoppedError("stopped by f12"), NotInFrontError("another window")])
-def test_an_episode_that_a_person_stops_does_not_begin_anew(
+def test_an_episode_that_a_person_stops_does_not_start_over(
     error: LiveError, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run("train", "--episodes", "1", "--out", tmp_path / "run") == 0

@@ -21,7 +21,7 @@ CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 4
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The profile folder, with three profiles; a game's window is open that one of them doesn't fit."""
+    """Return the profile folder, with three profiles; a game's window is open that one of them doesn't fit."""
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path)
     monkeypatch.setattr(profiles, "window_of", lambda _: Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480)))
     save_profile(Profile(arena=ARENA, calibrated=CALIBRATED), profile_folder() / "laptop.toml")
@@ -31,7 +31,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return profile_folder()
 
 
-def test_they_are_listed_with_what_they_were_calibrated_on(capsys: pytest.CaptureFixture[str]) -> None:
+def test_profiles_are_listed_with_what_they_were_calibrated_on(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("profiles") == 0
     lines = capsys.readouterr().out.splitlines()
     cells = [[cell.strip() for cell in line.split("  ") if cell.strip()] for line in lines[:4]]
@@ -45,7 +45,7 @@ def test_they_are_listed_with_what_they_were_calibrated_on(capsys: pytest.Captur
 
 
 @pytest.mark.parametrize("words", [["profiles"], ["profiles", "list"]])
-def test_for_a_program_there_is_an_object_a_profile(
+def test_json_lists_one_object_for_each_profile(
     words: list[str], folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run(*words, "--json") == 0
@@ -64,14 +64,14 @@ def test_json_belongs_behind_the_verb(capsys: pytest.CaptureFixture[str]) -> Non
     assert capsys.readouterr().err == "mc-nested: write --json at the end: mc-nested profiles list --json\n"
 
 
-def test_without_any_it_says_how_to_make_one(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_without_any_profile_the_list_says_how_to_make_one(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for file in folder.iterdir():
         file.unlink()
     assert run("profiles") == 0
     assert capsys.readouterr().out == f"no profiles in {folder}: mc-nested calibrate all makes one\n"
 
 
-def test_one_is_shown_with_its_files(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_profile_is_shown_with_its_files(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("profiles", "show", "pc") == 0
     shown = capsys.readouterr().out
     assert str(folder / "pc.toml") in shown
@@ -80,7 +80,7 @@ def test_one_is_shown_with_its_files(folder: Path, capsys: pytest.CaptureFixture
     assert json.loads(capsys.readouterr().out)["files"] == [str(folder / "torn.toml")]
 
 
-def test_one_is_renamed_and_what_to_do_with_its_runs_is_said(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_renaming_a_profile_says_what_to_do_with_its_runs(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("profiles", "rename", "pc", "desk") == 0
     assert capsys.readouterr().out.splitlines() == [
         f"renamed to {folder / 'desk.toml'}",
@@ -89,7 +89,7 @@ def test_one_is_renamed_and_what_to_do_with_its_runs_is_said(folder: Path, capsy
 
 
 @pytest.mark.parametrize("answer", [True, False])
-def test_one_is_deleted_after_a_question(answer: bool, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_profile_is_deleted_after_a_question(answer: bool, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[str] = []
 
     def confirm(question: str) -> bool:
@@ -102,14 +102,18 @@ def test_one_is_deleted_after_a_question(answer: bool, folder: Path, monkeypatch
     assert (folder / "pc.toml").exists() is not answer
 
 
-def test_one_that_knows_what_stood_where_its_arena_is_says_so(capsys: pytest.CaptureFixture[str]) -> None:
+def test_deleting_a_profile_says_that_its_arena_can_not_be_put_back_afterwards(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     assert run("profiles", "delete", "laptop", "torn", "--yes") == 0
     said = capsys.readouterr().out.splitlines()
     assert "mc-nested calibrate arena --undo --profile laptop puts that back, and can't afterwards" in said[0]
     assert said[1:] == ["deleted laptop", "deleted torn"]
 
 
-def test_what_is_none_is_one_line_and_nothing_is_deleted(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_name_that_no_profile_has_is_one_line_and_nothing_is_deleted(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run("profiles", "delete", "pc", "nothing", "--yes") == 2
     said = capsys.readouterr().err
     assert said == "mc-nested: no profile is named 'nothing': known are: laptop, pc, torn\n"

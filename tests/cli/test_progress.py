@@ -27,7 +27,7 @@ def figures(progress: TrainingProgress) -> str:
     return progress._bar.figures
 
 
-def test_it_says_score_optimum_epsilon_and_updates() -> None:
+def test_progress_shows_score_optimum_epsilon_and_updates() -> None:
     training = trainer()
     with TrainingProgress(DOT, training, terminal(40)) as progress:
         progress.show()
@@ -71,7 +71,7 @@ def printed(console: Console) -> str:
     return console.file.getvalue()
 
 
-def test_with_an_imagination_it_says_what_was_found_out_instead_of_epsilon() -> None:
+def test_with_an_imagination_progress_shows_what_was_found_out_instead_of_epsilon() -> None:
     training = imagining()
     with TrainingProgress(SMALL, training, terminal(40)) as progress:
         progress.show()

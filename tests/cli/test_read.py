@@ -20,7 +20,7 @@ SKY = F3Screen("1.16-1.19.2", 2, (8.5, 64.0, -3.25), 0.0, -65.0)
 
 
 def printed(capsys: pytest.CaptureFixture[str], *words: str | Path) -> list[str]:
-    """What the command prints, line by line."""
+    """Return what the command prints, line by line."""
     with pytest.raises(SystemExit) as ended:
         main(["read", *map(str, words)])
     assert ended.value.code in (0, None)

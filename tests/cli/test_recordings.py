@@ -29,7 +29,7 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def kept(recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """One recording among those that are kept, named "play"."""
+    """Return one recording among those that are kept, named "play"."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     recordings_folder().mkdir(parents=True)
     (recordings_folder() / "play").symlink_to(recorded)
@@ -58,14 +58,14 @@ def test_recordings_are_listed_with_what_they_hold(kept: Path, capsys: pytest.Ca
     assert "2 recordings in" in said
 
 
-def test_one_is_verified_by_its_name(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_recording_is_verified_by_its_name(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
     code, said = run(capsys, "recordings", "verify", kept.name)
     assert code == 0
     assert "30 actions" in said
     assert said.strip().endswith("whole")
 
 
-def test_for_a_program_they_are_listed_as_json(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_recordings_are_listed_as_json(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (kept.parent / "broken").mkdir()
     (kept.parent / "broken" / "00001.mcap").write_bytes(b"nothing")
     code, said = run(capsys, "recordings", "list", "--json")
@@ -82,7 +82,7 @@ def test_for_a_program_they_are_listed_as_json(kept: Path, capsys: pytest.Captur
     )
 
 
-def test_one_of_which_something_is_lost_has_an_exit_code_of_its_own(
+def test_a_recording_with_lost_parts_has_an_exit_code_of_its_own(
     kept: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     whole = next(kept.glob("*.mcap")).read_bytes()
@@ -92,14 +92,16 @@ def test_one_of_which_something_is_lost_has_an_exit_code_of_its_own(
     assert "whole" not in said
 
 
-def test_a_name_that_is_none_is_one_line(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_name_that_no_recording_has_is_one_line(kept: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(capsys, "replay", "nope") == (
         2,
         f"mc-nested: no recording 'nope': the last ones kept are: {kept.name}\n",
     )
 
 
-def test_a_part_that_is_cut_out_replays_alike(kept: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_part_that_is_cut_out_replays_the_same(
+    kept: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     out = tmp_path / "part.mcap"
     code, said = run(capsys, "recordings", "cut", kept.name, str(out), "--no-pictures")
     assert (code, "0 pictures" in said) == (0, False)
@@ -111,7 +113,7 @@ def test_a_part_that_is_cut_out_replays_alike(kept: Path, tmp_path: Path, capsys
     assert (code, "is there already" in said) == (2, True)
 
 
-def test_what_is_read_otherwise_is_told_and_pictured(
+def test_a_reading_that_differs_is_told_and_pictured(
     kept: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     atlas = drawn_atlas().copy()
@@ -128,7 +130,7 @@ def test_what_is_read_otherwise_is_told_and_pictured(
     assert picture.shape == (480, 854, 3)
 
 
-def test_a_folder_that_holds_something_is_no_place_for_a_recording(
+def test_a_recording_into_a_folder_that_holds_something_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "full").mkdir()
@@ -137,7 +139,7 @@ def test_a_folder_that_holds_something_is_no_place_for_a_recording(
     assert (code, "holds something already" in said) == (2, True)
 
 
-def test_the_oldest_of_many_makes_room(kept: Path) -> None:
+def test_the_oldest_of_too_many_recordings_is_deleted(kept: Path) -> None:
     from mc_nested.live.recording import run_recorder
 
     for number in range(MOST_RECORDINGS + 2):

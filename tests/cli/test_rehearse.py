@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 @pytest.fixture(autouse=True)
 def a_lock_of_its_own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Other tests, and people, may rehearse at the same time."""
+    """Use a lock of the test's own: other tests, and people, may rehearse at the same time."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
 
 
 def refused(capsys: pytest.CaptureFixture[str], *words: str | Path) -> str:
-    """The one line that says why it isn't rehearsed."""
+    """Return the one line that says why it isn't rehearsed."""
     assert run("rehearse", *words) == 2
     printed = capsys.readouterr()
     assert printed.out == ""
@@ -87,7 +87,7 @@ if sys.platform.startswith("linux"):
 
     @pytest.fixture
     def opened(monkeypatch: pytest.MonkeyPatch) -> list["Rehearsal"]:
-        """What was opened; in place of the window it says at once that it is there."""
+        """Return what was opened; in place of the window it says at once that it is there."""
         from sim.window import rehearsal
 
         found: list[rehearsal.Rehearsal] = []

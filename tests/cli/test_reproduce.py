@@ -51,7 +51,7 @@ def done(words: list[str], tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def written(folder: Path) -> dict[str, bytes]:
-    """The files that it ends with, the report without its lines that name seconds."""
+    """Return the files that it ends with, the report without its lines that name seconds."""
     found = {name: (folder / name).read_bytes() for name in WRITTEN}
     return {**found, "report.md": re.sub(rb"(?m)^.*[Ss]econds.*$", b"", found["report.md"])}
 
@@ -74,7 +74,7 @@ def test_other_verbs_say_whose_folder_it_is(
     assert "the folder of mc-nested reproduce, not of" in capsys.readouterr().err
 
 
-def test_it_leaves_the_results_and_what_made_them(done: Path) -> None:
+def test_a_reproduction_leaves_its_results_and_what_made_them(done: Path) -> None:
     assert {path.name for path in done.iterdir()} == {*WRITTEN, "config.toml", "jobs", "tensorboard"}
     runs = {f"{a}-{s}-{t}" for a in ("nested", "hierarchical", "single") for s in ("dot", "bar") for t in (0, 1)}
     assert {path.name for path in (done / "tensorboard").iterdir()} == runs
@@ -91,7 +91,7 @@ def test_it_leaves_the_results_and_what_made_them(done: Path) -> None:
     assert re.search(r"\| dot \| hierarchical \| 3 \(1\.50\) \|", report), "networks, and times the nested agent's"
 
 
-def test_the_same_runs_come_out_of_train(done: Path, files: Path, tmp_path: Path) -> None:
+def test_train_gives_the_same_runs(done: Path, files: Path, tmp_path: Path) -> None:
     train: list[str | Path] = [
         "train",
         "--agent",
@@ -109,7 +109,9 @@ def test_the_same_runs_come_out_of_train(done: Path, files: Path, tmp_path: Path
     )
 
 
-def test_on_a_finished_one_resume_writes_the_same_files_again(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_resuming_a_finished_reproduction_writes_the_same_files_again(
+    done: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     before = {name: (done / name).read_bytes() for name in WRITTEN}
     (done / "report.md").unlink()
     assert run("reproduce", "--resume", done) == 0
@@ -121,14 +123,14 @@ def test_on_a_finished_one_resume_writes_the_same_files_again(done: Path, capsys
     assert printed.endswith(f"next:   open {done / 'report.md'}\n")
 
 
-def test_one_process_at_a_time_goes_on_with_it(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_reproduction_is_resumed_by_one_process_at_a_time(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with folder_lock(done):
         assert run("reproduce", "--resume", done) == 2
     says = f"mc-nested: {done}: process {os.getpid()} is writing there: wait until it ends, or stop it\n"
     assert capsys.readouterr().err == says
 
 
-def test_for_a_program_it_prints_its_files_and_the_verdicts(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_has_the_files_and_the_verdicts(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("reproduce", "--resume", done, "--json", "--quiet") == 0
     printed = capsys.readouterr()
     found = json.loads(printed.out)
@@ -158,7 +160,10 @@ def test_any_number_of_processes_gives_the_same_files(done: Path, words: list[st
 
 @contextlib.contextmanager
 def long_one(words: list[str], out: Path, episodes: int) -> Iterator[subprocess.Popen[str]]:
-    """A run of its own, from the moment at which both its processes have saved something; at the end all is killed."""
+    """Yield a run of its own, from the moment at which both its processes have saved something.
+
+    All its processes are killed at the end.
+    """
     command = [sys.executable, "-m", "mc_nested.cli", *words, "--episodes", f"{episodes}", "--jobs", "2"]
     process = subprocess.Popen([*command, "--out", str(out)], stderr=subprocess.PIPE, text=True, start_new_session=True)
     try:
@@ -182,7 +187,7 @@ def children(process: subprocess.Popen[str]) -> list[int]:
 
 
 def training_processes(process: subprocess.Popen[str]) -> list[int]:
-    """Those of the children that aren't multiprocessing's own."""
+    """Return those of the children that aren't multiprocessing's own."""
     return [pid for pid in children(process) if b"spawn_main" in Path(f"/proc/{pid}/cmdline").read_bytes()]
 
 
@@ -198,7 +203,7 @@ def straight(words: list[str], tmp_path_factory: pytest.TempPathFactory) -> dict
 
 
 @pytest.mark.slow
-def test_killed_in_the_middle_it_goes_on_to_the_same_files(
+def test_a_killed_reproduction_is_resumed_to_the_same_files(
     words: list[str], straight: dict[str, bytes], tmp_path: Path
 ) -> None:
     out = tmp_path / "run"
@@ -254,7 +259,7 @@ def test_a_lost_process_is_one_line_and_costs_nothing(
 
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="finds the processes in /proc")
-def test_without_the_command_the_processes_save_and_end(words: list[str], tmp_path: Path) -> None:
+def test_if_the_command_is_killed_its_processes_save_and_end(words: list[str], tmp_path: Path) -> None:
     with long_one(words, tmp_path / "run", 100_000) as process:
         left = training_processes(process)
         process.kill()

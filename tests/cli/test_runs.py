@@ -14,7 +14,7 @@ from tests.cli.running import run
 
 @pytest.fixture(autouse=True)
 def here(trained: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with two runs in runs/, one of them damaged, and one beside it."""
+    """Return a folder with two runs in runs/, one of them damaged, and one beside it."""
     monkeypatch.chdir(tmp_path)
     shutil.copytree(trained, tmp_path / "runs" / "whole")
     shutil.copytree(trained, tmp_path / "runs" / "torn")
@@ -38,7 +38,7 @@ def test_the_runs_are_listed_with_what_they_are_and_what_is_wrong(capsys: pytest
 
 
 @pytest.mark.parametrize("words", [["runs"], ["runs", "list"], ["runs", "list", "runs"]])
-def test_for_a_program_there_is_an_object_a_run(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_lists_one_object_for_each_run(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert run(*words, "--json") == 0
     found = json.loads(capsys.readouterr().out)
     assert found["folder"] == "runs"
@@ -54,12 +54,12 @@ def test_json_belongs_behind_the_verb(capsys: pytest.CaptureFixture[str]) -> Non
     assert capsys.readouterr().err == "mc-nested: write --json at the end: mc-nested runs list --json\n"
 
 
-def test_without_any_it_says_how_to_make_one(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_without_any_run_the_list_says_how_to_make_one(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("runs", "list", here / "nothing") == 0
     assert capsys.readouterr().out == f"no runs in {here / 'nothing'}: mc-nested train makes one\n"
 
 
-def test_one_is_shown_by_its_name_or_its_folder(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_run_is_shown_by_its_name_or_its_folder(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("runs", "show", "whole") == 0
     shown = capsys.readouterr().out
     assert "config.toml, curve.png" in shown
@@ -68,13 +68,13 @@ def test_one_is_shown_by_its_name_or_its_folder(capsys: pytest.CaptureFixture[st
     assert json.loads(capsys.readouterr().out)["folder"] == "elsewhere"
 
 
-def test_the_folder_that_one_is_in_has_a_name_too(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_run_is_renamed_from_inside_its_own_folder(here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(here / "elsewhere")
     assert run("runs", "rename", ".", "renamed") == 0
     assert (here / "renamed" / "config.toml").exists()
 
 
-def test_one_is_renamed(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_run_is_renamed(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("runs", "rename", "whole", "better") == 0
     assert capsys.readouterr().out == f"renamed to {Path('runs/better')}\n"
     assert (here / "runs" / "better" / "config.toml").exists()
@@ -82,7 +82,7 @@ def test_one_is_renamed(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 
 @pytest.mark.parametrize(("answer", "is_gone"), [(True, True), (False, False)])
-def test_one_is_deleted_after_a_question(
+def test_a_run_is_deleted_after_a_question(
     answer: bool, is_gone: bool, here: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[str] = []
@@ -104,14 +104,14 @@ def test_where_nobody_can_be_asked_nothing_is_deleted(here: Path, monkeypatch: p
     assert (here / "runs" / "whole" / "config.toml").exists()
 
 
-def test_damaged_ones_can_be_deleted_and_several_at_once(here: Path) -> None:
+def test_damaged_runs_can_be_deleted_and_several_at_once(here: Path) -> None:
     assert run("runs", "delete", "torn", "elsewhere", "--yes") == 0
     assert sorted(path.name for path in here.iterdir()) == ["runs"]
     assert sorted(path.name for path in (here / "runs").iterdir()) == ["notes", "whole"]
 
 
 @pytest.mark.parametrize("name", ["notes", "nothing", "", "..", "/"])
-def test_what_is_no_run_is_never_deleted(name: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_folder_that_is_no_run_is_never_deleted(name: str, here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("runs", "delete", "whole", name, "--yes") == 2
     said = capsys.readouterr().err
     assert "mc-nested runs lists them" in said
@@ -119,7 +119,7 @@ def test_what_is_no_run_is_never_deleted(name: str, here: Path, capsys: pytest.C
     assert (here / "runs" / "whole").exists(), "one mistake, and nothing is begun"
 
 
-def test_one_that_is_in_use_is_listed_so_and_left_alone(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_run_in_use_is_listed_as_such_and_left_alone(here: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with folder_lock(here / "runs" / "whole"):
         for words in (["delete", "whole", "--yes"], ["rename", "whole", "better"]):
             assert run("runs", *words) == 2

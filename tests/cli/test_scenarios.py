@@ -93,7 +93,7 @@ def test_of_a_tower_only_the_first_hundred_layers_are_listed(
     assert "  and 150 more\n" in printed
 
 
-def test_what_a_file_names_its_blocks_is_printed_as_it_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_block_names_of_a_file_are_printed_unchanged(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     drawing = [["ss"], ["cc"]]
     data = sponge(drawing)
     (tmp_path / "[red]x.schem").write_bytes(data)

@@ -19,7 +19,9 @@ def test_each_machine_gets_a_folder_that_keys_takes(tmp_path: Path, capsys: pyte
         assert scheduler_address("10.0.0.1", tmp_path / "keys" / name).url == "tls://10.0.0.1:8786"
 
 
-def test_a_machine_that_has_keys_is_said_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_machine_that_already_has_keys_is_refused_in_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run("train", "keys", tmp_path, "pc") == 0
     capsys.readouterr()
     assert run("train", "keys", tmp_path, "pc") == 2

@@ -9,7 +9,7 @@ from mc_nested.studies.study import SHIPPED
 from tests.cli.running import run
 
 
-def test_alone_it_lists_the_studies(capsys: pytest.CaptureFixture[str]) -> None:
+def test_study_without_a_name_lists_the_studies(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("study") == 0
     listed = re.findall(r"^  ([a-z]+)  ", capsys.readouterr().out, re.MULTILINE)
     assert listed == list(SHIPPED)
@@ -25,7 +25,7 @@ def test_a_study_takes_the_options_that_it_declares_and_those_of_every_study(
     assert options - {"help"} == {*declared(name).options, *EVERY_STUDY} - {"as_json"} | {"json"}
 
 
-def test_help_says_a_studys_own_default(capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_names_the_defaults_of_each_study(capsys: pytest.CaptureFixture[str]) -> None:
     assert run("study", "sweep", "--help") == 0
     assert "1000; 1<=x" in capsys.readouterr().out
 

@@ -16,7 +16,7 @@ from tests.learn.made_experiments import BAR, DOT, scenario_text
 
 
 def config(*names: str) -> StudyConfig:
-    """The named parts on two designs, two trials of 20 episodes."""
+    """Return the named parts on two designs, two trials of 20 episodes."""
     shipped = arms(StudyOptions(trials=2, episodes=20, scenarios=[DOT, BAR]))
     return config_of("ablation", [arm for arm in shipped if arm.name in names], trials=2, seed=0, jobs=1)
 
@@ -29,14 +29,14 @@ def config(*names: str) -> StudyConfig:
         (["--out", "new", "--scenario", "line", "--scenario", "line"], "two scenarios are named 'line'"),
     ],
 )
-def test_what_can_not_be_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_impossible_option_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("study", "ablation", *words) == 2
     error = capsys.readouterr().err.strip()
     assert says in error
     assert "\n" not in error
 
 
-def test_it_goes_on_by_resume_and_leaves_its_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_stopped_ablation_is_resumed_and_leaves_its_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"
     names = "tuned as it is", "tuned, γ 0"
     StudyFolder.new(out, config(*names)).begin()

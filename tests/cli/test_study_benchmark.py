@@ -39,13 +39,13 @@ def files(tmp_path: Path) -> Path:
 
 
 def written(folder: Path) -> dict[str, bytes]:
-    """The files that it ends with, the report without its line of seconds."""
+    """Return the files that it ends with, the report without its line of seconds."""
     found = {name: (folder / name).read_bytes() for name in WRITTEN}
     return {**found, "benchmark.md": re.sub(rb"(?m)^Seconds.*$", b"", found["benchmark.md"])}
 
 
 @pytest.mark.slow
-def test_it_leaves_the_same_files_for_any_number_of_processes_and_after_a_resume(
+def test_a_benchmark_leaves_the_same_files_for_any_number_of_processes_and_after_a_resume(
     files: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words: list[str | Path] = ["study", "benchmark", "--corpus", files / "mine.toml", "--trials", "2", "--agents"]
@@ -120,7 +120,7 @@ def test_a_mistake_is_one_line_and_nothing_is_written(
     assert not (files / "new").exists()
 
 
-def test_sb3_takes_no_preset(
+def test_stable_baselines3_takes_no_preset(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(benchmark, "is_installed", lambda: True)
@@ -129,7 +129,7 @@ def test_sb3_takes_no_preset(
 
 
 @pytest.mark.parametrize(("installed", "agents"), [(True, ["nested", "sb3"]), (False, ["nested"])])
-def test_by_default_sb3_takes_part_where_it_is_installed(
+def test_stable_baselines3_takes_part_by_default_where_it_is_installed(
     installed: bool,
     agents: list[str],
     tmp_path: Path,

@@ -21,20 +21,20 @@ FILES = STUDY.files
 
 
 def small_arms() -> list[Arm]:
-    """All arms with small networks over numbers."""
+    """Return all arms with small networks over numbers."""
     return [replace(arm, preset=small_preset(10)) for arm in arms(StudyOptions(trials=2))]
 
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Begun as by the command, and gone on with by --resume."""
+    """Return a study that the command began, and --resume went on with."""
     out = tmp_path_factory.mktemp("beyond") / "run"
     StudyFolder.new(out, config_of("beyond", small_arms(), trials=2, seed=0, jobs=1)).begin()
     assert run("reproduce", "--resume", out, "--quiet") == 0
     return out
 
 
-def test_it_goes_on_and_leaves_its_files(done: Path) -> None:
+def test_a_stopped_study_is_resumed_and_leaves_its_files(done: Path) -> None:
     assert {*FILES.values()} <= {path.name for path in done.iterdir()}
     with (done / "beyond.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -45,7 +45,7 @@ def test_it_goes_on_and_leaves_its_files(done: Path) -> None:
     assert all(int(row["trained_steps"]) > 0 for row in rows)
 
 
-def test_gone_on_with_when_it_is_finished_it_writes_the_same(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_resuming_a_finished_study_writes_the_same_files(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = {name: (done / name).read_bytes() for name in FILES.values()}
     assert run("reproduce", "--resume", done, "--json") == 0
     assert {name: (done / name).read_bytes() for name in FILES.values()} == before
@@ -58,7 +58,7 @@ def test_gone_on_with_when_it_is_finished_it_writes_the_same(done: Path, capsys:
     assert f"{done}: process " in capsys.readouterr().err
 
 
-def test_runs_lists_it(done: Path) -> None:
+def test_runs_lists_the_study(done: Path) -> None:
     facts = facts_of(done)
     assert facts
     assert (facts.verb, facts.state, facts.trials) == ("study beyond", "finished", 2)
@@ -78,7 +78,7 @@ def test_runs_lists_it(done: Path) -> None:
         ("--robustness", None),
     ],
 )
-def test_what_it_has_of_its_own_is_refused(
+def test_options_that_the_study_sets_itself_are_refused(
     option: str, value: str | None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "new"
@@ -98,7 +98,7 @@ def test_a_device_that_is_not_there_is_refused_before_anything_is_written(
     assert not out.exists()
 
 
-def test_a_folder_that_is_none_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_folder_without_a_study_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("reproduce", "--resume", tmp_path) == 2
     assert "no config.toml there" in capsys.readouterr().err
     (tmp_path / "config.toml").write_text("study = [\n", "utf-8")

@@ -59,7 +59,7 @@ def test_of_many_designs_only_the_trials_are_counted() -> None:
 
 
 def two_jobs() -> list[Job]:
-    """Of two trials on the dot and on the bar each, 20 episodes a run: nested in the first, single in the second."""
+    """Return two jobs, nested and single, of two trials each on the dot and on the bar, 20 episodes a run."""
     return cut_into_jobs(runs_of(["nested", "single"], [DOT, BAR], 2, small_preset(20)), 1, seed=0)
 
 
@@ -69,14 +69,14 @@ def outcome(score: float) -> JobOutcome:
     return JobOutcome(identity="", networks=1, parameters=1, seconds=1, runs=[run] * 4)
 
 
-def test_at_first_nothing_is_done() -> None:
+def test_a_new_status_has_nothing_done() -> None:
     status = StudyStatus([(job, None) for job in two_jobs()])
     assert (status.episodes, status.total, status.updates) == (0, 160, 0)
     assert status.optimum == {"dot": 11.0, "bar": 13.0}
     assert status.score("nested", "dot") is None
 
 
-def test_reports_add_up() -> None:
+def test_reports_of_all_processes_are_added_up() -> None:
     nested, single = two_jobs()
     status = StudyStatus([(nested, None), (single, None)])
     status.hear(JobReport(nested.name, [5, 6, 7, 8], (11.0, 10.0, None, 12.0), updates=100))

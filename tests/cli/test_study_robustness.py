@@ -33,14 +33,14 @@ def config(*choices: Change) -> StudyConfig:
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Begun as by the command, and gone on with by --resume."""
+    """Return a study that the command began, and --resume went on with."""
     out = tmp_path_factory.mktemp("robust") / "run"
     StudyFolder.new(out, config(GAMMA, START)).begin()
     assert run("reproduce", "--resume", out, "--quiet") == 0
     return out
 
 
-def test_it_goes_on_and_leaves_its_files(done: Path) -> None:
+def test_a_stopped_study_is_resumed_and_leaves_its_files(done: Path) -> None:
     assert {*FILES.values()} <= {path.name for path in done.iterdir()}
     with (done / "robustness.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -53,7 +53,7 @@ def test_it_goes_on_and_leaves_its_files(done: Path) -> None:
     assert "| start: beside |" in (done / "robustness.md").read_text("utf-8")
 
 
-def test_gone_on_with_when_it_is_finished_it_writes_the_same(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_resuming_a_finished_study_writes_the_same_files(done: Path, capsys: pytest.CaptureFixture[str]) -> None:
     before = {name: (done / name).read_bytes() for name in FILES.values()}
     assert run("reproduce", "--resume", done, "--json") == 0
     assert {name: (done / name).read_bytes() for name in FILES.values()} == before
@@ -77,7 +77,7 @@ def test_gone_on_with_when_it_is_finished_it_writes_the_same(done: Path, capsys:
         (["--resume", "OLD"], "leave out --robustness"),
     ],
 )
-def test_what_can_not_be_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_an_impossible_option_is_one_line(words: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("reproduce", "--robustness", *words) == 2
     error = capsys.readouterr().err.strip()
     assert says in error

@@ -179,7 +179,9 @@ def test_a_training_begun_from_another_that_can_not_be_saved_is_not_begun(
     assert json.loads((tmp_path / "new" / "summary.json").read_text())["episodes_to_optimum"] == [0]
 
 
-def test_excursions_of_a_single_agent_are_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_excursions_of_a_single_agent_are_refused_in_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run("train", "--preset", "tuned", "--agent", "single", "--out", tmp_path / "new") == 2
     assert "take nested or hierarchical" in capsys.readouterr().err
     assert not (tmp_path / "new").exists()
@@ -216,7 +218,7 @@ def test_ctrl_c_saves_and_resume_goes_on_to_the_same_files(trained: Path, tmp_pa
 
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGINT for another process")
-def test_ctrl_c_saves_where_it_has_also_ended_who_reads_the_pipe(tmp_path: Path) -> None:
+def test_ctrl_c_saves_even_if_it_also_ends_the_reader_of_the_pipe(tmp_path: Path) -> None:
     reads, writes = os.pipe()
     command = [sys.executable, "-m", "mc_nested.cli", *TRAIN, "--out", str(tmp_path / "run")]
     # With it Python keeps nothing back that it would have to write when it ends.
@@ -258,7 +260,7 @@ def test_without_a_name_the_folder_is_said_at_the_beginning_and_at_the_end(
     assert lines[-1].startswith(f"next:       mc-nested play {folder} shows what it builds")
 
 
-def test_for_a_program_it_prints_its_summary_and_its_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_has_the_summary_and_the_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(*TRAIN, "--json", "--quiet", "--out", tmp_path / "run") == 0
     printed = capsys.readouterr()
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
@@ -267,7 +269,7 @@ def test_for_a_program_it_prints_its_summary_and_its_folder(tmp_path: Path, caps
     assert printed.err == ""
 
 
-def test_quietly_it_prints_the_result_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_quiet_prints_the_result_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(*TRAIN, "-q", "--out", tmp_path / "run") == 0
     printed = capsys.readouterr()
     assert [line.split(":")[0] for line in printed.out.splitlines()] == [

@@ -20,7 +20,7 @@ def team_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def files_of(path: Path) -> dict[str, bytes]:
-    """Everything but what names the time or the order of saves."""
+    """Return everything but what names the time or the order of saves."""
     names = ("config.toml", "episodes.csv", "evaluations.csv", "curve.png", "team.png", "checkpoint/state.npz")
     return {name: (path / name).read_bytes() for name in names}
 
@@ -73,7 +73,7 @@ def test_a_training_killed_before_its_first_checkpoint_begins_again(team_run: Pa
     assert files_of(begun) == files_of(team_run)
 
 
-def test_for_a_program_it_prints_its_summary_and_its_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_has_the_summary_and_the_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "run"
     assert run("train", "--episodes", "5", "--start", "7,14", "--start", "0,0", "--json", "--out", out) == 0
     said = json.loads(capsys.readouterr().out)
@@ -83,14 +83,14 @@ def test_for_a_program_it_prints_its_summary_and_its_folder(tmp_path: Path, caps
     assert said == {"folder": str(out), **summary, "live": None}
 
 
-def test_it_is_among_the_runs(team_run: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_team_training_is_listed_among_the_runs(team_run: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run("runs", "list", team_run.parent, "--json") == 0
     (found,) = json.loads(capsys.readouterr().out)["runs"]
     assert (found["verb"], found["state"], found["agents"]) == ("train", "finished", ["3 shared"])
     assert (found["episodes_done"], found["episodes"], found["optimum"]) == (80, 80, 21.0)
 
 
-def test_one_that_only_begun_can_be_resumed_and_a_damaged_one_says_so(
+def test_a_training_that_only_begun_can_be_resumed_and_a_damaged_one_says_so(
     team_run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     begun = tmp_path / "begun"
@@ -104,7 +104,7 @@ def test_one_that_only_begun_can_be_resumed_and_a_damaged_one_says_so(
     assert json.loads(capsys.readouterr().out)["runs"][0]["state"] == "damaged"
 
 
-def test_every_trial_is_evaluated_and_what_shows_one_alone_says_so(
+def test_every_trial_is_evaluated_and_commands_that_show_one_trial_say_so(
     team_run: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     summary = json.loads((team_run / "summary.json").read_text())

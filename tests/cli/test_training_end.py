@@ -28,18 +28,18 @@ def config(**changes: Any) -> RunConfig:
     return RunConfig(**{**made, **changes})
 
 
-def test_at_the_optimum_it_can_be_watched() -> None:
+def test_at_the_optimum_the_next_step_is_to_watch_the_agent() -> None:
     assert next_steps(Path("runs/x"), config(), is_at_optimum=True) == [
         "next:       mc-nested play runs/x shows what it builds; in your game: with --backend live"
     ]
 
 
-def test_several_trials_can_be_evaluated() -> None:
+def test_after_several_trials_the_next_step_is_to_evaluate_them() -> None:
     lines = next_steps(Path("my runs/x"), config(trials=3), is_at_optimum=True)
     assert lines[1:] == ["            mc-nested runs evaluate 'my runs/x' plays each of its trials"]
 
 
-def test_below_the_optimum_it_can_go_on_for_twice_as_long() -> None:
+def test_below_the_optimum_the_next_step_is_to_train_twice_as_long() -> None:
     lines = next_steps(Path("runs/x"), config(), is_at_optimum=False)
     more = "mc-nested train --from runs/x --scenario zigzag --preset paper --episodes 6000"
     assert lines[0] == f"below the optimum; for more: {more}"

@@ -97,19 +97,19 @@ def test_a_game_that_never_begins_leaves_no_film_and_says_so(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_without_a_film_the_game_is_as_it_is() -> None:
+def test_without_a_film_the_game_is_left_as_it_is() -> None:
     game = GridGame(LINE)
     with filmed(game, None, LINE, None) as same:
         assert same is game
 
 
 def window_of(picture: Picture) -> Picture:
-    """The part of a film's picture that shows the window."""
+    """Return the part of a film's picture that shows the window."""
     return picture[CAPTION : CAPTION + SMALL_ARENA_PX, SMALL_ARENA_PX + 2 * MARGIN : -MARGIN]
 
 
 def film_of(client: VirtualClient, folder: Path, play: Callable[[Game], None]) -> list[Picture]:
-    """The pictures of a film of what is played on that client, and recorded."""
+    """Return the pictures of a film of what is played on that client, and recorded."""
     film = folder / "film.gif"
     opening = replace(opening_on(client, profile_in(folder)), record=folder / "recording")
     with open_live_game(LINE, opening) as (game, display), filmed(game, display, LINE, film) as own:

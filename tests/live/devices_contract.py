@@ -28,7 +28,7 @@ Truth = Callable[[], dict[str, Any]]
 
 
 def answers(devices: Devices, truth: Truth) -> dict[str, Any]:
-    """What comes of keys, clicks, text, the mouse and the clipboard, one after the other, in a new world."""
+    """Return what comes of keys, clicks, text, the mouse and the clipboard, one after the other, in a new world."""
     keyboard, pointer, clock = devices.keyboard, devices.pointer, devices.clock
     found: dict[str, Any] = {}
 
@@ -85,7 +85,7 @@ def answers(devices: Devices, truth: Truth) -> dict[str, Any]:
 
 
 def virtual_answers() -> dict[str, Any]:
-    """The virtual client's."""
+    """Return the virtual client's answers."""
     client = VirtualClient(floor_block="grass_block")
     return answers(client.devices, lambda: truth_of(client))
 

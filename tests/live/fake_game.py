@@ -99,12 +99,12 @@ class FakeGame:
         return Reading((round(x, 3), round(y, 5), round(z, 3)), round(self.yaw, 1), round(self.pitch, 1), target)
 
     def typed(self) -> str | None:
-        """What the open chat holds."""
+        """Return what the open chat holds."""
         self._catch_up()
         return self._chat
 
     def send(self, name: str, *, is_down: bool) -> None:
-        """A key or button event, as the operating system takes it."""
+        """Return a key or button event, as the operating system takes it."""
         self._catch_up()
         if is_down:
             self.presses.append(name)
@@ -217,7 +217,7 @@ class FakeGame:
             self.blocks[before] = self.hotbar[self.slot]
 
     def _ray(self) -> tuple[Block | None, Block]:
-        """The target block within reach, and the free one before it."""
+        """Return the target block within reach, and the free one before it."""
         yaw, pitch = math.radians(self.yaw), math.radians(self.pitch)
         way = (-math.sin(yaw) * math.cos(pitch), -math.sin(pitch), math.cos(yaw) * math.cos(pitch))
         eye = (self.xyz[0], self.xyz[1] + 1.62, self.xyz[2])
@@ -360,14 +360,14 @@ class FakeClipboard:
 
 
 def devices_of(game: FakeGame, keyboard: Keyboard | None = None, pointer: Pointer | None = None) -> Devices:
-    """The fake game's devices, with another keyboard or pointer if one is given."""
+    """Return the fake game's devices, with another keyboard or pointer if one is given."""
     return Devices(
         FakeDisplay(game), keyboard or FakeKeyboard(game), pointer or FakePointer(game), game.clock, FakeClipboard()
     )
 
 
 def connection_to(game: FakeGame, screen: GameScreen | None = None, fail_after: int = -1) -> GameConnection:
-    """The fake game, read by its own screen unless another is given; its keyboard may fail after some calls."""
+    """Return the fake game, read by its own screen unless another is given; its keyboard may fail after some calls."""
     devices = devices_of(game, FakeKeyboard(game, fail_after))
     return GameConnection(devices, InputController(devices, game.profile.input), screen or FakeScreen(game))
 

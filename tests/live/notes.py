@@ -13,5 +13,5 @@ class Notes:
         self.taken.append((kind, facts))
 
     def of(self, kind: NoteKind) -> list[dict[str, Fact]]:
-        """The facts of each note of a kind."""
+        """Return the facts of each note of a kind."""
         return [facts for seen, facts in self.taken if seen == kind]

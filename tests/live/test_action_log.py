@@ -42,7 +42,7 @@ def test_failed_episodes_are_counted_with_what_the_last_errors_said() -> None:
     assert failure_budget.summary() == {"spoiled_episodes": 4, "last_problems": ["problem 1", "problem 2", "problem 3"]}
 
 
-def test_too_many_in_a_row_are_an_error() -> None:
+def test_too_many_failures_in_a_row_are_an_error() -> None:
     failure_budget = FailureBudget()
     for _ in range(MOST_IN_A_ROW):
         failure_budget.record_failure(ERROR, 3)
@@ -50,13 +50,13 @@ def test_too_many_in_a_row_are_an_error() -> None:
         failure_budget.record_failure(ERROR, 3)
 
 
-def test_failures_with_progress_between_them_go_on() -> None:
+def test_failures_with_progress_between_them_do_not_end_the_training() -> None:
     failure_budget = FailureBudget()
     for episode in range(10 * MOST_IN_A_ROW):
         failure_budget.record_failure(ERROR, episode * PROGRESS)
 
 
-def test_a_person_who_stops_the_game_ends_it_at_once() -> None:
+def test_a_person_who_stops_the_game_ends_the_training_at_once() -> None:
     with pytest.raises(StoppedError):
         FailureBudget().record_failure(StoppedError("the panic key was pressed"), 0)
 

@@ -19,7 +19,7 @@ SERVER = "Minecraft 1.20.1 - Multiplayer (LAN)"
 
 @pytest.fixture
 def font(tmp_path: Path) -> ScreenTable:
-    """The screen's table of a profile that names a font."""
+    """Return the screen's table of a profile that names a font."""
     path = tmp_path / "ascii.png"
     path.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
     return ScreenTable(font=str(path))

@@ -32,12 +32,12 @@ WANTED: dict[str, Any] = {
 }
 
 
-def test_the_virtual_client_keeps_to_it() -> None:
+def test_the_virtual_client_keeps_the_devices_contract() -> None:
     assert virtual_answers() == WANTED
 
 
 @pytest.mark.window
-def test_a_real_window_keeps_to_it(display: dict[str, str], tmp_path: Path) -> None:
+def test_a_real_window_keeps_the_devices_contract(display: dict[str, str], tmp_path: Path) -> None:
     with open_rehearsal(display, tmp_path) as rehearsal:
         command = [sys.executable, devices_contract.__file__, str(rehearsal.truth_file)]
         done = subprocess.run(command, env=display, capture_output=True, text=True, check=False, timeout=120)

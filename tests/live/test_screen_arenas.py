@@ -86,7 +86,7 @@ def test_no_action_takes_no_picture_and_an_ended_arena_waits_for_its_reset(arena
     assert not np.array_equal(gone_on[0], begun[0])
 
 
-def test_they_say_where_the_agent_is_and_what_is_built_and_cant_be_resumed(arenas: ScreenArenas) -> None:
+def test_screen_arenas_know_the_agents_cell_and_the_blocks_and_cant_be_resumed(arenas: ScreenArenas) -> None:
     arenas.reset()
     arenas.step(np.array([FD, F]))
     assert arenas.cell(0) == arenas.cell(1) == (2, 1)
@@ -137,7 +137,7 @@ def client_looking(pitch: float = 65.0, yaw: float = 0.0, scale: int = 1, versio
 
 
 def bare(client: VirtualClient) -> Frame:
-    """The window with nothing over the world."""
+    """Return the window with nothing over the world."""
     client.game.hides_hud = True
     client.clock.sleep(0.2)
     frame = client.display.grab()
@@ -152,7 +152,7 @@ def plainly(frame: Frame) -> np.ndarray:
 
 
 def hidden(size: tuple[int, int], scale: int) -> np.ndarray:
-    """Which dots have any part of what may be hidden."""
+    """Return which dots have any part of what may be hidden."""
     mask = np.zeros((size[1], size[0]), np.float32)
     for region in hidden_regions(size, scale):
         mask[region.top : region.top + region.height, region.left : region.left + region.width] = 1
@@ -171,7 +171,7 @@ def test_the_world_comes_out_as_if_nothing_lay_over_it(version: str, scale: int)
 
 
 @given(st.floats(40, 85), st.floats(-180, 180))
-def test_that_holds_wherever_the_agent_looks(pitch: float, yaw: float) -> None:
+def test_the_world_comes_out_the_same_wherever_the_agent_looks(pitch: float, yaw: float) -> None:
     client = client_looking(pitch, yaw)
     away = np.abs(world_greys(client.display.grab(), Scales(1, 1)).astype(int) - plainly(bare(client)))
     # The sky is as bright as letters are, so a horizon at a text's edge may cost a dot.

@@ -37,14 +37,14 @@ def test_the_contract_of_every_game_holds_in_a_real_window(standin: Standin) -> 
 
 
 def play_in_the_window(profile: str, oracle: str) -> None:
-    """AssertionError or LiveError where the game in the profile's window doesn't keep the contract."""
+    """Raise AssertionError or LiveError where the game in the profile's window doesn't keep the contract."""
     line, flag = load_scenario("line"), load_scenario("flag")
     with open_live_game(line, Opening(profile, print)) as (game, _):
         start_over_after_a_stall(lambda: check_game(game, line, BUMPS))
     arena = load_profile(profile).marked_arena()
 
     def kinds() -> dict[Cell, str]:
-        """The blocks that the server has in the arena."""
+        """Return the blocks that the server has in the arena."""
         cells = {arena.block_of((x, y)): (x, y) for x in range(flag.size) for y in range(flag.size)}
         return {cells[block]: name for block, name in standin_game.blocks(oracle, *arena.region).items()}
 

@@ -25,20 +25,20 @@ ARENA = Arena.around((-20, 64, 31), "south")
 
 
 def font_in(folder: Path) -> ScreenTable:
-    """The project's own font as a picture in that folder."""
+    """Return the project's own font as a picture in that folder."""
     font = folder / "ascii.png"
     font.write_bytes(cv2.imencode(".png", drawn_atlas())[1].tobytes())
     return ScreenTable(font=str(font))
 
 
 def saved(profile: Profile, folder: Path) -> str:
-    """The profile's file in that folder."""
+    """Return the profile's file in that folder."""
     save_profile(profile, folder / "mine.toml")
     return str(folder / "mine.toml")
 
 
 def profile_in(folder: Path) -> str:
-    """The file of a profile for the virtual client as it comes."""
+    """Return the file of a profile for the virtual client as it comes."""
     return saved(Profile(screen=font_in(folder), arena=ARENA), folder)
 
 

@@ -45,13 +45,13 @@ LIVE = Status(
 
 
 def shown(status: Status = LIVE, *, after: float = 0.0) -> StatusShown:
-    """A run that goes on, so many seconds later."""
+    """Return a run that goes on, so many seconds later."""
     now = status.at + after
     return StatusShown(status.model_copy(update={"at": now}), now)
 
 
 def screen_text(svg: str) -> str:
-    """A screenshot of Textual's as the text on it."""
+    """Return a screenshot of Textual's as the text on it."""
     lines: dict[int, dict[int, str]] = {}
     for x, line, text in CELL.findall(svg):
         if found := LINE.search(line):

@@ -72,7 +72,7 @@ STATUSES: dict[str, Status] = {
 
 @pytest.fixture(autouse=True)
 def often(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It looks more often, and closes soon, so that nothing here waits long for it; each look costs milliseconds."""
+    """Make the view look more often, and close soon, so that no test waits long; each look costs milliseconds."""
     monkeypatch.setattr(looking, "LOOK_EVERY_S", 0.1)
     monkeypatch.setattr(looking, "CLOSES_AFTER_S", 0.05)
 
@@ -107,7 +107,7 @@ def shown(
     closes_at_end: bool = False,
     after: float = 0.0,
 ) -> str:
-    """The screen after ``act``, so many seconds after the status was written: a run goes on, or is gone by then."""
+    """Return the screen after ``act``, so many seconds after the status was written: the run goes on, or is gone."""
     StatusFiles(folder).write(status)
 
     async def look() -> str:
@@ -127,7 +127,7 @@ async def nothing(_app: ViewApp, _pilot: Pilot[None]) -> None:
 
 @pytest.fixture
 def live(tmp_path: Path) -> Path:
-    """A run's folder; what is written there is of just now, so that it goes on."""
+    """Return a run's folder; what is written there is of just now, so that it goes on."""
     return tmp_path
 
 
@@ -169,7 +169,7 @@ class Heard(NamedTuple):
 
 
 def pressed(folder: Path, *keys: str, status: Status = LIVE, closes_at_end: bool = False) -> tuple[str, Heard]:
-    """The screen after these keys, and what the run was asked before the view was left."""
+    """Return the screen after these keys, and what the run was asked before the view was left."""
     (folder / FOLDER).mkdir(exist_ok=True)
     requests = Requests(folder)
     heard: list[Heard] = []
@@ -195,7 +195,7 @@ def pressed(folder: Path, *keys: str, status: Status = LIVE, closes_at_end: bool
         (["ctrl+c"], Heard(pause=False, stop=False)),
     ],
 )
-def test_keys_ask_the_run(live: Path, keys: list[str], wanted: Heard) -> None:
+def test_keys_send_requests_to_the_run(live: Path, keys: list[str], wanted: Heard) -> None:
     assert pressed(live, *keys)[1] == wanted
 
 
@@ -338,7 +338,7 @@ def test_it_closes_by_itself_once_the_run_has_ended(live: Path) -> None:
     shown(live, LIVE, SIZES["80x24"], end, closes_at_end=True)
 
 
-def test_a_folder_that_disappears_leaves_what_was_seen(live: Path) -> None:
+def test_the_view_keeps_what_it_shows_if_the_folder_disappears(live: Path) -> None:
     async def lose(app: ViewApp, pilot: Pilot[None]) -> None:
         (live / "view" / "now.json").unlink()
         await until_it_looks(app, pilot)

@@ -36,7 +36,7 @@ def test_a_board_begins_with_nothing_but_its_name_and_the_time() -> None:
     )
 
 
-def test_it_says_since_when_something_is_done() -> None:
+def test_the_board_says_since_when_something_is_done() -> None:
     board, clock = a_board()
     clock.now = 105.0
     board.note("waits", on="the game")
@@ -79,7 +79,7 @@ def test_a_reset_that_waited_goes_on_as_a_reset() -> None:
     assert (status.doing, status.detail, status.mood) == (resetting, "types /time set 6000", "plays")
 
 
-def test_what_is_said_again_goes_on_as_before() -> None:
+def test_repeating_the_current_activity_changes_nothing() -> None:
     board, clock = a_board()
     board.does("trains")
     clock.now = 105.0
@@ -97,7 +97,7 @@ def test_an_action_that_is_done_again_begins_anew() -> None:
     assert board.status().since == 105.0
 
 
-def test_what_comes_after_an_action_can_take_its_time() -> None:
+def test_what_follows_an_action_is_not_stuck_however_long_it_takes() -> None:
     board, _ = a_board()
     board.note("acts", action=0, cell=(0, 0))
     board.note("done", cell=(0, 1), placed=None, seconds=0.3)
@@ -105,7 +105,7 @@ def test_what_comes_after_an_action_can_take_its_time() -> None:
     assert (board.status().doing, board.status().mood) == ("chooses what to do next, or practises", "works")
 
 
-def test_after_a_pause_it_begins_anew() -> None:
+def test_after_a_pause_the_activity_begins_anew() -> None:
     board, clock = a_board()
     board.show(paused=True)
     clock.now = 160.0
@@ -143,7 +143,7 @@ def test_the_last_reading_is_kept() -> None:
     assert board.status().reading == ReadingSeen(problem="no XYZ line")
 
 
-def test_it_is_read_by_one_thread_while_another_plays() -> None:
+def test_one_thread_reads_the_board_while_another_plays() -> None:
     board, _ = a_board()
     over = threading.Event()
 
@@ -194,12 +194,12 @@ def test_an_action_has_its_name_in_the_paper_and_words(action: Action, name: str
         ),
     ],
 )
-def test_what_begins_with_a_note(kind: NoteKind, facts: dict[str, Fact], doing: Doing) -> None:
+def test_each_kind_of_note_begins_its_activity(kind: NoteKind, facts: dict[str, Fact], doing: Doing) -> None:
     assert doing_of(kind, facts) == doing
 
 
 @pytest.mark.parametrize("kind", ["plans", "clicks", "types", "reads", "done"])
-def test_other_notes_begin_nothing_new(kind: NoteKind) -> None:
+def test_other_notes_begin_no_activity(kind: NoteKind) -> None:
     assert doing_of(kind, {}) is None
 
 
@@ -214,7 +214,7 @@ def test_other_notes_begin_nothing_new(kind: NoteKind) -> None:
         ("acts", {"action": 0, "cell": (0, 0)}, ""),
     ],
 )
-def test_the_part_of_it_that_is_under_way(kind: NoteKind, facts: dict[str, Fact], detail: str) -> None:
+def test_a_note_gives_the_part_that_is_under_way(kind: NoteKind, facts: dict[str, Fact], detail: str) -> None:
     assert detail_of(kind, facts) == detail
 
 

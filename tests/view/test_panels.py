@@ -8,7 +8,7 @@ from mc_nested.view.status import ReadingSeen
 from tests.view.shown import LIVE
 
 
-def test_all_of_it_is_there_where_there_is_room() -> None:
+def test_the_side_panel_shows_everything_where_there_is_room() -> None:
     assert [line.rstrip() for line in side_panel(LIVE, 60, 21).plain.split("\n")] == [
         "12 of at most 41 episodes",
         "last score 18, best 24, of 26",
@@ -35,7 +35,7 @@ def test_all_of_it_is_there_where_there_is_room() -> None:
 
 
 @pytest.mark.parametrize("height", range(1, 30))
-def test_it_never_has_more_lines_than_there_are(height: int) -> None:
+def test_the_side_panel_never_exceeds_its_lines(height: int) -> None:
     assert len(side_panel(LIVE, 30, height).split("\n")) <= height
 
 
@@ -66,7 +66,7 @@ def test_more_scores_than_columns_are_drawn_as_means() -> None:
     assert curve_panel([0.0, 8.0, 8.0, 8.0], 8.0, 2, 1).plain == "▄█"
 
 
-def test_nothing_is_drawn_of_nothing() -> None:
+def test_without_scores_no_curve_is_drawn() -> None:
     assert curve_panel([], 8.0, 20, 3).plain == ""
     assert curve_panel([1.0], 8.0, 0, 3).plain == ""
     assert curve_panel([1.0], 8.0, 20, 0).plain == ""
@@ -78,7 +78,7 @@ def test_nothing_is_drawn_of_nothing() -> None:
     st.integers(1, 90),
     st.integers(1, 8),
 )
-def test_it_fits(scores: list[float], highest: float, width: int, height: int) -> None:
+def test_the_curve_fits_its_panel(scores: list[float], highest: float, width: int, height: int) -> None:
     lines = curve_panel(scores, highest, width, height).plain.split("\n")
 
     assert len(lines) == height

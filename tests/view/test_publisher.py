@@ -19,7 +19,7 @@ PATIENCE_S = 20.0
 
 @pytest.fixture(autouse=True)
 def often(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It publishes, and hears, fifty times a second, so that nothing here waits long for it."""
+    """Make it publish, and hear requests, fifty times a second, so that no test waits long for it."""
     monkeypatch.setattr(publishing, "PUBLISH_EVERY_S", 0.02)
 
 
@@ -50,7 +50,7 @@ class Counted:
         return ["it said this"]
 
     def until_asked_again(self) -> None:
-        """Once more from beginning to end: one may be going on."""
+        """Wait for one more publishing from beginning to end: one may be going on."""
         before = self.times
         until(lambda: self.times >= before + 2)
 
@@ -66,7 +66,7 @@ def test_a_run_is_published_at_once_and_while_it_goes_on(tmp_path: Path) -> None
     assert not is_published(tmp_path)
 
 
-def test_how_it_failed_is_published(tmp_path: Path) -> None:
+def test_how_a_run_failed_is_published(tmp_path: Path) -> None:
     def fail() -> None:
         with a_publisher(tmp_path):
             raise LiveError("the game\nis gone")

@@ -32,11 +32,11 @@ def run(tmp_path: Path) -> Path:
 
 
 def renewed(run: Path, nanoseconds: int) -> None:
-    """As a view renews it, at that time."""
+    """Renew the pause as a view does, at that time."""
     os.utime(run / FOLDER / PAUSE, ns=(nanoseconds, nanoseconds))
 
 
-def test_at_first_nothing_is_asked(run: Path) -> None:
+def test_a_new_run_has_no_requests(run: Path) -> None:
     requests = Requests(run)
 
     assert not requests.is_pause_asked()
@@ -87,7 +87,7 @@ def test_a_view_renews_a_pause_unless_another_one_ended_it(run: Path) -> None:
     assert not Requests(run).is_pause_asked()
 
 
-def test_a_stop_is_asked_whatever_else_is(run: Path) -> None:
+def test_a_stop_is_heard_beside_any_other_request(run: Path) -> None:
     requests = Requests(run)
     ask_to_stop(run)
     ask_pause(run)
@@ -106,7 +106,7 @@ def test_an_answer_is_to_its_question_alone(run: Path) -> None:
 
 
 @pytest.mark.parametrize("text", ["", "{", '{"number": 1}', '{"number": "one", "is_yes": true}'])
-def test_a_damaged_answer_is_none(run: Path, text: str) -> None:
+def test_a_damaged_answer_counts_as_none(run: Path, text: str) -> None:
     requests = Requests(run)
     (run / FOLDER / ANSWER).write_text(text, "utf-8")
 

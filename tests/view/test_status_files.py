@@ -28,7 +28,7 @@ def at(seconds: float, **fields: object) -> Status:
     return LIVE.model_copy(update={"at": seconds, **fields})
 
 
-def test_what_is_written_is_read_again(tmp_path: Path) -> None:
+def test_a_written_status_is_read_back(tmp_path: Path) -> None:
     StatusFiles(tmp_path).write(LIVE)
 
     assert status_now(tmp_path) == LIVE
@@ -64,7 +64,7 @@ def test_the_status_now_is_the_last_one_and_the_history_has_every_one(tmp_path: 
     assert [status.at for status in history_of(tmp_path)] == [0, 1, 2, 3, 4]
 
 
-def test_no_more_is_kept_than_three_a_second(tmp_path: Path) -> None:
+def test_at_most_three_statuses_a_second_are_kept(tmp_path: Path) -> None:
     files = StatusFiles(tmp_path)
     for number in range(10):
         files.write(at(number * KEEP_EVERY_S / 10))
@@ -72,7 +72,7 @@ def test_no_more_is_kept_than_three_a_second(tmp_path: Path) -> None:
     assert len(history_of(tmp_path)) == 1
 
 
-def test_the_end_is_kept_however_soon_it_comes(tmp_path: Path) -> None:
+def test_the_last_status_is_always_kept(tmp_path: Path) -> None:
     files = StatusFiles(tmp_path)
     files.write(at(1.0))
     files.write(at(1.01, ended="finished"))
@@ -159,7 +159,7 @@ def test_only_what_was_published_is_removed(tmp_path: Path) -> None:
 
 
 @given(st.text(), st.text(), st.floats(allow_nan=False), st.floats(allow_nan=False))
-def test_any_words_and_numbers_come_back(doing: str, title: str, since: float, score: float) -> None:
+def test_any_words_and_numbers_are_read_back(doing: str, title: str, since: float, score: float) -> None:
     learning = Learning(score=score, best=-score, scores=(score,))
     status = Status(format=FORMAT, what="train", title=title, doing=doing, since=since, learning=learning)
 
@@ -176,7 +176,7 @@ def test_bytes_that_are_no_text_are_written_as_question_marks() -> None:
 STATUSES = [LIVE.model_copy(update={"at": float(number)}) for number in range(41)]
 
 
-def test_it_moves_by_a_moment_and_by_a_tenth() -> None:
+def test_the_scrubber_moves_by_a_moment_or_a_tenth() -> None:
     past = Scrubber(STATUSES, 20)
 
     assert past.moved(-1).status.at == 19
@@ -186,14 +186,14 @@ def test_it_moves_by_a_moment_and_by_a_tenth() -> None:
 
 
 @given(st.lists(st.integers(-100, 100)))
-def test_it_stops_at_both_ends(moves: list[int]) -> None:
+def test_the_scrubber_stops_at_both_ends(moves: list[int]) -> None:
     past = Scrubber(STATUSES, 20)
     for move in moves:
         past = past.moved(move)
         assert past.status in STATUSES
 
 
-def test_its_line_has_a_mark_where_it_is_and_the_times_of_its_ends() -> None:
+def test_the_scrubbers_line_marks_its_place_and_the_times_of_its_ends() -> None:
     assert Scrubber(STATUSES, 0).line(29).plain == "00:00:00 ●────────── 00:00:40"
     assert Scrubber(STATUSES, 20).line(29).plain == "00:00:00 ━━━━━●───── 00:00:40"
     assert Scrubber(STATUSES, 40).line(29).plain == "00:00:00 ━━━━━━━━━━● 00:00:40"

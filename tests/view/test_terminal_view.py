@@ -45,20 +45,20 @@ def opened(tmp_path: Path) -> Iterator[Opens]:
 
 
 def viewed_training(opened: Opens) -> Terminal:
-    """A long training in a terminal, once its view shows that it trains."""
+    """Return a long training in a terminal, once its view shows that it trains."""
     terminal = opened(*LONG, "--view")
     terminal.until("trains in the simulator")
     return terminal
 
 
 def child_of(process: int) -> int:
-    """The one child of a process: its view."""
+    """Return the one child of a process: its view."""
     (child,) = Path(f"/proc/{process}/task/{process}/children").read_text().split()
     return int(child)
 
 
 @pytest.mark.slow
-def test_a_viewed_training_ends_as_one_that_is_not(opened: Opens, tmp_path: Path) -> None:
+def test_a_viewed_training_ends_like_one_without_a_view(opened: Opens, tmp_path: Path) -> None:
     terminal = opened(*SHORT, "--view")
     terminal.until("zigzag, nested agent, preset model-based, in the simulator")
     terminal.until("next:")
@@ -69,7 +69,7 @@ def test_a_viewed_training_ends_as_one_that_is_not(opened: Opens, tmp_path: Path
 
 
 @pytest.mark.slow
-def test_it_is_paused_and_stopped_by_keys_and_can_be_resumed(opened: Opens, tmp_path: Path) -> None:
+def test_a_viewed_training_is_paused_and_stopped_by_keys_and_can_be_resumed(opened: Opens, tmp_path: Path) -> None:
     terminal = viewed_training(opened)
     terminal.press("p")
     terminal.until("paused; press p to go on")

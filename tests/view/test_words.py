@@ -13,7 +13,7 @@ def test_a_time_span_has_its_two_largest_units(seconds: float, words: str) -> No
     assert lasting(seconds) == words
 
 
-def test_what_is_done_and_for_how_long() -> None:
+def test_the_status_line_says_what_is_done_and_for_how_long() -> None:
     assert status_words(shown(after=2.0)) == (
         "plays",
         "moves back and places a block (B+D), from (1, 2): holds s for 4 ticks, for 2 s",
@@ -69,7 +69,9 @@ def test_waiting_for_a_person_is_not_stuck() -> None:
         ({}, "gone", "gone", "the run's process is gone; it was last seen at 01:48:20"),
     ],
 )
-def test_what_else_there_is_to_say(fields: dict[str, object], life: Life, word: str, part: str) -> None:
+def test_the_status_line_says_that_a_run_asks_stops_pauses_or_has_ended(
+    fields: dict[str, object], life: Life, word: str, part: str
+) -> None:
     status = LIVE.model_copy(update=fields)
 
     found, sentence = status_words(StatusShown(status, status.at, life))

@@ -14,7 +14,7 @@ from mc_nested.live.devices import Clipboard, Devices
 
 @contextmanager
 def open_desktop(title: str) -> Iterator[Devices]:
-    """The devices of the one window in whose title the regular expression ``title`` is found.
+    """Yield the devices of the one window in whose title the regular expression ``title`` is found.
 
     Keys that are held when the context ends stay held: the input controller releases them.
 
@@ -37,14 +37,14 @@ def open_desktop(title: str) -> Iterator[Devices]:
 
 
 def open_clipboard() -> Clipboard:
-    """This desktop's clipboard, which is not read yet."""
+    """Return this desktop's clipboard, which is not read yet."""
     return this_system().open_clipboard()
 
 
 def session_kind() -> str:
-    """What kind of session this is, in words.
+    """Return what kind of session this is, in words.
 
-    DesktopError where its windows can't be pictured and driven: no display, a Wayland session without Xwayland, a
+    Raise DesktopError where its windows can't be pictured and driven: no display, a Wayland session without Xwayland, a
     missing permission.
     """
     return this_system().session_kind()

@@ -19,7 +19,7 @@ from mc_nested.live.devices import DesktopArea, Frame
 
 @contextmanager
 def open_camera(screen: Callable[[], DesktopArea] | None = None) -> Iterator[Camera]:
-    """A camera over all screens; a picture raises DesktopError where a part of its area is on no screen.
+    """Yield a camera over all screens; a picture raises DesktopError where a part of its area is on no screen.
 
     Args:
         screen: gives the area of all screens together, where pictures of anything else come without an error, as on
@@ -61,7 +61,7 @@ def _off_the_screen() -> DesktopError:
 
 
 def monitors() -> tuple[DesktopArea, ...]:
-    """Where each monitor is on the desktop; none where the system names none. It needs a display."""
+    """Return where each monitor is on the desktop; none where the system names none. It needs a display."""
     try:
         with mss.MSS() as shots:
             each_alone = shots.monitors[1:]  # the first is all of them together

@@ -20,11 +20,11 @@ class WindowDisplay:
         self.grab()
 
     def ratio(self) -> float:
-        """Framebuffer pixels to a point of the desktop, as the last whole picture measured it."""
+        """Return framebuffer pixels per point of the desktop, as the last whole picture measured it."""
         return self._ratio
 
     def area(self) -> DesktopArea:
-        """Where on the desktop the client area is now."""
+        """Return where on the desktop the client area is now."""
         return self._window.client_area()
 
     def size(self) -> tuple[int, int]:
@@ -53,7 +53,7 @@ class WindowDisplay:
 
 
 def _part_of(area: DesktopArea, region: Region) -> DesktopArea:
-    """The part of the client area that the region covers: nothing outside the window is ever pictured."""
+    """Return the part of the client area that the region covers: nothing outside the window is ever pictured."""
     left, top = max(region.left, 0), max(region.top, 0)
     right, bottom = min(region.left + region.width, area.width), min(region.top + region.height, area.height)
     if right <= left or bottom <= top:

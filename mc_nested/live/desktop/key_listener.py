@@ -49,7 +49,7 @@ def listening(on_key: OnKey) -> AbstractContextManager[IsListening]:
 
 @contextmanager
 def listening_through_pynput(on_key: OnKey) -> Iterator[IsListening]:
-    """``listening`` on Windows, where pynput passes on scancodes, and on macOS, where it passes on keycodes."""
+    """Listen as ``listening`` on Windows and macOS: there pynput passes on scancodes or keycodes."""
     from pynput.keyboard import Listener
 
     heard: queue.SimpleQueue[tuple[str, bool] | None] = queue.SimpleQueue()
@@ -102,7 +102,7 @@ def _wait_for_hook(listener: threading.Thread) -> None:
 
 
 def _mac_code(key: Any) -> int:
-    """The virtual keycode of a key that pynput heard on macOS; -1 if it has none."""
+    """Return the virtual keycode of a key that pynput heard on macOS; -1 if it has none."""
     code = getattr(getattr(key, "value", key), "vk", None)
     return -1 if code is None else int(code)
 

@@ -17,13 +17,16 @@ class KeySender(Protocol):
     """Sends keys and characters to whatever window is in front."""
 
     def send(self, place: KeyPlace, *, is_down: bool) -> None:
-        """The key at a place goes down or up."""
+        """Send that the key at a place goes down or up."""
 
     def type(self, character: str) -> None:
-        """Write a character, and hold nothing afterwards. DesktopError where this desktop has no way to."""
+        """Write a character, and hold nothing afterwards. Raise DesktopError where this desktop has no way to."""
 
     def layout(self) -> Layout | None:
-        """What LWJGL 2 takes each key for, as the keyboard's layout is now; None where it goes by places, too."""
+        """Return what LWJGL 2 takes each key for, as the keyboard's layout is now.
+
+        Return None where it goes by places, too.
+        """
 
 
 class DesktopKeyboard:
@@ -66,7 +69,10 @@ class DesktopKeyboard:
                 self._sender.type(character)
 
     def _places(self, key: str) -> list[KeyPlace]:
-        """What is pressed for a key, in order, as the keyboard's layout is now; none where it lacks the symbol."""
+        """Return what is pressed for a key, in order, as the keyboard's layout is now.
+
+        Return none where it lacks the symbol.
+        """
         place = place_of(key)
         layout = self._sender.layout() if self._goes_by_symbols else None
         if layout is None:
@@ -79,7 +85,7 @@ class DesktopKeyboard:
 
 @contextmanager
 def open_keyboard() -> Iterator[DesktopKeyboard]:
-    """The keyboard of this desktop. Needs a display: open the window first."""
+    """Yield the keyboard of this desktop. Needs a display: open the window first."""
     with _open_sender() as sender:
         yield DesktopKeyboard(sender)
 

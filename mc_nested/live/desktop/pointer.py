@@ -48,7 +48,7 @@ class DesktopPointer:
 
 
 def load_pyautogui() -> Any:
-    """The module pyautogui, without its pauses and its own fail-safe, which would also refuse to release a button."""
+    """Return the module pyautogui without its pauses and its fail-safe, which would also refuse to release a button."""
     # mouseinfo ends the whole process where tkinter is missing, and pyscreeze starts programs that this project doesn't
     # need. With None in sys.modules, their import fails in the one way that pyautogui handles.
     blocked = [name for name in ("mouseinfo", "pyscreeze") if name not in sys.modules]

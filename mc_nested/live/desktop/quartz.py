@@ -22,7 +22,7 @@ _ORDINARY_LAYER = 0
 
 @contextmanager
 def open_window(title: str) -> Iterator["QuartzWindow"]:
-    """The one window whose title matches the regular expression ``title``.
+    """Yield the one window whose title matches the regular expression ``title``.
 
     Raises:
         DesktopError: a missing permission, no window of that title on this space, or several.
@@ -40,13 +40,13 @@ def open_window(title: str) -> Iterator["QuartzWindow"]:
 
 
 def session_kind() -> str:
-    """What this session is, in words; DesktopError where a permission is missing."""
+    """Return what this session is, in words; raise DesktopError where a permission is missing."""
     _check_permissions()
     return "a macOS desktop, Screen Recording and Accessibility allowed"
 
 
 def open_clipboard() -> "QuartzClipboard":
-    """The clipboard of macOS, its general pasteboard, not read yet."""
+    """Return the clipboard of macOS, its general pasteboard, not read yet."""
     return QuartzClipboard()
 
 
@@ -108,7 +108,7 @@ def _check_permissions() -> None:
 
 
 def _shown_windows() -> list[Any]:
-    """Ordinary windows on the screen, the front one first."""
+    """Return the ordinary windows on the screen, the front one first."""
     options = Quartz.kCGWindowListOptionOnScreenOnly | Quartz.kCGWindowListExcludeDesktopElements
     windows = Quartz.CGWindowListCopyWindowInfo(options, Quartz.kCGNullWindowID) or ()
     return [each for each in windows if int(each[Quartz.kCGWindowLayer]) == _ORDINARY_LAYER]
@@ -125,7 +125,7 @@ def _fills_a_screen(left: int, top: int, width: int, height: int) -> bool:
 
 
 def _title_bar_height() -> int:
-    """Points that the title bar takes: Quartz counts it as part of the window, and its height differs by version."""
+    """Return the points that the title bar takes: to Quartz it is part of the window, and it differs by version."""
     inside = AppKit.NSMakeRect(0, 0, 100, 100)
     frame = AppKit.NSWindow.frameRectForContentRect_styleMask_(inside, AppKit.NSWindowStyleMaskTitled)
     return round(float(frame.size.height - inside.size.height))

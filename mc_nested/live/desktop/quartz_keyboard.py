@@ -33,7 +33,7 @@ class QuartzKeySender:
         (self._controller.press if is_down else self._controller.release)(key)
 
     def layout(self) -> None:
-        """LWJGL 2 takes keycodes, which are places, on macOS."""
+        """Return None: on macOS LWJGL 2 takes keycodes, which are places."""
 
     def type(self, character: str) -> None:
         try:
@@ -49,5 +49,5 @@ class QuartzKeySender:
 
 @contextmanager
 def open_sender() -> Iterator[QuartzKeySender]:
-    """The keys of this desktop."""
+    """Yield the keys of this desktop."""
     yield QuartzKeySender(Controller())

@@ -14,7 +14,7 @@ class DesktopSystem(Protocol):
     """What win32.py, quartz.py and x11.py each offer."""
 
     def open_window(self, title: str) -> AbstractContextManager[GameWindow]:
-        """The one window whose title matches the regular expression ``title``, while the context lasts.
+        """Return the one window whose title matches the regular expression ``title``, while the context lasts.
 
         Raises:
             DesktopError: no display, a session that can't be driven, a missing permission, no window of that title or
@@ -22,10 +22,13 @@ class DesktopSystem(Protocol):
         """
 
     def session_kind(self) -> str:
-        """What kind of session this is, in words; DesktopError where its windows can't be pictured and driven."""
+        """Return what kind of session this is, in words.
+
+        Raise DesktopError where its windows can't be pictured and driven.
+        """
 
     def open_clipboard(self) -> Clipboard:
-        """The clipboard, which is not read yet.
+        """Return the clipboard, which is not read yet.
 
         Both its methods raise ClipboardError where the clipboard can't be reached, or holds something other than text,
         which could not be put back.
@@ -41,7 +44,10 @@ class PicturesItself(Protocol):
 
 @contextmanager
 def open_camera(window: GameWindow) -> Iterator[Camera]:
-    """The camera for that window: its own, or one over all screens. Open the window first: mss needs a display."""
+    """Yield the camera for that window: its own, or one over all screens.
+
+    Open the window first: mss needs a display.
+    """
     if isinstance(window, PicturesItself):
         yield window.picture
         return
@@ -52,7 +58,7 @@ def open_camera(window: GameWindow) -> Iterator[Camera]:
 
 
 def this_system() -> DesktopSystem:
-    """The module of the system that this process runs on; without a display, this works too."""
+    """Return the module of the system that this process runs on; without a display, this works too."""
     if sys.platform == "win32":
         from mc_nested.live.desktop import win32
 

@@ -46,7 +46,7 @@ _EnumWindowsCallback = ctypes.WINFUNCTYPE(wintypes.BOOL, wintypes.HWND, wintypes
 
 @contextmanager
 def open_window(title: str) -> Iterator["Win32Window"]:
-    """The one window whose title matches the regular expression ``title``.
+    """Yield the one window whose title matches the regular expression ``title``.
 
     Raises:
         DesktopError: no window of that title or several, or a minimised one.
@@ -61,24 +61,24 @@ def open_window(title: str) -> Iterator["Win32Window"]:
 
 
 def titled_windows() -> list[tuple[int, TitledWindow]]:
-    """The handle of each window that is shown and has a title, and what is known of it."""
+    """Return the handle of each window that is shown and has a title, and what is known of it."""
     windows = [(handle, TitledWindow(_title_of(handle), _program_of(handle))) for handle in _shown_windows()]
     return [(handle, described) for handle, described in windows if described.title]
 
 
 def virtual_screen() -> DesktopArea:
-    """The area of all monitors together, as it is now."""
+    """Return the area of all monitors together, as it is now."""
     left, top, width, height = (int(_user32.GetSystemMetrics(each)) for each in _VIRTUAL_SCREEN)
     return DesktopArea(left, top, width, height)
 
 
 def session_kind() -> str:
-    """What this session is, in words. Windows of a Windows desktop can always be pictured and driven."""
+    """Return what this session is, in words. Windows of a Windows desktop can always be pictured and driven."""
     return "a Windows desktop"
 
 
 def open_clipboard() -> "Win32Clipboard":
-    """The clipboard of Windows, not read yet."""
+    """Return the clipboard of Windows, not read yet."""
     return Win32Clipboard()
 
 
@@ -156,7 +156,7 @@ def _is_cloaked(handle: int) -> bool:
 
 
 def _program_of(handle: int) -> str:
-    """The file name of the window's process and the window's class; what can't be asked is left out."""
+    """Return the file name of the window's process and the window's class; what can't be asked is left out."""
     name = ctypes.create_unicode_buffer(_LONGEST_NAME)
     _user32.GetClassNameW(wintypes.HWND(handle), name, _LONGEST_NAME)
     return f"{_process_of(handle)} {name.value}".strip()

@@ -111,7 +111,7 @@ class Win32KeySender:
         _send((key, place.scan & 0xFF, flags if key else flags | _SCANCODE))
 
     def layout(self) -> Layout:
-        """By the virtual keys of the layout in front."""
+        """Return what LWJGL 2 takes each key for, by the virtual keys of the layout in front."""
         layout = _layout_in_front()
         keys = {name: _user32.MapVirtualKeyExW(PLACES[name].scan, _TO_VIRTUAL_KEY, layout) for name in CHARACTERS}
         return {name: (_LWJGL_2.get(key, ""),) * 2 for name, key in keys.items()}
@@ -122,14 +122,14 @@ class Win32KeySender:
 
 
 def _unicode_events(character: str) -> list[_Event]:
-    """The character itself; one beyond 0xFFFF is two units."""
+    """Return events that send the character itself; one beyond 0xFFFF is two units."""
     data = character.encode("utf-16-le")
     units = [int.from_bytes(data[at : at + 2], "little") for at in range(0, len(data), 2)]
     return [(0, unit, flags) for unit in units for flags in (_UNICODE, _UNICODE | _KEY_UP)]
 
 
 def _layout_events(character: str) -> list[_Event]:
-    """The keys that make the character in the window in front; none where its layout has no such keys."""
+    """Return the keys that make the character in the window in front; none where its layout has no such keys."""
     layout = _layout_in_front()
     found = _user32.VkKeyScanExW(character, layout) if len(character.encode("utf-16-le")) == 2 else -1
     key, held = found & 0xFF, found >> 8
@@ -145,13 +145,13 @@ def _layout_events(character: str) -> list[_Event]:
 
 
 def _layout_in_front() -> int:
-    """The keyboard layout of the window in front: each thread has its own."""
+    """Return the keyboard layout of the window in front: each thread has its own."""
     layout: int = _user32.GetKeyboardLayout(_user32.GetWindowThreadProcessId(_user32.GetForegroundWindow(), None))
     return layout
 
 
 def _made(key: int, scan: int, held: int, layout: int, *, is_caps_lock_on: bool) -> str:
-    """What a key makes with these modifiers held; empty for a dead key."""
+    """Return what a key makes with these modifiers held; empty for a dead key."""
     state = bytearray(256)
     for bit, modifier in ((1, _VK_SHIFT), (2, _VK_CONTROL), (4, _VK_MENU)):
         state[modifier] = 0x80 if held & bit else 0
@@ -169,7 +169,7 @@ def _is_caps_lock_on() -> bool:
 
 @contextmanager
 def open_sender() -> Iterator[Win32KeySender]:
-    """The keys of this desktop."""
+    """Yield the keys of this desktop."""
     yield Win32KeySender()
 
 

@@ -30,10 +30,10 @@ class GameWindow(Protocol):
     def title(self) -> str: ...
 
     def client_area(self) -> DesktopArea:
-        """Where the client area is now; DesktopError where the window has closed or is minimised."""
+        """Return where the client area is now; raise DesktopError where the window has closed or is minimised."""
 
     def is_in_front(self) -> bool:
-        """Whether a key pressed now would reach this window."""
+        """Return whether a key pressed now would reach this window."""
 
 
 class TitledWindow(NamedTuple):
@@ -44,10 +44,10 @@ class TitledWindow(NamedTuple):
 
 
 def game_window(title: str, windows: Sequence[TitledWindow]) -> int:
-    """The index of the one window in whose title the regular expression ``title`` is found.
+    """Return the index of the one window in whose title the regular expression ``title`` is found.
 
     A browser's and a launcher's windows are none of the game's, unless the title is one of the player's own choice.
-    NoWindowError where there is none, SeveralWindowsError where there are several.
+    Raise NoWindowError where there is none, SeveralWindowsError where there are several.
     """
     found = [index for index, each in enumerate(windows) if re.search(title, each.title)]
     if title == GAME_TITLE:
@@ -71,7 +71,7 @@ def game_window(title: str, windows: Sequence[TitledWindow]) -> int:
 
 
 def is_within(area: DesktopArea, outer: DesktopArea) -> bool:
-    """Whether all of an area lies in another one."""
+    """Return whether all of an area lies in another one."""
     return (
         outer.left <= area.left
         and outer.top <= area.top
@@ -81,18 +81,18 @@ def is_within(area: DesktopArea, outer: DesktopArea) -> bool:
 
 
 def check_shown(area: DesktopArea, title: str) -> None:
-    """DesktopError where the client area is empty, as a minimised window's is."""
+    """Raise DesktopError where the client area is empty, as a minimised window's is."""
     if area.width < 1 or area.height < 1:
         raise minimised_error(title)
 
 
 def minimised_error(title: str) -> DesktopError:
-    """The error for a window that isn't shown."""
+    """Return the error for a window that isn't shown."""
     return DesktopError(f"the window {title!r} is minimised or hidden: bring it back onto the screen")
 
 
 def closed_error(title: str) -> DesktopError:
-    """The error for a window that no longer exists."""
+    """Return the error for a window that no longer exists."""
     return DesktopError(f"the window {title!r} has closed: start the game again")
 
 

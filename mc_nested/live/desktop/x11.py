@@ -33,7 +33,7 @@ from mc_nested.live.devices import DesktopArea, Frame
 
 @contextmanager
 def open_window(title: str) -> Iterator["X11Window"]:
-    """The one window whose title matches the regular expression ``title``, for as long as the context lasts.
+    """Yield the one window whose title matches the regular expression ``title``, for as long as the context lasts.
 
     Raises:
         DesktopError: no display, no window of that title on the X server or several, or a minimised one.
@@ -55,7 +55,7 @@ def open_window(title: str) -> Iterator["X11Window"]:
 
 
 def session_kind() -> str:
-    """What this session is, in words; DesktopError where there is no X server."""
+    """Return what this session is, in words; raise DesktopError where there is no X server."""
     display = _connect()
     try:
         is_one, is_pictured = is_xwayland(display), not is_rootless(display)
@@ -69,7 +69,7 @@ def session_kind() -> str:
 
 
 def open_clipboard() -> X11Clipboard:
-    """The X server's clipboard, not read yet."""
+    """Return the X server's clipboard, not read yet."""
     return X11Clipboard()
 
 
@@ -111,7 +111,7 @@ class X11Window:
             )
 
     def _is_minimised(self) -> bool:
-        """GNOME's window manager shows a minimised window to the X server as before, but says so."""
+        """Return whether it is minimised: GNOME shows such a window to the X server as before, but says so."""
         states = self._window.get_full_property(self._display.get_atom("_NET_WM_STATE"), Xatom.ATOM)
         return states is not None and self._display.get_atom("_NET_WM_STATE_HIDDEN") in states.value
 
@@ -131,7 +131,10 @@ class RootlessWindow(X11Window):
         self._camera = WindowCamera(display, window)
 
     def picture(self, area: DesktopArea) -> Frame:
-        """This window's pixels in that area of the desktop, whatever covers them; DesktopError where it has closed."""
+        """Return this window's pixels in that area of the desktop, whatever covers them.
+
+        Raise DesktopError where it has closed.
+        """
         with self._if_open():
             return self._camera(area)
 
@@ -195,7 +198,7 @@ def _title_of(display: Display, window: Window) -> str:
 
 
 def _is_within(window: Window, outer: Window) -> bool:
-    """Whether ``window`` is ``outer`` or lies below it in the tree of windows."""
+    """Return whether ``window`` is ``outer`` or lies below it in the tree of windows."""
     each = window
     while each != outer:
         parent = each.query_tree().parent

@@ -66,7 +66,7 @@ class X11Clipboard:
 
 
 def _converted(display: Display, window: "Window", clipboard: int) -> str | None:
-    """The clipboard as text; None where its owner has none to give."""
+    """Return the clipboard as text; None where its owner has none to give."""
     prop = display.intern_atom("MC_NESTED_CLIPBOARD")
     for name in ("UTF8_STRING", "STRING"):
         window.convert_selection(clipboard, display.intern_atom(name), prop, X.CurrentTime)

@@ -15,7 +15,7 @@ from Xlib.protocol import event
 
 
 def main() -> int:
-    """Take the clipboard, and keep it in the background; 1 where it can't be taken."""
+    """Take the clipboard, and keep it in the background; return 1 where it can't be taken."""
     text = sys.stdin.buffer.read()
     display = Display()
     window = display.screen().root.create_window(0, 0, 1, 1, 0, X.CopyFromParent)

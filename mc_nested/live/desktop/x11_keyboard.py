@@ -59,7 +59,7 @@ class X11KeySender:
         self._display.sync()
 
     def layout(self) -> Layout:
-        """By the layout's first group, whichever group is in use: so LWJGL 2 asks for a keysym."""
+        """Return what LWJGL 2 takes each key for, by the layout's first group, whichever group is in use."""
         while self._display.pending_events():
             if self._display.next_event().type == X.MappingNotify:
                 self._layout = None
@@ -122,7 +122,7 @@ class X11KeySender:
 
 @contextmanager
 def open_sender() -> Iterator[X11KeySender]:
-    """The keys of the display in DISPLAY."""
+    """Yield the keys of the display in DISPLAY."""
     display = Display()
     spare = SpareKeys(display)
     try:

@@ -32,7 +32,7 @@ class SpareKeys:
         self._lent: dict[int, list[int]] = {}
 
     def lend(self, keysyms: Sequence[int]) -> Mapping[int, tuple[int, int]]:
-        """Put keysyms on spare keys: the keycode and the state that type each, as far as there are keys."""
+        """Put keysyms on spare keys; return the keycode and the state that type each, as far as there are keys."""
         last: int = self._display.display.info.max_keycode
         mapping = self._display.get_keyboard_mapping(_FIRST_KEYCODE, last - _FIRST_KEYCODE + 1)
         spare = [_FIRST_KEYCODE + index for index, on_key in enumerate(mapping) if not any(on_key)]

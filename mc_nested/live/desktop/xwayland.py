@@ -30,7 +30,7 @@ _AS_X11 = "env XDG_SESSION_TYPE=x11 SDL_VIDEO_DRIVER=x11"
 
 
 def is_xwayland(display: Display) -> bool:
-    """Whether the X server is an Xwayland, of either kind."""
+    """Return whether the X server is an Xwayland, of either kind."""
     if display.query_extension("XWAYLAND") is not None:  # from 23.1 on
         return True
     if display.query_extension("RANDR") is None:
@@ -42,7 +42,7 @@ def is_xwayland(display: Display) -> bool:
 
 
 def is_rootless(display: Display) -> bool:
-    """Whether the screen can't be pictured, only each window by itself: only a rootless Xwayland says so."""
+    """Return whether the screen can't be pictured, only each window by itself: only a rootless Xwayland says so."""
     try:
         display.screen().root.get_image(0, 0, 1, 1, X.ZPixmap, ALL_PLANES)
     except BadMatch:
@@ -51,12 +51,12 @@ def is_rootless(display: Display) -> bool:
 
 
 def is_wayland_session() -> bool:
-    """Whether this process's environment is that of a Wayland session."""
+    """Return whether this process's environment is that of a Wayland session."""
     return bool(os.environ.get("WAYLAND_DISPLAY")) or os.environ.get("XDG_SESSION_TYPE") == "wayland"
 
 
 def no_x_server_error() -> DesktopError:
-    """The error for a Wayland session in which there is no X server."""
+    """Return the error for a Wayland session in which there is no X server."""
     return DesktopError(
         "this Wayland session has no X server (DISPLAY is not set), and only X11 windows can be driven: install your "
         "distribution's xwayland, log in again, start the game, run this in a terminal of that session"
@@ -64,7 +64,7 @@ def no_x_server_error() -> DesktopError:
 
 
 def no_x11_window_error(error: NoWindowError) -> NoWindowError:
-    """``error``, where the missing window may be a Wayland one, which no X server knows."""
+    """Return ``error`` with a hint that the missing window may be a Wayland one, which no X server knows."""
     return NoWindowError(
         f"{error}; a game that uses Wayland itself isn't seen: start its launcher with {_AS_X11} before the command"
     )

@@ -108,8 +108,8 @@ class InputController:
     def press(self, until: float, *keys: str, beside: str | None = None) -> float:
         """Press keys in the world and return when they are released, during a later wait.
 
-        That is ``until``, and as much later as the look at the screen took that comes before. NotConfirmedError if the
-        key ``beside`` which they are pressed is not down after that look.
+        That is ``until``, and as much later as the look at the screen took that comes before. Raise NotConfirmedError
+        if the key ``beside`` which they are pressed is not down after that look.
         """
         asked_at = self._clock.now()
         self._permit("world")
@@ -157,7 +157,7 @@ class InputController:
     def click_at(self, x: int, y: int) -> None:
         """Click on a menu, at a position in framebuffer pixels.
 
-        WrongScreenError if the mouse isn't there any more: the window, or somebody else, has moved it.
+        Raise WrongScreenError if the mouse isn't there any more: the window, or somebody else, has moved it.
         """
         self.hover(x, y)
         across, down = self._pointer.position()
@@ -224,12 +224,12 @@ class InputController:
         self.release_all()
 
     def check_stopped(self) -> None:
-        """StoppedError once it was stopped."""
+        """Raise StoppedError once the controller was stopped."""
         if self._stop_reason is not None:
             raise StoppedError(f"{self._stop_reason}: every key is up, start again when you like")
 
     def check_front(self) -> None:
-        """NotInFrontError unless a key pressed now would reach the game."""
+        """Raise NotInFrontError unless a key pressed now would reach the game."""
         if not self._display.is_in_front():
             raise NotInFrontError(
                 "the game's window is not in front, so no key is pressed: "
@@ -241,7 +241,7 @@ class InputController:
         self.check_front()
 
     def _permit(self, screen: PressTarget) -> None:
-        """Look at the screen just before a press; again at all of it if it was confirmed too long ago.
+        """Look at the screen just before a press; look at all of it again if it was confirmed too long ago.
 
         The caller holds no lock: a look may take long, and meanwhile others must be able to release everything.
         """

@@ -20,7 +20,7 @@ class EndedBySignal(SystemExit):
 
 @contextmanager
 def signals_as_exit() -> Iterator[None]:
-    """While inside, a signal that would end the process raises EndedBySignal instead.
+    """Raise EndedBySignal for a signal that would end the process, while the block runs.
 
     Handlers that others installed stay. Outside the main thread, where none may be set, nothing changes.
     """

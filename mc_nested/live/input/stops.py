@@ -18,7 +18,7 @@ CORNER_REASON = "the mouse was moved into a corner of the screen"
 
 
 def corners_of(width: int, height: int) -> Collection[tuple[int, int]]:
-    """The corners of a screen of that size, in its own points."""
+    """Return the corners of a screen of that size, in its own points."""
     return frozenset({(0, 0), (width - 1, 0), (0, height - 1), (width - 1, height - 1)})
 
 

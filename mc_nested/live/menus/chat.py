@@ -30,7 +30,7 @@ CLEAR = "d"
 class Chat:
     """Sends lines. The caller has just seen that the world is on the screen, and nothing over it.
 
-    Before answers would cover what is read of the debug screen, the chat is cleared, in whatever way it is sent to.
+    The chat is cleared before answers would cover what is read of the debug screen.
 
     Raises (everything): NotConfirmedError where the chat's line doesn't look as it should; nothing is sent then.
     """
@@ -80,7 +80,7 @@ class Chat:
             self._controller.wait(self._timing.chat_close_s)
 
     def _would_cover(self, line: str) -> bool:
-        """Whether its answer would make the chat cover lines of the debug screen.
+        """Return whether the line's answer would make the chat cover lines of the debug screen.
 
         The window's height is asked for only where the smallest window wouldn't have the room.
         """
@@ -112,7 +112,7 @@ class Chat:
             self._controller.wait(self._timing.chat_open_s)
 
     def _is_empty(self) -> bool:
-        """Whether the line is seen open and empty. Where it holds something, a Backspace is pressed.
+        """Return whether the line is seen open and empty. Where it holds something, a Backspace is pressed.
 
         A draft, which the game itself brings back, is gone with the first one (FACTS: The chat's line).
         """

@@ -49,7 +49,7 @@ class ClickPoint:
     picture: Frame
 
     def position(self, size: tuple[int, int]) -> tuple[int, int]:
-        """Where it is in a window of that width and height, in framebuffer pixels."""
+        """Return where it is in a window of that width and height, in framebuffer pixels."""
         return min(round(self.at[0] * size[0]), size[0] - 1), min(round(self.at[1] * size[1]), size[1] - 1)
 
 
@@ -58,7 +58,7 @@ ClickPoints = Mapping[str, ClickPoint]
 
 
 def record_point(name: str, frame: Frame, pixel: tuple[int, int], scale: int) -> ClickPoint:
-    """A point at a pixel of a frame of the whole window, at that GUI scale."""
+    """Return a point at a pixel of a frame of the whole window, at that GUI scale."""
     (x, y), half_width, half_height = pixel, WIDTH * scale // 2, HEIGHT * scale // 2
     top, left = max(0, y - half_height), max(0, x - half_width)
     picture = frame[top : y + half_height, left : x + half_width].copy()
@@ -67,12 +67,12 @@ def record_point(name: str, frame: Frame, pixel: tuple[int, int], scale: int) ->
 
 
 def has_pattern(picture: Frame) -> bool:
-    """Whether a picture shows anything that it could be recognised by."""
+    """Return whether a picture shows anything that it could be recognised by."""
     return _varies(_grey(picture))
 
 
 def looks_the_same(point: ClickPoint, frame: Frame) -> bool:
-    """Whether a frame of the whole window shows at the point what its picture shows."""
+    """Return whether a frame of the whole window shows at the point what its picture shows."""
     wanted, part = _grey(point.picture), _grey(_part_around(point, frame))
     height, width = wanted.shape
     if part.shape[0] < height or part.shape[1] < width or not _varies(wanted):
@@ -87,7 +87,7 @@ def looks_the_same(point: ClickPoint, frame: Frame) -> bool:
 
 
 def hover_over(point: ClickPoint, controller: InputController, display: Display) -> bool:
-    """Move the mouse to a point that looks like its picture, and look again; whether it looked so both times.
+    """Move the mouse to a point that looks like its picture, and look again; return whether it looked so both times.
 
     Nothing is pressed, and where it doesn't look like its picture at first, the mouse stays where it is.
 
@@ -102,7 +102,10 @@ def hover_over(point: ClickPoint, controller: InputController, display: Display)
 
 
 def click_on(point: ClickPoint, controller: InputController, display: Display) -> bool:
-    """Click on a point that looks like its picture before and under the mouse; whether it did. Raises as above."""
+    """Click on a point that looks like its picture before and under the mouse; return whether it did.
+
+    Raise as above.
+    """
     if not hover_over(point, controller, display):
         return False
     controller.confirm_screen("menu")
@@ -111,7 +114,7 @@ def click_on(point: ClickPoint, controller: InputController, display: Display) -
 
 
 def _part_around(point: ClickPoint, frame: Frame) -> Frame:
-    """What a frame shows where the picture was taken, and a little around it."""
+    """Return what a frame shows where the picture was taken, and a little around it."""
     size = (int(frame.shape[1]), int(frame.shape[0]))
     (x, y), (height, width) = point.position(size), point.picture.shape[:2]
     top, left = y - height // 2 - SLACK, x - width // 2 - SLACK
@@ -123,27 +126,27 @@ def _varies(grey: Frame) -> bool:
 
 
 def _grey(picture: Frame) -> Frame:
-    """One channel of a picture."""
+    """Return one channel of a picture."""
     return np.asarray(cv2.cvtColor(picture, cv2.COLOR_BGR2GRAY), np.uint8) if picture.size else picture[..., 0]
 
 
 def pictures_folder(profile: Path) -> Path:
-    """The folder of the pictures that belong to the profile in that file."""
+    """Return the folder of the pictures that belong to the profile in that file."""
     return profile.with_name(f"{profile.stem}-points")
 
 
 def picture_file(profile: Path, point: str) -> Path:
-    """The file of a point's picture; a name of any letters is one file, in that folder."""
+    """Return the file of a point's picture, directly in that folder, whatever letters the point's name has."""
     return pictures_folder(profile) / f"{quote(point, safe=' ')}.png"
 
 
 def picture_bytes(picture: Frame) -> bytes:
-    """A picture as a PNG file holds it."""
+    """Return a picture as a PNG file holds it."""
     return cv2.imencode(".png", picture)[1].tobytes()
 
 
 def load_click_points(profile: Profile, path: Path) -> dict[str, ClickPoint]:
-    """The points of the profile in the file ``path`` that have a picture: without one, none is ever clicked."""
+    """Return the points of the profile in the file ``path`` that have a picture: without one, none is ever clicked."""
     points = {}
     for name, at in profile.points.items():
         try:

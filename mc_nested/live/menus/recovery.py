@@ -63,7 +63,7 @@ class MenuNavigator:
         self._click((QUIT,), LEAVE)
 
     def _click(self, labels: tuple[str, ...], point: str | None) -> bool:
-        """Click on the button with one of these labels, else on the point; whether anything was clicked."""
+        """Click on the button with one of these labels, else on the point; return whether anything was clicked."""
         if self._click_label(self._screen.menu(), labels):
             return True
         return (
@@ -100,7 +100,7 @@ class MenuNavigator:
             self._click_at(*self._first_row())
 
     def _first_row(self) -> tuple[int, int]:
-        """The first world's row in the list, a little right of its icon, in framebuffer pixels."""
+        """Return the first world's row in the list, a little right of its icon, in framebuffer pixels."""
         scale, (width, _) = self._screen.gui_scale(), self._display.size()
         top = 32 if self._profile.game.dialect == "1.12" else 48
         middle = -(-width // scale) // 2
@@ -205,11 +205,11 @@ class Recovery:
             self._sleep(EFFECT_S)
 
     def screen_name(self) -> ScreenName:
-        """Which screen is shown."""
+        """Return which screen is shown."""
         return self._identify()[0]
 
     def _identify(self) -> tuple[ScreenName, str]:
-        """The screen, and why it can't be read. A picture may be torn: a menu without a name is seen twice."""
+        """Return the screen, and why it can't be read. A picture may be torn: a menu without a name is seen twice."""
         seen = identify_screen(self._screen, self._display, self._points)
         if seen[0] != "menu":
             return seen
@@ -220,7 +220,7 @@ class Recovery:
         return may_be_shared(self._display.title())
 
     def _check_server(self, name: ScreenName) -> None:
-        """LiveError where this screen leads, or has led, from a server to another world, or the other way round."""
+        """Raise LiveError where this screen leads, or has led, from a server to another world, or the reverse."""
         if self._is_multiplayer and name in NOT_ON_A_SERVER:
             raise LiveError(f"the server was left, the screen is {name}: join the server again, then start again")
         if name == "world" and self._says_multiplayer() != self._is_multiplayer:
@@ -240,6 +240,6 @@ class Recovery:
             self._sleep(EFFECT_S)
 
     def _sleep(self, seconds: float) -> None:
-        """Let time pass, whether the window is in front or not; StoppedError if it was stopped."""
+        """Let time pass, whether the window is in front or not; raise StoppedError if it was stopped."""
         self._controller.check_stopped()
         self._clock.sleep_until(self._clock.now() + seconds)

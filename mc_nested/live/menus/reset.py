@@ -21,7 +21,7 @@ STACK = 64
 
 
 def reset_commands(profile: Profile, start: Cell, blocks: Sequence[str]) -> list[str]:
-    """What to type before an episode: clear the marked blocks, mend the floor, teleport to ``start``, fill the hotbar.
+    """Return what to type before an episode: clear the marked blocks, mend the floor, go to ``start``, fill the hotbar.
 
     ``blocks`` are the scenario's block names, one for each hotbar slot from the left. ProfileError without an arena.
     """
@@ -35,13 +35,15 @@ def reset_commands(profile: Profile, start: Cell, blocks: Sequence[str]) -> list
 
 
 def clear_command(arena: Arena) -> str:
-    """Fill the marked blocks with air, and none outside."""
+    """Return the command that fills the marked blocks with air, and none outside."""
     low, high = arena.region
     return f"/fill {_words(low)} {_words(high)} minecraft:air"
 
 
 def floor_commands(arena: Arena, dialect: Dialect) -> list[str]:
-    """Fill the holes in the floor under the marked blocks; nothing where the profile doesn't say what the floor is.
+    """Return commands that fill holes in the floor under the marked blocks.
+
+    Return none where the profile doesn't name the floor.
 
     A click that brings the game to the front breaks a block in Creative mode (FACTS: Input and windows).
     """
@@ -56,14 +58,14 @@ def floor_commands(arena: Arena, dialect: Dialect) -> list[str]:
 
 
 def teleport_command(arena: Arena, cell: Cell, pitch: float) -> str:
-    """Stand in the middle of a cell and look the arena's way, ``pitch`` degrees down."""
+    """Return the command to stand in the middle of a cell and look the arena's way, ``pitch`` degrees down."""
     x, y, z = arena.centre_of(cell)
     # x and z keep their decimals, since the game moves whole numbers by half a block; y is taken as it is.
     return f"/tp @s {x:.1f} {y:.0f} {z:.1f} {arena.yaw:g} {pitch:g}"
 
 
 def item_command(dialect: Dialect, slot: int, block: str) -> str:
-    """Put a stack of a block into a hotbar slot; 0 is the leftmost."""
+    """Return the command that puts a stack of a block into a hotbar slot; 0 is the leftmost."""
     if dialect == "1.12":
         return f"/replaceitem entity @s slot.hotbar.{slot} minecraft:{block} {STACK} 0"
     if dialect == "1.13":
@@ -114,7 +116,7 @@ def restore_world(world: Path, template: Path) -> None:
 
 
 def _check_same(original: Path, copy: Path) -> None:
-    """OSError if two folders differ in any file."""
+    """Raise OSError if two folders differ in any file."""
     names = _file_names(original)
     if names != _file_names(copy):
         raise OSError("the copy lacks files")

@@ -46,7 +46,7 @@ POINTS: dict[ScreenName, str] = {"pause": BACK, "death": RESPAWN, "title": ENTER
 
 
 def identify_screen(screen: GameScreen, display: Display, points: ClickPoints) -> tuple[ScreenName, str]:
-    """Which screen is shown, and why the debug screen can't be read there; "" where it can."""
+    """Return which screen is shown, and why the debug screen can't be read there; "" where it can."""
     reading = screen.read()
     if reading.problem is None and screen.shows_world():
         return "world", ""
@@ -58,7 +58,7 @@ def identify_screen(screen: GameScreen, display: Display, points: ClickPoints) -
 
 
 def _menu_shown(screen: GameScreen, display: Display, points: ClickPoints, otherwise: ScreenName) -> ScreenName:
-    """The menu or the chat that is shown, by its marks from the surest on."""
+    """Return the menu or the chat that is shown, by its marks from the surest on."""
     if (name := menu_name(screen.menu())) is not None:
         return name
     if screen.is_chat_open():
@@ -69,7 +69,7 @@ def _menu_shown(screen: GameScreen, display: Display, points: ClickPoints, other
 
 
 def menu_name(menu: Labels) -> ScreenName | None:
-    """Which menu is shown, by its labels; None where none is found."""
+    """Return which menu is shown, by its labels; None where none is found."""
     for name, labels in LABELS.items():
         if any(menu.button(label).middle for label in labels):
             return name

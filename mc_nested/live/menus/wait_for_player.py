@@ -23,7 +23,7 @@ PATIENCE_S = 60.0
 
 
 def wait_for_front(devices: Devices) -> None:
-    """Return as soon as the game is in front; NotInFrontError where that takes too long."""
+    """Return as soon as the game is in front; raise NotInFrontError where that takes too long."""
     clock = devices.clock
     deadline = Deadline(clock, PATIENCE_S)
     while not devices.display.is_in_front():
@@ -33,9 +33,9 @@ def wait_for_front(devices: Devices) -> None:
 
 
 def wait_until_standing_still(connection: GameConnection, say: Callable[[str], None] = lambda _: None) -> Reading:
-    """The first reading that is the same twice in a row while the game is in front.
+    """Return the first reading that is the same twice in a row while the game is in front.
 
-    Where the debug screen can't be read for SAID_AFTER_S there, ``say`` is told why.
+    If the debug screen can't be read for SAID_AFTER_S meanwhile, ``say`` is told why.
 
     Raises:
         NotInFrontError: the game was not in front when time ran out.
@@ -65,7 +65,7 @@ def wait_until_standing_still(connection: GameConnection, say: Callable[[str], N
 
 
 def check_hotbar(connection: GameConnection, points: ClickPoints) -> None:
-    """UnreadableError, of one line, where the hotbar isn't seen, and no screen that is known hides it.
+    """Raise UnreadableError, of one line, where the hotbar isn't seen, and no screen that is known hides it.
 
     Called once the debug screen could be read. Nothing is pressed.
     """
@@ -78,7 +78,7 @@ def check_hotbar(connection: GameConnection, points: ClickPoints) -> None:
 
 
 def check_block_is_named(reading: Reading, version: str) -> None:
-    """UnreadableError, of one line, where the ground is looked at and the debug screen names no block.
+    """Raise UnreadableError, of one line, where the ground is looked at and the debug screen names no block.
 
     Where the player looks up, the first reset finds it.
     """

@@ -24,28 +24,28 @@ class GroundVector(NamedTuple):
     forward: float
 
     def minus(self, other: "GroundVector") -> "GroundVector":
-        """From ``other`` to here."""
+        """Return the vector from ``other`` to here."""
         return GroundVector(self.right - other.right, self.forward - other.forward)
 
 
 def yaw_of(facing: Facing) -> float:
-    """The yaw, in degrees, of an agent that faces that way."""
+    """Return the yaw, in degrees, of an agent that faces that way."""
     return _YAW[facing]
 
 
 def facing_of(yaw: float) -> Facing:
-    """The nearest of the four ways to face for a yaw in degrees, of any number of turns."""
+    """Return the nearest of the four ways to face for a yaw in degrees, of any number of turns."""
     quarters: list[Facing] = ["south", "west", "north", "east"]
     return quarters[round(yaw / 90.0) % 4]
 
 
 def turn_between(yaw: float, other: float) -> float:
-    """The unsigned angle between two yaws, 0 to 180 degrees."""
+    """Return the unsigned angle between two yaws, 0 to 180 degrees."""
     return abs((yaw - other + 180.0) % 360.0 - 180.0)
 
 
 def block_of(origin: Block, facing: Facing, cell: Cell) -> Block:
-    """The block that fills ``cell``; ``origin`` is the block of cell (0, 0), at the level of the feet."""
+    """Return the block that fills ``cell``; ``origin`` is the block of cell (0, 0), at the level of the feet."""
     forward_x, forward_z = _FORWARD[facing]
     right_x, right_z = -forward_z, forward_x
     x, y = cell
@@ -53,13 +53,13 @@ def block_of(origin: Block, facing: Facing, cell: Cell) -> Block:
 
 
 def centre_of(origin: Block, facing: Facing, cell: Cell) -> tuple[float, float, float]:
-    """The world position of the feet of an agent in the middle of ``cell``, in blocks."""
+    """Return the world position of the feet of an agent in the middle of ``cell``, in blocks."""
     x, y, z = block_of(origin, facing, cell)
     return x + 0.5, float(y), z + 0.5
 
 
 def position_of(origin: Block, facing: Facing, xyz: tuple[float, float, float]) -> GroundVector:
-    """The world position ``xyz`` in cells: the middle of cell (x, y) is at exactly (x, y)."""
+    """Return the world position ``xyz`` in cells: the middle of cell (x, y) is at exactly (x, y)."""
     forward_x, forward_z = _FORWARD[facing]
     right_x, right_z = -forward_z, forward_x
     east, south = xyz[0] - origin[0] - 0.5, xyz[2] - origin[2] - 0.5
@@ -67,14 +67,14 @@ def position_of(origin: Block, facing: Facing, xyz: tuple[float, float, float]) 
 
 
 def offset_from(pose: WorldPose, xyz: XYZ) -> GroundVector:
-    """The position ``xyz`` as seen from a pose. Yaw 0 is south, 90 west (FACTS: Standing, looking, placing)."""
+    """Return the position ``xyz`` as seen from a pose. Yaw 0 is south, 90 west (FACTS: Standing, looking, placing)."""
     sine, cosine = math.sin(math.radians(pose.yaw)), math.cos(math.radians(pose.yaw))
     east, south = xyz[0] - pose.xyz[0], xyz[2] - pose.xyz[2]
     return GroundVector(-east * cosine - south * sine, -east * sine + south * cosine)
 
 
 def cell_at(position: tuple[float, float]) -> Cell:
-    """The cell that holds a position given in cells."""
+    """Return the cell that holds a position given in cells."""
     return math.floor(position[0] + 0.5), math.floor(position[1] + 0.5)
 
 
@@ -91,18 +91,18 @@ STRAY_CELLS = 2
 
 
 def is_near(position: GroundVector, cell: Cell, tolerance: float) -> bool:
-    """Whether a position is at most ``tolerance`` blocks off a cell's middle, on each axis."""
+    """Return whether a position is at most ``tolerance`` blocks off a cell's middle, on each axis."""
     return max(abs(cell[0] - position.right), abs(cell[1] - position.forward)) <= tolerance
 
 
 def hits_floor(position: GroundVector, cell: Cell) -> bool:
-    """Whether a click from there lands on the floor in front of a cell, and the game does not refuse it."""
+    """Return whether a click from there lands on the floor in front of a cell, and the game does not refuse it."""
     right, forward = position.right - cell[0], position.forward - cell[1]
     return abs(right) <= BESIDE and -BEHIND <= forward <= COASTING_CLICK
 
 
 def is_click_right(position: GroundVector, end_if_late: GroundVector, cell: Cell, size: int) -> bool:
-    """Whether a click is right from a position and from everywhere up to where one tick more would carry the agent.
+    """Return whether a click is right from a position and from everywhere that one tick more may carry the agent.
 
     ``size`` is the arena's: what stands beyond its edge isn't known.
     """

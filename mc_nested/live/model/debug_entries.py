@@ -33,29 +33,31 @@ LOOK_DOWN = "look down at the ground, and run this again"
 
 
 def has_entries(version: str) -> bool:
-    """Whether the entries of this version's debug screen can be switched on and off."""
+    """Return whether the entries of this version's debug screen can be switched on and off."""
     return version_numbers(version) >= FIRST_WITH_ENTRIES
 
 
 def target_entry(version: str) -> str:
-    """The id of the entry for the block that is looked at."""
+    """Return the id of the entry for the block that is looked at."""
     return TARGET if version_numbers(version) < (26, 1) else TARGET_FROM_26_1
 
 
 def on_button(version: str) -> str:
-    """The button that has an entry shown while the debug screen is on."""
+    """Return the button by which an entry is shown while the debug screen is on."""
     return "In F3" if version_numbers(version) < (1, 21, 11) else "In Overlay"
 
 
 def switch_on(version: str | None) -> str:
-    """How to switch that entry on in the game; None where the version isn't known."""
+    """Return how to switch that entry on in the game; None where the version isn't known."""
     if version is None:
         return f"from 1.21.9 on press F3+F6, and set {TARGET} (from 26.1 on {TARGET_FROM_26_1}) to In Overlay"
     return f"press F3+F6 in the game, and set {target_entry(version)} to {on_button(version)}"
 
 
 def why_none_is_named(reading: Reading, version: str) -> str | None:
-    """Why a version whose entry may be off names no block, and what to do; None where it names one, or can't be off.
+    """Return why a version whose entry may be off names no block, and what to do.
+
+    Return None where the version names one, or its entry can't be off.
 
     Where the player looks up, an entry that is off and a view without a block look the same.
     """
@@ -67,5 +69,5 @@ def why_none_is_named(reading: Reading, version: str) -> str | None:
 
 
 def have_block_named(version: str | None) -> str:
-    """What to do where the ground is looked at and no block is named; None where the version isn't known."""
+    """Return what to do where the ground is looked at and no block is named; None where the version isn't known."""
     return switch_on(version) if version is None or has_entries(version) else "stand on solid ground, out of the water"

@@ -101,17 +101,17 @@ _ALIASES = {"escape": "esc", "caps_lock": "caps.lock", "page_up": "page.up", "pa
 
 
 def canonical(name: str) -> str:
-    """The one name of what ``name`` means: "esc" for "escape", "w" for "W". Any other name stays as it is."""
+    """Return the one name that the project uses for a key: "esc" for "escape", "w" for "W". Others stay as they are."""
     return name.lower() if len(name) == 1 else _ALIASES.get(name, name)
 
 
 def is_key(name: str) -> bool:
-    """Whether a key has this name."""
+    """Return whether a key has this name."""
     return canonical(name) in PLACES
 
 
 def check_key(name: str) -> None:
-    """ProfileError where no key has this name."""
+    """Raise ProfileError where no key has this name."""
     if not is_key(name):
         words = ", ".join(sorted(word for word in PLACES if len(word) > 1 and "." in word))
         raise ProfileError(
@@ -121,7 +121,7 @@ def check_key(name: str) -> None:
 
 
 def place_of(name: str) -> KeyPlace:
-    """The key of that name; ProfileError where there is none."""
+    """Return the key of that name; raise ProfileError where there is none."""
     check_key(name)
     return PLACES[canonical(name)]
 
@@ -145,7 +145,7 @@ class KeyStroke:
 
 
 def taken_for(place: str, layout: Layout, *, has_shift: bool) -> str:
-    """The key that LWJGL 2 takes the one at a place for; "" for none."""
+    """Return which key LWJGL 2 takes the one at a place for; "" for none."""
     if place not in CHARACTERS:
         return place
     plain, shifted = layout.get(place, ("", ""))
@@ -153,7 +153,7 @@ def taken_for(place: str, layout: Layout, *, has_shift: bool) -> str:
 
 
 def stroke_for(key: str, layout: Layout) -> KeyStroke | None:
-    """What to press so that LWJGL 2 takes it for ``key``; None where no key of the layout does.
+    """Return what to press so that LWJGL 2 takes it for ``key``; None where no key of the layout does.
 
     Only a digit is worth Shift: it acts once, and everything else is held while other keys come and go.
     """
@@ -169,5 +169,5 @@ def stroke_for(key: str, layout: Layout) -> KeyStroke | None:
 
 
 def missing_keys(keys: Iterable[str], layout: Layout) -> list[str]:
-    """Those of the keys that the layout has no key for."""
+    """Return those of the keys that the layout has no key for."""
     return [key for key in keys if stroke_for(key, layout) is None]

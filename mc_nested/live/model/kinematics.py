@@ -36,18 +36,18 @@ class HoldPlan:
 
 
 def step_of(velocity: float, push: float = 0.0) -> float:
-    """Blocks that a walker moves by in its next tick; ``push`` is what a held key adds, 0 with every key up."""
+    """Return the blocks that a walker moves in its next tick; ``push`` is what a held key adds, 0 with every key up."""
     return (velocity if abs(velocity) >= STANDSTILL else 0.0) + push
 
 
 def hold_path(ticks: int, push: float = PUSH, inertia: float = INERTIA) -> tuple[float, ...]:
-    """The position after each tick of a hold of ``ticks`` ticks from rest, in blocks, until standstill."""
+    """Return the position after each tick of a hold of ``ticks`` ticks from rest, in blocks, until standstill."""
     positions, velocities = _held(ticks, push, inertia)
     return (*positions, *_coasted(positions[-1], velocities[-1], inertia))
 
 
 def hold_paths(most: int, push: float, inertia: float) -> list[tuple[float, ...]]:
-    """The paths of the holds of 0 to ``most`` ticks, each as of ``hold_path``."""
+    """Return the paths of the holds of 0 to ``most`` ticks, each as of ``hold_path``."""
     positions, velocities = _held(most, push, inertia)
     return [
         (*positions[: ticks + 1], *_coasted(positions[ticks], velocities[ticks], inertia)) for ticks in range(most + 1)
@@ -55,7 +55,7 @@ def hold_paths(most: int, push: float, inertia: float) -> list[tuple[float, ...]
 
 
 def _held(ticks: int, push: float, inertia: float) -> tuple[list[float], list[float]]:
-    """The positions and velocities before the first and after each of so many ticks with the key down."""
+    """Return the positions and velocities before the first and after each of so many ticks with the key down."""
     positions, velocities = [0.0], [0.0]
     for _ in range(ticks):
         step = step_of(velocities[-1], push)
@@ -65,7 +65,7 @@ def _held(ticks: int, push: float, inertia: float) -> tuple[list[float], list[fl
 
 
 def _coasted(position: float, velocity: float, inertia: float) -> list[float]:
-    """The positions after each tick with the key up, until standstill."""
+    """Return the positions after each tick with the key up, until standstill."""
     positions = []
     while velocity >= STANDSTILL:
         position, velocity = position + velocity, velocity * inertia
@@ -74,12 +74,12 @@ def _coasted(position: float, velocity: float, inertia: float) -> list[float]:
 
 
 def displacement(ticks: int, inertia: float = INERTIA) -> float:
-    """Blocks covered by holding a direction key for ``ticks`` ticks from rest, then coasting; the push is stone's."""
+    """Return the blocks covered by holding a key for ``ticks`` ticks from rest, then coasting; the push is stone's."""
     return hold_path(ticks, PUSH, inertia)[-1]
 
 
 def coasting_distance(velocity: float, inertia: float = INERTIA) -> float:
-    """Blocks that a walker with this velocity still covers until it stops, with every key up."""
+    """Return the blocks that a walker with this velocity still covers until it stops, with every key up."""
     if abs(velocity) < STANDSTILL:
         return 0.0
     # The steps shrink to the first one below the standstill, which isn't taken.
@@ -88,12 +88,12 @@ def coasting_distance(velocity: float, inertia: float = INERTIA) -> float:
 
 
 def walk_response(longest: int) -> tuple[float, ...]:
-    """Blocks covered by walking holds of 1, 2 ... ``longest`` ticks."""
+    """Return the blocks covered by walking holds of 1, 2 ... ``longest`` ticks."""
     return tuple(displacement(ticks) for ticks in range(1, longest + 1))
 
 
 def nearest_ticks(distance: float, response: Sequence[float]) -> int:
-    """The hold, in ticks, that ends nearest ``distance`` blocks away; 0 if standing still is nearest.
+    """Return the hold, in ticks, that ends nearest ``distance`` blocks away; 0 if standing still is nearest.
 
     ``response[n - 1]`` is the distance that ``n`` ticks cover; for a longer distance than the last, the last is taken.
     """
@@ -102,7 +102,7 @@ def nearest_ticks(distance: float, response: Sequence[float]) -> int:
 
 
 def push_of(response: Sequence[float], inertia: float = INERTIA) -> float:
-    """Blocks that a held key adds to each tick's step, for a walker that covers what ``response`` says."""
+    """Return the blocks that a held key adds to each tick's step, for a walker that covers what ``response`` says."""
     return PUSH * response[-1] / displacement(len(response), inertia)
 
 
@@ -114,7 +114,9 @@ def plan_hold(
     *,
     must_sneak: bool = False,
 ) -> HoldPlan:
-    """The walking hold that ends nearest; if that ends outside the tolerance, the nearer of walking and sneaking.
+    """Return the walking hold that ends nearest.
+
+    If that ends outside the tolerance, return the nearer of walking and sneaking.
 
     Sneaking covers ``sneaking`` times as much as walking. The hold is at least one tick long: an agent that has to move
     must not wait for a smaller step than there is. With ``must_sneak`` walking isn't considered.

@@ -35,7 +35,7 @@ class Reading:
 
 
 def facts_of(reading: Reading) -> dict[str, Fact]:
-    """A reading as the facts of a note: the problem alone if there is one."""
+    """Return a reading as the facts of a journal's note: the problem alone if there is one."""
     if reading.problem is not None:
         return {"problem": reading.problem}
     target = (reading.target.pos, reading.target.id) if reading.target else None

@@ -38,7 +38,7 @@ PERSON_LOOK_S = 0.25
 
 
 def surely_seen_after(capture_latency_s: float) -> float:
-    """Seconds after a tick at which its step is surely on the screen, and the next one's isn't (FACTS: Latencies).
+    """Return the seconds after a tick when its step is surely on the screen, and the next isn't (FACTS: Latencies).
 
     A step is seen ``capture_latency_s`` after its tick on average, and the next one a tick later: so in the middle.
     """

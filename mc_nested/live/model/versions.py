@@ -20,7 +20,7 @@ _LAST_PATCHES = (1, 0, 5, 2, 7, 2, 4, 10, 9, 4, 2, 2, 2, 2, 4, 2, 5, 1, 2, 4, 6,
 
 
 def version_numbers(version: str) -> tuple[int, int, int]:
-    """Three numbers that order versions, as (1, 21, 0) of ``1.21`` and (26, 4, 0) of ``26.4-snapshot-1``.
+    """Return three numbers that order versions, as (1, 21, 0) of ``1.21`` and (26, 4, 0) of ``26.4-snapshot-1``.
 
     Zeros where the text doesn't begin like a version.
     """
@@ -29,7 +29,7 @@ def version_numbers(version: str) -> tuple[int, int, int]:
 
 
 def is_minecrafts(version: str) -> bool:
-    """Whether Minecraft has, or may come to have, a version of these numbers: no 1.22, no 25.1, no 26.0."""
+    """Return whether Minecraft has, or may come to have, a version of these numbers: no 1.22, no 25.1, no 26.0."""
     first, second, patch = version_numbers(version)
     if first == 1:
         return second < len(_LAST_PATCHES) and patch <= _LAST_PATCHES[second]
@@ -37,17 +37,20 @@ def is_minecrafts(version: str) -> bool:
 
 
 def draws_text_over_menus(version: str) -> bool:
-    """Whether the debug screen lies over menus, chat and toasts (FACTS: The F3 debug screen)."""
+    """Return whether the debug screen lies over menus, chat and toasts (FACTS: The F3 debug screen)."""
     return version_numbers(version) >= (1, 21, 9)
 
 
 def is_later_than_known(version: str) -> bool:
-    """Whether a version is newer than all that are known here."""
+    """Return whether a version is newer than all that are known here."""
     return version_numbers(version)[:2] > NEWEST
 
 
 def later_version_line(version: str) -> str | None:
-    """One line about a version that is later than all known ones: how it is played, what to look at; else None."""
+    """Return one line about a version that is later than all known ones: how it is played, what to look at.
+
+    Return None for any other version.
+    """
     if not is_later_than_known(version):
         return None
     newest = ".".join(map(str, NEWEST))
@@ -79,7 +82,7 @@ _SHARED = "Multiplayer"
 
 
 def version_in(title: str) -> str | None:
-    """The release in the title of the game's window; None in a modpack's own title, and for a weekly snapshot.
+    """Return the release in the title of the game's window; None in a modpack's own title, and for a weekly snapshot.
 
     A number that is none of Minecraft's is a modpack's own.
     """
@@ -89,13 +92,13 @@ def version_in(title: str) -> str | None:
 
 
 def state_in(title: str) -> str | None:
-    """The state of the world that the title shows; None in menus, to 1.14, and in a modpack's own title."""
+    """Return the state of the world that the title shows; None in menus, to 1.14, and in a modpack's own title."""
     found = _TITLE.fullmatch(title)
     state = _STATE.fullmatch(found["rest"]) if found else None
     return state["state"] if state else None
 
 
 def may_be_shared(title: str) -> bool:
-    """Whether the title says that others may play in this world, or says what can't be understood."""
+    """Return whether the title says that others may play in this world, or says what can't be understood."""
     state = state_in(title)
     return _SHARED in title if state is None else state not in _ALONE

@@ -66,12 +66,13 @@ class KeyHold:
         look_times: Iterable[float] = (),
         on_look: Callable[[], float | None] = lambda: None,
     ) -> float:
-        """Hold keys of the world until a time; returns the time that was last planned for the release.
+        """Hold keys of the world until a time; return the time that was last planned for the release.
 
         Args:
             release_at: when they go up, in seconds of the clock; as much later as the look takes before they go down.
             keys: which, together.
-            sneak: the sneak key, which is down already; it goes up with them. NotConfirmedError if it went up before.
+            sneak: the sneak key, which is down already; it goes up with them. Raise NotConfirmedError if it went up
+                before.
             look_times: when to look meanwhile. The first one that could make the release late ends the looks.
             on_look: called at each; gives another time for the release, or None to keep it.
         """
@@ -102,7 +103,7 @@ class KeyHold:
         fast_looks: float = FAST_LOOKS,
         fast_look_s: float = THIRD_FRAME_S,
     ) -> PoseEstimate:
-        """Look, with every key up, until the walk is over; the last pose.
+        """Look, with every key up, until the walk is over, and return the last pose.
 
         Args:
             pose: the first pose, seen after the release.

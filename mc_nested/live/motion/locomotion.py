@@ -66,11 +66,11 @@ class Locomotion:
         self._walked, self._more_ticks, self._must_sneak = None, 0, False
 
     def coasting_at(self, position: GroundVector) -> CoastingState | None:
-        """The state of an agent seen there, by the hold that it was in; None if that isn't certain."""
+        """Return the state of an agent seen there, by the hold that it was in; None if that isn't certain."""
         return self._tracker.coasting_at(position)
 
     def walk(self, state: CoastingState, offset: GroundVector) -> PoseEstimate:
-        """One hold, along the axis with the larger offset; the pose seen after it.
+        """Walk by one hold, along the axis with the larger offset, and return the pose seen after it.
 
         Args:
             state: the agent's state now.
@@ -148,7 +148,7 @@ class Locomotion:
         self._must_sneak = walked.is_short and covered > walked.distance + self._limits.tolerance
 
     def _wait_for_sprint_window(self, state: CoastingState) -> CoastingState:
-        """Wait until forward can be pressed without sprinting; the agent's state then."""
+        """Wait until forward can be pressed without sprinting, and return the agent's state then."""
         # One press comes later than another to the game by chance, by less than half a tick.
         over_at = self._forward_at + SPRINT_WINDOW_S + TICK_S / 2
         if over_at <= self._clock.now():
@@ -190,6 +190,6 @@ class Locomotion:
         self._observer.wait_for_step(release_at - mid_tick + TICK_S)
 
     def _ticks_held(self) -> int | None:
-        """How many ticks have felt the key that is down, by a look at the screen; None if that isn't certain."""
+        """Return how many ticks have felt the key that is down, by a look at the screen; None if that isn't certain."""
         position = self._observer.read_position()
         return self._tracker.ticks_held(position) if position else None

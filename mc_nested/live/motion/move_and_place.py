@@ -78,7 +78,7 @@ class Body:
         self._locomotion.set_standing(pose)
 
     def move_to(self, cell: Cell, tries_made: int = 0) -> PoseEstimate:
-        """Walk until the agent comes to a stop within the tolerance of a cell's middle; the last pose seen.
+        """Walk until the agent stops within the tolerance of a cell's middle, and return the last pose seen.
 
         Nothing is pressed if it does so already. ``tries_made`` are the holds that this move has taken before.
         """
@@ -95,7 +95,7 @@ class Body:
         return pose
 
     def build(self, cell: Cell, built: Mapping[Cell, str], shown_id: str) -> Cell:
-        """Walk to a cell and place a block in front of it; the cell where the block was seen.
+        """Walk to a cell, place a block in front of it, and return the cell where the block was seen.
 
         The click goes out while the agent still moves if it is right wherever the agent comes to a stop. The game gets
         it after the release of the key, in order. So it finds the agent between where it was seen last and its end. An
@@ -203,7 +203,7 @@ class Body:
         attempt: int,
         on_look: Callable[[PoseEstimate], None] = lambda _: None,
     ) -> tuple[CoastingState, PoseEstimate]:
-        """One hold towards a cell: the agent's state after it, and the last pose seen."""
+        """Walk one hold towards a cell; return the agent's state after it, and the last pose seen."""
         self._observer.permit_press()
         offset = GroundVector(cell[0] - state.end.right, cell[1] - state.end.forward)
         if max(abs(offset.right), abs(offset.forward)) >= FAR:
@@ -253,7 +253,7 @@ class Body:
         return pose.target is not None and pose.target.pos == _below(block)
 
     def _may_click(self, pose: PoseEstimate, cell: Cell) -> bool:
-        """Whether the agent stands or coasts where a click is right, from now until it stops.
+        """Return whether the agent stands or coasts where a click is right, from now until it stops.
 
         An agent whose position fits no path may still be walking, and only pass by.
         """
@@ -271,7 +271,7 @@ class Body:
             self._controller.wait(self._input_latency_s)
 
     def _is_placed(self, cell: Cell, block: Block, shown_id: str) -> bool:
-        """Whether the block is seen in time; another block there, or the agent elsewhere, is an error."""
+        """Return whether the block is seen in time; another block there, or the agent elsewhere, is an error."""
         placed = Target(block, shown_id)
         pose = check_pose(self._observer.watch(lambda pose: pose.target == placed, self._limits.confirm_s))
         seen = pose.target

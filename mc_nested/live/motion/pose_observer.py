@@ -40,7 +40,7 @@ class PoseReader:
         """Whether the last pose was read only after frames that couldn't be read."""
 
     def read(self) -> tuple[float, WorldPose, Target | None]:
-        """When a readable picture was taken, the pose on it, and the block looked at."""
+        """Return when a readable picture was taken, the pose on it, and the block looked at."""
         self.is_delayed = False
         patience = Deadline(self._clock, self._patience_s)
         while True:
@@ -102,7 +102,7 @@ class TickPhase:
         return self._weight >= ENOUGH and abs(self._sum) >= MIN_AGREEMENT * self._weight
 
     def next(self, after: float, offset: float = 0.0) -> float:
-        """The first time from ``after`` on that is ``offset`` seconds behind a tick."""
+        """Return the first time from ``after`` on that is ``offset`` seconds behind a tick."""
         first = cmath.phase(self._sum) / (2 * math.pi) * TICK_S + offset
         return after + (first - after) % TICK_S
 
@@ -143,17 +143,17 @@ class PoseFrame:
 
     @classmethod
     def of_arena(cls, profile: Profile) -> "PoseFrame":
-        """The arena's cells; ProfileError if none is marked."""
+        """Return the arena's cells; raise ProfileError if none is marked."""
         arena = profile.marked_arena()
         return cls(arena.position_of, arena.yaw, profile.body.pitch, arena.origin[1])
 
     @classmethod
     def around(cls, pose: WorldPose) -> "PoseFrame":
-        """Blocks right and forward of a pose."""
+        """Return a frame that counts blocks right and forward of a pose."""
         return cls(lambda xyz: offset_from(pose, xyz), pose.yaw, pose.pitch, pose.xyz[1])
 
     def problem(self, pose: WorldPose) -> str | None:
-        """What is wrong with a pose, in words; None if nothing is."""
+        """Return what is wrong with a pose, in words; None if nothing is."""
         if turn_between(pose.yaw, self.yaw) > VIEW_TOLERANCE or abs(pose.pitch - self.pitch) > VIEW_TOLERANCE:
             return f"the view is {pose.yaw:g} / {pose.pitch:g}, not {self.yaw:g} / {self.pitch:g}"
         if abs(pose.xyz[1] - self.height) > HEIGHT_TOLERANCE:
@@ -184,7 +184,7 @@ class PoseObserver:
         self._last = None
 
     def look(self) -> PoseEstimate:
-        """What is seen now, or as soon as the screen can be read."""
+        """Look now, or as soon as the screen can be read, and return what is seen."""
         if self._last is not None and self._clock.now() - self._last.at < SAME_FRAME_S:
             return self._last
         at, world_pose, target = self._reader.read()
@@ -196,18 +196,18 @@ class PoseObserver:
         return pose
 
     def look_and_check(self) -> PoseEstimate:
-        """The same, and the view and the height are the frame's."""
+        """Look as ``look`` does, and check that the view and the height are the frame's."""
         return check_pose(self.look())
 
     def watch(self, is_done: Callable[[PoseEstimate], bool], seconds: float) -> PoseEstimate:
-        """Look until ``is_done`` or for so many seconds; the last pose in both cases."""
+        """Look until ``is_done`` or for so many seconds, and return the last pose in both cases."""
         deadline = Deadline(self._clock, seconds)
         while not is_done(pose := self.look()) and not deadline.has_passed:
             self._controller.wait(HALF_FRAME_S)
         return pose
 
     def read_position(self) -> GroundVector | None:
-        """The agent's position, in one quick look, while a key is down; None if it can't be read."""
+        """Return the agent's position, in one quick look, while a key is down; None if it can't be read."""
         xyz = self._screen.read_position()
         return self._frame.position_of(xyz) if xyz else None
 
@@ -240,7 +240,7 @@ class PoseObserver:
 
 
 def check_pose(pose: PoseEstimate) -> PoseEstimate:
-    """The pose; NotConfirmedError if something is wrong with it."""
+    """Return the pose; raise NotConfirmedError if something is wrong with it."""
     if pose.problem is not None:
         raise NotConfirmedError(f"{pose.problem}: leave mouse and keys alone")
     return pose

@@ -94,7 +94,7 @@ class _Coasting(NamedTuple):
         return self.covered + coasting_distance(self.velocity, self.inertia)
 
     def points(self) -> list[_PathPoint]:
-        """The points behind the one where the key came up, until the walker stands still."""
+        """Return the points behind the one where the key came up, until the walker stands still."""
         covered, velocity, end = self.covered, self.velocity, self.end
         points: list[_PathPoint] = []
         while abs(velocity) >= STANDSTILL:
@@ -120,7 +120,7 @@ class _Path:
         self._points, self._coastings = points, coastings
 
     def matching(self, covered: float, slack: float) -> list[_PathPoint]:
-        """The points that this distance can mean."""
+        """Return the points that this distance can mean."""
         low, high = covered - slack, covered + slack
         found = [point for point in self._points if low <= point.covered <= high]
         for coasting in self._coastings:
@@ -129,7 +129,7 @@ class _Path:
         return sorted(found)
 
     def farthest_end(self, ticks_held: int) -> float:
-        """The farthest end of the points where the key is up and at most so many ticks have felt it."""
+        """Return the farthest end of the points where the key is up and at most so many ticks have felt it."""
         ends = [point.end for point in self._points if point.is_released and point.ticks_held <= ticks_held]
         return max(ends + [coasting.end for coasting in self._coastings if coasting.ticks_held <= ticks_held])
 
@@ -156,14 +156,20 @@ class WalkTracker:
         self._signs = [hold.sign if hold and hold.axis == axis else 1 for axis in (0, 1)]
 
     def coasting_at(self, position: GroundVector) -> CoastingState | None:
-        """The state of a walker that is seen there; None if it isn't certain that its keys are up and where it ends."""
+        """Return the state of a walker that is seen there.
+
+        Return None if it isn't certain that its keys are up and where it ends.
+        """
         right, forward = (self._velocity(axis, position[axis]) for axis in (0, 1))
         if right is None or forward is None:
             return None
         return CoastingState(position, GroundVector(right, forward), self._inertia)
 
     def ticks_held(self, position: GroundVector) -> int | None:
-        """How many ticks have felt the key, for a walker seen there with the key still down; None if not certain."""
+        """Return how many ticks have felt the key, for a walker seen there with the key still down.
+
+        Return None if not certain.
+        """
         if self._hold is None:
             return None
         axis, sign = self._hold.axis, self._hold.sign
@@ -208,7 +214,7 @@ def _coasting_path(velocity: float, inertia: float) -> _Path:
 
 @lru_cache(64)
 def _hold_path(velocity: float, ticks: int, push: float, inertia: float) -> _Path:
-    """Every point of a hold of about ``ticks`` ticks, of the coasting before it and of the coasting after it."""
+    """Return every point of a hold of about ``ticks`` ticks, of the coasting before it and of the coasting after it."""
     points: list[_PathPoint] = []
     coastings: list[_Coasting] = []
     before = _coasting_from(0.0, velocity, 0, inertia).points()[:MORE_TICKS]

@@ -15,12 +15,15 @@ FILL_LIMIT = 32768
 
 
 def near_middle(size: int) -> Cell:
-    """The cell in the middle of an arena's near edge: where the player stands when it is marked."""
+    """Return the cell in the middle of an arena's near edge: where the player stands when it is marked."""
     return size // 2, 0
 
 
 def size_for(scenario: Scenario) -> int:
-    """Cells along each side of the arena to calibrate for a scenario; a small one is played in a part of it."""
+    """Return how many cells a side of the arena has to have for a scenario.
+
+    A small scenario is played in a part of it.
+    """
     return max(DEFAULT_SIZE, scenario.size)
 
 
@@ -75,7 +78,7 @@ class Arena(ProfileTable):
 
     @classmethod
     def around(cls, origin: Block, facing: Facing, height: int = 2, size: int = DEFAULT_SIZE) -> "Arena":
-        """The arena that starts at ``origin``, marked ``height`` blocks high: 2 is as tall as the player."""
+        """Return the arena that starts at ``origin``, marked ``height`` blocks high: 2 is as tall as the player."""
         x, y, z = coordinates.block_of(origin, facing, (size - 1, size - 1))
         return cls(origin=origin, facing=facing, size=size, marked=(origin, (x, y + height - 1, z)))
 
@@ -104,13 +107,13 @@ class Arena(ProfileTable):
         return coordinates.yaw_of(self.facing)
 
     def block_of(self, cell: Cell) -> Block:
-        """The block that fills a cell."""
+        """Return the block that fills a cell."""
         return coordinates.block_of(self.origin, self.facing, cell)
 
     def centre_of(self, cell: Cell) -> tuple[float, float, float]:
-        """Where the agent's feet are in the middle of a cell."""
+        """Return where the agent's feet are in the middle of a cell."""
         return coordinates.centre_of(self.origin, self.facing, cell)
 
     def position_of(self, xyz: tuple[float, float, float]) -> GroundVector:
-        """The position ``xyz`` in cells, as (right, forward); whole numbers are the middles of cells."""
+        """Return the position ``xyz`` in cells, as (right, forward); whole numbers are the middles of cells."""
         return coordinates.position_of(self.origin, self.facing, xyz)

@@ -21,24 +21,24 @@ The first that is not a material is used."""
 
 
 def box_of(arena: Arena) -> Box:
-    """Everything that a build changes: the region, the border around it, and the floor under both."""
+    """Return everything that a build changes: the region, the border around it, and the floor under both."""
     (x, y, z), (other_x, other_y, other_z) = arena.region
     return (x - 1, y - 1, z - 1), (other_x + 1, other_y, other_z + 1)
 
 
 def floor_of(arena: Arena) -> Box:
-    """The floor under the cells and the border."""
+    """Return the floor under the cells and the border."""
     low, high = box_of(arena)
     return low, (high[0], low[1], high[2])
 
 
 def border_block(materials: Sequence[str]) -> str:
-    """The border's block, given the scenario's materials."""
+    """Return the border's block, given the scenario's materials."""
     return next(block for block in BORDERS if block not in materials)
 
 
 def border_of(arena: Arena) -> list[Box]:
-    """The four sides of the ring."""
+    """Return the four sides of the ring."""
     size = arena.size
     corners = [arena.block_of(cell) for cell in ((-1, -1), (size, -1), (size, size), (-1, size))]
     return [_ordered(one, other) for one, other in zip(corners, [*corners[1:], corners[0]], strict=True)]

@@ -18,13 +18,13 @@ class Fingerprint:
 
 
 def game_in(title: str, otherwise: GameVersion) -> GameVersion:
-    """The version in the title of the game's window, or ``otherwise`` where there is none."""
+    """Return the version in the title of the game's window, or ``otherwise`` where there is none."""
     version = version_in(title)
     return GameVersion(version=version) if version else otherwise
 
 
 def mismatch(calibrated: CalibratedTable, current: Fingerprint, profile: str) -> str | None:
-    """Why a profile of that name no longer fits, with the step to repeat; None if it fits.
+    """Return why a profile of that name no longer fits, with the step to repeat; None if it fits.
 
     A value that is unknown on either side is not compared.
     """
@@ -63,13 +63,13 @@ def _as_set(scales: Scales) -> str:
 
 
 def check_fit(calibrated: CalibratedTable | None, current: Fingerprint, profile: str) -> None:
-    """ProfileError, with the step to repeat, if a profile no longer fits. One that was never calibrated always fits."""
+    """Raise ProfileError, with the step to repeat, if a profile no longer fits. One never calibrated always fits."""
     if calibrated is not None and (problem := mismatch(calibrated, current, profile)):
         raise ProfileError(problem)
 
 
 def check_single_player(title: str, *, is_server_allowed: bool) -> None:
-    """DesktopError if the title of the game's window doesn't say that nobody else plays there, unless that is allowed.
+    """Raise DesktopError if the window's title doesn't say that nobody else plays there, unless that is allowed.
 
     A title without a state is let pass: menus have none, nor has any version to 1.14.
     """

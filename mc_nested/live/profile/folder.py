@@ -6,5 +6,5 @@ import platformdirs
 
 
 def profile_folder() -> Path:
-    """The folder of a user's named profiles, by the system's convention."""
+    """Return the folder of a user's named profiles, by the system's convention."""
     return platformdirs.user_config_path("mc-nested", appauthor=False) / "profiles"

@@ -8,7 +8,7 @@ from mc_nested.live.vision.overlay import LAYOUTS
 
 
 def overlay_of(profile: Profile) -> Overlay | None:
-    """The overlay of a profile that names its scale: what else it leaves out is its layout's.
+    """Return the overlay of a profile that names its scale: what else it leaves out is its layout's.
 
     None where the scale, and with it all the rest, is found on the screen.
     """

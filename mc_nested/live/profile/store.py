@@ -18,9 +18,9 @@ from mc_nested.toml_file import parse_document, parse_toml, read_toml_text, tabl
 
 
 def profile_path(name_or_file: str | Path) -> Path:
-    """The file of a profile: what ends in .toml is a path, any other name lies in the profile folder.
+    """Return the file of a profile: what ends in .toml is a path, any other name lies in the profile folder.
 
-    ProfileError if the name is empty.
+    Raise ProfileError if the name is empty.
     """
     path = Path(name_or_file)
     if not path.name.strip():
@@ -29,7 +29,7 @@ def profile_path(name_or_file: str | Path) -> Path:
 
 
 def load_profile(name_or_file: str | Path) -> Profile:
-    """The profile of that name or in that file; ProfileError, one line, if it can't be used."""
+    """Return the profile of that name or in that file; raise ProfileError, one line, if it can't be used."""
     path = profile_path(name_or_file)
     if not path.is_file():
         known = ", ".join(sorted(file.stem for file in profile_folder().glob("*.toml"))) or "none yet"
@@ -41,7 +41,7 @@ def load_profile(name_or_file: str | Path) -> Profile:
 
 
 def parse_profile(text: str, source: str) -> Profile:
-    """The profile in a TOML text; ``source`` names it in errors."""
+    """Return the profile in a TOML text; ``source`` names it in errors."""
     _check_format(parse_document(text, source, ProfileError).unwrap(), source)
     return parse_toml(Profile, text, source, ProfileError)
 
@@ -51,7 +51,7 @@ def save_profile(profile: Profile, path: Path) -> None:
 
     A replaced profile that says something else is kept beside it (``earlier_path``).
 
-    ProfileError if the file there isn't TOML or can't be written; it is left unchanged then.
+    Raise ProfileError if the file there isn't TOML or can't be written; it is left unchanged then.
     """
     known = read_toml_text(path, ProfileError) if path.exists() else ""
     document = parse_document(known, str(path), ProfileError)
@@ -67,7 +67,7 @@ def save_profile(profile: Profile, path: Path) -> None:
 
 
 def earlier_path(path: Path) -> Path:
-    """Where the profile that the one in ``path`` replaced is kept."""
+    """Return where the profile is kept that the one in ``path`` replaced."""
     return path.with_name(f"{path.name}.before")
 
 
@@ -77,7 +77,8 @@ def undo_profile(path: Path) -> Path | None:
     A file that can't be read as a profile is kept as a new file beside it, whose path is returned. The earlier profile
     then stays where it is too.
 
-    ProfileError if there is no earlier profile that can be used, or a file can't be written; nothing is lost then.
+    Raise ProfileError if there is no earlier profile that can be used, or a file can't be written; nothing is lost
+    then.
     """
     earlier = earlier_path(path)
     if not earlier.is_file():
@@ -99,7 +100,7 @@ def undo_profile(path: Path) -> Path | None:
 
 
 def _check_format(tables: dict[str, Any], source: str) -> None:
-    """ProfileError if another version of this program wrote it, before its keys are reported as unknown."""
+    """Raise ProfileError if another version of this program wrote it, before its keys are reported as unknown."""
     calibrated = tables.get("calibrated")
     written = calibrated.get("format") if isinstance(calibrated, dict) else None
     if isinstance(written, int) and written != FORMAT:
@@ -138,7 +139,7 @@ def _replace(path: Path, text: str) -> None:
 
 
 def _merge(table: tomlkit.TOMLDocument | Table, values: dict[str, Any], kind: type[BaseModel] | None) -> None:
-    """Make a TOML table hold ``values``, without those that are None; what is equal already isn't touched."""
+    """Write ``values`` into a TOML table, without those that are None; leave equal ones untouched."""
     for key in [key for key in table if values.get(key) is None]:
         table.remove(key)
     for key, value in values.items():
@@ -159,7 +160,7 @@ def _merge(table: tomlkit.TOMLDocument | Table, values: dict[str, Any], kind: ty
 
 
 def _meaning(kind: type[BaseModel] | None, key: str) -> str:
-    """What a key is for: the comment above it in the file."""
+    """Return what a key is for: the comment above it in the file."""
     if kind is None:
         return ""
     description = kind.model_fields[key].description

@@ -32,7 +32,9 @@ Key = Annotated[str, Field(min_length=1)]
 
 
 def _whole(path: str) -> str:
-    """The path, if it is a whole one on any system: a recording's profile may come from another one. ValueError if not.
+    """Return an absolute path of any system, as a recording's profile may come from another one.
+
+    Raise ValueError otherwise.
 
     ``~`` stands for the home folder.
     """
@@ -59,7 +61,7 @@ class WindowTable(ProfileTable):
         return title
 
     def matches(self, title: str) -> bool:
-        """Whether a window of this title is the game's."""
+        """Return whether a window of this title is the game's."""
         return re.search(self.title, title) is not None
 
 
@@ -109,7 +111,7 @@ class KeysTable(ProfileTable):
     )
 
     def pressed(self) -> list[str]:
-        """The keys that are pressed into the game; the panic key is the player's."""
+        """Return the keys that are pressed into the game; the panic key is the player's."""
         uses = (self.forward, self.back, self.left, self.right, self.sneak, self.chat, self.debug)
         return [*uses, *self.hotbar]
 
@@ -165,7 +167,10 @@ class ScreenTable(ProfileTable):
         return None if font is None else _whole(font)
 
     def font_path(self) -> Path:
-        """Where the font is read from; ProfileError if the profile doesn't say, or names a home that isn't here."""
+        """Return where the font is read from.
+
+        Raise ProfileError if the profile names none, or a home that isn't here.
+        """
         if self.font is None:
             raise ProfileError("screen.font is missing: write the path of your game's client jar into the profile")
         try:
@@ -326,16 +331,16 @@ class Profile(ProfileTable):
     calibrated: CalibratedTable | None = None
 
     def marked_arena(self) -> Arena:
-        """The arena; ProfileError if none is marked yet."""
+        """Return the arena; raise ProfileError if none is marked yet."""
         if self.arena is None:
             raise ProfileError("the profile has no arena: stand where it should be and run mc-nested calibrate arena")
         return self.arena
 
     def block_name(self, block: str) -> str:
-        """This game's name, without namespace, of a scenario's block (a name of Minecraft 1.13 and later)."""
+        """Return this game's name, without namespace, of a scenario's block (a name of Minecraft 1.13 and later)."""
         older = {"oak_planks": "planks"} if self.game.dialect == "1.12" else {}
         return self.blocks.names.get(block, older.get(block, block))
 
     def shown_id(self, block: str) -> str:
-        """What the debug screen shows for a scenario's block."""
+        """Return what the debug screen shows for a scenario's block."""
         return self.blocks.shown_prefix + self.block_name(block)

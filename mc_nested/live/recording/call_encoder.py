@@ -44,7 +44,7 @@ class ByteBudget:
         self._at = now
 
     def may_spend(self, now: float) -> bool:
-        """Whether anything is left at that time."""
+        """Return whether anything is left at that time."""
         self._left = min(AT_ONCE, self._left + (now - self._at) * BYTES_A_SECOND)
         self._at = now
         return self._left > 0
@@ -88,7 +88,7 @@ class CallEncoder:
         self._index = 0
 
     def encode(self, call: Call) -> tuple[list[Any], list[KeptPicture]]:
-        """A call as plain values, and the pictures that belong to it."""
+        """Return a call as plain values, and the pictures that belong to it."""
         if call[0] == "size":
             self.size = call[1]
         if call[0] == "grab":
@@ -123,7 +123,10 @@ class CallEncoder:
         return [*(plain_value(each) for each in said), plain_value(answer), kept], pictures
 
     def _without_chat(self, frame: Frame, region: Region | None, text: TextPixels | None) -> Frame:
-        """A copy without the chat, at whichever scale it may be. The lines that were read are drawn again over that."""
+        """Return a copy without the chat, at whichever scale it may be.
+
+        The lines that were read are drawn again over that.
+        """
         left, top = (region.left, region.top) if region else (0, 0)
         blanked: Frame = frame.copy()
         if region is None:
@@ -149,7 +152,7 @@ class CallEncoder:
         return [KeptPicture(self._index, plain_value(region), png.tobytes())]
 
     def _is_enough(self, blanked: Frame, look: Look, answer: object) -> bool:
-        """Whether the picture without the chat gives the same answer."""
+        """Return whether the picture without the chat gives the same answer."""
         lines = look.lines
         if self.font is None:
             return False

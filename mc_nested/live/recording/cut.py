@@ -47,7 +47,7 @@ def cut(
     *,
     with_pictures: bool = True,
 ) -> int:
-    """Write what was recorded between two times of day, in nanoseconds, as one file; how many calls that is.
+    """Write what was recorded between two times of day, in nanoseconds, as one file; return how many calls that is.
 
     It begins with the first reset at or behind ``first``, if there is one. Pictures that came shortly before are kept
     with it, unless none are wanted. ``clean`` takes out of its texts what others mustn't read; of its profile's paths
@@ -83,7 +83,7 @@ def cut(
 
 
 def trim(path: Path, seconds: float) -> None:
-    """Keep a recording's last seconds alone; RecordingError, and it stays as it was, where that can't be done."""
+    """Keep only a recording's last seconds; if that can't be done, raise RecordingError and leave it as it was."""
     parts = parts_of(path)
     ends = [each.at for each in read_recording(path) if isinstance(each, TimedCall)]
     if not ends:
@@ -101,7 +101,7 @@ def trim(path: Path, seconds: float) -> None:
 
 
 def _first_reset(path: Path, first: int, last: int) -> int:
-    """The time of the first reset from ``first`` on; ``first`` itself if there is none."""
+    """Return the time of the first reset from ``first`` on; ``first`` itself if there is none."""
     resets = (
         each.at
         for each in read_recording(path)
@@ -134,7 +134,7 @@ def _batches(path: Path, first: int, last: int) -> Iterator[tuple[list[Timed], l
 
 
 def _without_folders(profile: str, recording: Path) -> str:
-    """A profile's text with its paths as ``~/1.20.1.jar``: on another computer their folders are of no use."""
+    """Return a profile's text with its paths as ``~/1.20.1.jar``: on another computer their folders are of no use."""
     document = parse_document(profile, f"{recording}: its profile", RecordingError)
     for table, key in _PATHS:
         if key in (values := document.get(table, {})):
@@ -143,7 +143,7 @@ def _without_folders(profile: str, recording: Path) -> str:
 
 
 def _cleaned(call: list[Any], clean: Callable[[str], str]) -> list[Any]:
-    """The call without what others mustn't read. Keys, commands, readings and pixels stay as they are."""
+    """Return the call without what others mustn't read. Keys, commands, readings and pixels stay as they are."""
     if call[0] == "elsewhere":
         return ["elsewhere", *_cleaned(call[1:], clean)]
     if call[0] == "note":

@@ -55,7 +55,7 @@ SCHEMAS = {
 
 
 def event_of(call: list[Any]) -> dict[str, Any] | None:
-    """What a call, as plain values, is as an event; None where it is none, as a look at the clock."""
+    """Return the event that a call, as plain values, stands for; None where it is none, as a look at the clock."""
     name, *said = call
     if name == "note":
         return {"event": said[0], **said[1]}
@@ -67,7 +67,7 @@ def event_of(call: list[Any]) -> dict[str, Any] | None:
 
 
 def plain_value(value: Any) -> Any:
-    """Regions, readings and buttons as their fields, tuples as lists; everything else must be plain already."""
+    """Return regions, readings and buttons as their fields, tuples as lists; everything else must be plain already."""
     if isinstance(value, Region):
         return [value.left, value.top, value.width, value.height]
     if is_dataclass(value) and not isinstance(value, type):
@@ -80,7 +80,7 @@ def plain_value(value: Any) -> Any:
 
 
 def reading_of(value: Mapping[str, Any]) -> Reading:
-    """A reading from its fields; KeyError, TypeError or ValueError where they are others."""
+    """Return a reading from its fields; raise KeyError, TypeError or ValueError where they are others."""
     xyz = value.get("xyz")
     target = value.get("target")
     return Reading(
@@ -93,12 +93,12 @@ def reading_of(value: Mapping[str, Any]) -> Reading:
 
 
 def position_of(value: Any) -> tuple[float, float, float] | None:
-    """A position in the world, or None."""
+    """Return a position in the world, or None."""
     return None if value is None else _xyz(value)
 
 
 def button_of(value: Mapping[str, Any]) -> MenuButton:
-    """A button from its fields."""
+    """Return a button from its fields."""
     middle = value.get("middle")
     return MenuButton(
         None if middle is None else (int(middle[0]), int(middle[1])),
@@ -109,7 +109,7 @@ def button_of(value: Mapping[str, Any]) -> MenuButton:
 
 
 def region_of(value: list[int] | None) -> Region | None:
-    """A region from its four numbers."""
+    """Return a region from its four numbers."""
     return None if value is None else Region(*value)
 
 

@@ -1,4 +1,4 @@
-"""The devices and the screen of a window, each call of which is set down on a tape, with the pixels of what was read.
+"""The devices and the screen of a window that add each call to a tape, with the pixels of what was read.
 
 What a clipboard holds is not.
 """
@@ -27,7 +27,7 @@ from mc_nested.live.vision.menu_labels import MenuButton
 
 
 def recorded(devices: Devices, tape: Tape) -> Devices:
-    """The same devices, on tape."""
+    """Return the same devices, on tape."""
     return Devices(
         RecordedDisplay(devices.display, tape),
         RecordedKeyboard(devices.keyboard, tape),
@@ -41,7 +41,7 @@ def recorded(devices: Devices, tape: Tape) -> Devices:
 
 @contextmanager
 def failures_on(tape: Tape, name: str) -> Iterator[None]:
-    """Sets down an error of a device, which then is raised as it is."""
+    """Record an error of a device, and raise it unchanged."""
     try:
         yield
     except McNestedError as error:
@@ -238,7 +238,7 @@ class RecordedScreen:
 
     @contextmanager
     def _asked(self, name: str) -> Iterator[None]:
-        """Around a call of the screen: what it calls itself is part of it, and so is its error."""
+        """Wrap a call of the screen: the calls that it makes itself are part of it, and so is its error."""
         self._tape.inside = True
         try:
             yield

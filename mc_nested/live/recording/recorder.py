@@ -26,23 +26,23 @@ Stop = Callable[[str], None]
 
 
 class Recording(Protocol):
-    """Is put between a run and its window. It is a journal, too."""
+    """Sits between a run and its window, and records what passes. It is a journal, too."""
 
     def devices(self, devices: Devices) -> Devices:
-        """The same devices, recorded."""
+        """Return the same devices, recorded."""
 
     def screen(self, screen: GameScreen) -> GameScreen:
-        """The same screen, recorded."""
+        """Return the same screen, recorded."""
 
     def stopping(self, stop: Stop) -> Stop:
-        """What stops the run by a person's will, recorded."""
+        """Return what stops the run by a person's will, recorded."""
 
     def note(self, kind: NoteKind, /, **facts: Fact) -> None:
-        """Set down a note of the journal."""
+        """Record a note of the journal."""
 
 
 class NoRecording:
-    """Puts nothing between them."""
+    """Sits between a run and its window, and records nothing."""
 
     def devices(self, devices: Devices) -> Devices:
         return devices
@@ -104,18 +104,18 @@ class Recorder:
         self._thread = threading.Thread(target=self._run, name="recorder", daemon=True)
 
     def devices(self, devices: Devices) -> Devices:
-        """The same devices, recorded."""
+        """Return the same devices, recorded."""
         return recorded(devices, self.tape)
 
     def screen(self, screen: GameScreen) -> GameScreen:
-        """The same screen, recorded."""
+        """Return the same screen, recorded."""
         if not isinstance(screen, WindowScreen):
             return screen
         self._encoder.font = screen.font
         return RecordedScreen(screen, self.tape)
 
     def stopping(self, stop: Stop) -> Stop:
-        """What stops the run by a person's will, recorded. It may be called by any thread."""
+        """Return what stops the run by a person's will, recorded. It may be called by any thread."""
 
         def stop_and_say(reason: str) -> None:
             self.tape.add("stop", reason)
@@ -124,7 +124,7 @@ class Recorder:
         return stop_and_say
 
     def note(self, kind: NoteKind, /, **facts: Fact) -> None:
-        """Set down a note of the journal."""
+        """Record a note of the journal."""
         self.tape.note(kind, **facts)
 
     def __enter__(self) -> "Recorder":
@@ -167,7 +167,7 @@ class Recorder:
             self._current_part().write(calls, events, pictures)
 
     def _current_part(self) -> PartWriter:
-        """The file to write to; a new one, without what is too old, once the last one is long enough."""
+        """Return the file to write to; a new one, without what is too old, once the last one is long enough."""
         now = time.monotonic()
         if self._part is not None and now - self._part_began < PART_S:
             return self._part

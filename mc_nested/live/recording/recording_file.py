@@ -56,7 +56,7 @@ class PartEnd:
 
 
 def parts_of(path: Path) -> list[Path]:
-    """The files of a recording, in order; RecordingError if there are none."""
+    """Return the files of a recording, in order; raise RecordingError if there are none."""
     if path.is_file():
         return [path]
     parts = sorted(path.glob(f"*{SUFFIX}")) if path.is_dir() else []
@@ -66,7 +66,7 @@ def parts_of(path: Path) -> list[Path]:
 
 
 def facts_of(path: Path) -> Mapping[str, str]:
-    """What a recording says it is of. RecordingError if it is none of ours, or of another format."""
+    """Return the facts that a recording states. Raise RecordingError if it is foreign, or of another format."""
     for part in parts_of(path):
         for record in _records(part):
             if isinstance(record, Metadata) and record.name == FACTS:
@@ -79,9 +79,9 @@ def facts_of(path: Path) -> Mapping[str, str]:
 
 
 def read_recording(path: Path) -> Iterator[TimedCall | KeptPicture | PartEnd]:
-    """Everything in a recording, in order; each file is followed by how it ended.
+    """Return everything in a recording, in order; each file is followed by how it ended.
 
-    RecordingError as for ``facts_of``.
+    Raise RecordingError as for ``facts_of``.
     """
     facts_of(path)
     for part in parts_of(path):
@@ -126,7 +126,10 @@ class Damage:
 
 
 def _records(part: Path) -> Iterator[Any]:
-    """The records of a file, then, unless it was closed, a Damage. RecordingError if the file can't be opened."""
+    """Return the records of a file, then, unless it was closed, a Damage.
+
+    Raise RecordingError if the file can't be opened.
+    """
     try:
         with part.open("rb") as file:
             size = part.stat().st_size
@@ -228,7 +231,7 @@ class Overview:
 
 
 def overview_of(path: Path) -> Overview:
-    """Read a recording as a whole, its checksums too; RecordingError as for ``facts_of``."""
+    """Read a recording as a whole, its checksums too; raise RecordingError as for ``facts_of``."""
     facts = facts_of(path)
     began = ended = None
     calls = actions = pictures = 0

@@ -39,7 +39,7 @@ class ReplayedTape:
         self.count = 0
 
     def peek(self) -> list[Any] | None:
-        """The next call of the thread that played; None at the end."""
+        """Return the next call of the thread that played; None at the end."""
         while self._next is None:
             call = next(self._calls, None)
             if call is None:
@@ -56,7 +56,7 @@ class ReplayedTape:
         self._next = None
 
     def same(self, *asked: Any) -> list[Any]:
-        """The recorded call, which must begin as this one; what follows is its answer.
+        """Return the recorded call, which must begin as this one; what follows is its answer.
 
         Raises OtherCall if it is another one, or the error that the call then raised.
         """
@@ -73,13 +73,13 @@ class ReplayedTape:
         return then[len(now) :]
 
     def note(self, kind: NoteKind, /, **facts: Fact) -> None:
-        """A note must be the same, too; outside an episode none is compared."""
+        """Check that the note is the recorded one; outside an episode none is compared."""
         if self.is_followed:
             self.same("note", kind, facts)
 
 
 def replayed(tape: ReplayedTape, size: tuple[int, int], title: str) -> Devices:
-    """The devices of a window that had this size and title when the recording began."""
+    """Return the devices of a window that had this size and title when the recording began."""
     return Devices(_Display(tape, size, title), _Keyboard(tape), _Pointer(tape), _Clock(tape), _Clipboard(tape))
 
 
@@ -121,7 +121,7 @@ class _Keyboard:
         self._tape = tape
 
     def go_by_symbols(self, keys: Collection[str]) -> None:
-        """What is pressed is the desktop's own; a tape has the keys that were meant."""
+        """Do nothing: a tape has the keys that were meant, whatever this desktop would have pressed for them."""
 
     def press(self, key: str) -> None:
         self._tape.same("key", "press", key)

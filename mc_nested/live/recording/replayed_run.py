@@ -62,7 +62,10 @@ class Replayed:
 
 
 def profile_of(path: Path, facts: Mapping[str, str]) -> Profile:
-    """The profile of a recording that says these facts of itself; RecordingError if it can't be replayed with it."""
+    """Return the profile of a recording that says these facts of itself.
+
+    Raise RecordingError if it can't be replayed with it.
+    """
     try:
         return parse_profile(facts["profile"], f"{path}: its profile")
     except KeyError:
@@ -125,7 +128,7 @@ class _Player:
         return self.seen
 
     def _follow(self, game: LiveGame, facts: Mapping[str, Any]) -> None:
-        """One episode: its reset, and its actions until the next one, or until the first other call."""
+        """Follow one episode: its reset, and its actions until the next one, or until the first call that differs."""
         tape = self._tape
         placed = [(int(x), int(y)) for x, y in facts["placed"]]
         real, imaginary, weight = facts["tick_phase"]
@@ -155,7 +158,7 @@ class _Player:
             return  # as it was then, or its note would have differed
 
     def _pass_by(self, call: list[Any]) -> None:
-        """A call that nothing is compared with but its reading."""
+        """Pass by a call; compare nothing but its reading."""
         self._tape.skip()
         if call[:2] == ["note", "acts"]:
             self.seen.actions += 1

@@ -43,7 +43,7 @@ class PixelReader:
         self._resize(size)
 
     def _resize(self, size: tuple[int, int]) -> None:
-        """The window has another size now."""
+        """Take in that the window has another size now."""
         width, height = size
         self.canvas: Frame = np.full((height, width, 3), OUTSIDE, np.uint8)
         self._painted: list[slice] = []
@@ -57,9 +57,9 @@ class PixelReader:
             self._pictures.popitem(last=False)
 
     def shown(self, pixels: Any) -> WindowScreen | None:
-        """The screen with a call's pixels on it; None where they were not kept, or don't suffice.
+        """Return the screen with a call's pixels on it; None where they were not kept, or don't suffice.
 
-        RecordingError where they are damaged.
+        Raise RecordingError where they are damaged.
         """
         if not isinstance(pixels, dict):
             return None
@@ -129,7 +129,7 @@ class _Canvas:
 
 
 class ReplayedScreen:
-    """A screen that answers as it did, whatever is read now: so the run can be followed on.
+    """A screen that answers as it was recorded, whatever is read now: so the replay can go on.
 
     Args:
         tape: the calls.

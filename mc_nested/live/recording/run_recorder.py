@@ -27,7 +27,7 @@ OpenRecorder = Callable[[Profile, Devices], AbstractContextManager[Recording]]
 
 
 def is_recording(path: Path) -> bool:
-    """Whether a file, or a folder's files, are named as those of a recording."""
+    """Return whether a file, or a folder's files, are named as those of a recording."""
     return any(path.glob(f"*{SUFFIX}")) if path.is_dir() else path.suffix == SUFFIX
 
 
@@ -39,12 +39,12 @@ def no_recorder(profile: Profile, devices: Devices) -> Iterator[Recording]:
 
 
 def recordings_folder() -> Path:
-    """Where recordings lie by default, by the system's convention."""
+    """Return where recordings lie by default, by the system's convention."""
     return platformdirs.user_state_path("mc-nested", appauthor=False) / "recordings"
 
 
 def kept_recordings() -> list[Path]:
-    """The recordings in their folder, the oldest first: folders of files, and single files."""
+    """Return the recordings in their folder, the oldest first: folders of files, and single files."""
     folder = recordings_folder()
     if not folder.is_dir():
         return []
@@ -57,7 +57,7 @@ def kept_recordings() -> list[Path]:
 def recorder_opener(
     where: Path | None, what: str, say: Callable[[str], None], facts: Mapping[str, str] | None = None
 ) -> OpenRecorder:
-    """Opens recorders for a run.
+    """Return a function that opens recorders for a run.
 
     Args:
         where: a new folder for the recording; None for one by its date among the others.
@@ -83,7 +83,7 @@ def recorder_opener(
 
 
 def versions_here() -> dict[str, str]:
-    """The versions of this program, of Python and of the system."""
+    """Return the versions of this program, of Python and of the system."""
     return {
         "version": importlib.metadata.version("mc-nested"),
         "python": platform.python_version(),
@@ -123,5 +123,5 @@ def _facts(what: str, profile: Profile, devices: Devices) -> dict[str, str]:
 
 
 def _area_words(area: DesktopArea) -> str:
-    """As "854x480 at 100 50", in points of the desktop."""
+    """Write an area as "854x480 at 100 50", in points of the desktop."""
     return f"{area.width}x{area.height} at {area.left} {area.top}"

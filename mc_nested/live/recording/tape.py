@@ -1,4 +1,4 @@
-"""Tape: what crossed the devices of a run, call after call, with what each returned.
+"""Tape: every call to the devices of a run, in order, with what it returned.
 
 A call is a list of plain values: its name, what it was asked, what it answered. Calls of the thread that plays are in
 their order, and nothing else decides what it does next; so the same calls, answered alike, are the same run.
@@ -32,7 +32,7 @@ class Tape:
         """Whether a call is under way whose own calls to the devices are part of it."""
 
     def add(self, *call: Any) -> None:
-        """Set down a call, now."""
+        """Add a call, at the time of now."""
         if threading.get_ident() != self._thread:
             call = ("elsewhere", *call)
         elif self.inside:
@@ -40,11 +40,11 @@ class Tape:
         self._calls.append((time.time_ns(), list(call)))
 
     def note(self, kind: NoteKind, /, **facts: Fact) -> None:
-        """Set down a note of the journal."""
+        """Add a note of the journal."""
         self.add("note", kind, facts)
 
     def take(self) -> list[tuple[int, Call]]:
-        """What was set down since the last time, with the time of day in nanoseconds; any thread may take it."""
+        """Take what was added since the last time, with the time of day in nanoseconds; any thread may do so."""
         taken: list[tuple[int, Call]] = []
         while self._calls:
             taken.append(self._calls.popleft())

@@ -57,7 +57,7 @@ class TextPixels:
     lines: tuple[LinePixels, ...]
 
     def to_json(self) -> dict[str, Any]:
-        """As plain values."""
+        """Return it as plain values."""
         return {
             "scale": self.overlay.scale,
             "layout": self.overlay.layout.name,
@@ -70,7 +70,7 @@ class TextPixels:
 
     @classmethod
     def from_json(cls, value: Mapping[str, Any]) -> "TextPixels":
-        """The reverse; KeyError, TypeError or ValueError where it is something else."""
+        """Make it again from such values; raise KeyError, TypeError or ValueError where they are something else."""
         red, green, blue = (int(each) for each in value["colour"])
         overlay = Overlay(int(value["scale"]), LAYOUTS[value["layout"]], (red, green, blue))
         lines = [LinePixels(int(row), int(first), *map(base64.b64decode, inks)) for row, first, *inks in value["lines"]]
@@ -78,7 +78,7 @@ class TextPixels:
 
 
 def text_pixels_of(look: Look) -> TextPixels | None:
-    """The ink of every line that was read in a look; None where there was none."""
+    """Return the ink of every line that was read in a look; None where there was none."""
     lines = look.lines
     if lines is None or not lines.lines_read:
         return None
@@ -116,7 +116,7 @@ def _dots(columns: bytes) -> Bools:
 
 
 def reads_the_same(pixels: TextPixels, look: Look, answer: object, font: Font) -> bool:
-    """Whether these pixels alone, read where the lines stood, give what was read from the whole picture.
+    """Return whether these pixels alone, read where the lines stood, give what was read from the whole picture.
 
     ``answer`` is a Reading, or a position.
     """

@@ -36,7 +36,7 @@ _WIDTH = 320 + 12
 
 
 def chat_regions(size: tuple[int, int], scale: int | None) -> tuple[Region, ...]:
-    """The chat's messages, and the strip of the line being typed, in a window (width, height), cut to the window.
+    """Return where the chat's messages and the line being typed lie in a window (width, height), cut to the window.
 
     Without a GUI scale the regions hold those of every scale that the window can have.
     """
@@ -52,14 +52,16 @@ def chat_regions(size: tuple[int, int], scale: int | None) -> tuple[Region, ...]
 
 
 def messages_region(size: tuple[int, int], scale: int) -> Region:
-    """Where messages show while the chat is closed, ten at most, in a window (width, height), cut to it."""
+    """Return where messages show while the chat is closed, ten at most, in a window (width, height), cut to it."""
     width, height = size
     top = max(0, height - (_HIGHEST_BOTTOM + LINES // 2 * LINE_PITCH) * scale)
     return Region(0, top, min(width, _WIDTH * scale), max(0, height - _BOTTOM * scale) - top)
 
 
 def without_chat(frame: Frame, scale: int | None, opaque: Sequence[Region] = ()) -> Frame:
-    """A copy of a whole window's picture, (height, width, 3), its chat blanked; ``scale`` is None where not known.
+    """Return a copy of a whole window's picture, (height, width, 3), its chat blanked.
+
+    ``scale`` is None where not known.
 
     ``opaque`` are regions that nothing shines through, as a menu's buttons: they are kept.
     """
@@ -78,7 +80,7 @@ def blank_chat(frame: Frame, size: tuple[int, int], scale: int | None, left: int
 
 
 def blanked_share(size: tuple[int, int], scale: int | None) -> float:
-    """How much of a window (width, height) is blanked, 0 to 1."""
+    """Return how much of a window (width, height) is blanked, 0 to 1."""
     width, height = size
     is_blank = np.zeros((height, width), dtype=np.bool_)
     for region in chat_regions(size, scale):
@@ -87,13 +89,16 @@ def blanked_share(size: tuple[int, int], scale: int | None) -> float:
 
 
 def _largest(size: tuple[int, int]) -> int:
-    """The largest GUI scale of a window; an odd one is one more with a Unicode font (FACTS: The F3 debug screen)."""
+    """Return the largest GUI scale of a window.
+
+    An odd one is one more with a Unicode font (FACTS: The F3 debug screen).
+    """
     largest = largest_gui_scale(size)
     return largest + largest % 2
 
 
 def _within(region: Region) -> tuple[slice, slice]:
-    """A region's rows and columns; what lies left of a frame or above it is cut off."""
+    """Return a region's rows and columns; what lies left of a frame or above it is cut off."""
     top, left = max(0, region.top), max(0, region.left)
     return slice(top, max(top, region.top + region.height)), slice(left, max(left, region.left + region.width))
 
@@ -120,7 +125,7 @@ class LastFrames:
             self._frames.append(without_chat(self._display.grab(), self._gui_scale()))
 
     def save(self) -> list[Path]:
-        """Write the kept frames, the oldest first; returns the files that could be written."""
+        """Write the kept frames, the oldest first; return the files that could be written."""
         if self._folder is None:
             return []
         self._folder.mkdir(parents=True, exist_ok=True)
@@ -153,16 +158,16 @@ class ChatLines:
         self._sent: deque[tuple[float, int]] = deque(maxlen=_MOST)
 
     def note(self, command: str, now: float) -> None:
-        """A command was sent."""
+        """Take in that a command was sent."""
         self._sent.append((now, answer_lines(command)))
 
     def after(self, command: str, now: float) -> int:
-        """Lines that may show once a command is answered."""
+        """Return how many lines may show once a command is answered."""
         shown = sum(lines for sent, lines in self._sent if now - sent < SHOWN_S + _ANSWER_S)
         return shown + answer_lines(command) if shown else 0
 
     def forget(self) -> None:
-        """The chat was cleared."""
+        """Take in that the chat was cleared."""
         self._sent.clear()
 
     @property
@@ -176,12 +181,12 @@ class ChatLines:
 
 
 def answer_lines(command: str) -> int:
-    """Lines that the answer to a command may take."""
+    """Return how many lines the answer to a command may take."""
     return _ANSWERS.get(command.split(" ", 1)[0], _LONGEST_ANSWER)
 
 
 def chat_room(version: str, gui_height: int = _LOWEST_HEIGHT) -> int | None:
-    """Lines that cover nothing that is read, in a window of that height in GUI pixels; None: any number, or no remedy.
+    """Return how many lines cover nothing that is read, by the window's height in GUI pixels; None: any, or no remedy.
 
     To 1.12 and, lower, to 1.15 the place of the block looked at is in the left column. To 1.8 no key clears the chat;
     from 1.21.9 on the debug screen lies over it (FACTS: The F3 debug screen; Keys).

@@ -79,7 +79,7 @@ class CoveredLabels:
     dots: GlyphGrid
 
     def find(self, columns: bytes) -> CoveredLabel | None:
-        """The label with these columns of dots, if enough of it shows; None if not."""
+        """Return the label with these columns of dots, if enough of it shows; None if not."""
         casting = casting_dots(columns)
         for shown, is_white in self._shown:
             if np.count_nonzero(shown.surely) < _SEEN * np.count_nonzero(casting):
@@ -105,7 +105,7 @@ class CoveredLabels:
 
 
 def casting_dots(columns: bytes) -> NDArray[np.uint8]:
-    """Of a label's dots (8, columns) those whose shadow is seen beside them."""
+    """Return which of a label's dots (8, columns) have their shadow seen beside them."""
     glyphs = np.unpackbits(np.frombuffer(columns, np.uint8)[np.newaxis], axis=0, bitorder="little")
     casting: NDArray[np.uint8] = glyphs.copy()
     casting[:-1, :-1] &= 1 - glyphs[1:, 1:]
@@ -113,7 +113,10 @@ def casting_dots(columns: bytes) -> NDArray[np.uint8]:
 
 
 def label_row(shown: ShownDots, casting: NDArray[np.uint8], column: int) -> int | None:
-    """The row of a label that shows, begun within a dot of that column; ``casting`` has its dots with a shadow."""
+    """Return the row of a label that shows, begun within a dot of that column.
+
+    ``casting`` has its dots with a shadow.
+    """
     columns = slice(column - 1, column + casting.shape[1] + 1)
     rows, across = shown.surely.shape
     if rows < GLYPH_ROWS or columns.start < 0 or columns.stop > across:
@@ -131,7 +134,7 @@ def label_row(shown: ShownDots, casting: NDArray[np.uint8], column: int) -> int 
 
 @cache
 def _codes(shade: int) -> NDArray[np.uint8]:
-    """For each grey 0 to 255 the grounds below which a label of that shade, or its shadow, is seen so: a bit each."""
+    """Return for each grey 0 to 255 the grounds on which a label of that shade, or its shadow, looks so: a bit each."""
     greys, codes = np.arange(256), np.zeros(256, np.uint8)
     for bit, ground in enumerate(_GROUNDS):
         ink, shadow = float(shade), float(shade >> 2)
@@ -143,7 +146,7 @@ def _codes(shade: int) -> NDArray[np.uint8]:
 
 
 def _shares(mask: Bools, glyphs: NDArray[np.uint8]) -> NDArray[np.float32]:
-    """For each place of a label in a mask, the part of its dots where the mask is set."""
+    """Return for each place of a label in a mask the share of its dots where the mask is set."""
     kernel = glyphs.astype(np.float32)
     return np.asarray(cv2.matchTemplate(mask.astype(np.float32), kernel, cv2.TM_CCORR) / kernel.sum(), np.float32)
 
@@ -171,14 +174,14 @@ _OFF = 2
 
 
 def pause_region(size: tuple[int, int], scale: int) -> Region:
-    """Where the words would stand in a window (width, height), in framebuffer pixels at that GUI scale."""
+    """Return where the words would stand in a window (width, height), in framebuffer pixels at that GUI scale."""
     left = max(0, -(-size[0] // scale) // 2 - _ROOM_FOR_WORDS // 2)
     rows = _ABOVE + GLYPH_ROWS + _BELOW
     return Region(left * scale, (_TOP - _ABOVE) * scale, _ROOM_FOR_WORDS * scale, rows * scale)
 
 
 def shows_pause(frame: Frame, scale: int, font: Font) -> bool:
-    """Whether a picture of that region shows the words, most of them, or others there that nothing covers."""
+    """Return whether a picture of that region shows the words, most of them, or others there that nothing covers."""
     dots = np.ascontiguousarray(frame[scale // 2 :: scale, scale // 2 :: scale])
     if dots.shape[0] < _ABOVE + GLYPH_ROWS + _BELOW or dots.shape[1] < _ROOM_FOR_WORDS:
         return False
@@ -196,7 +199,7 @@ def _words(font: Font) -> tuple[NDArray[np.uint8], ...]:
 
 
 def _are_words(white: Bools) -> bool:
-    """Whether these dots, white with a shadow, are a text in the words' rows and in the middle."""
+    """Return whether these dots, white with a shadow, are a text in the words' rows and in the middle."""
     if np.count_nonzero(white) < _FEW:
         return False
     rows: Bools = np.asarray(white.any(axis=1))

@@ -48,7 +48,7 @@ _WIDEST_GAP = 13
 
 
 def line_boxes(frame: Frame, scale: int) -> list[Region]:
-    """The boxes of the debug screen's lines on a picture of the whole window, in pixels, the upper ones first.
+    """Return the boxes of the debug screen's lines on a picture of the whole window, in pixels, the upper ones first.
 
     ``scale`` is the GUI scale. What has exactly the letters' colour beside a line is taken for a part of it. Empty
     where there is no debug screen. Where a line's end isn't seen, as behind a notice, its box ends there.
@@ -65,7 +65,7 @@ def line_boxes(frame: Frame, scale: int) -> list[Region]:
 
 
 def has_letters(picture: Frame) -> Bools:
-    """Where a picture (rows, columns, 3) has a colour of the debug screen's letters."""
+    """Return where a picture (rows, columns, 3) has a colour of the debug screen's letters."""
     return has_colour(picture, PLAIN, GREEN, RED)
 
 
@@ -75,7 +75,7 @@ def _in_pixels(row: int, columns: tuple[int, int], scale: int) -> Region:
 
 
 def _lines_in(has_ink: Bools, in_a_box: Bools) -> Iterator[tuple[int, int]]:
-    """The first column of each box in a row of text, and the column behind its last."""
+    """Return the first column of each box in a row of text, and the column behind its last."""
     count = len(has_ink)
     if length := _length(has_ink[_FIRST:], in_a_box[_FIRST:]):
         yield _FIRST - 1, min(count, _FIRST + length + VANILLA.box.behind)
@@ -85,7 +85,10 @@ def _lines_in(has_ink: Bools, in_a_box: Bools) -> Iterator[tuple[int, int]]:
 
 
 def _length(has_ink: Bools, in_a_box: Bools) -> int:
-    """The columns of a line that begins at the first or second one, going on while there is a box; 0 if none does."""
+    """Return the columns of a line that begins at the first or second one, going on while there is a box.
+
+    Return 0 if no line begins there.
+    """
     outside = np.flatnonzero(~in_a_box)
     ink = np.flatnonzero(has_ink[: outside[0]] if len(outside) else has_ink)
     if not len(ink) or ink[0] not in _BEGINNINGS:
@@ -125,7 +128,7 @@ class _TextRow(NamedTuple):
 
 
 def ground_parts(frame: Frame, scale: int) -> list[GroundPart]:
-    """The grounds of all boxes, the left column's first; empty where no box has a title.
+    """Return the grounds of all boxes, the left column's first; empty where no box has a title.
 
     ``scale`` is that of the debug screen. What is written beside a line on nothing but such ground is taken for a part
     of it.
@@ -148,12 +151,12 @@ def ground_parts(frame: Frame, scale: int) -> list[GroundPart]:
 
 
 def has_colour(picture: Frame, *colours: Colour) -> Bools:
-    """Where a picture (rows, columns, 3) has one of these colours."""
+    """Return where a picture (rows, columns, 3) has one of these colours."""
     return np.asarray(ink_of(picture, *colours) > 0)
 
 
 def _lines(dots: Frame, side: int, farthest: int) -> Iterator[_TextRow]:
-    """The lines of the column at a picture's left side, beginning between two columns, the upper ones first."""
+    """Return the lines of the column at a picture's left side, beginning between two columns, the upper ones first."""
     ink, white = has_colour(dots, PLAIN, *VALUES), has_colour(dots, WHITE)
     inside = ink | (cv2.inRange(dots, (_DARKEST_TITLE,) * 3, (BRIGHTEST,) * 3) > 0)
     for row in range(_TOP, dots.shape[0] - GLYPH_ROWS, BOXES.pitch):
@@ -172,7 +175,7 @@ def _lines(dots: Frame, side: int, farthest: int) -> Iterator[_TextRow]:
 
 
 def _boxes(lines: Sequence[_TextRow]) -> Iterator[list[_TextRow]]:
-    """The lines of each box: those without a gap between them."""
+    """Return the lines of each box: those without a gap between them."""
     box: list[_TextRow] = []
     for line in lines:
         if box and line.row - box[-1].row > BOXES.pitch:
@@ -184,7 +187,7 @@ def _boxes(lines: Sequence[_TextRow]) -> Iterator[list[_TextRow]]:
 
 
 def _has_title(lines: Sequence[_TextRow], is_right: bool) -> bool:
-    """Whether the first line stands where a title does, in white."""
+    """Return whether the first line stands where a title does, in white."""
     title, others = lines[0], lines[1:]
     if not others or not title.is_white:
         return False
@@ -193,7 +196,7 @@ def _has_title(lines: Sequence[_TextRow], is_right: bool) -> bool:
 
 
 def _grounds(lines: Sequence[_TextRow], has_title: bool) -> Iterator[tuple[int, int, int]]:
-    """From which row to before which a box's grounds lie, and how grey."""
+    """Return the first row of each of a box's grounds, the row behind its last, and its grey."""
     top, end = lines[0].row - 1, lines[-1].row + BOXES.pitch + 1
     if has_title:
         yield top, top + BOXES.pitch, TITLE_GREY

@@ -28,7 +28,9 @@ _FACINGS = {
 
 
 def read_debug_screen(frame: Frame, font: Font, overlay: Overlay | None = None) -> Reading:
-    """What the debug screen of a frame (height, width, 3), blue green red, says; without ``overlay`` it is found first.
+    """Return what the debug screen of a frame (height, width, 3), blue green red, says.
+
+    Without ``overlay`` it is found first.
 
     A reading with a problem holds nothing else: a position isn't given while the block looked at can't be read.
     """
@@ -37,12 +39,12 @@ def read_debug_screen(frame: Frame, font: Font, overlay: Overlay | None = None) 
 
 
 def read_found(found: FoundScreen, font: Font) -> Reading:
-    """What a debug screen says that has been found."""
+    """Return what a debug screen says that has been found."""
     return read_lines(ScreenLines(found.dots, font, found.overlay), found.label)
 
 
 def read_lines(lines: DebugLines, known_by: str = POSITION) -> Reading:
-    """What the lines of a debug screen say, one of which begins with ``known_by``."""
+    """Return what the lines of a debug screen say, one of which begins with ``known_by``."""
     try:
         if known_by != POSITION:
             raise Unreadable(_without_position(known_by))
@@ -54,7 +56,7 @@ def read_lines(lines: DebugLines, known_by: str = POSITION) -> Reading:
 
 
 def read_position(lines: DebugLines) -> tuple[float, float, float] | None:
-    """What the position line says; None where that can't be read."""
+    """Return what the position line says; None where that can't be read."""
     try:
         return _position(lines)
     except Unreadable:
@@ -88,7 +90,7 @@ def _without_position(known_by: str) -> str:
 
 
 def nothing_seen(overlay: Overlay | None) -> Reading:
-    """The reading of a frame without a debug screen that is drawn that way."""
+    """Return the reading of a frame without a debug screen that is drawn that way."""
     some = f"{min(SCALES)} to {max(SCALES)}"
     scale, mend = (
         (f"GUI scale {overlay.scale}", f"set it to GUI scale {overlay.scale} or correct the profile's debug_scale")

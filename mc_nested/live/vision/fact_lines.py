@@ -55,7 +55,10 @@ _FLAT = 2
 
 
 def fact_from(dots: GlyphGrid, font: Font, overlay: Overlay, start: GridPosition, end: int | None = None) -> Line:
-    """The line whose first ink is in this row and column, read to the right; not what stands behind column ``end``."""
+    """Return the line whose first ink is in this row and column, read to the right.
+
+    What stands behind column ``end`` is left out.
+    """
     left, colour = dots.columns // LEFT_PART, overlay.colour
     line, is_bounded = _fact_in(pixels_from(dots, start, MOSTLY), font, colour, start, left, end)
     if not is_bounded:
@@ -67,7 +70,7 @@ def fact_from(dots: GlyphGrid, font: Font, overlay: Overlay, start: GridPosition
 def _fact_in(
     pixels: bytes, font: Font, colour: Colour, start: GridPosition, left: int, end: int | None = None
 ) -> tuple[Line, bool]:
-    """The line that begins a picture (8, columns, 3), and whether its box is seen to end in it.
+    """Return the line that begins a picture (8, columns, 3), and whether its box is seen to end in it.
 
     ``colour`` is that of the names. A line of the left column begins before the column ``left``. Ink behind the column
     ``end`` isn't read.
@@ -93,7 +96,7 @@ def _fact_in(
 
 
 def _with_value(name: str, at: int, columns: bytes, font: Font, last: int) -> tuple[str, int]:
-    """A name with the value whose ink begins in the column ``at``, or a title, which begins the picture."""
+    """Return a name with the value whose ink begins in the column ``at``, or a title, which begins the picture."""
     if not name:
         return decode(columns, font)
     pen = len(font.columns(name[:-1])) + _GAP if name.endswith(":") and UNKNOWN not in name else -1
@@ -119,7 +122,7 @@ def _up_to_break(columns: bytes, boxed: bytes) -> bytes:
 
 
 def _is_whole(picture: Frame, ink: bytes, ground: Bools, boxed: bytes, last: int) -> bool:
-    """Whether nothing can lie over what would stand behind the column ``last``."""
+    """Return whether nothing can lie over what would stand behind the column ``last``."""
     behind = slice(last + 1, last + 1 + _BEHIND)
     if last < 0 or 0 in boxed[behind] or any(ink[behind]) or len(boxed) < last + 1 + _BEHIND:
         return False
@@ -134,7 +137,7 @@ def _is_whole(picture: Frame, ink: bytes, ground: Bools, boxed: bytes, last: int
 
 
 def _ends_in_same_world(behind: Frame) -> bool:
-    """Whether a part (8, columns, 3) begins as ground of one colour, and ends in the world that is seen through it."""
+    """Return whether a part (8, columns, 3) begins as ground of one colour, and ends in the world seen through it."""
     columns = behind.astype(np.float64)
     is_other = np.abs(columns - columns[:, :1]).max((0, 2), initial=0) > _FLAT
     if not is_other.any():
@@ -144,6 +147,6 @@ def _ends_in_same_world(behind: Frame) -> bool:
 
 
 def _goes_on(one: NDArray[np.int16], other: NDArray[np.int16]) -> bool:
-    """Whether one column of ground (rows, 3) goes on in the next, in some of its rows."""
+    """Return whether one column of ground (rows, 3) goes on in the next, in some of its rows."""
     alike = np.abs(one - other).max(1, initial=0) <= _FLAT
     return int(np.count_nonzero(alike)) >= min(_SOME, len(one))

@@ -78,7 +78,7 @@ class Font:
         return {columns: glyph for columns, glyph in widest_first if b"\0" in columns}
 
     def columns(self, text: str) -> bytes:
-        """A line of text as columns, its last one blank; its length is the width that the game gives it.
+        """Return a line of text as columns, its last one blank; its length is the width that the game gives it.
 
         Raises:
             FontError: the text holds a character that the font doesn't have.
@@ -90,7 +90,7 @@ class Font:
 
 
 def load_font(path: Path) -> Font:
-    """The font of an ``ascii.png``, or of a client jar, a resource pack (zip) or a resource pack's folder.
+    """Return the font of an ``ascii.png``, or of a client jar, a resource pack (zip) or a resource pack's folder.
 
     A picture of n x 128 dots a side is scaled down, if each of its dots is n x n pixels.
 
@@ -106,7 +106,10 @@ def load_font(path: Path) -> Font:
 
 
 def decoded(data: bytes, flag: int) -> NDArray[Any] | None:
-    """The pixels of a picture file, as cv2's ``flag`` asks for them; None where it is no picture that can be opened."""
+    """Return the pixels of a picture file, as cv2's ``flag`` asks for them.
+
+    Return None where it is no picture that can be opened.
+    """
     try:
         return cv2.imdecode(np.frombuffer(data, np.uint8), flag) if data else None
     except cv2.error:  # more pixels than cv2 opens
@@ -114,7 +117,7 @@ def decoded(data: bytes, flag: int) -> NDArray[Any] | None:
 
 
 def font_of(atlas: Atlas, name: str = "the font picture") -> Font:
-    """The font of an atlas (n * 128, n * 128, 4), whose last channel is the alpha: 0, or the type's largest value.
+    """Return the font of an atlas (n * 128, n * 128, 4), whose last channel is alpha: 0, or the type's largest value.
 
     Raises:
         FontError: the atlas has another size, is finer than 8 x 8 dots a glyph, or lacks glyphs that F3 needs.
@@ -133,7 +136,7 @@ def font_of(atlas: Atlas, name: str = "the font picture") -> Font:
 
 
 def _dots(alpha: Atlas, name: str) -> NDArray[np.bool_]:
-    """The atlas's alpha channel as 128 x 128 dots, each drawn or not."""
+    """Return the atlas's alpha channel as 128 x 128 dots, each drawn or not."""
     side, finer = alpha.shape[0], alpha.shape[0] // (_CELLS * _DOTS)
     if alpha.shape != (side, side) or side == 0 or side % (_CELLS * _DOTS):
         width, height = alpha.shape[1], alpha.shape[0]

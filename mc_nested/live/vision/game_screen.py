@@ -42,38 +42,47 @@ class GameScreen(Protocol):
     """The game's window, looked at for one thing at a time; each method takes a picture."""
 
     def read(self) -> Reading:
-        """What the debug screen says."""
+        """Return what the debug screen says."""
 
     def read_position(self) -> tuple[float, float, float] | None:
-        """Where the player is, and nothing else: faster than ``read``; None where the whole screen has to be read."""
+        """Read where the player is, and nothing else: faster than ``read``.
+
+        Return None where the whole screen has to be read.
+        """
 
     def shows_world(self) -> bool:
-        """Whether nothing lies over the world: no menu, chat, pause or death. Only then a key or a click goes there."""
+        """Return whether nothing lies over the world: no menu, chat, pause or death.
+
+        Only then a key or a click goes there.
+        """
 
     def shows_death(self) -> bool:
-        """Whether the hotbar is seen red, as behind the death screen: also where text lies over its buttons."""
+        """Return whether the hotbar is seen red, as behind the death screen: also where text lies over its buttons."""
 
     def is_chat_open(self) -> bool:
-        """Whether the chat's input line is seen."""
+        """Return whether the chat's input line is seen."""
 
     def is_typed(self, text: str) -> bool:
-        """Whether the chat's input line is seen to hold exactly that, and nothing behind but the cursor."""
+        """Return whether the chat's input line is seen to hold exactly that, and nothing behind but the cursor."""
 
     def menu(self) -> Labels:
-        """The menu that may be there."""
+        """Return the menu that may be there."""
 
     def position_of(self, text: str) -> tuple[int, int] | None:
-        """The middle of the uppermost white text that reads so, in framebuffer pixels; None where there is none."""
+        """Return the middle of the uppermost white text that reads so, in framebuffer pixels.
+
+        Return None where there is none.
+        """
 
     def gui_scale(self) -> int:
-        """Framebuffer pixels to a GUI pixel of menus, chat and hotbar, as last seen."""
+        """Return framebuffer pixels to a GUI pixel of menus, chat and hotbar, as last seen."""
 
     def seen_scales(self) -> Scales | None:
-        """Both scales, only if they were seen in a window of the present size; None if not."""
+        """Return both scales if they were seen in a window of the present size; None if not."""
 
 
 def seen_gui_scale(screen: GameScreen) -> int | None:
-    """The scale of the chat, to blank it; None where it isn't seen, and may be any."""
+    """Return the scale of the chat, to blank it; None where it isn't seen, and may be any."""
     scales = screen.seen_scales()
     return scales.gui if scales else None
 
@@ -159,7 +168,7 @@ class WindowScreen:
         return Scales(gui, debug) if gui and debug else None
 
     def _seen_gui_scale(self) -> int | None:
-        """The GUI scale: to 1.21.8 that of the debug screen, later the hotbar's."""
+        """Return the GUI scale: to 1.21.8 that of the debug screen, later the hotbar's."""
         size = self._display.size()
         if self._gui is None or self._gui[0] != size:
             if not self._text_over_menus:
@@ -179,7 +188,7 @@ class WindowScreen:
         return self._debug[1]
 
     def _look_at_hotbar(self) -> tuple[HotbarLook | None, Frame]:
-        """How the hotbar looks, and the dots of its region, if it is seen; the scale is kept."""
+        """Return how the hotbar looks, and the dots of its region, if it is seen; the scale is kept."""
         size = self._display.size()
         scale = self._gui[1] if self._gui and self._gui[0] == size else None
         if scale is None and not self._text_over_menus:
@@ -199,7 +208,7 @@ class WindowScreen:
         return None, frame
 
     def _is_paused(self) -> bool:
-        """Whether the game is paused without a menu (FACTS: Screens and their buttons)."""
+        """Return whether the game is paused without a menu (FACTS: Screens and their buttons)."""
         scale = self._seen_gui_scale()
         if scale is None:
             return False

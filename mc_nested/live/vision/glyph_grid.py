@@ -48,11 +48,11 @@ class GlyphGrid:
         return self._count(int(self.frame.shape[1]))
 
     def _count(self, pixels: int) -> int:
-        """The dots along so many pixels: those whose pixel that is read is among them."""
+        """Return the dots along so many pixels: those whose pixel that is read is among them."""
         return -(-max(0, pixels - self.scale // 2) // self.scale)
 
     def strip(self, row: int, first: int, last: int) -> Frame:
-        """The colours of the eight rows of dots from ``row`` on, in the columns from ``first`` to before ``last``."""
+        """Return the colours of eight rows of dots from ``row`` on, from column ``first`` to before ``last``."""
         step, middle = self.scale, self.scale // 2
         top, left = row * step + middle, first * step + middle
         picked = self.frame[top : top + GLYPH_ROWS * step : step, left : last * step : step]
@@ -62,7 +62,7 @@ class GlyphGrid:
         return strip
 
     def find(self, pattern: bytes) -> list[GridPosition]:
-        """Each (row, column) where the columns of ``pattern``, two or more, stand."""
+        """Return each (row, column) where the columns of ``pattern``, two or more, stand."""
         columns = self.columns
         if not 2 <= len(pattern) <= len(self._codes):
             return []
@@ -102,7 +102,7 @@ class GlyphGrid:
 
 
 def _codes_of_each_row(ink: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """From dots of 0 and 1 (rows, columns), at least eight rows, to a byte for each but those of the last seven."""
+    """Turn dots of 0 and 1 (rows, columns), at least eight rows, into a byte each, but for the last seven rows."""
     rows, columns = ink.shape
     # Shifting eight bytes as one word is several times faster, and no bit crosses into the next byte: 1, 3 and 15 are
     # the largest values that are moved up by 1, 2 and 4.
@@ -116,6 +116,6 @@ def _codes_of_each_row(ink: NDArray[np.uint8]) -> NDArray[np.uint8]:
 
 @lru_cache
 def _rarest(pattern: bytes) -> int:
-    """The two columns to look for first, half of their dots set: blank and full ones are common in any picture."""
+    """Return the two columns to look for first, half of their dots set: blank and full ones are common anywhere."""
     odd = [abs(byte.bit_count() - GLYPH_ROWS // 2) for byte in pattern]
     return min(range(len(pattern) - 1), key=lambda index: odd[index] + odd[index + 1])

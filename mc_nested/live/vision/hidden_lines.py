@@ -40,7 +40,7 @@ _FEW = 20
 
 
 def may_hide_lines(dots: GlyphGrid) -> bool:
-    """Whether something like a notice is seen in the upper right of a whole window's dots."""
+    """Return whether something like a notice is seen in the upper right of a whole window's dots."""
     step, middle = dots.scale, dots.scale // 2
     if dots.columns <= _NEAREST:
         return False
@@ -69,7 +69,7 @@ def may_hide_lines(dots: GlyphGrid) -> bool:
 
 
 def _margins(flat: Bools) -> Bools:
-    """For each column, whether a margin of flat columns begins behind a border there."""
+    """Return for each column whether a margin of flat columns begins behind a border there."""
     found: Bools = np.all(np.lib.stride_tricks.sliding_window_view(flat[_BORDER:], _MARGIN - _BORDER), axis=1)
     return found
 
@@ -85,7 +85,7 @@ _APART = 6
 
 
 def columns_are_full(dots: GlyphGrid, font: Font, overlay: Overlay, last_rows: int = _LAST_ROWS) -> bool:
-    """Whether a line stands in the last rows of a window's dots both in the left and in the right half."""
+    """Return whether a line stands in the last rows of a window's dots both in the left and in the right half."""
     half = dots.columns // 2
     rows = range(dots.first, dots.rows, dots.pitch)
     last = [row for row in rows if row + GLYPH_ROWS > dots.rows + GLYPH_ROWS - 1 - last_rows]

@@ -131,5 +131,5 @@ class Scales(NamedTuple):
 
 
 def largest_gui_scale(size: tuple[int, int]) -> int:
-    """The largest GUI scale that a window (width, height) in framebuffer pixels can hold."""
+    """Return the largest GUI scale that a window (width, height) in framebuffer pixels can hold."""
     return max(1, min(size[0] // 320, size[1] // 240))

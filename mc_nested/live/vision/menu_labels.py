@@ -63,11 +63,11 @@ class MenuLabels:
         self._covered_labels = [CoveredLabels(each) for each in self._dots[:: len(_LEAST)]]
 
     def shows(self, text: str) -> bool:
-        """Whether a shadowed text, a button's or not, stands there with nothing beside it."""
+        """Return whether a shadowed text, a button's or not, stands there with nothing beside it."""
         return bool(self._labels(text))
 
     def button(self, label: str) -> MenuButton:
-        """The one button with this label.
+        """Return the one button with this label.
 
         Raises:
             FontError: the font lacks a character of the label.
@@ -87,7 +87,7 @@ class MenuLabels:
         return MenuButton(problem=f"no button {label!r} is to be seen: is this menu open, and nothing over it?")
 
     def _covered(self, label: str, labels: list[_Label]) -> MenuButton | None:
-        """A button that the debug screen covers: its edges alone, or a part of its label.
+        """Return a button that the debug screen covers: its edges alone, or a part of its label.
 
         ``labels`` are those that are seen whole.
         """
@@ -114,7 +114,7 @@ class MenuLabels:
 
 
 def _around(dots: GlyphGrid, row: int, column: int, width: int) -> NDArray[np.int16] | None:
-    """The colours of a text's dots and those around it; None where they aren't all in the frame."""
+    """Return the colours of a text's dots and those around it; None where they aren't all in the frame."""
     step, middle = dots.scale, dots.scale // 2
     first, left = row - _ABOVE, column - _BESIDE
     rows, columns = GLYPH_ROWS + _ABOVE + _BELOW, width + 2 * _BESIDE
@@ -125,7 +125,7 @@ def _around(dots: GlyphGrid, row: int, column: int, width: int) -> NDArray[np.in
 
 
 def _colour_of(around: NDArray[np.int16], bits: NDArray[np.bool_]) -> Colour | None:
-    """The label's colour, if the text has it everywhere, and nothing beside; None if not."""
+    """Return the label's colour, if the text has it everywhere, and nothing beside; None if not."""
     rows, columns = around.shape[:2]
     ink = np.zeros((rows, columns), bool)
     ink[_ABOVE : rows - _BELOW, _BESIDE : columns - _BESIDE] = bits
@@ -144,7 +144,7 @@ def _alike(around: NDArray[np.int16], colour: Colour) -> NDArray[np.bool_]:
 
 
 def _is_on_a_button(around: NDArray[np.int16]) -> bool:
-    """Whether a line of one colour, with something else on one side of it, lies where a button's two edges are."""
+    """Return whether a line of one colour, with another colour on one side, lies at each of a button's two edges."""
     upper, lower = around[_ABOVE - 6], around[_ABOVE + 13]
     is_flat = np.ptp(np.concatenate((upper, lower)), axis=0).max() <= INK_SPREAD
     return bool(

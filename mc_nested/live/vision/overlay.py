@@ -64,7 +64,10 @@ class FoundScreen:
 
 
 def find_overlay(frame: Frame, font: Font) -> Overlay | None:
-    """How the debug screen is drawn in this frame (height, width, 3); None if there is none that this font reads."""
+    """Return how the debug screen is drawn in this frame (height, width, 3).
+
+    Return None if there is none that this font reads.
+    """
     found = find_debug_screen(frame, font)
     return found.overlay if found else None
 
@@ -88,12 +91,12 @@ def find_debug_screen(frame: Frame, font: Font, overlay: Overlay | None = None) 
 
 
 def _is_alone(dots: GlyphGrid, font: Font, label: str) -> bool:
-    """Whether no other line that is known stands on the screen."""
+    """Return whether no other known line stands on the screen."""
     return not any(positions_of(dots, font, other) for other in _KNOWN if other != label)
 
 
 def _is_of_a_menu(dots: GlyphGrid, font: Font, position: GridPosition) -> bool:
-    """Whether the game's name stands there as on a menu: in white, or over a shadow.
+    """Return whether the game's name stands there as on a menu: in white, or over a shadow.
 
     The title screen's corner, its button of Realms and the names of servers begin like the debug screen's first line.
     """
@@ -109,7 +112,7 @@ def _is_of_a_menu(dots: GlyphGrid, font: Font, position: GridPosition) -> bool:
 
 
 def _line_dots(frame: Frame, overlay: Overlay, row: int) -> GlyphGrid:
-    """The dots to look for lines in, one being known to stand in ``row``."""
+    """Return the dots to look for lines in, one being known to stand in ``row``."""
     if overlay.layout.has_one_grid:  # a ninth of the rows to look through
         return GlyphGrid(frame, overlay.scale, _least(overlay), row % overlay.pitch, overlay.pitch)
     return GlyphGrid(frame, overlay.scale, _least(overlay))
@@ -120,7 +123,7 @@ def _least(overlay: Overlay) -> int:
 
 
 def _measured(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -> Overlay:
-    """The overlay's colour from the ink of a known line, its layout from where the lines beside it stand."""
+    """Return the overlay's colour from the ink of a known line, its layout from where the lines beside it stand."""
     colour, ink = _ink_of(dots, font, label, position)
     boxes = Overlay(dots.scale, BOXES, colour)
     row, behind = position[0], position[1] + ink.shape[1]
@@ -133,7 +136,7 @@ def _measured(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -
 
 
 def _is_of_boxes(line: Line, label: str) -> bool:
-    """Whether a line that begins with ``label`` is one of 26.4 on, read as such."""
+    """Return whether a line that begins with ``label`` is one of 26.4 on, read as such."""
     version = version_in(line.text)
     if version is not None:
         return version >= FIRST_WITH_BOXES
@@ -141,13 +144,13 @@ def _is_of_boxes(line: Line, label: str) -> bool:
 
 
 def version_in(text: str) -> tuple[int, ...] | None:
-    """The version that the debug screen's line about it names."""
+    """Return the version that the debug screen's line about it names."""
     version = _VERSION.match(text)
     return tuple(int(part) for part in version[1].split(".")) if version else None
 
 
 def _ink_of(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -> tuple[Colour, NDArray[np.bool_]]:
-    """The colour of a label that stands there, and which of its dots (8, columns) are ink."""
+    """Return the colour of a label that stands there, and which of its dots (8, columns) are ink."""
     row, column = position
     glyphs = np.frombuffer(font.columns(label).rstrip(b"\0"), np.uint8)
     ink = np.unpackbits(glyphs[np.newaxis], axis=0, bitorder="little").astype(bool)
@@ -156,7 +159,7 @@ def _ink_of(dots: GlyphGrid, font: Font, label: str, position: GridPosition) -> 
 
 
 def _known_beside(dots: GlyphGrid, font: Font, overlay: Overlay, position: GridPosition) -> int:
-    """How many of the lines just above and below are text at this layout's pitch."""
+    """Return how many of the lines just above and below are text at this layout's pitch."""
     row, column = position
     return sum(is_text(dots, font, overlay, (near, column)) for near in (row - overlay.pitch, row + overlay.pitch))
 

@@ -31,7 +31,7 @@ _ON_THE_RIGHT = "Java: "
 
 
 def shows_more_than_window(found: FoundScreen, font: Font) -> bool:
-    """Whether the debug screen that was found there stands elsewhere than in its window's corner, or is narrower."""
+    """Return whether the debug screen found there stands elsewhere than in its window's corner, or is narrower."""
     lines = ScreenLines(found.dots, font, found.overlay)
     if not any(_begins(found, font, corner) for corner in _CORNERS[lines.layout.name]):
         return True
@@ -66,9 +66,10 @@ class PictureReading:
 
 
 def read_picture(path: Path, font: Font, overlay: Overlay | None = None) -> PictureReading:
-    """A picture file's reading.
+    """Return a picture file's reading.
 
-    Without ``overlay`` the GUI scale, the colour and the layout are found. PictureError for a file that is no picture.
+    Without ``overlay`` the GUI scale, the colour and the layout are found. Raise PictureError for a file that is no
+    picture.
     """
     reading = _read(path, font, overlay)
     return PictureReading(path, reading.xyz, reading.yaw, reading.pitch, reading.target, reading.problem)

@@ -22,35 +22,38 @@ class Unreadable(Exception):  # noqa: N818 - no error: it carries the reason why
 
 
 class DebugLines(Protocol):
-    """The lines of one screen. What is read of them depends on nothing else."""
+    """The lines of one debug screen: a reading depends on them alone."""
 
     @property
     def layout(self) -> ScreenLayout:
         """How they are laid out."""
 
     def holds(self, text: str) -> bool:
-        """Whether a text stands anywhere."""
+        """Return whether a text stands anywhere."""
 
     def starting(self, label: str) -> Sequence[Line]:
-        """Each line from where ``label`` stands on, read to the right."""
+        """Return each line from where ``label`` stands on, read to the right."""
 
     def at(self, row: int, start: int) -> Line:
-        """The line that begins there, read to the right."""
+        """Return the line that begins there, read to the right."""
 
     def ending(self, row: int, end: int) -> Line | None:
-        """The line whose last ink is in column ``end``, read to the left; None where no ink is there."""
+        """Return the line whose last ink is in column ``end``, read to the left; None where no ink is there."""
 
     def begins(self, row: int, start: int) -> bool:
-        """Whether a line begins there, as far as its first letters say."""
+        """Return whether a line begins there, as far as its first letters say."""
 
     def right_column(self) -> Sequence[Line]:
-        """The lines of the right column, the upper ones first; none where the layout doesn't say where it ends."""
+        """Return the lines of the right column, the upper ones first.
+
+        Return none where the layout doesn't say where it ends.
+        """
 
     def may_be_covered(self) -> bool:
-        """Whether lines of the block looked at may not be seen: under a notice, or for want of room."""
+        """Return whether lines of the block looked at may not be seen: under a notice, or for want of room."""
 
     def cut(self, line: Line, text: str) -> Line | None:
-        """A line up to the end of ``text``, with which it begins; None where it can't be read so."""
+        """Return a line up to the end of ``text``, with which it begins; None where it can't be read so."""
 
 
 class ScreenLines:
@@ -148,13 +151,16 @@ class ScreenLines:
 
 
 def _right_end(dots: GlyphGrid, layout: ScreenLayout) -> int | None:
-    """The column of the right column's last ink, as far as the layout says."""
+    """Return the column of the right column's last ink, as far as the layout says."""
     columns = -(-int(dots.frame.shape[1]) // dots.scale)
     return None if layout.right_edge is None else columns - layout.right_edge
 
 
 def only_line(lines: DebugLines, label: str) -> Line | None:
-    """The one line that begins with ``label``, or None. Two of them are unreadable: one may be somebody's chat."""
+    """Return the one line that begins with ``label``, or None.
+
+    Raise Unreadable for two of them: one may be somebody's chat.
+    """
     found = lines.starting(label)
     if len(found) > 1:
         raise Unreadable(f"{len(found)} lines begin with {label.strip()!r}: {CLEAR}")
@@ -162,7 +168,7 @@ def only_line(lines: DebugLines, label: str) -> Line | None:
 
 
 def matched(form: re.Pattern[str], line: Line | None) -> tuple[str, ...]:
-    """The groups of a line that has this form as a whole; unreadable if it hasn't."""
+    """Return the groups of a line that has this form as a whole; raise Unreadable if it hasn't."""
     match = form.fullmatch(line.text) if line else None
     if match is None:
         raise not_a_form(line)
@@ -170,7 +176,7 @@ def matched(form: re.Pattern[str], line: Line | None) -> tuple[str, ...]:
 
 
 def cut_to(lines: DebugLines, line: Line, text: str) -> Line:
-    """A line up to the end of ``text``, with which it begins; unreadable if it can't be read so."""
+    """Return a line up to the end of ``text``, with which it begins; raise Unreadable if it can't be read so."""
     shorter = lines.cut(line, text)
     if shorter is None:
         raise not_a_form(line)
@@ -178,12 +184,12 @@ def cut_to(lines: DebugLines, line: Line, text: str) -> Line:
 
 
 def not_a_form(line: Line | None) -> Unreadable:
-    """What to raise where a line has another form than it should."""
+    """Return the error to raise where a line has another form than it should."""
     return Unreadable(f"a line reads {shown(line.text if line else '')}: {CLEAR}")
 
 
 def check_nothing_over(lines: DebugLines, line: Line) -> None:
-    """A line on which one of the right column may lie is unreadable: that one is drawn later.
+    """Raise Unreadable if a line of the right column may lie over this one: those lines are drawn later.
 
     Where its box covers the next letter, its own first letter stands just behind the end of this line's box.
     """
@@ -192,11 +198,11 @@ def check_nothing_over(lines: DebugLines, line: Line) -> None:
 
 
 def check_whole(line: Line) -> None:
-    """A line whose end may be covered is unreadable."""
+    """Raise Unreadable if the end of the line may be covered."""
     if not line.whole:
         raise Unreadable(f"the end of {shown(line.text)} may be covered: {CLEAR}")
 
 
 def shown(text: str) -> str:
-    """A line's text for a message, with ``?`` for what matched no glyph."""
+    """Return a line's text for a message, with ``?`` for what matched no glyph."""
     return repr(text.replace(UNKNOWN, "?"))

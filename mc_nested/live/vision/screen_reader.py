@@ -37,7 +37,10 @@ _ROOM = 108
 
 
 def sign_of_no_block(lines: ScreenLines, font: Font) -> bytes | None:
-    """What stays the same as long as no block is looked at, where ``lines`` show none; None where nothing does."""
+    """Return what stays the same as long as no block is looked at, where ``lines`` show none.
+
+    Return None where nothing does.
+    """
     dots, overlay = lines.dots, lines.overlay
     if overlay.layout.has_target_column or any(lines.holds(label) for label in _LOOKED_AT):
         return None
@@ -53,12 +56,12 @@ def sign_of_no_block(lines: ScreenLines, font: Font) -> bytes | None:
 
 
 def shows_no_block(frame: Frame, overlay: Overlay, sign: bytes) -> bool:
-    """Whether a picture of the whole window has the sign that ``sign_of_no_block`` found before."""
+    """Return whether a picture of the whole window has the sign that ``sign_of_no_block`` found before."""
     return (_bars(frame, overlay.scale) if overlay.layout.has_facts else _rows(frame, overlay)) == sign
 
 
 def _rows(frame: Frame, overlay: Overlay) -> bytes:
-    """Which rows have a line in the left and in the right column."""
+    """Return which rows have a line in the left and in the right column."""
     step, middle, layout = overlay.scale, overlay.scale // 2, overlay.layout
     columns = -(-frame.shape[1] // step)
     end = columns - (layout.right_edge or 0)
@@ -69,18 +72,18 @@ def _rows(frame: Frame, overlay: Overlay) -> bytes:
 
 
 def _by_line(ink: Bools, pitch: int) -> Bools:
-    """For each line of text, whether there is ink in one of its rows of dots."""
+    """Return for each line of text whether there is ink in one of its rows of dots."""
     count = (len(ink) - _FIRST - GLYPH_ROWS) // pitch
     return np.asarray(np.any(ink[_FIRST : _FIRST + count * pitch].reshape(count, pitch)[:, :GLYPH_ROWS], axis=1))
 
 
 def _bars(frame: Frame, scale: int) -> bytes:
-    """Nothing where no bar of the block's box lies at an edge."""
+    """Return nothing where no bar of the block's box lies at an edge, else a mark."""
     return b"bar" if any(_are_of(frame[:, edge], _BAR).any() for edge in _edges(frame, scale)) else b""
 
 
 def _edges(frame: Frame, scale: int) -> tuple[int, ...]:
-    """The columns of pixels at the window's sides; the last GUI pixel may be cut, or left out."""
+    """Return the columns of pixels at the window's sides; the last GUI pixel may be cut, or left out."""
     width = frame.shape[1]
     return (0, width - 1, max(0, width // scale * scale - 1))
 
@@ -145,7 +148,7 @@ class ScreenReader:
         return (stood and self._read_again(stood)) or self._read_whole(self._display.grab())
 
     def read_position(self) -> tuple[float, float, float] | None:
-        """Where the player is, from a picture of that line alone; None where it isn't where it stood."""
+        """Read where the player is from a picture of the position line alone; None if that line has moved."""
         stood = self._stood
         if stood is None:
             return None
@@ -172,7 +175,7 @@ class ScreenReader:
         return reading if reading.target else None
 
     def _read_none_again(self, frame: Frame, stood: _Stood, sign: bytes) -> Reading | None:
-        """That still no block is looked at; None where that isn't sure."""
+        """Read the lines again, still without a block looked at; return None where that isn't sure."""
         if reading := self._read_before(frame):
             return reading
         if frame.shape[:2] != (stood.region.height, stood.region.width) or not shows_no_block(
@@ -202,7 +205,7 @@ class ScreenReader:
         return self._note(Look(frame, None, lines), reading)
 
     def _read_before(self, frame: Frame) -> Reading | None:
-        """The last reading, where the display returned the very picture again that it was taken from."""
+        """Return the last reading, where the display returned the very picture again that it was taken from."""
         if self._last is None or frame is not self._last[0].frame or frame.flags.writeable:
             return None
         self.last_look, reading = self._last
@@ -214,7 +217,7 @@ class ScreenReader:
 
 
 def _stood(lines: ScreenLines) -> _Stood:
-    """Where the lines stood that a reading was taken from, in the rows of dots that hold them all."""
+    """Return where the lines stood that a reading was taken from, in the rows of dots that hold them all."""
     dots, positions = lines.dots, lines.positions_seen
     rows = lines.rows_read.union(row for seen in positions.values() for row, _ in seen)
     first, behind = min(rows), max(rows) + GLYPH_ROWS + 1

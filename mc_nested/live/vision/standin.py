@@ -27,7 +27,7 @@ _MOST_PROPERTIES = 12
 
 
 def id_above(lines: DebugLines, looking: Line) -> str:
-    """The id of the block whose position is in the line ``looking``.
+    """Return the id of the block whose position is in the line ``looking``.
 
     Every line of that column ends where its first one does, so a position that ends elsewhere is not seen whole.
     """
@@ -44,7 +44,7 @@ def id_above(lines: DebugLines, looking: Line) -> str:
 
 
 def check_right_column_is_empty(lines: DebugLines) -> None:
-    """The right column holds nothing but its first line when no block is looked at."""
+    """Raise Unreadable unless the right column's first line is alone, as when no block is looked at."""
     first, pitch = _first_on_the_right(lines), lines.layout.pitch
     for row in range(first.row + 2 * pitch - 1, first.row + (_MOST_PROPERTIES + 4) * pitch, pitch):
         line = lines.ending(row, first.end)

@@ -59,7 +59,7 @@ _PARTS = ("Targeted B", "ted Block", "Looking at b", "king at block", "ooking at
 
 
 def target_block(lines: DebugLines) -> Target | None:
-    """The block looked at, or None. Raises Unreadable if its lines are there, but not to be read for sure."""
+    """Return the block looked at, or None. Raise Unreadable if its lines are there, but not to be read for sure."""
     if targeted := only_line(lines, "Targeted Block"):
         return _targeted(lines, targeted)
     looking = only_line(lines, "Looking at block: ") or only_line(lines, "Looking at: ")
@@ -91,7 +91,7 @@ def _position(lines: DebugLines, form: re.Pattern[str], line: Line) -> Block:
 
 
 def _id_below(lines: DebugLines, label: Line) -> str:
-    """1.13 and later: the id stands one line below its label, aligned with it on the column's side."""
+    """Read the id from 1.13 on: it stands one line below its label, aligned with it on the column's side."""
     row = label.row + lines.layout.pitch
     line = lines.at(row, label.start) if label.is_left else lines.ending(row, label.end)
     if line is None:
@@ -100,7 +100,7 @@ def _id_below(lines: DebugLines, label: Line) -> str:
 
 
 def _id_in_right_column(lines: DebugLines) -> str:
-    """1.8 to 1.12: a line of its own in the right column, the only one there that has an id's form.
+    """Read the id of 1.8 to 1.12: it has a line of its own in the right column, the only one with an id's form.
 
     A mod's id is found by where it ends, since its beginning isn't known.
     """
@@ -137,7 +137,7 @@ def _check_nothing_hidden(lines: DebugLines) -> None:
 
 
 def _check_column_is_seen(lines: DebugLines) -> None:
-    """The right column is seen as far down as a block's lines would stand, and no fluid is looked at."""
+    """Raise Unreadable unless the right column is seen where a block's lines would stand, and no fluid is looked at."""
     for label in _FLUIDS:
         if lines.holds(label):
             raise Unreadable(f"a fluid is looked at, and the lines of the block behind it can't be seen: {CLEAR}")
@@ -148,7 +148,7 @@ def _check_column_is_seen(lines: DebugLines) -> None:
 
 
 def _has_free_order(lines: DebugLines) -> bool:
-    """Whether the lines can be chosen in this version; without its own line they were chosen already."""
+    """Return whether the lines can be chosen in this version; without its own line they were chosen already."""
     title = next((line for line in lines.starting(TITLE) if line.is_left), None)
     if title is None:
         return True
@@ -157,7 +157,7 @@ def _has_free_order(lines: DebugLines) -> bool:
 
 
 def _check_no_id_alone(lines: DebugLines) -> None:
-    """An id without the block's label over it: that is covered, or the id is a fluid's or an entity's."""
+    """Raise Unreadable for an id without the block's label over it: a covered one, a fluid's or an entity's."""
     for line in lines.starting("minecraft:"):
         full, over = lines.ending(line.row, line.end), line.row - lines.layout.pitch
         if full is None or not _ALONE.fullmatch(full.text):
@@ -191,7 +191,7 @@ _LEAST = 6
 
 
 def target_in_box(lines: DebugLines, player: XYZ) -> Target | None:
-    """The block that a player at ``player`` looks at, or None. Raises Unreadable where that isn't sure."""
+    """Return the block that a player at ``player`` looks at, or None. Raise Unreadable where that isn't sure."""
     title = only_line(lines, BOX_TITLE)
     if title is None:
         _check_no_box_hidden(lines)
@@ -213,7 +213,7 @@ def target_in_box(lines: DebugLines, player: XYZ) -> Target | None:
 
 
 def _below(lines: DebugLines, title: Line, label: str, row: int, start: int) -> Line:
-    """The fact of a name in this row, of the box whose title that is."""
+    """Return the fact of a name in this row, of the box whose title that is."""
     found = [line for line in lines.starting(label) if line.row == row and abs(line.start - start) <= _NAMES]
     if len(found) != 1:
         raise Unreadable(

@@ -81,12 +81,12 @@ class _Strip(NamedTuple):
 
 
 def positions_of(dots: GlyphGrid, font: Font, text: str) -> list[GridPosition]:
-    """Each row and column at which ``text`` stands."""
+    """Return each row and column at which ``text`` stands."""
     return dots.find(font.columns(text)[:-1])
 
 
 def line_from(dots: GlyphGrid, font: Font, overlay: Overlay, start: GridPosition, edge: int | None = None) -> Line:
-    """The line whose first glyph stands at this row and column, read to the right.
+    """Return the line whose first glyph stands at this row and column, read to the right.
 
     Where text is aligned at a last column ``edge``, and the line is seen to end there, what lies behind is not read.
     """
@@ -101,7 +101,7 @@ def line_from(dots: GlyphGrid, font: Font, overlay: Overlay, start: GridPosition
 def _line_in(
     pixels: bytes, font: Font, colour: Colour, box: Box, start: GridPosition, left: int, edge: int | None
 ) -> tuple[Line, bool]:
-    """The line that begins a picture (8, columns, 3), and whether its box is seen to end in it.
+    """Return the line that begins a picture (8, columns, 3), and whether its box is seen to end in it.
 
     A line of the left column begins before the column ``left``.
     """
@@ -117,7 +117,7 @@ def _line_in(
 
 
 def is_text(dots: GlyphGrid, font: Font, overlay: Overlay, start: GridPosition) -> bool:
-    """Whether a line begins at this row and column, as far as its first three characters say."""
+    """Return whether a line begins at this row and column, as far as its first three characters say."""
     row, first = start
     if not (0 <= row < dots.rows and 0 <= first < dots.columns):
         return False
@@ -126,7 +126,10 @@ def is_text(dots: GlyphGrid, font: Font, overlay: Overlay, start: GridPosition) 
 
 
 def line_up_to(dots: GlyphGrid, font: Font, overlay: Overlay, end: GridPosition) -> Line | None:
-    """The line whose last ink is in this row and column, back to a wide gap or its box's side; None without ink."""
+    """Return the line whose last ink is in this row and column, back to a wide gap or its box's side.
+
+    Return None without ink.
+    """
     row, last = end
     if not 0 <= row < dots.rows:
         return None
@@ -140,7 +143,7 @@ def line_up_to(dots: GlyphGrid, font: Font, overlay: Overlay, end: GridPosition)
 def _line_ending_in(
     pixels: bytes, font: Font, colour: Colour, box: Box, begin: GridPosition, left: int, end: int
 ) -> Line | None:
-    """The line that ends in the column ``end`` of a picture that begins at this row and column."""
+    """Return the line that ends in the column ``end`` of a picture that begins at this row and column."""
     row, first = begin
     last = end - first
     picture = _picture(pixels)
@@ -163,7 +166,7 @@ def _line_ending_in(
 
 @lru_cache(1024)  # most lines say what they said in the frame before
 def decode(columns: bytes, font: Font) -> tuple[str, int]:
-    """The text that begins in the first column, up to a wide gap, and its last column of ink (-1 without any).
+    """Return the text that begins in the first column, up to a wide gap, and its last column of ink (-1 without any).
 
     A glyph counts only where the pen, moved by the glyphs and spaces before it, would draw it.
     """
@@ -186,7 +189,7 @@ def decode(columns: bytes, font: Font) -> tuple[str, int]:
 
 
 def _gapped(columns: bytes, at: int, font: Font) -> Glyph | None:
-    """The glyph with a gap inside whose ink begins at ``at``."""
+    """Return the glyph with a gap inside whose ink begins at ``at``."""
     for glyph, known in font.gapped.items():
         if columns.startswith(glyph, at) and not any(columns[at + len(glyph) : at + len(glyph) + 1]):
             return known
@@ -194,7 +197,7 @@ def _gapped(columns: bytes, at: int, font: Font) -> Glyph | None:
 
 
 def pixels_from(dots: GlyphGrid, begin: GridPosition, columns: int) -> bytes:
-    """The eight rows of dots from ``begin`` on, so many columns of them."""
+    """Return the eight rows of dots from ``begin`` on, so many columns of them."""
     row, first = begin
     return dots.strip(row, first, first + columns).tobytes()
 
@@ -204,20 +207,20 @@ def _picture(pixels: bytes) -> Frame:
 
 
 def _strip_of(picture: Frame, *colours: Colour) -> _Strip:
-    """A picture (8, columns, 3) with these colours as ink."""
+    """Return a picture (8, columns, 3) with these colours as ink."""
     ink = ink_of(picture, *colours)
     ground = np.asarray(cv2.inRange(picture, (DARKEST,) * 3, (BRIGHTEST,) * 3), np.uint8)
     return _Strip(picture, columns_of(ink), np.bitwise_and.reduce(ink | ground, axis=0).tobytes())
 
 
 def _in_the_box(strip: _Strip) -> bytes:
-    """The ink from the first column on, as far as the box goes without a break."""
+    """Return the ink from the first column on, as far as the box goes without a break."""
     end = strip.boxed.find(0)
     return strip.ink if end < 0 else strip.ink[:end]
 
 
 def ink_of(picture: Frame, *colours: Colour) -> NDArray[np.uint8]:
-    """A mask (rows, columns), 255 where a picture has one of these colours, else 0."""
+    """Return a mask (rows, columns), 255 where a picture has one of these colours, else 0."""
     near = INK_SPREAD
     masks = [
         np.asarray(cv2.inRange(picture, (b - near, g - near, r - near), (b + near, g + near, r + near)), np.uint8)
@@ -227,13 +230,13 @@ def ink_of(picture: Frame, *colours: Colour) -> NDArray[np.uint8]:
 
 
 def columns_of(ink: NDArray[np.uint8]) -> bytes:
-    """From a mask (8, columns) of 0 and 255 to a byte a column."""
+    """Turn a mask (8, columns) of 0 and 255 into a byte a column."""
     columns: NDArray[np.uint8] = np.bitwise_or.reduce(ink & _BITS, axis=0)
     return columns.tobytes()
 
 
 def _is_whole(strip: _Strip, last: int, box: Box) -> bool:
-    """Whether the box is seen to go on behind the last ink, and to end there.
+    """Return whether the box is seen to go on behind the last ink, and to end there.
 
     The box changes every ground but one that is as grey as itself. If its last column and the one beside it are alike
     all the way, something is drawn over both, and may hide more of the line.

@@ -45,7 +45,7 @@ _GREY_BIT = 1 << _COLOURS.index(GREY)
 
 
 def _near(colours: Sequence[Colour]) -> NDArray[np.uint8]:
-    """For a pixel's blue, green and red, by their values (3, 256): bit n where it is near that of colour n."""
+    """Return for a pixel's blue, green and red, by their values (3, 256), bit n where it is near that of colour n."""
     values = np.arange(256)[:, np.newaxis, np.newaxis]
     is_near = np.abs(values - np.array(colours)[:, ::-1].T) <= INK_SPREAD
     return np.asarray(np.packbits(is_near, axis=2, bitorder="little")[..., 0].T, np.uint8)
@@ -68,7 +68,7 @@ _LEFT_FREE = 14
 
 
 def typed_line_region(size: tuple[int, int], scale: int, columns: int | None = None) -> Region:
-    """Where the line stands in a window (width, height), with a row of dots below it for its shadow.
+    """Return where the line stands in a window (width, height), with a row of dots below it for its shadow.
 
     From its first letter on: so many ``columns`` of dots, or all of them.
     """
@@ -79,12 +79,12 @@ def typed_line_region(size: tuple[int, int], scale: int, columns: int | None = N
 
 
 def typed_line_dots(frame: Frame, scale: int) -> Frame:
-    """The dots of a picture of that region: (9, columns, 3)."""
+    """Return the dots of a picture of that region: (9, columns, 3)."""
     return frame[scale // 2 :: scale, scale // 2 :: scale]
 
 
 def begins_a_line(dots: Frame, font: Font) -> bool:
-    """Whether these dots, ``FIRST_COLUMNS`` of them in a row, show a shadowed letter of what is typed, or of a draft.
+    """Return whether these dots, ``FIRST_COLUMNS`` in a row, show a shadowed letter of what is typed, or of a draft.
 
     A draft is what was typed before and not sent, grey and slanted: the letter beside may lean into the gap.
     """
@@ -106,7 +106,7 @@ def begins_a_line(dots: Frame, font: Font) -> bool:
 
 @lru_cache(2)
 def _slanted(font: Font) -> frozenset[bytes]:
-    """The font's letters slanted, without what leans out of their own columns."""
+    """Return the font's letters slanted, without what leans out of their own columns."""
     letters = set()
     for glyph in font.glyphs.values():
         dots = np.unpackbits(np.frombuffer(glyph, np.uint8)[np.newaxis], axis=0, bitorder="little")
@@ -118,13 +118,13 @@ def _slanted(font: Font) -> frozenset[bytes]:
 
 
 def _colours_near(dots: Frame, near: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """Bit n of each dot (rows, columns) where it is near colour n."""
+    """Return for each dot (rows, columns) bit n where it is near colour n."""
     blue, green, red = near
     return np.asarray(blue[dots[..., 0]] & green[dots[..., 1]] & red[dots[..., 2]])
 
 
 def reads_as(dots: Frame, text: str, font: Font) -> bool:
-    """Whether these dots, the whole line's, show exactly that text, and nothing behind it but the cursor."""
+    """Return whether these dots, the whole line's, show exactly that text, and nothing behind it but the cursor."""
     ink = cv2.inRange(dots[:GLYPH_ROWS], (0, 0, 0), (_GROUND,) * 3) == 0
     seen = np.packbits(ink, axis=0, bitorder="little").tobytes()
     for line in (f"{text}_", text):
@@ -135,7 +135,9 @@ def reads_as(dots: Frame, text: str, font: Font) -> bool:
 
 
 def _ends(line: str, room: int, font: Font) -> Iterator[bytes]:
-    """The columns of a line; of one that is too long for so many of them, those of each end that about fills them.
+    """Return the columns of a line.
+
+    Of a line that is too long for so many, return those of each end that about fill them.
 
     The game shows the end of such a line, and leaves room for a letter or two. It counts the free column behind the
     last letter, so a line that would end at the very edge may be shown whole or as its end.
@@ -176,7 +178,7 @@ _RED = ((0x50, 0, 0, 0x60), (0x80, 0x30, 0x30, 0xA0))
 
 
 def bottom_region(size: tuple[int, int], scale: int) -> Region:
-    """The rows of the hotbar down to the line being typed, from that line's first letter on, in framebuffer pixels.
+    """Return the rows from the hotbar to the line being typed, from that line's first letter on, in framebuffer pixels.
 
     ``size`` is the window's width and height, ``scale`` the GUI scale.
     """
@@ -187,17 +189,17 @@ def bottom_region(size: tuple[int, int], scale: int) -> Region:
 
 
 def bottom_dots(frame: Frame, scale: int) -> Frame:
-    """The dots of a picture of that region: (21, columns, 3)."""
+    """Return the dots of a picture of that region: (21, columns, 3)."""
     return frame[scale // 2 :: scale, scale // 2 :: scale]
 
 
 def typed_dots(dots: Frame) -> Frame:
-    """Of these dots those of the first letter that is typed: (9, 8, 3)."""
+    """Return those of the dots that are the first typed letter's: (9, 8, 3)."""
     return dots[HEIGHT - 12 : HEIGHT - 3, :FIRST_COLUMNS]
 
 
 def hotbar_look(dots: Frame, height: int) -> HotbarLook | None:
-    """How the hotbar looks on dots of ``bottom_region``; None where it isn't seen, or a menu lies over it.
+    """Return how the hotbar looks on dots of ``bottom_region``; None where it isn't seen, or a menu lies over it.
 
     ``height`` is the window's, in GUI pixels.
     """
@@ -213,7 +215,7 @@ def hotbar_look(dots: Frame, height: int) -> HotbarLook | None:
 
 
 def _alike(rows: Frame, *colours: Colour) -> int:
-    """In how many columns each row has its colour."""
+    """Return in how many columns each row has its colour."""
     masks = [
         cv2.inRange(row[np.newaxis], tuple(part - INK_SPREAD for part in colour[::-1]), _up(colour))
         for row, colour in zip(rows, colours, strict=True)
@@ -227,7 +229,7 @@ def _up(colour: Colour) -> Colour:
 
 
 def _tinted(grey: int, down: float) -> Colour:
-    """A grey behind the death screen, at a height of 0 to 1 from the window's upper edge."""
+    """Return a grey behind the death screen, at a height of 0 to 1 from the window's upper edge."""
     red, green, blue, alpha = (upper + (lower - upper) * down for upper, lower in zip(*_RED, strict=True))
     share = alpha / 255
     first, second, third = (round(grey * (1 - share) + part * share) for part in (red, green, blue))

@@ -128,7 +128,7 @@ class Mouse(ModuleType):
 
 
 def install_mouse(patch: pytest.MonkeyPatch) -> Mouse:
-    """From here on ``import pyautogui`` gives this."""
+    """Make ``import pyautogui`` give this from here on."""
     mouse = Mouse()
     patch.setitem(sys.modules, "pyautogui", mouse)
     return mouse
@@ -139,7 +139,7 @@ class X11Error(Exception):
 
 
 def install_pynput(patch: pytest.MonkeyPatch, buttons: Buttons | None = None) -> tuple[list[Listener], list[Listener]]:
-    """From here on ``import pynput`` gives this; the listeners of the keyboard and of the mouse that are started."""
+    """Make ``import pynput`` give this from here on; return the started listeners of the keyboard and of the mouse."""
 
     class KeyListener(Listener):
         started: ClassVar[list[Listener]] = []
@@ -159,7 +159,7 @@ def install_pynput(patch: pytest.MonkeyPatch, buttons: Buttons | None = None) ->
 
 
 def reloaded(name: str, patch: pytest.MonkeyPatch) -> Any:
-    """The module, loaded again over what ``import pynput`` gives; what was loaded comes back afterwards."""
+    """Return the module, loaded again over what ``import pynput`` gives; what was loaded comes back afterwards."""
     package, _, last = name.rpartition(".")
     patch.setattr(importlib.import_module(package), last, None, raising=False)
     patch.setitem(sys.modules, name, sys)

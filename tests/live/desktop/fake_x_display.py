@@ -13,7 +13,7 @@ class FakeXWindow:
         self.events: list[Any] = []
 
     def __window__(self) -> int:
-        """Its number, as python-xlib asks for it."""
+        """Return its number, as python-xlib asks for it."""
         return 1
 
     def send_event(self, event: Any) -> None:

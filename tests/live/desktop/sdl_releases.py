@@ -50,7 +50,7 @@ SDL_3_4_WINDOWS = Sdl(
 
 
 def fetch_sdl(sdl: Sdl, say: Say) -> Path:
-    """Return the library, fetched unless it is there; MissingError where that is impossible."""
+    """Return the library, fetched unless it is there; raise MissingError where that is impossible."""
     CACHE.mkdir(exist_ok=True)
     with alone(CACHE, say, "fetching of a window's library"):
         if not sdl.library.exists():

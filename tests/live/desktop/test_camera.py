@@ -125,7 +125,7 @@ def test_each_monitor_is_listed_and_not_all_of_them_together(monkeypatch: pytest
     assert monitors() == (DesktopArea(-1920, 0, 1920, 1080), DesktopArea(0, 56, 1280, 1024))
 
 
-def test_a_desktop_that_names_none_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_desktop_that_names_no_monitor_has_none(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse() -> None:
         raise ScreenShotError("no RandR")
 

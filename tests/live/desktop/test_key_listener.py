@@ -85,7 +85,7 @@ def test_a_slow_hearer_does_not_hold_up_the_hook(listeners: list[Listener]) -> N
     assert heard == ["w", "a"]
 
 
-def test_it_listens_for_as_long_as_the_context_lasts_and_waits_for_its_end(listeners: list[Listener]) -> None:
+def test_the_listener_runs_for_as_long_as_the_context_lasts_and_is_waited_for(listeners: list[Listener]) -> None:
     with listening_through_pynput(lambda *_: None) as is_listening:
         assert is_listening()
     assert not is_listening()
@@ -141,7 +141,7 @@ def test_a_desktop_that_lets_no_program_listen_is_an_error() -> None:
         next_key()
 
 
-def test_it_listens_for_as_long_as_the_context_lasts() -> None:
+def test_hotkeys_are_heard_for_as_long_as_the_context_lasts() -> None:
     keys = HeardKeys()
     with open_hotkeys(("f9",), keys.listening):
         assert keys.is_listening

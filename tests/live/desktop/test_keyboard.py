@@ -30,7 +30,7 @@ _WORDS = {
 
 
 def expected_events() -> dict[str, list[list[int]]]:
-    """GLFW's key, pressed and released, for each place."""
+    """Return GLFW's key, pressed and released, for each place."""
     keys = {name: _WORDS.get(name) or ord(name.upper()) for name in PLACES}
     return {name: [[key, _PRESSED], [key, _RELEASED]] for name, key in keys.items()}
 

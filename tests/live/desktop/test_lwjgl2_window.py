@@ -36,7 +36,7 @@ SHIFT = "RSHIFT"
 
 
 def pressed(key: str, *, has_shift: bool = False) -> list[list[object]]:
-    """LWJGL's key, pressed and released, perhaps with the right Shift around it."""
+    """Return LWJGL's key, pressed and released, perhaps with the right Shift around it."""
     name = _NAMES.get(key, key.upper())
     events: list[list[object]] = [[name, 1], [name, 0]]
     return [[SHIFT, 1], *events, [SHIFT, 0]] if has_shift else events
@@ -85,7 +85,7 @@ def test_a_hundred_clicks_move_nothing_where_a_game_holds_the_mouse(
     assert clicks == {"has raw motion": True, "moves": True, "button": 200, "cursor": 0}
 
 
-def test_it_is_in_front_while_it_has_the_keyboard_and_no_key_comes_while_another_window_has(
+def test_the_window_is_in_front_while_it_has_the_keyboard_and_hears_no_key_of_another_window(
     desktop: dict[str, str], lwjgl_program: list[str]
 ) -> None:
     report = window_probed(desktop, "focus", None, TITLE, lwjgl_program)

@@ -13,13 +13,13 @@ from tests.live.desktop.real_windows.probed import probed
 
 @pytest.fixture
 def mouse(monkeypatch: pytest.MonkeyPatch) -> Mouse:
-    """Over a screen of 1024 x 768."""
+    """Return a mouse over a screen of 1024 x 768."""
     return install_mouse(monkeypatch)
 
 
 @pytest.fixture
 def moves(mouse: Mouse, monkeypatch: pytest.MonkeyPatch) -> list[Listener]:  # noqa: ARG001 - the mouse that is asked
-    """The listeners of the mouse."""
+    """Return the listeners of the mouse."""
     return install_pynput(monkeypatch)[1]
 
 
@@ -37,7 +37,7 @@ def test_the_panic_key_stops_as_soon_as_it_goes_down(name: str, heard: str) -> N
 
 
 @pytest.mark.usefixtures("moves")
-def test_no_other_key_stops() -> None:
+def test_no_key_but_the_panic_key_stops() -> None:
     keys, stopped = HeardKeys(), list[str]()
     with open_panic_switch("f12", stopped.append, keys.listening):
         for name in ("f11", "w", "left.shift"):
@@ -45,7 +45,7 @@ def test_no_other_key_stops() -> None:
     assert stopped == []
 
 
-def test_the_mouse_in_any_corner_stops_and_nowhere_else(moves: list[Listener]) -> None:
+def test_the_mouse_stops_in_any_corner_and_nowhere_else(moves: list[Listener]) -> None:
     stopped: list[str] = []
     outside_or_beside = ((1, 0), (0, 1), (1024, 768), (1022, 767), (512, 0))
     with open_panic_switch("f12", stopped.append, HeardKeys().listening):
@@ -74,7 +74,9 @@ def test_a_push_that_is_reported_beyond_the_edge_stops_once_the_mouse_is_in_the_
     assert stopped == [CORNER_REASON]
 
 
-def test_it_listens_for_as_long_as_the_context_lasts_and_waits_for_its_listeners(moves: list[Listener]) -> None:
+def test_the_panic_switch_listens_for_as_long_as_the_context_lasts_and_waits_for_its_listeners(
+    moves: list[Listener],
+) -> None:
     keys = HeardKeys()
     with open_panic_switch("f12", lambda _: None, keys.listening):
         assert keys.is_listening

@@ -43,7 +43,7 @@ def test_a_hundred_clicks_move_nothing_where_a_game_holds_the_mouse(
     assert clicks["moves"] is (sdl_program[-1].endswith(".0.4.18")), "SDL 3.2 takes no absolute movement for one, here"
 
 
-def test_it_is_in_front_while_it_has_the_keyboard_and_no_key_comes_while_another_window_has(
+def test_the_window_is_in_front_while_it_has_the_keyboard_and_hears_no_key_of_another_window(
     desktop: dict[str, str], sdl_program: list[str]
 ) -> None:
     report = window_probed(desktop, "focus", None, TITLE, sdl_program)

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="fetched on Linu
 
 @pytest.fixture
 def asked(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[Sequence[str]]:
-    """What pip was asked for; it gives a wheel that holds each library."""
+    """Return what pip was asked for; it gives a wheel that holds each library."""
     commands: list[Sequence[str]] = []
 
     def pip(command: Sequence[str], _log: Path, **_: Any) -> bool:

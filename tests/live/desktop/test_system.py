@@ -12,7 +12,7 @@ from tests.live.desktop.real_windows.moving_window import MovingWindow
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="X11's module")
-def test_on_linux_it_is_x11s() -> None:
+def test_on_linux_the_system_is_x11() -> None:
     code = (
         "from mc_nested.live.desktop.system import this_system\n"
         "system = this_system()\n"

@@ -88,7 +88,7 @@ class Server:
         return SimpleNamespace(focus=self.focus)
 
     def point_at(self, *chain: FakeWindow) -> None:
-        """The pointer is over these windows, from the root inwards."""
+        """Put the pointer over these windows, from the root inwards."""
         for outer, inner in zip((self.root, *chain), chain, strict=False):
             outer.under_pointer = inner
 

@@ -35,13 +35,13 @@ def clipboard(x_server: dict[str, str], monkeypatch: pytest.MonkeyPatch) -> X11C
 
 
 @pytest.mark.standin
-def test_nothing_was_copied_yet(clipboard: X11Clipboard) -> None:
+def test_a_clipboard_to_which_nothing_was_copied_is_empty(clipboard: X11Clipboard) -> None:
     assert clipboard.read() == ""
 
 
 @pytest.mark.standin
 @pytest.mark.parametrize("text", TEXTS, ids=["one line", "any letters", "the longest"])
-def test_what_was_written_is_read(clipboard: X11Clipboard, text: str) -> None:
+def test_a_written_text_is_read_back(clipboard: X11Clipboard, text: str) -> None:
     clipboard.write("before")
     clipboard.write(text)
     assert clipboard.read() == text
@@ -55,7 +55,7 @@ def test_a_text_outlives_the_program_that_wrote_it(clipboard: X11Clipboard) -> N
 
 
 @pytest.mark.standin
-def test_an_empty_text_empties_it(clipboard: X11Clipboard) -> None:
+def test_an_empty_text_empties_the_clipboard(clipboard: X11Clipboard) -> None:
     clipboard.write("before")
     clipboard.write("")
     assert clipboard.read() == ""
@@ -71,7 +71,7 @@ def test_a_text_too_long_to_be_put_back_is_refused(clipboard: X11Clipboard) -> N
 
 @pytest.fixture
 def owner(clipboard: X11Clipboard) -> Iterator[Display]:
-    """Another program that owns the clipboard, and hasn't answered yet."""
+    """Return another program that owns the clipboard, and hasn't answered yet."""
     assert clipboard.read() == ""
     display = Display()
     window = display.screen().root.create_window(0, 0, 1, 1, 0, X.CopyFromParent)

@@ -47,7 +47,7 @@ def test_the_keys_are_changed_in_one_go_and_again_once_windows_have_reread_the_l
     assert (display.changes, display.syncs) == (4, 2)
 
 
-def test_with_nothing_to_lend_nobody_waits(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_keys_to_lend_nothing_is_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
     display = FakeXDisplay(spare=3)
     monkeypatch.setattr("time.sleep", lambda _: pytest.fail("it waited"))
     assert SpareKeys(display).lend([]) == {}  # type: ignore[arg-type]

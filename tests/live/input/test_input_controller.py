@@ -27,7 +27,7 @@ PROFILE = Profile(arena=Arena.around((0, 64, 0), "south"))
 
 
 def _controller(game: FakeGame, fail_after: int = -1) -> InputController:
-    """A controller for which the world was just confirmed."""
+    """Return a controller for which the world was just confirmed."""
     controller = InputController(devices_of(game, FakeKeyboard(game, fail_after)), game.profile.input)
     controller.confirm_screen("world")
     return controller
@@ -105,7 +105,9 @@ def test_nothing_is_pressed_while_another_window_is_in_front(press: str) -> None
 
 @pytest.mark.parametrize("press", ["hold", "tap", "click", "click_at", "hover", "type_line"])
 @pytest.mark.parametrize("seen", ["world", "chat", "menu"])
-def test_nothing_is_pressed_that_the_screen_just_seen_is_not_there_for(press: str, seen: PressTarget) -> None:
+def test_nothing_is_pressed_that_is_meant_for_another_screen_than_the_one_just_seen(
+    press: str, seen: PressTarget
+) -> None:
     wanted = {"click_at": "menu", "hover": "menu", "type_line": "chat"}.get(press, "world")
     game = FakeGame(PROFILE)
     controller = _controller(game)

@@ -156,6 +156,6 @@ class FakeMenus:
 
 
 def connection_of(menus: FakeMenus) -> GameConnection:
-    """The fake game's menus, read and pressed."""
+    """Return a connection that reads and presses the fake game's menus."""
     devices = Devices(menus, menus, menus, menus.clock, FakeClipboard())
     return GameConnection(devices, InputController(devices, InputTable()), menus)

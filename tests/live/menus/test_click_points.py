@@ -58,7 +58,7 @@ def test_a_fraction_leads_back_to_within_a_pixel(width: int, height: int, data: 
 
 
 def buttons_of(client: VirtualClient, screen: ScreenName) -> list[tuple[Widget, tuple[int, int]]]:
-    """The buttons of a screen that are as wide as a picture, and their middles in pixels."""
+    """Return the buttons of a screen that are as wide as a picture, and their middles in pixels."""
     width, height = client.window.size
     gui = -(-width // client.scale), -(-height // client.scale)
     shown = menu(MenuState(screen, is_chosen=True), client.edition, *gui).buttons
@@ -111,7 +111,7 @@ def test_no_button_is_taken_for_another_nor_seen_on_another_screen(version: str,
 
 
 def named(name: str, seed: int, ground: int = 30, colour: Colour = WHITE) -> Frame:
-    """A list of worlds with that one in it, before a ground with some noise in it."""
+    """Return a list of worlds with that one in it, before a ground with some noise in it."""
     rng = np.random.default_rng(seed)
     frame = rng.integers(ground, ground + 20, (240, 400, 3), np.uint8)
     MenuPainter(frame, 2, FONT, rng).text(name, 80, 40, colour)
@@ -170,7 +170,7 @@ def back_to_game(client: VirtualClient) -> ClickPoint:
     return record_point("back_to_game", client.display.grab(), place, client.scale)
 
 
-def test_a_point_that_is_there_is_clicked(client: VirtualClient) -> None:
+def test_a_point_that_looks_like_its_picture_is_clicked(client: VirtualClient) -> None:
     assert click_on(back_to_game(client), hands_of(client), client.display)
     client.clock.sleep(0.3)
     assert (client.game.screen, client.window.down) == ("world", set())
@@ -242,7 +242,7 @@ def test_two_names_are_two_files(one: str, other: str) -> None:
     assert (picture_file(Path("p.toml"), one) == picture_file(Path("p.toml"), other)) == (one == other)
 
 
-def test_what_was_written_is_read_to_the_pixel(tmp_path: Path) -> None:
+def test_a_saved_picture_is_read_back_to_the_pixel(tmp_path: Path) -> None:
     profile, path = Profile(points={"world": (0.25, 0.5)}), tmp_path / "mine.toml"
     pictures_folder(path).mkdir()
     picture_file(path, "world").write_bytes(picture_bytes(PICTURE))
@@ -252,9 +252,7 @@ def test_what_was_written_is_read_to_the_pixel(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("content", [None, b"", b"no picture"])
-def test_a_point_whose_picture_is_missing_or_broken_is_not_there_to_click(
-    content: bytes | None, tmp_path: Path
-) -> None:
+def test_a_point_whose_picture_is_missing_or_broken_is_left_out(content: bytes | None, tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     if content is not None:
         pictures_folder(path).mkdir()

@@ -227,7 +227,7 @@ def navigator_in(menus: FakeMenus, profile: Profile | None = None, points: Click
 
 
 def point_in(menus: FakeMenus, name: str, at: tuple[int, int] = (200, 60)) -> ClickPoints:
-    """A point recorded on the picture that is shown now."""
+    """Return a point recorded on the picture that is shown now."""
     menus.frame = np.random.default_rng(1).integers(0, 256, (480, 854, 3), np.uint8)
     return {name: record_point(name, menus.frame, at, menus.scale)}
 

@@ -10,7 +10,7 @@ from tests.live.menus.fake_menus import BUTTONS, PROBLEM, FakeMenus
 
 
 def identify(menus: FakeMenus, *points: str) -> tuple[str, str]:
-    """The screen, with points of these names recorded in a row on the picture that is shown now."""
+    """Return the screen, with points of these names recorded in a row on the picture that is shown now."""
     recordings = {
         name: record_point(name, menus.frame, (200, 60 + 60 * row), menus.scale) for row, name in enumerate(points)
     }

@@ -55,7 +55,7 @@ class Window:
 def standing(
     readings: list[Reading], looks_until_front: int = 0, say: Callable[[str], None] = lambda _: None
 ) -> Reading:
-    """Where the player is found to stand; the last of these readings is repeated."""
+    """Return where the player is found to stand; the last of these readings is repeated."""
     game = FakeGame(Profile())
     later = iter(readings)
     devices = dataclasses.replace(devices_of(game), display=Window(looks_until_front), clock=SkippingClock())

@@ -70,7 +70,7 @@ def test_no_two_places_share_a_number(names: dict[int, str]) -> None:
 
 
 @pytest.mark.parametrize("key", ["W", "escape", "caps_lock", "page_down", *PLACES])
-def test_every_place_and_every_other_name_of_one_names_a_key(key: str) -> None:
+def test_every_name_of_a_place_is_the_name_of_a_key(key: str) -> None:
     assert is_key(key)
     check_key(key)
 
@@ -116,7 +116,7 @@ def test_only_a_digit_above_another_character_takes_shift(layout: str) -> None:
     assert with_shift == (set("1234567890") if layout in WITH_DIGITS_ABOVE else set())
 
 
-def test_a_letter_above_another_one_is_none() -> None:
+def test_no_letter_above_another_one_is_pressed_with_shift() -> None:
     assert stroke_for("w", {"w": ("'", "w")}) is None
 
 

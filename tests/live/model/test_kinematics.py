@@ -24,7 +24,7 @@ def test_walking_and_coasting_covers_what_the_facts_say(ticks: int, blocks: floa
     assert displacement(ticks) == pytest.approx(blocks, abs=0.0006)
 
 
-def test_no_tick_walks_nowhere() -> None:
+def test_a_hold_of_no_ticks_walks_nowhere() -> None:
     assert displacement(0) == 0.0
 
 
@@ -36,7 +36,7 @@ def test_one_block_takes_five_ticks() -> None:
     assert nearest_ticks(1.0, walk_response(12)) == 5
 
 
-def test_standing_still_is_nearest_to_a_hair() -> None:
+def test_standing_still_is_nearest_to_a_tiny_distance() -> None:
     assert nearest_ticks(0.1, walk_response(12)) == 0
 
 

@@ -24,7 +24,7 @@ def test_two_or_three_looks_come_in_a_frame() -> None:
     assert pytest.approx(FRAME_S) == THIRD_FRAME_S * 3
 
 
-def test_no_fast_look_is_spared_as_one_of_the_same_frame() -> None:
+def test_fast_looks_are_never_skipped_as_looks_at_the_same_frame() -> None:
     assert THIRD_FRAME_S > SAME_FRAME_S
 
 

@@ -207,7 +207,7 @@ SETTLE_S = 0.15
 
 
 def _walked(ticks: int) -> list[float]:
-    """Where a walker is after each tick of a hold and of the coasting after it (FACTS: Walking)."""
+    """Return where a walker is after each tick of a hold and of the coasting after it (FACTS: Walking)."""
     places, place, speed = [], 0.0, 0.0
     for tick in range(ticks + 12):
         speed = (speed if speed >= 0.003 else 0.0) + (0.098 if tick < ticks else 0.0)
@@ -218,7 +218,7 @@ def _walked(ticks: int) -> list[float]:
 
 
 def _seconds_until_reached(places: list[float], tick_s: float = 0.05) -> float:
-    """Seconds from the first position until standstill, with the last position staying."""
+    """Return the seconds from the first position until standstill, with the last position staying."""
     standstill = Standstill((0.0, 0.0), 0.0, SETTLE_S)
     for look in range(1000):
         place = places[min(int(look * 0.01 / tick_s), len(places) - 1)]
@@ -228,7 +228,7 @@ def _seconds_until_reached(places: list[float], tick_s: float = 0.05) -> float:
 
 
 @given(st.integers(1, 12))
-def test_after_a_walk_it_comes_soon_after_the_last_step(ticks: int) -> None:
+def test_standstill_is_found_soon_after_the_last_step_of_a_walk(ticks: int) -> None:
     places = _walked(ticks)
     last_step_s = places.index(places[-1]) * 0.05
     assert last_step_s + SETTLE_S <= _seconds_until_reached(places) <= last_step_s + SETTLE_S + 0.02

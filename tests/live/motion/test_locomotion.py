@@ -62,7 +62,7 @@ class Walk:
         return self.locomotion.follow_to_end(self.locomotion.walk(AT_REST, GroundVector(right, forward)))
 
     def end(self) -> tuple[float, float]:
-        """Where the agent is once it has stopped."""
+        """Return where the agent is once it has stopped."""
         self.game.clock.time += 1.0
         self.game.read()
         return PROFILE.marked_arena().position_of(self.game.xyz)
@@ -187,7 +187,7 @@ class ForgetfulKeyboard(FakeKeyboard):
 
 
 def forgetful(lost: int) -> tuple[Walk, ForgetfulKeyboard]:
-    """An agent whose first presses are lost."""
+    """Return an agent whose first presses are lost."""
     walk = Walk()
     keyboard = ForgetfulKeyboard(walk.game, lost)
     devices = devices_of(walk.game, keyboard)

@@ -33,7 +33,7 @@ def _body(game: FakeGame) -> Body:
 
 
 def _off(game: FakeGame, cell: Cell) -> float:
-    """How far off a cell's middle the agent is once it has stopped."""
+    """Return how far off a cell's middle the agent is once it has stopped."""
     game.clock.sleep_until(game.clock.now() + 1.0)
     game.read()
     place = game.profile.marked_arena().position_of(game.xyz)

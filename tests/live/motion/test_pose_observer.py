@@ -147,7 +147,7 @@ def test_an_awaited_step_seen_by_the_first_look_is_a_sighting_since_a_frame_befo
     assert observed.steps.seen == [pytest.approx((at - FRAME_S, at))]
 
 
-def test_an_awaited_step_seen_by_a_later_look_is_none(observed: Observed) -> None:
+def test_an_awaited_step_seen_by_a_later_look_is_no_sighting(observed: Observed) -> None:
     observed.observer.note_awaited_step()
     observed.observer.wait_for_step(observed.game.clock.now())
     observed.pass_time(FRAME_S)
@@ -274,7 +274,7 @@ TICK = 0.05
 
 
 def _sightings(count: int, phase: float, seed: int) -> list[float]:
-    """When steps are seen first: half a frame and 10 to 30 ms behind ticks."""
+    """Return when steps are seen first: half a frame and 10 to 30 ms behind ticks."""
     rng = random.Random(seed)  # noqa: S311 - chance, not secrets
     return [
         100 + phase + TICK * rng.randrange(2000) + rng.uniform(0, 1 / 60) + rng.uniform(0.01, 0.03)
@@ -308,7 +308,7 @@ def test_a_game_without_ticks_has_no_phase() -> None:
     assert not tick_phase.is_known
 
 
-def test_the_next_tick_is_none_before() -> None:
+def test_the_next_tick_is_never_in_the_past() -> None:
     tick_phase = TickPhase()
     for seen in _sightings(20, 0.02, 2):
         tick_phase.saw_step(seen, seen)

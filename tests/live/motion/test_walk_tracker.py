@@ -12,7 +12,7 @@ AT_REST = CoastingState(GroundVector(3.0, 5.0), GroundVector(0.0, 0.0))
 
 
 def _path(ticks: int, waits: int = 0, velocity: float = 0.0) -> list[tuple[float, bool]]:
-    """How far a walker has come after each tick, and whether the key is up by then (FACTS: Walking)."""
+    """Return how far a walker has come after each tick, and whether the key is up by then (FACTS: Walking)."""
     position, path = 0.0, []
     for tick in range(waits + ticks + 14):
         velocity = (velocity if abs(velocity) >= 0.003 else 0.0) + (PUSH if waits <= tick < waits + ticks else 0.0)
@@ -109,5 +109,5 @@ def test_during_a_hold_the_position_tells_how_many_ticks_felt_the_key(position: 
     assert WalkTracker(AT_REST, Hold(1, 1, 5, PUSH)).ticks_held(GroundVector(3.0, 5.0 + position)) == ticks
 
 
-def test_without_a_hold_no_tick_felt_one() -> None:
+def test_without_a_hold_no_tick_has_felt_a_key() -> None:
     assert WalkTracker(AT_REST).ticks_held(GroundVector(3.0, 5.0)) is None

@@ -19,7 +19,7 @@ CALIBRATED = CalibratedTable(date="2026-11-21", version="1.20.1", window=(854, 4
 CURRENT = Fingerprint("Minecraft 1.20.1 - Singleplayer", (854, 480), Scales(2, 2))
 
 
-def test_what_was_calibrated_on_fits() -> None:
+def test_the_window_that_was_calibrated_on_fits() -> None:
     assert mismatch(CALIBRATED, CURRENT, "default") is None
 
 

@@ -226,7 +226,7 @@ def test_a_profile_of_another_format_is_never_overwritten(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("name", ["", " ", "."])
-def test_no_name_is_no_profile(name: str) -> None:
+def test_an_empty_profile_name_is_refused(name: str) -> None:
     with pytest.raises(ProfileError, match="names no profile: give a name"):
         load_profile(name)
 

@@ -63,7 +63,7 @@ def test_the_default_title_is_the_games_and_no_other_windows(title: str, is_the_
     ("version", "dialect"),
     [("1.8", "1.12"), ("1.12.2", "1.12"), ("1.13", "1.13"), ("1.16.5", "1.13"), ("1.17", "1.17"), ("26.1", "1.17")],
 )
-def test_every_version_has_its_dialect(version: str, dialect: str) -> None:
+def test_each_version_has_its_dialect_of_commands(version: str, dialect: str) -> None:
     assert GameVersion(version=version).dialect == dialect
 
 
@@ -81,7 +81,7 @@ def test_a_missing_font_or_arena_says_what_to_do() -> None:
 
 
 @given(st.lists(st.floats(0.01, 0.5), min_size=4, max_size=20))
-def test_any_growing_walk_survives_the_file(steps: list[float]) -> None:
+def test_any_growing_walk_response_is_saved_and_read_back(steps: list[float]) -> None:
     covered = tuple(sum(steps[: ticks + 1]) for ticks in range(len(steps)))
     profile = Profile(walk=WalkTable(covered=covered))
     assert parse_profile(tomlkit.dumps({"walk": {"covered": list(covered)}}), "mine.toml") == profile

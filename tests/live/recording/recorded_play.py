@@ -26,19 +26,19 @@ FONT = font_of(drawn_atlas())
 
 
 def said_nothing(line: str) -> None:
-    """A recorder has nothing to say while the disk takes everything."""
+    """Fail: a recorder has nothing to say while the disk takes everything."""
     raise AssertionError(line)
 
 
 def scenario_facts(scenario: Scenario) -> dict[str, str]:
-    """The scenario, as a recording says it."""
+    """Return the scenario, as a recording says it."""
     return {"scenario": tomlkit.dumps(table_of(scenario).model_dump(exclude_none=True))}
 
 
 def record_play(
     folder: Path, actions: int, client: VirtualClient | None = None, seed: int = 0, scenario_name: str = "diamond"
 ) -> list[LiveError]:
-    """Random actions, recorded into a folder; the errors of those that failed."""
+    """Record random actions into a folder, and return the errors of those that failed."""
     client = client or VirtualClient(seed=seed)
     scenario = load_scenario(scenario_name)
     arena = Arena.around((-20, client.realm.world.floor, 31), "south")

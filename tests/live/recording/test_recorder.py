@@ -42,7 +42,7 @@ with Recorder(Path(sys.argv[1]), {"format": str(FORMAT)}, (320, 240), print) as 
 
 
 def killed(folder: Path, after_s: float) -> float:
-    """Kill a process that records without end; the seconds of its last words that are lost."""
+    """Kill a process that records without end, and return how many seconds of its end are lost."""
     process = subprocess.Popen([sys.executable, "-c", WRITES, str(folder)])
     try:
         # By what is there, not by the time: on a busy machine the first files come late.
@@ -86,7 +86,7 @@ def test_a_full_disk_ends_the_recording_and_not_the_run(tmp_path: Path, monkeypa
     assert said == [f"the recording ends here, the run goes on: {tmp_path / 'full'}: No space left on device"]
 
 
-def test_only_the_last_of_a_long_run_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_the_last_part_of_a_long_run_is_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(recorder, "PART_S", 0.0)
     monkeypatch.setattr(recorder, "WRITE_EVERY_S", 0.01)
     with Recorder(tmp_path / "long", FACTS, (854, 480), print, kept_bytes=6000) as recording:
@@ -101,7 +101,7 @@ def test_only_the_last_of_a_long_run_is_kept(tmp_path: Path, monkeypatch: pytest
     assert overview_of(tmp_path / "long").damage == ()
 
 
-def test_what_another_thread_releases_is_set_down_as_elsewhere(tmp_path: Path) -> None:
+def test_a_release_by_another_thread_is_recorded_as_such(tmp_path: Path) -> None:
     import threading
 
     client = VirtualClient(seed=1)

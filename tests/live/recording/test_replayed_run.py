@@ -22,7 +22,7 @@ from tests.sim.client.playing import FONT
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Sixty actions in three episodes, on a virtual client."""
+    """Record sixty actions in three episodes, on a virtual client."""
     folder = tmp_path_factory.mktemp("recordings") / "play"
     assert record_play(folder, 60, seed=5) == []
     return folder
@@ -39,7 +39,7 @@ def written(path: Path, calls: list[TimedCall], facts: dict[str, str], pictures:
     return path
 
 
-def test_what_was_recorded_is_read_and_decided_alike(recording: Path) -> None:
+def test_a_replay_reads_and_decides_as_recorded(recording: Path) -> None:
     seen = replay(recording, FONT)
     assert (seen.actions, seen.followed, seen.differences, seen.damaged) == (60, 60, [], [])
     assert seen.read_anew > 5 * seen.actions
@@ -115,7 +115,7 @@ def test_the_end_alone_is_kept_by_trimming(recording: Path, tmp_path: Path) -> N
     assert [path.name for path in folder.iterdir()] == ["00001.mcap"]
 
 
-def test_materials_that_are_taken_in_hand_are_decided_alike(tmp_path: Path) -> None:
+def test_a_replay_takes_the_same_materials_in_hand(tmp_path: Path) -> None:
     record_play(tmp_path / "flag", 12, scenario_name="flag")
     taken = [call.call[2]["material"] for call in calls_of(tmp_path / "flag") if call.call[:2] == ["note", "acts"]]
     assert set(taken) == {0, 1}
@@ -132,7 +132,7 @@ def test_an_episode_with_mishaps_is_followed_too(tmp_path: Path) -> None:
     assert (seen.differences, len(failed)) == ([], seen.actions - 12)
 
 
-def test_what_ends_early_is_read_up_to_there(recording: Path, tmp_path: Path) -> None:
+def test_a_recording_that_breaks_off_is_read_up_to_there(recording: Path, tmp_path: Path) -> None:
     calls = calls_of(recording)
     file = tmp_path / "whole.mcap"
     writer = PartWriter(file, facts_of(recording))
@@ -178,6 +178,6 @@ def test_recording_of_another_format_is_refused_in_one_line(facts: dict[str, str
             refused()
 
 
-def test_without_a_font_the_profiles_is_asked_for(recording: Path) -> None:
+def test_a_replay_without_a_font_asks_for_the_profiles(recording: Path) -> None:
     with pytest.raises(ProfileError, match=r"screen\.font is missing"):
         replay(recording)

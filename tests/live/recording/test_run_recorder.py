@@ -29,7 +29,7 @@ LAPTOP, DESK = DesktopArea(0, 0, 1280, 720), DesktopArea(-1920, -180, 1920, 1080
     ],
     ids=["one monitor, two pixels to a point", "two monitors", "a desktop that names none", "no desktop"],
 )
-def test_the_window_and_the_monitors(
+def test_a_recording_names_the_window_and_the_monitors(
     area: DesktopArea | None, listed: tuple[DesktopArea, ...] | None, window: str, monitors: str, tmp_path: Path
 ) -> None:
     client = VirtualClient(seed=1)

@@ -46,7 +46,7 @@ def test_the_ink_alone_gives_the_reading_again(version: str, size: tuple[int, in
     assert read_debug_screen(canvas, FONT, text.overlay) == reading
 
 
-def test_it_takes_a_few_hundred_bytes_and_comes_back_from_json() -> None:
+def test_text_pixels_take_a_few_hundred_bytes_and_come_back_from_json() -> None:
     screen, _ = look_at(client_looking_at_the_floor())
     assert screen.last_look is not None
     text = text_pixels_of(screen.last_look)

@@ -20,7 +20,7 @@ _SAID = ("xyz", "yaw", "pitch", "target")
 
 
 def truths(folder: Path) -> list[dict[str, Any]]:
-    """The lines of the folder's file of truths.
+    """Return the lines of the folder's file of truths.
 
     Raises:
         ValueError: there is no such file, it has no line, or one lacks a key; the message says which.
@@ -38,7 +38,7 @@ def truths(folder: Path) -> list[dict[str, Any]]:
 
 
 def differences(folder: Path, truth: dict[str, Any]) -> Iterator[str]:
-    """Where the reading of one picture differs from its truth, a line each."""
+    """Return where the reading of one picture differs from its truth, a line each."""
     found = read_picture(folder / truth["file"], load_font(folder / truth["font"]))
     read = json.loads(json.dumps(dataclasses.asdict(found), default=str))
     for key in _SAID:

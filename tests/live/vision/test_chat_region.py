@@ -40,7 +40,7 @@ from sim.client.settings import gui_scale
 from tests.sim.client.playing import FONT, tap
 
 
-def test_at_854_x_480_and_scale_2_it_is_the_lower_left_and_the_lowest_line() -> None:
+def test_at_854_x_480_and_scale_2_the_chat_is_the_lower_left_and_the_lowest_line() -> None:
     # 228 to 38 dots above the lower edge, 332 wide; all of the 38 below, where lines are typed.
     assert chat_regions((854, 480), 2) == (Region(0, 24, 664, 380), Region(0, 404, 854, 76))
 
@@ -64,7 +64,7 @@ def test_without_a_scale_all_is_blanked_that_is_at_any_scale(width: int, height:
 
 
 @given(st.integers(1, 3000), st.integers(1, 2000), st.one_of(st.none(), st.integers(1, 8)))
-def test_it_never_reaches_out_of_the_window(width: int, height: int, scale: int | None) -> None:
+def test_the_chat_regions_never_reach_out_of_the_window(width: int, height: int, scale: int | None) -> None:
     for region in chat_regions((width, height), scale):
         assert region.left >= 0
         assert region.left + region.width <= width
@@ -103,7 +103,7 @@ def test_nothing_that_is_being_typed_is_left_on_the_picture(version: str) -> Non
 
 
 def chat_over(size: tuple[int, int], scale: int, version: str, said: list[str], typed: str) -> Frame:
-    """A grey window with a chat in it, painted as the facts say."""
+    """Return a grey window with a chat in it, painted as the facts say."""
     letters, gui = Letters(FONT, scale), (-(-size[0] // scale), -(-size[1] // scale))
     lines = tuple(ChatLine(text, WHITE, 8) for text in said)
     frame: Frame = np.full((size[1], size[0], 3), 120, np.uint8)
@@ -165,11 +165,11 @@ class GreyDisplay:
 
 
 def shades(paths: list[Path]) -> list[int]:
-    """The shade in the upper right of each picture, where no chat is."""
+    """Return the shade in the upper right of each picture, where no chat is."""
     return [int(picture[0, -1, 0]) for path in paths if (picture := cv2.imread(str(path))) is not None]
 
 
-def test_the_last_three_are_written_the_oldest_first(tmp_path: Path) -> None:
+def test_the_last_three_frames_are_written_the_oldest_first(tmp_path: Path) -> None:
     display = GreyDisplay()
     last = LastFrames(display, tmp_path / "new" / "evidence", lambda: 1)
     for display.shade in (10, 20, 30, 40):
@@ -205,7 +205,7 @@ def test_a_picture_that_the_disk_refuses_is_not_named(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("version", ["1.12.2", "26.1"])
 @pytest.mark.parametrize(("size", "scale"), [((854, 480), 2), ((1280, 721), 3)])
-def test_what_is_being_typed_can_not_be_read_on_them(
+def test_a_line_being_typed_can_not_be_read_on_the_last_frames(
     version: str, size: tuple[int, int], scale: int, tmp_path: Path
 ) -> None:
     def saved(words: str) -> Frame:
@@ -245,7 +245,7 @@ def test_where_no_debug_screen_says_the_scale_what_is_typed_can_not_be_read_eith
     assert np.array_equal(saved("meet me at the oak " * 6), saved("i will be a bit late " * 6))
 
 
-def test_what_a_long_open_chat_shows_can_not_be_read_on_them(tmp_path: Path) -> None:
+def test_a_long_open_chat_can_not_be_read_on_the_last_frames(tmp_path: Path) -> None:
     # Of 180 dots, 20 lines, from 40 above the lower edge, in 1.12 48.
     display = GreyDisplay()
     last = LastFrames(display, tmp_path, lambda: 1)
@@ -281,7 +281,7 @@ def test_after_each_command_of_two_resets_the_debug_screen_is_read_in_the_smalle
 
 
 def cleared(version: str, size: tuple[int, int], scale: int) -> int:
-    """How often the chat is cleared in a reset of five lines."""
+    """Return how often the chat is cleared in a reset of five lines."""
     client = VirtualClient(version=version, size=size, scale=scale, pitch=65.0)
     connection, count = connection_to(client), 0
     forget = client.game.chat.clear

@@ -38,7 +38,7 @@ def write(frame: Frame, text: str, left: int, top: int = TOP + 6) -> None:
 
 
 def found(frame: Frame, label: str = LABEL) -> tuple[int, bool] | None:
-    """The row of the label's middle, and whether it can be pressed."""
+    """Return the row of the label's middle, and whether it can be pressed."""
     covered = CoveredLabels(GlyphGrid(frame, SCALE, 150)).find(FONT.columns(label)[:-1])
     return (covered.middle[1], covered.is_enabled) if covered else None
 
@@ -54,7 +54,7 @@ def test_a_label_is_known_below_any_ground_and_whether_it_can_be_pressed(
     assert found(frame) == (TOP + 10, colour == WHITE)
 
 
-def test_letters_over_it_and_two_grounds_that_meet_there_hide_it_not() -> None:
+def test_a_label_is_found_under_letters_and_across_two_grounds() -> None:
     frame = button()
     below(frame, 80, right=230)
     below(frame, 80, left=200)
@@ -64,7 +64,7 @@ def test_letters_over_it_and_two_grounds_that_meet_there_hide_it_not() -> None:
 
 
 @pytest.mark.parametrize("shown", ["Disconnect", "Back to Game", "Respawn", "Save and Exit to Titles", ""])
-def test_another_label_there_is_not_taken_for_it(shown: str) -> None:
+def test_another_label_is_not_taken_for_the_one_looked_for(shown: str) -> None:
     frame = button(shown)
     below(frame, 80, right=214)
     write(frame, "[F3+3] Ping hidden", LEFT + 10)
@@ -72,7 +72,7 @@ def test_another_label_there_is_not_taken_for_it(shown: str) -> None:
 
 
 @pytest.mark.parametrize("label", ["Disconnect", "Respawn", "Back to Game"])
-def test_nor_is_it_taken_for_another(label: str) -> None:
+def test_a_label_is_not_taken_for_another_one(label: str) -> None:
     frame = button()
     below(frame, 80, right=214)
     write(frame, "Display: 854x480 (AMD)", LEFT + 60)
@@ -81,20 +81,20 @@ def test_nor_is_it_taken_for_another(label: str) -> None:
 
 @pytest.mark.parametrize("label", ["Disconnect", "Respawn", "Back to Game"])
 @pytest.mark.parametrize("shown", ["Game Paused", LABEL])
-def test_nor_on_a_ground_as_bright_as_letters(shown: str, label: str) -> None:
+def test_no_label_is_seen_on_a_ground_as_bright_as_letters(shown: str, label: str) -> None:
     frame = np.full((480, 854, 3), 240, np.uint8)
     MenuPainter(frame, SCALE, FONT, np.random.default_rng(0)).text(shown, 213 - len(FONT.columns(shown)) // 2, TOP)
     assert found(frame, label) is None
 
 
-def test_what_letters_hide_almost_wholly_is_not_known() -> None:
+def test_a_label_that_letters_hide_almost_wholly_is_not_found() -> None:
     frame = button()
     frame[SCALE * TOP : SCALE * (TOP + 20), SCALE * 150 : SCALE * 270] = 224
     assert found(frame) is None
 
 
 @pytest.mark.parametrize("shape", [(0, 0), (10, 10), (7, 900), (300, 60)])
-def test_a_frame_too_small_for_it_has_none(shape: tuple[int, int]) -> None:
+def test_a_frame_too_small_for_a_label_has_none(shape: tuple[int, int]) -> None:
     assert found(np.full((*shape, 3), 156, np.uint8)) is None
 
 
@@ -103,7 +103,7 @@ WORDS_TOP = 1
 
 
 def picture(words: str, *, covered: int = 0, ground: int = 90, row: int = WORDS_TOP, aside: int = 0) -> Frame:
-    """The words, with their shadow, in the middle of their region; so many of their columns covered by a box."""
+    """Return the words, with their shadow, in the middle of their region; so many of their columns covered by a box."""
     region = pause_region((854, 480), SCALE)
     dots = np.full((region.height // SCALE + 20, region.width // SCALE, 3), ground, np.uint8)
     columns = np.frombuffer(FONT.columns(words), np.uint8)
@@ -132,20 +132,20 @@ def test_words_of_other_languages_there_are_a_pause_too(words: str, ground: int)
 
 
 @pytest.mark.parametrize("row", [-7, -1, 3, 4])
-def test_a_text_in_other_rows_is_none_as_a_bosss_name_or_a_line_of_the_chat(row: int) -> None:
+def test_a_text_in_other_rows_as_a_bosss_name_or_the_chat_is_no_pause(row: int) -> None:
     assert not shows_pause(picture("Ender Dragon", row=row), SCALE, FONT)
 
 
-def test_a_text_beside_the_middle_is_none() -> None:
+def test_a_text_beside_the_middle_is_no_pause() -> None:
     assert not shows_pause(picture("Ender Dragon", aside=10), SCALE, FONT)
 
 
-def test_a_text_without_a_shadow_is_none() -> None:
+def test_a_text_without_a_shadow_is_no_pause() -> None:
     frame = picture("Game Paused")
     frame[(frame == 63).all(2)] = 90
     assert not shows_pause(frame, SCALE, FONT)
 
 
 @pytest.mark.parametrize("ground", [0, 63, 90, 255])
-def test_a_ground_without_words_is_none(ground: int) -> None:
+def test_a_ground_without_words_is_no_pause(ground: int) -> None:
     assert not shows_pause(picture(" ", ground=ground), SCALE, FONT)

@@ -109,7 +109,7 @@ def test_each_ground_lies_where_it_was_drawn(scale: int) -> None:
 
 
 @pytest.mark.parametrize("kind", [*(kind for kind in WORLDS if kind != "specks"), "bright", "dark"])
-def test_they_are_found_before_any_world(kind: str) -> None:
+def test_boxes_are_found_before_any_world(kind: str) -> None:
     world = random_world(np.random.default_rng(1), kind, 854, 480)
     plain = ground_parts(paint(np.full_like(world, 100), BOXED_SCREEN, FONT), 1)
     found = ground_parts(paint(world, BOXED_SCREEN, FONT), 1)
@@ -123,7 +123,7 @@ def test_titles_lie_on_a_darker_ground() -> None:
 
 
 @pytest.mark.parametrize("layout", ["1.20.1", "26.1"])
-def test_older_screens_have_none(layout: str) -> None:
+def test_older_debug_screens_have_no_boxes(layout: str) -> None:
     old = F3Screen("1.21.9-26.3" if layout == "26.1" else "1.19.3-1.21.8", 1, (0.5, 64.0, 0.5), 0.0, 65.0)
     assert ground_parts(paint(np.full((300, 700, 3), 100, np.uint8), old, FONT), 1) == []
     assert GroundPart(Region(0, 0, 1, 1), 80) not in ground_parts(np.full((300, 700, 3), 100, np.uint8), 1)

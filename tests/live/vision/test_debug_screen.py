@@ -52,12 +52,12 @@ def painted(shown: F3Screen, grey: int = 120) -> Frame:
 
 
 def start_of(frame: Frame, scale: int, prefix: str) -> tuple[int, int]:
-    """Row and column, in GUI pixels, at which a line begins."""
+    """Return the row and column, in GUI pixels, at which a line begins."""
     return positions_of(GlyphGrid(frame, scale, 200), FONT, prefix)[0]
 
 
 def write(frame: Frame, scale: int, text: str, at: tuple[int, int], grey: int) -> None:
-    """Text over a frame, without a box, at a row and a column in GUI pixels."""
+    """Write text over a frame, without a box, at a row and a column in GUI pixels."""
     columns = np.frombuffer(FONT.columns(text), np.uint8)
     ink = np.unpackbits(columns[np.newaxis], axis=0, bitorder="little").repeat(scale, 0).repeat(scale, 1).astype(bool)
     part = frame[at[0] * scale :, at[1] * scale :][: ink.shape[0], : ink.shape[1]]

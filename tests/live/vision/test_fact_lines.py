@@ -50,7 +50,7 @@ def test_names_values_titles_and_plain_lines_are_read(label: str, text: str, gre
     assert found.has_value == (label != "120 fps")
 
 
-def test_a_value_in_the_names_colour_is_none() -> None:
+def test_a_text_in_the_names_colour_is_no_value() -> None:
     frame = painted()
     row, _ = positions_of(GlyphGrid(frame, 1, 200), FONT, "Type:")[0]
     part = frame[row : row + 8]
@@ -60,7 +60,7 @@ def test_a_value_in_the_names_colour_is_none() -> None:
     assert found.text.startswith(f"Type:{UNKNOWN}")
 
 
-def test_a_value_elsewhere_than_in_its_column_is_none() -> None:
+def test_a_text_outside_the_values_column_is_no_value() -> None:
     frame = painted()
     found = line(frame, "Type:")
     behind = found.start + len(FONT.columns("Type:"))

@@ -13,7 +13,7 @@ BAR, CORNER = 0b11111111, 0b00000001
 
 
 def frame_with(columns: bytes, row: int, column: int, scale: int, size: tuple[int, int] = (30, 40)) -> Frame:
-    """A black frame of so many rows and columns of dots, with these columns of white dots in it."""
+    """Return a black frame of so many rows and columns of dots, with these columns of white dots in it."""
     dots = np.zeros(size, np.uint8)
     for right, byte in enumerate(columns):
         for down in range(8):

@@ -42,7 +42,7 @@ def test_however_many_notices_lie_over_it_a_block_that_is_looked_at_is_never_non
 
 @pytest.mark.parametrize("place", range(5))
 @pytest.mark.parametrize("layout", GAME_LAYOUTS)
-def test_nor_where_one_notice_is_left_of_several(layout: Layout, place: int) -> None:
+def test_a_block_under_a_single_notice_left_is_never_none(layout: Layout, place: int) -> None:
     reading = read_debug_screen(painted(layout, ("",) * place + ("Look around",)), FONT)
     assert reading.problem is not None or reading.target == TARGET
 
@@ -59,13 +59,13 @@ def test_a_notice_is_seen_before_any_world(world: str) -> None:
     assert may_hide_lines(dots)
 
 
-def test_random_debug_screens_without_notices_are_none() -> None:
+def test_random_debug_screens_without_notices_show_no_notice() -> None:
     cases = (next_case for next_case, _ in zip(frames(FONT, 5), range(120), strict=False))
     for shown, frame in cases:
         if shown.layout != "standin":
             assert not may_hide_lines(GlyphGrid(frame, shown.gui_scale, 200)), dataclasses.astuple(shown)
 
 
-def test_a_plain_sky_is_none() -> None:
+def test_a_plain_sky_shows_no_notice() -> None:
     assert not may_hide_lines(GlyphGrid(np.full((480, 854, 3), 200, np.uint8), 2, 200))
     assert not may_hide_lines(GlyphGrid(np.full((20, 30, 3), 200, np.uint8), 2, 200))

@@ -35,12 +35,12 @@ def start_of(frame: Frame, text: str) -> tuple[int, int]:
     return positions_of(GlyphGrid(frame, 1, 210), FONT, text)[0]
 
 
-def test_vanillas_own() -> None:
+def test_vanillas_own_layout() -> None:
     assert ScreenLayout("vanilla", 9, (224, 224, 224), VANILLA.box, True, 4, False) == VANILLA
     assert (VANILLA.box.grey, VANILLA.box.behind) == (80, 2)
 
 
-def test_the_stand_ins_own() -> None:
+def test_the_stand_ins_own_layout() -> None:
     assert ScreenLayout("stand-in", 10, (255, 255, 255), STANDIN.box, False, None, True) == STANDIN
     assert (STANDIN.box.grey, STANDIN.box.behind) == (110, 1)
 

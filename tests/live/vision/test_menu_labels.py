@@ -19,7 +19,7 @@ ShownButton = tuple[str, int, int, int]
 
 
 def buttons_of(screen: str, width: int, height: int) -> list[ShownButton]:
-    """Label, left, top and width of each button of a screen, in GUI pixels (FACTS: Screens and their buttons)."""
+    """Return each button's label, left, top and width, in GUI pixels (FACTS: Screens and their buttons)."""
     middle, quarter = width // 2, height // 4
     if screen == "title":
         top, last = quarter + 48, quarter + 132
@@ -120,7 +120,7 @@ def test_two_buttons_with_the_same_label_are_a_problem() -> None:
 
 
 @pytest.mark.parametrize("part", ["letter", "shadow", "upper edge", "lower edge"])
-def test_something_over_a_part_of_it_is_a_problem(part: str) -> None:
+def test_something_over_a_part_of_a_button_is_a_problem(part: str) -> None:
     menu = painter()
     menu.button("Respawn", 100, 100, 200)
     top = {"letter": 106, "shadow": 107, "upper edge": 100, "lower edge": 119}[part]
@@ -143,7 +143,7 @@ def test_text_without_a_shadow_is_not_a_label() -> None:
 
 
 @pytest.mark.parametrize("shape", [(0, 0), (1, 1), (7, 900), (30, 30)])
-def test_a_frame_too_small_for_it_has_no_button(shape: tuple[int, int]) -> None:
+def test_a_frame_too_small_for_a_button_has_none(shape: tuple[int, int]) -> None:
     assert MenuLabels(np.full((*shape, 3), 255, np.uint8), FONT).button("Respawn").middle is None
 
 

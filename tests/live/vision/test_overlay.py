@@ -119,13 +119,13 @@ def test_the_colour_is_the_inks_own_as_red_green_and_blue() -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("kind", [*WORLDS, "bright", "dark"])
-def test_there_is_none_in_noise(kind: str, seed: int) -> None:
+def test_noise_has_no_debug_screen(kind: str, seed: int) -> None:
     world = random_world(np.random.default_rng(seed), kind, 854, 480)
     assert find_debug_screen(world, FONT) is None
     assert find_overlay(world, FONT) is None
 
 
-def test_another_font_finds_none() -> None:
+def test_another_font_finds_no_debug_screen() -> None:
     other = Font({char: columns[::-1] + b"\7" for char, columns in FONT.glyphs.items()})
     assert find_overlay(painted(screen()), other) is None
 

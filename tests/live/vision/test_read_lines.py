@@ -65,7 +65,7 @@ def test_without_a_view_there_is_a_problem() -> None:
     assert (said(XYZ).problem or "").startswith("the debug screen shows no Facing line")
 
 
-def test_the_position_alone_is_read_without_the_rest_and_none_is_none() -> None:
+def test_the_position_is_read_without_the_rest_and_a_missing_one_gives_none() -> None:
     assert read_position(WrittenLines(written(XYZ, 0))) == (-8.5, 64.0, 12345.678)
     assert read_position(WrittenLines(written("XYZ: 1", 0))) is None
     assert read_position(WrittenLines()) is None

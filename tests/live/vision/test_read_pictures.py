@@ -122,7 +122,7 @@ def window(layout: Layout, scale: int = 2) -> Frame:
 
 
 def on_desktop(frame: Frame, left: int, top: int, right: int, below: int) -> Frame:
-    """The window with so many pixels of the desktop around it, and a title bar above it if there is room."""
+    """Return the window with so many pixels of the desktop around it, and a title bar above it if there is room."""
     desktop = np.full((HEIGHT + top + below, WIDTH + left + right, 3), DESKTOP, np.uint8)
     desktop[max(0, top - 25) : top, left : left + WIDTH] = TITLE_BAR
     desktop[top : top + HEIGHT, left : left + WIDTH] = frame
@@ -137,18 +137,20 @@ def shows_more(frame: Frame) -> bool:
 
 @pytest.mark.parametrize("layout", LAYOUTS)
 @pytest.mark.parametrize("scale", [1, 2])
-def test_a_window_alone_is_one(layout: Layout, scale: int) -> None:
+def test_a_picture_of_the_window_alone_is_recognised(layout: Layout, scale: int) -> None:
     assert not shows_more(window(layout, scale))
 
 
 @pytest.mark.parametrize("layout", LAYOUTS)
 @pytest.mark.parametrize("around", [(100, 62, 300, 200), (0, 25, 0, 0), (100, 0, 0, 0)])
-def test_a_window_with_its_title_bar_or_the_desktop_is_none(layout: Layout, around: tuple[int, int, int, int]) -> None:
+def test_a_picture_with_the_title_bar_or_the_desktop_is_not_of_the_window_alone(
+    layout: Layout, around: tuple[int, int, int, int]
+) -> None:
     assert shows_more(on_desktop(window(layout), *around))
 
 
 @pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout not in ("standin", "26.4")])
-def test_a_window_in_the_desktops_corner_is_none(layout: Layout) -> None:
+def test_a_window_in_the_desktops_corner_is_not_a_picture_of_the_window_alone(layout: Layout) -> None:
     desktop = on_desktop(window(layout), 0, 0, 300, 100)
     assert str(read_debug_screen(desktop, FONT).problem).startswith("a notice may lie over")
     assert shows_more(desktop)

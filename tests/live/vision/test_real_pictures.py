@@ -33,7 +33,7 @@ SHOWN = F3Screen("1.19.3-1.21.8", 2, (8.5, 64.0, -3.25), 0.0, 65.0, Target((8, 6
 
 
 def folder_of(path: Path, **changes: Any) -> Path:
-    """A folder of two painted pictures and their truths, the first one changed."""
+    """Return a folder of two painted pictures and their truths, the first one changed."""
     cv2.imwrite(str(path / "ascii.png"), drawn_atlas())
     about = {"font": "ascii.png", "xyz": [8.5, 64.0, -3.25], "yaw": 0.0, "pitch": 65.0}
     lines = []

@@ -50,7 +50,7 @@ def test_where_the_layout_does_not_say_where_the_right_column_ends_it_has_no_lin
     assert lines_of("standin").right_column() == []
 
 
-def test_it_keeps_where_the_lines_stood_that_were_asked_for() -> None:
+def test_screen_lines_keep_where_the_requested_lines_stood() -> None:
     lines = lines_of()
     label = only_line(lines, "Targeted Block")
     assert label is not None
@@ -97,7 +97,7 @@ def test_a_line_on_the_right_is_not_cut() -> None:
     assert lines.cut(line, "Targeted Block") is None
 
 
-def test_two_lines_of_a_label_are_unreadable_and_none_is_none() -> None:
+def test_two_lines_with_one_label_are_unreadable_and_no_line_gives_none() -> None:
     lines = WrittenLines(written("Facing: north", 1), written("Facing: south", 2), written("XYZ: 1", 3))
     with pytest.raises(Unreadable, match="2 lines begin with 'Facing:'"):
         only_line(lines, "Facing: ")

@@ -59,7 +59,7 @@ def painted(shown: F3Screen, width: int = 860, height: int = 480) -> Frame:
 
 
 def opened(shown: F3Screen) -> tuple[ScreenReader, Pictures]:
-    """A reader that has read this screen once."""
+    """Return a reader that has read this screen once."""
     pictures = Pictures(painted(shown))
     reader = ScreenReader(pictures, FONT)
     assert reader.read() == expected(shown)
@@ -124,7 +124,7 @@ def test_a_block_that_comes_to_be_looked_at_is_seen_at_once(layout: Layout) -> N
 
 
 @pytest.mark.parametrize("layout", [layout for layout in LAYOUTS if layout != "standin"])
-def test_that_there_is_none_is_seen_without_a_search(layout: Layout, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_that_no_block_is_looked_at_is_seen_without_a_search(layout: Layout, monkeypatch: pytest.MonkeyPatch) -> None:
     # So small that 26.4's columns leave room for a block.
     sky = dataclasses.replace(screen(layout), target=None, gui_scale=1)
     reader, pictures = opened(sky)
@@ -204,7 +204,7 @@ def lines_of(frame: Frame) -> ScreenLines:
 
 
 @pytest.mark.parametrize("layout", GAMES)
-def test_it_is_there_while_the_player_moves_and_gone_with_a_block(layout: Layout) -> None:
+def test_the_sign_of_no_block_stays_while_the_player_moves_and_goes_with_a_block(layout: Layout) -> None:
     lines = lines_of(painted_on_noise(sky(layout)))
     sign = sign_of_no_block(lines, FONT)
     assert sign is not None
@@ -214,17 +214,17 @@ def test_it_is_there_while_the_player_moves_and_gone_with_a_block(layout: Layout
 
 
 @pytest.mark.parametrize("layout", ["1.21.9-26.3", "26.4"])
-def test_there_is_none_beside_something_else_that_is_looked_at(layout: Layout) -> None:
+def test_there_is_no_sign_while_something_else_is_looked_at(layout: Layout) -> None:
     entries = ("looking_at_block_state", "looking_at_entity", "player_position")
     shown = sky(layout, entries=entries, entity=(8.5, 64.0, 5.5), has_f3=False)
     assert sign_of_no_block(lines_of(painted_on_noise(shown)), FONT) is None
 
 
-def test_there_is_none_where_a_block_might_have_no_room() -> None:
+def test_there_is_no_sign_where_a_block_might_have_no_room() -> None:
     frame = painted_on_noise(sky("26.4"))
     assert sign_of_no_block(lines_of(frame), FONT) is not None
     assert sign_of_no_block(lines_of(frame[:260]), FONT) is None
 
 
-def test_there_is_none_in_a_shifted_picture_of_boxes() -> None:
+def test_there_is_no_sign_in_a_shifted_picture_of_boxes() -> None:
     assert sign_of_no_block(lines_of(np.pad(painted_on_noise(sky("26.4")), ((31, 0), (5, 5), (0, 0)))), FONT) is None

@@ -32,7 +32,7 @@ def why_not(*lines: Line) -> str:
 LOOKING = written("Looking at: 1 2 3", 6)
 
 
-def test_its_lines_are_10_apart_white_and_in_no_grid() -> None:
+def test_the_stand_ins_lines_are_10_apart_white_and_in_no_grid() -> None:
     assert (STANDIN.name, STANDIN.pitch, STANDIN.text_colour, STANDIN.has_one_grid) == (
         "stand-in",
         10,
@@ -69,7 +69,7 @@ def test_a_name_is_looked_for_up_to_12_lines_above(number: int, is_read: bool) -
         assert "the name of the block looked at can't be seen" in why_not(*lines)
 
 
-def test_a_name_that_is_none_is_reported() -> None:
+def test_a_text_that_is_no_block_name_is_reported() -> None:
     assert "the block's name reads 'oak log'" in why_not(FIRST, written("oak log", 5), LOOKING)
 
 

@@ -134,7 +134,7 @@ def test_half_a_label_is_not_taken_for_no_block(text: str) -> None:
     assert "of the block looked at only" in why_not(written(text, 4))
 
 
-def test_an_id_without_a_label_over_it_is_not_taken_for_no_block() -> None:
+def test_an_id_without_a_label_over_it_does_not_mean_that_no_block_is_looked_at() -> None:
     assert "what 'minecraft:stone' belongs to can't be seen" in why_not(ID)
     assert "what 'minecraft:stone' belongs to can't be seen" in why_not(ID, written("CPU: 4x", 4, right=True))
     assert "belongs to can't be seen" in why_not(written(f"{UNKNOWN}minecraft:stone", 5, right=True))
@@ -158,7 +158,7 @@ def test_a_biome_or_a_dimension_is_no_block(text: str) -> None:
     assert of(written(text, 5)) is None
 
 
-def test_tags_without_a_label_are_not_taken_for_no_block() -> None:
+def test_tags_without_a_label_do_not_mean_that_no_block_is_looked_at() -> None:
     tags = written("#minecraft:planks", 8, right=True)
     assert "which block the tags" in why_not(tags)
     assert of(tags, written("Targeted Entity", 4, right=True)) is None
@@ -230,7 +230,7 @@ def test_the_box_of_something_else_is_no_block(title: str) -> None:
         (("Position", PLACE, KIND), "belongs to can't be seen"),
     ],
 )
-def test_what_isnt_sure_is_unreadable(texts: tuple[str, ...], reason: str) -> None:
+def test_a_box_that_is_not_sure_is_unreadable(texts: tuple[str, ...], reason: str) -> None:
     with pytest.raises(Unreadable, match=reason):
         said(*texts)
 

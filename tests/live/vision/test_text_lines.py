@@ -29,7 +29,7 @@ ROW, START = 4, 20
 
 
 def wide(text: str) -> int:
-    """Columns from the first ink to the last."""
+    """Return the columns from the first ink to the last."""
     return len(FONT.columns(text)) - 1
 
 
@@ -40,7 +40,7 @@ def ink(frame: Frame, text: str, start: int, colour: tuple[int, int, int]) -> No
 
 
 def painted(text: str, overlay: Overlay = DRAWN, start: int = START, ground: int = 200, size: int = 600) -> Frame:
-    """A line in its box over a flat world, 200 or what else is given."""
+    """Return a line in its box over a flat world, 200 or what else is given."""
     frame: Frame = np.full((20, size, 3), ground, np.uint8)
     behind = overlay.layout.box.behind
     frame[ROW - 1 : ROW + 8, start - 1 : start + wide(text) + behind] = (ground + overlay.layout.box.grey) // 2
@@ -170,7 +170,7 @@ def test_three_letters_with_an_unknown_one_are_no_text() -> None:
 
 @pytest.mark.parametrize("overlay", [DRAWN, STANDIN_DRAWN])
 @pytest.mark.parametrize("shade", [0, 30, 100, 240])
-def test_something_over_a_lines_last_columns_leaves_it_not_whole(overlay: Overlay, shade: int) -> None:
+def test_a_line_with_something_over_its_last_columns_is_not_whole(overlay: Overlay, shade: int) -> None:
     frame = painted("abcdef", overlay)
     assert read(frame, overlay).whole
     end = START + len(FONT.columns("abcd"))

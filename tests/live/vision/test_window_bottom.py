@@ -29,7 +29,7 @@ SIZE, GUI_HEIGHT = (854, 480), 240
 
 
 def dots(black: float = 0, light: float = 0x93, grey: float = 0x7E) -> Frame:
-    """The bottom of a window at GUI scale 2, noise with a hotbar whose rows have these greys."""
+    """Return the bottom of a window at GUI scale 2, noise with a hotbar whose rows have these greys."""
     region = bottom_region(SIZE, 2)
     noise = np.random.default_rng(0).integers(0, 256, (21, region.width // 2, 3)).astype(np.uint8)
     for row, shade in ((0, black), (1, light), (19, grey)):
@@ -63,18 +63,18 @@ def test_a_window_that_cuts_its_last_dot_has_the_same_rows() -> None:
         (dots()[:, :100], None),
     ],
 )
-def test_only_its_own_greys_are_clear(drawn: Frame, look: HotbarLook | None) -> None:
+def test_the_hotbar_is_clear_only_in_its_own_greys(drawn: Frame, look: HotbarLook | None) -> None:
     assert hotbar_look(drawn, GUI_HEIGHT) == look
 
 
 @pytest.mark.parametrize(("covered", "look"), [(120, "clear"), (130, None)])
-def test_text_may_cover_its_left_part(covered: int, look: HotbarLook | None) -> None:
+def test_text_may_cover_the_hotbars_left_part(covered: int, look: HotbarLook | None) -> None:
     drawn = dots()
     drawn[:, -182 : -182 + covered] = 109
     assert hotbar_look(drawn, GUI_HEIGHT) == look
 
 
-def test_behind_the_death_screen_it_is_red_by_the_height() -> None:
+def test_behind_the_death_screen_the_hotbar_is_red_by_its_height() -> None:
     drawn = dots()
     for row, grey in ((0, 0), (1, 0x93)):
         down = (GUI_HEIGHT - 22 + row + 0.5) / GUI_HEIGHT
@@ -86,7 +86,7 @@ def test_behind_the_death_screen_it_is_red_by_the_height() -> None:
 
 
 @given(st.floats(0.0, 0.96), st.integers(0, 40))
-def test_whatever_darkens_it_it_is_not_clear(share: float, over: int) -> None:
+def test_a_darkened_hotbar_is_not_clear(share: float, over: int) -> None:
     drawn = dots()
     drawn[:, -182:] = np.rint(drawn[:, -182:] * share + over * (1 - share))
     assert hotbar_look(drawn, GUI_HEIGHT) != "clear"
@@ -104,18 +104,18 @@ PLAIN, GOLD = (224, 224, 224), (255, 170, 0)
 
 
 def painted(text: str, colour: tuple[int, int, int] = PLAIN, columns: int = 100) -> Frame:
-    """The dots of a typed line, nine rows high, over a dark ground."""
+    """Return the dots of a typed line, nine rows high, over a dark ground."""
     frame: Frame = np.full((9, columns, 3), 40, np.uint8)
     MenuPainter(frame, 1, FONT, np.random.default_rng(0)).text(text, 0, 0, colour)
     return frame
 
 
-def test_it_stands_4_dots_from_the_left_and_12_above_the_lower_edge_as_far_as_4_from_the_right() -> None:
+def test_the_typed_line_stands_12_dots_above_the_lower_edge_and_4_from_either_side() -> None:
     assert typed_line_region((854, 480), 2) == Region(8, 456, 838, 18)
     assert typed_line_region((854, 480), 2, columns=8) == Region(8, 456, 16, 18)
 
 
-def test_where_the_last_dots_are_cut_it_stands_as_the_game_counts_them() -> None:
+def test_where_the_last_dots_are_cut_the_typed_line_stands_as_the_game_counts_them() -> None:
     # 241 rows at scale 2 are 121 dots: the line begins 109 dots down.
     assert typed_line_region((640, 241), 2) == Region(8, 218, 624, 18)
 
@@ -133,24 +133,24 @@ def test_a_shadowed_letter_of_any_of_its_colours_begins_a_line(colour: tuple[int
     assert begins_a_line(painted("/tp", colour)[:, :FIRST_COLUMNS], FONT)
 
 
-def test_letters_of_another_colour_begin_none() -> None:
+def test_letters_of_another_colour_begin_no_line() -> None:
     assert not begins_a_line(painted("/tp", (224, 224, 170))[:, :FIRST_COLUMNS], FONT)
 
 
-def test_ink_without_its_shadow_begins_none() -> None:
+def test_ink_without_its_shadow_begins_no_line() -> None:
     dots = painted("/tp")
     dots[(dots == 56).all(2)] = 40
     assert not begins_a_line(dots[:, :FIRST_COLUMNS], FONT)
 
 
-def test_shadowed_specks_that_are_no_letter_begin_none() -> None:
+def test_shadowed_specks_that_are_no_letter_begin_no_line() -> None:
     dots = np.full((9, FIRST_COLUMNS, 3), 40, np.uint8)
     for row, column in ((1, 1), (3, 1), (5, 3), (6, 5)):
         dots[row, column], dots[row + 1, column + 1] = 224, 56
     assert not begins_a_line(dots, FONT)
 
 
-def test_an_empty_line_begins_none() -> None:
+def test_an_empty_line_is_not_the_beginning_of_a_line() -> None:
     assert not begins_a_line(painted("")[:, :FIRST_COLUMNS], FONT)
 
 

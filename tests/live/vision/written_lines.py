@@ -14,7 +14,7 @@ _WIDE = 6
 
 
 def written(text: str, number: int, *, right: bool = False, whole: bool = True, pitch: int = 9) -> Line:
-    """The line of that number, from 0 on, in the left column or the right one."""
+    """Return the line of that number, from 0 on, in the left column or the right one."""
     wide = _WIDE * len(text) - 1
     start, end = (RIGHT - wide + 1, RIGHT) if right else (LEFT, LEFT + wide - 1)
     return Line(text, 2 + number * pitch, start, end, whole, is_left=not right)

@@ -25,14 +25,14 @@ LWJGL_2_JAR, NATIVES = "/usr/share/java/lwjgl.jar", "/usr/lib/jni"
 
 @pytest.fixture(scope="module", params=[SDL_3_4, SDL_3_2], ids=lambda sdl: sdl.release)
 def sdl_program(request: pytest.FixtureRequest) -> list[str]:
-    """The program that shows a window of SDL 3."""
+    """Return the program that shows a window of SDL 3."""
     sdl: Sdl = request.param
     return [sys.executable, str(SDL_WINDOW), str(found_or_skipped(lambda: fetch_sdl(sdl, print)))]
 
 
 @pytest.fixture(scope="module")
 def lwjgl_program(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
-    """The program that shows a window of LWJGL 2."""
+    """Return the program that shows a window of LWJGL 2."""
 
     def find() -> list[str]:
         install("a window of LWJGL 2", [JAVAC], LWJGL_2, print, tmp_path_factory.mktemp("apt") / "apt.log")
@@ -47,6 +47,6 @@ def lwjgl_program(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
 
 @pytest.fixture(scope="module")
 def desktop(window_programs: None) -> Iterator[dict[str, str]]:  # noqa: ARG001 - installs what is missing
-    """The environment of an empty desktop with a window manager, which LWJGL 2 needs to get the focus."""
+    """Return the environment of an empty desktop with a window manager, which LWJGL 2 needs to get the focus."""
     with open_display(has_window_manager=True) as env:
         yield env

@@ -67,7 +67,7 @@ class LoggingWindow:
         glfw.wait_events_timeout(LOOK_S)
 
     def _taken_events(self) -> list[Event]:
-        """Those of all input until now: an X server answers a question behind the events that it sent before."""
+        """Return those of all input until now: an X server answers a question behind the events that it sent before."""
         glfw.get_window_pos(self._window)  # such a question
         glfw.poll_events()
         taken = list(self._events)
@@ -75,7 +75,7 @@ class LoggingWindow:
         return taken
 
     def _grab_cursor(self) -> bool:
-        """Hold the mouse as the game does in its world, with raw motion where there is any; whether there is."""
+        """Hold the mouse as the game does in its world; return whether there is raw motion, which is used then."""
         has_raw = bool(glfw.raw_mouse_motion_supported())
         glfw.set_input_mode(self._window, glfw.CURSOR, glfw.CURSOR_DISABLED)
         if has_raw:

@@ -16,13 +16,13 @@ PATIENCE_S = 20.0
 
 
 def install_input_method(say: Say, log: Path) -> None:
-    """Install what is missing with apt; MissingError where that is impossible."""
+    """Install what is missing with apt; raise MissingError where that is impossible."""
     install("an input method", (BUS, IBUS), [TABLE], say, log)
 
 
 @contextmanager
 def input_method(display: dict[str, str], folder: Path) -> Iterator[dict[str, str]]:
-    """The environment of programs that it is in front of, on a display that has a home of its own."""
+    """Yield the environment of programs that it is in front of, on a display that has a home of its own."""
     folder.mkdir(mode=0o700, exist_ok=True)
     address = f"unix:path={folder}/bus"
     env = {
@@ -43,7 +43,7 @@ def input_method(display: dict[str, str], folder: Path) -> Iterator[dict[str, st
 
 
 def _says(command: list[str], env: dict[str, str]) -> str | None:
-    """What a program prints; None where it fails."""
+    """Return what a program prints; None where it fails."""
     done = subprocess.run(command, env=env, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
     return done.stdout.strip() if done.returncode == 0 else None
 

@@ -9,19 +9,19 @@ from typing import Any
 
 
 def probed(environment: dict[str, str], part: str) -> dict[str, Any]:
-    """What that part of the X probe reports of the display in this environment."""
+    """Return what that part of the X probe reports of the display in this environment."""
     return _report("x11_probe.py", environment, part)
 
 
 def glfw_probed(environment: dict[str, str], part: str, argument: object = None) -> dict[str, Any]:
-    """What that part of the window's probe reports of a GLFW window on the display in this environment."""
+    """Return what that part of the window's probe reports of a GLFW window on the display in this environment."""
     return _report("window_probe.py", environment, part, json.dumps(argument))
 
 
 def window_probed(
     environment: dict[str, str], part: str, argument: object, title: str, program: Sequence[str]
 ) -> dict[str, Any]:
-    """The same, of the window that this program shows."""
+    """Return the same, of the window that this program shows."""
     return _report("window_probe.py", environment, part, json.dumps(argument), title, *program)
 
 

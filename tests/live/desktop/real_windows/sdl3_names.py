@@ -15,7 +15,7 @@ _NAMES = {
 
 
 def expected_keys() -> dict[str, list[list[object]]]:
-    """The scancode's name, down and up, for each place."""
+    """Return the scancode's name, down and up, for each place."""
     words = {place: place.replace(".", " ").title() if len(place) > 1 else place.upper() for place in PLACES}
     names = words | _NAMES
     return {place: [[name, 1], [name, 0]] for place, name in names.items()}

@@ -62,7 +62,7 @@ class SdlWindow:
         time.sleep(LOOK_S)
 
     def _taken_events(self) -> list[Event]:
-        """Those of all input until now: an X server sends events in order, and SDL takes all that are there."""
+        """Return those of all input until now: an X server sends events in order, and SDL takes all that are there."""
         self.step()
         self.step()
         taken = list(self._events)
@@ -70,7 +70,10 @@ class SdlWindow:
         return taken
 
     def _note(self, kind: int) -> None:
-        """Offsets are those of SDL_events.h: a type, a timestamp, the window and the device before what counts."""
+        """Note an event.
+
+        Offsets are those of SDL_events.h: a type, a timestamp, the window and the device come first.
+        """
         event, note = self._event, self._events.append
         if kind in (_KEY_DOWN, _KEY_UP):
             scancode, _, _, _, is_down, is_again = struct.unpack_from("IIHHBB", event, 24)

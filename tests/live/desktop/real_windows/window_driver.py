@@ -32,7 +32,7 @@ class DrivenWindow:
         return json.loads(self._lines.readline())
 
     def events_until(self, is_enough: Callable[[list[Event]], bool], patience_s: float = PATIENCE_S) -> list[Event]:
-        """The events since they were last asked for, once there are enough; or all that came in that time."""
+        """Return the events since they were last asked for, once there are enough; or all that came in that time."""
         came: list[Event] = []
         end = time.monotonic() + patience_s
         while True:
@@ -54,7 +54,7 @@ class DrivenWindow:
 
 @contextmanager
 def driven_window(program: Sequence[str] = GLFW_WINDOW, title: str = TITLE) -> Iterator[DrivenWindow]:
-    """The window of such a program, in a process of its own, in front."""
+    """Yield the window of such a program, in a process of its own, in front."""
     with socket.create_server(("127.0.0.1", 0)) as server:
         server.settimeout(60)
         process = subprocess.Popen([*program, str(server.getsockname()[1]), title])

@@ -40,7 +40,7 @@ MOVED_S = 1.0
 
 
 def key_report(window: DrivenWindow, devices: Devices, names: list[str]) -> dict[str, Any]:
-    """The keys of the window that each of these keys arrives as, pressed and released, or the error."""
+    """Return the keys of the window that each of these keys arrives as, pressed and released, or the error."""
     report: dict[str, Any] = {}
     for name in names:
         try:
@@ -54,7 +54,7 @@ def key_report(window: DrivenWindow, devices: Devices, names: list[str]) -> dict
 
 
 def symbol_report(window: DrivenWindow, devices: Devices, names: list[str]) -> dict[str, Any]:
-    """What places arrive as, alone and beside Shift; then what ``prepared_report`` says."""
+    """Return what places arrive as, alone and beside Shift; then what ``prepared_report`` says."""
     report: dict[str, Any] = {"alone": _place_report(window, devices, names)}
     devices.keyboard.press("left.shift")
     window.events_until(lambda came: any(_is_key(each, PRESSED) for each in came))
@@ -65,7 +65,10 @@ def symbol_report(window: DrivenWindow, devices: Devices, names: list[str]) -> d
 
 
 def prepared_report(window: DrivenWindow, devices: Devices, names: list[str]) -> dict[str, Any]:
-    """What keys arrive as, pressed as the title's version has them; ``refused`` is why a profile's own can't be."""
+    """Return what keys arrive as, pressed as the title's version has them.
+
+    ``refused`` is why a profile's own can't be.
+    """
     report: dict[str, Any] = {}
     try:
         prepare_keyboard(Profile(), devices)
@@ -75,7 +78,7 @@ def prepared_report(window: DrivenWindow, devices: Devices, names: list[str]) ->
 
 
 def _place_report(window: DrivenWindow, devices: Devices, names: list[str]) -> dict[str, Any]:
-    """What each place arrives as; nothing for a dead accent, which waits for the next key and takes it, too."""
+    """Return what each place arrives as; nothing for a dead accent, which waits for the next key and takes it, too."""
 
     def tap(name: str) -> list[list[Any]]:
         for key in (name, MARK):
@@ -93,7 +96,7 @@ def _place_report(window: DrivenWindow, devices: Devices, names: list[str]) -> d
 
 
 def focus_report(window: DrivenWindow, devices: Devices, _: None) -> dict[str, Any]:
-    """Whether the window is in front, by itself and by the project, while another one is opened and closed again."""
+    """Return whether the window is in front, by itself and by the project, while another is opened and closed."""
     seen = [[window.ask("state")["has focus"], devices.display.is_in_front()]]
     with driven_window(title="Terraria"):
         came = window.events_until(lambda came: ["focus", 0] in came)
@@ -106,7 +109,7 @@ def focus_report(window: DrivenWindow, devices: Devices, _: None) -> dict[str, A
 
 
 def text_report(window: DrivenWindow, devices: Devices, text: str) -> dict[str, Any]:
-    """The characters that a typed text arrives as, or the error."""
+    """Return the characters that a typed text arrives as, or the error."""
     window.ask("take text")
     try:
         devices.keyboard.type(text)
@@ -117,7 +120,7 @@ def text_report(window: DrivenWindow, devices: Devices, text: str) -> dict[str, 
 
 
 def click_report(window: DrivenWindow, devices: Devices, _: None) -> dict[str, Any]:
-    """How often each kind of event comes while the window holds the mouse and is clicked 100 times.
+    """Return how often each kind of event comes while the window holds the mouse and is clicked 100 times.
 
     ``moves`` is whether the pointer's own movement before it came as one.
     """
@@ -140,7 +143,7 @@ def click_report(window: DrivenWindow, devices: Devices, _: None) -> dict[str, A
 
 
 def listener_report(window: DrivenWindow, devices: Devices, _: None) -> dict[str, Any]:
-    """The keys that are heard while keys are pressed and a text is typed."""
+    """Return the keys that are heard while keys are pressed and a text is typed."""
     heard: queue.SimpleQueue[tuple[str, bool]] = queue.SimpleQueue()
     with listening(lambda name, is_down: heard.put((name, is_down))):
         for name in ("w", "left.shift", "f12"):
@@ -155,7 +158,7 @@ def listener_report(window: DrivenWindow, devices: Devices, _: None) -> dict[str
 
 
 def hotkey_report(_: DrivenWindow, devices: Devices, __: None) -> dict[str, Any]:
-    """What the panic key and a hotkey, each a letter, do when they are pressed beside others."""
+    """Return what the panic key and a hotkey, each a letter, do when they are pressed beside others."""
     stopped: queue.SimpleQueue[str] = queue.SimpleQueue()
     with open_panic_switch("z", stopped.put), open_hotkeys(("Q",)) as next_key:
         for name in ("w", "a", "q", "z"):
@@ -165,7 +168,7 @@ def hotkey_report(_: DrivenWindow, devices: Devices, __: None) -> dict[str, Any]
 
 
 def at_once_report(_: DrivenWindow, devices: Devices, __: None) -> dict[str, Any]:
-    """How many listeners hear a key that is pressed as soon as they are open."""
+    """Return how many listeners hear a key that is pressed as soon as they are open."""
     heard: queue.SimpleQueue[str] = queue.SimpleQueue()
     count = 0
     for _try in range(TRIES):
@@ -178,12 +181,12 @@ def at_once_report(_: DrivenWindow, devices: Devices, __: None) -> dict[str, Any
 
 
 def _keys(events: list[Event]) -> list[list[Any]]:
-    """The keys and what they do, without what repeats."""
+    """Return the keys and what they do, without what repeats."""
     return [[each[1], each[3]] for each in events if each[0] == "key" and each[3] in (PRESSED, RELEASED)]
 
 
 def _are_up(events: list[Event]) -> bool:
-    """Whether all keys are up again that went down, and any did."""
+    """Return whether all keys are up again that went down, and any did."""
     return 0 < sum(_is_key(each, PRESSED) for each in events) <= sum(_is_key(each, RELEASED) for each in events)
 
 

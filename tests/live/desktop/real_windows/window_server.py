@@ -24,7 +24,7 @@ class ToldWindow(Protocol):
 
 
 def serve(window: ToldWindow, port: int) -> None:
-    """Do what comes from 127.0.0.1:PORT until it ends."""
+    """Do what 127.0.0.1:PORT asks for, until the connection ends."""
     with socket.create_connection(("127.0.0.1", port)) as connection:
         connection.setblocking(False)
         waiting = b""

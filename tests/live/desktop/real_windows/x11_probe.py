@@ -98,7 +98,7 @@ def error_of(act: Callable[[], object]) -> str:
 
 
 def heard_hotkeys(display: Display) -> list[str]:
-    """What is heard of F9, held so long that it repeats, of W, which is no hotkey, and of K."""
+    """Return what is heard of F9, held so long that it repeats, of W, which is no hotkey, and of K."""
 
     def send(key: str, kinds: str) -> None:
         code = display.keysym_to_keycode(XK.string_to_keysym(key))
@@ -127,7 +127,7 @@ def heard_hotkeys(display: Display) -> list[str]:
 
 
 def stopped_by(display: Display) -> list[tuple[str, float]]:
-    """What stops the agent, and seconds until it is heard: the panic key, then the mouse in each of two corners."""
+    """Return what stops the agent, and after how long, in s: the panic key, then the mouse in each of two corners."""
     heard: list[tuple[str, float]] = []
     happened = threading.Event()
     corner = display.screen().width_in_pixels - 1, display.screen().height_in_pixels - 1
@@ -225,7 +225,7 @@ def pointer_report(probe: Probe, desktop: Devices) -> dict[str, Any]:
 
 
 def window_report(probe: Probe, desktop: Devices) -> dict[str, Any]:
-    """Another window in front, the focus on none, a minimised window and a closed one."""
+    """Report on another window in front, the focus on none, a minimised window and a closed one."""
     shown, pointer = desktop.display, desktop.pointer
     report: dict[str, Any] = {"title": shown.title(), "size": shown.size(), "in front": shown.is_in_front()}
     report["no such window"] = error_of_opening("^Terraria")

@@ -33,7 +33,7 @@ _X_DISPLAY = re.compile(r"(?:xserver listening on display|Using public X11 displ
 
 @contextmanager
 def rootful_desktop() -> Iterator[dict[str, str]]:
-    """The environment of an Xwayland that is one window of a compositor without a screen."""
+    """Yield the environment of an Xwayland that is one window of a compositor without a screen."""
     command = [*_weston(), "--backend=headless-backend.so"]
     with (
         _compositor(command, dict(os.environ)) as (wayland, _),
@@ -44,7 +44,7 @@ def rootful_desktop() -> Iterator[dict[str, str]]:
 
 @contextmanager
 def rootless_desktop(name: str) -> Iterator[dict[str, str]]:
-    """The environment of a compositor's own Xwayland, whose windows are the compositor's, and ``HAND`` in it.
+    """Yield the environment of a compositor's own Xwayland, whose windows are the compositor's, and ``HAND`` in it.
 
     ``name`` is the compositor's: "weston", or "mutter", which is GNOME's.
     """
@@ -70,13 +70,13 @@ def _mutter() -> list[str]:
 
 
 def _bus(address: str) -> list[str]:
-    """The session's message bus, without which mutter doesn't start."""
+    """Return the session's message bus, without which mutter doesn't start."""
     return [DBUS.required(), "--session", "--nofork", "--nopidfile", f"--address={address}"]
 
 
 @contextmanager
 def _compositor(command: Sequence[str], env: dict[str, str]) -> Iterator[tuple[dict[str, str], Path]]:
-    """The environment of its clients, and its log."""
+    """Yield the environment of its clients, and its log."""
     # A socket's path has room for 107 letters: pytest's own folders may be too deep.
     with tempfile.TemporaryDirectory(prefix="mc-nested-", ignore_cleanup_errors=True) as folder:
         log = Path(folder, "log")
@@ -91,7 +91,7 @@ def _compositor(command: Sequence[str], env: dict[str, str]) -> Iterator[tuple[d
 
 @contextmanager
 def _x_server(command: Sequence[str], env: dict[str, str]) -> Iterator[str]:
-    """The display of an X server that takes a free number."""
+    """Yield the display of an X server that takes a free number."""
     read, write = os.pipe()
     command = [*command, "-displayfd", str(write), "-nolisten", "tcp", "-noreset"]
     with os.fdopen(read) as numbers, _running(command, env, kept=[write]):
@@ -103,7 +103,7 @@ def _x_server(command: Sequence[str], env: dict[str, str]) -> Iterator[str]:
 def _running(
     command: Sequence[str], env: dict[str, str], *, output: int = subprocess.DEVNULL, kept: Sequence[int] = ()
 ) -> Iterator[None]:
-    """The program, until the context ends, and what it then leaves behind of those that it started."""
+    """Run the program until the context ends, and then end what it leaves behind of those that it started."""
     process = subprocess.Popen(
         [*WITH_THIS_PROCESS, *command],
         env=env,

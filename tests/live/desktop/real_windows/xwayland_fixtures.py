@@ -12,7 +12,7 @@ from tests.live.desktop.real_windows.xwayland_desktop import PROGRAMS, rootful_d
 
 @pytest.fixture(scope="session")
 def compositors(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """The programs are there."""
+    """Install the programs, or skip."""
     if sys.platform != "linux":
         pytest.skip("Xwayland is for Linux")
     log = tmp_path_factory.mktemp("xwayland") / "install.log"
@@ -21,13 +21,13 @@ def compositors(tmp_path_factory: pytest.TempPathFactory) -> None:
 
 @pytest.fixture(scope="module")
 def rootful(compositors: None) -> Iterator[dict[str, str]]:  # noqa: ARG001 - its programs
-    """The environment of an Xwayland that is one window of a Wayland desktop."""
+    """Return the environment of an Xwayland that is one window of a Wayland desktop."""
     with rootful_desktop() as environment:
         yield environment
 
 
 @pytest.fixture(scope="module", params=["weston", "mutter"])
 def rootless(compositors: None, request: pytest.FixtureRequest) -> Iterator[dict[str, str]]:  # noqa: ARG001 - its programs
-    """The environment of an Xwayland whose windows are a Wayland desktop's own; mutter is GNOME's."""
+    """Return the environment of an Xwayland whose windows are a Wayland desktop's own; mutter is GNOME's."""
     with rootless_desktop(request.param) as environment:
         yield environment

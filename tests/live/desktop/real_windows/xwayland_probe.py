@@ -49,7 +49,7 @@ class Window:
             self._came.put(json.loads(line))
 
     def until(self, is_last: Callable[[Event], bool], patience_s: float = PATIENCE_S) -> list[Event]:
-        """The events up to the one that is the last, or all that came in time."""
+        """Return the events up to the one that is the last, or all that came in time."""
         events: list[Event] = []
         end = time.monotonic() + patience_s
         with suppress(queue.Empty):
@@ -65,7 +65,7 @@ class Window:
         return self.until(lambda event: event[0] == "done")[-1][1]
 
     def events(self) -> list[Event]:
-        """The events so far: the window has taken all that the X server sent before it answers."""
+        """Return the events so far: the window has taken all that the X server sent before it answers."""
         time.sleep(0.1)  # an event that should not come can't be waited for
         assert self._process.stdin
         self._process.stdin.write('["free the cursor"]\n')
@@ -75,7 +75,7 @@ class Window:
 
 @contextmanager
 def shown(title: str) -> Iterator[Window]:
-    """A window of that title, drawn, which the compositor has put in front."""
+    """Yield a window of that title, drawn, which the compositor has put in front."""
     command = [sys.executable, "-m", "tests.live.desktop.real_windows.xwayland_window", title]
     # PyPI's glfw is two libraries: in a Wayland session, it would load the one that knows no X11.
     env = {**os.environ, "PYGLFW_LIBRARY_VARIANT": "x11"}
@@ -90,13 +90,13 @@ def shown(title: str) -> Iterator[Window]:
 
 
 def hand(*command: object) -> bool:
-    """A person's hand: a click or a key on the screen that shows the compositor; whether it was done."""
+    """Click or press a key as a person does, on the screen that shows the compositor; return whether it was done."""
     environment = {**os.environ, "DISPLAY": os.environ[HAND]}
     return subprocess.run([XDOTOOL.required(), *map(str, command)], env=environment, check=False).returncode == 0
 
 
 def hand_clicks_game(desktop: Devices) -> bool:
-    """A person's hand clicks the game's corners, of which another window covers some; whether the game is in front."""
+    """Click the game's corners as a person does, some below another window; return whether the game is in front."""
     width, height = desktop.display.size()
     for x, y in itertools.product((20, width - 20), (20, height - 20)):
         desktop.pointer.move(x, y)
@@ -109,7 +109,7 @@ def hand_clicks_game(desktop: Devices) -> bool:
 
 
 def on_screen() -> tuple[int, int]:
-    """Where Xwayland's pointer is; the compositor, which has one of its own, counts the same pixels."""
+    """Return where Xwayland's pointer is; the compositor, which has one of its own, counts the same pixels."""
     display = Display()
     at = display.screen().root.query_pointer()
     display.close()
@@ -118,7 +118,7 @@ def on_screen() -> tuple[int, int]:
 
 @contextmanager
 def wayland_window() -> Iterator[None]:
-    """A Wayland window, put in front by the compositor, and gone afterwards."""
+    """Yield a Wayland window, put in front by the compositor, and gone afterwards."""
     command = [WAYLAND_WINDOW.required()]
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
         try:
@@ -153,7 +153,7 @@ def error_of_opening(title: str) -> str:
 
 
 def corners(desktop: Devices) -> list[list[int]]:
-    """The colours of the picture's corners, as blue, green, red."""
+    """Return the colours of the picture's corners, as blue, green, red."""
     picture = desktop.display.grab()
     height, width = picture.shape[:2]
     return [picture[y, x].tolist() for y in (1, height - 2) for x in (1, width - 2)]
@@ -207,7 +207,7 @@ def input_report(window: Window, desktop: Devices) -> dict[str, Any]:
 
 
 def focus_report(window: Window, desktop: Devices) -> dict[str, Any]:
-    """Whether it is in front, and a key arrives: beside a Wayland window, clicked again, beside an X11 window."""
+    """Say if it is in front and a key arrives: beside a Wayland window, clicked again, beside an X11 window."""
 
     def key_arrives() -> bool:
         window.events()
@@ -240,7 +240,7 @@ def clipboard_report(window: Window, desktop: Devices) -> dict[str, Any]:
 
 
 def panic_report(window: Window, desktop: Devices) -> dict[str, Any]:
-    """What the panic key does, pressed by hand: with the game in front, and with a Wayland window there."""
+    """Return what the panic key does, pressed by hand: with the game in front, and with a Wayland window there."""
     heard: list[str] = []
     happened = threading.Event()
 
