@@ -49,7 +49,7 @@ class CommandConsole:
         return reading
 
     def watch(self, is_so: Callable[[Reading], bool], seconds: float) -> Reading | None:
-        """The first reading within so many seconds for which ``is_so`` holds, or None."""
+        """Return the first reading within so many seconds for which ``is_so`` holds, or None."""
         deadline = Deadline(self._clock, seconds)
         while not is_so(reading := self.read()):
             if deadline.has_passed:

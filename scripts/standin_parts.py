@@ -67,7 +67,7 @@ def fetch_all(cache: Path, say: Say) -> None:
 
 
 def check_node() -> None:
-    """MissingError where Node is too old for the game server."""
+    """Raise MissingError if Node is too old for the game server."""
     asked = [NODE.required(), "--version"]
     answer = subprocess.run(asked, capture_output=True, text=True, timeout=30, check=False)  # noqa: S603 - fixed
     version = re.match(r"v(\d+)\.", answer.stdout)

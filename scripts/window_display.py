@@ -45,7 +45,7 @@ def open_display(
     has_window_manager: bool = False,
     has_opengl: bool = True,
 ) -> Iterator[dict[str, str]]:
-    """The environment of programs on a new, empty display; what was started is ended after the block."""
+    """Open a new, empty display, and yield its programs' environment; what was started is ended after the block."""
     with ExitStack() as started:
         read, write = os.pipe()
         screen = f"{size[0]}x{size[1]}x24"
@@ -96,7 +96,7 @@ def running(
     log: Path | None = None,
     ended_with: Sequence[str] = WITH_THIS_PROCESS,
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """A process, while the block and this process last; its output goes to ``log``, or nowhere."""
+    """Run a process while the block and this process last; its output goes to ``log``, or nowhere."""
     with ExitStack() as opened:
         output = opened.enter_context(log.open("wb")) if log else subprocess.DEVNULL
         process = subprocess.Popen(  # noqa: S603 - fixed commands of the scripts
@@ -125,7 +125,7 @@ def end(process: subprocess.Popen[bytes]) -> None:
 
 @contextmanager
 def adopting(is_ours: Callable[[str], bool] = lambda _name: True) -> Iterator[None]:
-    """In the block, programs whose parent has ended become this process's; after it, those of such a name are ended.
+    """Adopt programs whose parent has ended, while in the block; then end those of such a name.
 
     An ended process stays listed until its parent, or else the system's first process, collects its status. In many
     containers the first process never does.

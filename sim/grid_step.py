@@ -51,7 +51,7 @@ class Stepped(NamedTuple):
 
 @compiled()
 def all_exist(actions: Int64s, runs: Bools, count: int) -> bool:
-    """Whether each action (R,) of an arena that ``runs`` (R,) is one of so many."""
+    """Return whether each action (R,) of an arena that ``runs`` (R,) is one of so many."""
     exist = True
     for run in range(len(actions)):
         exist = exist and (not runs[run] or 0 <= actions[run] < count)

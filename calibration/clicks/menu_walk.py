@@ -165,7 +165,7 @@ class MenuWalk:
         self._find(PLAY_IT, (PLAY,))
 
     def _topmost_world(self, frame: Frame) -> tuple[int, int] | None:
-        """A pixel on the first world's name: the topmost white text in the list's first row."""
+        """Return a pixel on the first world's name: the topmost white text in the list's first row."""
         scale, top = self.scale, 32 if self._game.dialect == "1.12" else 48
         middle = -(-self._size[0] // scale) // 2
         left, right, height = middle + _ROW[0], middle + _ROW[1], _ROW[2]
@@ -186,7 +186,7 @@ class MenuWalk:
         self.points[name] = RecordedPoint(name, record_point(name, frame, pixel, self.scale).at, frame)
 
     def _picture(self) -> Frame:
-        """A picture of the window; LiveError if its size has changed."""
+        """Return a picture of the window; LiveError if its size has changed."""
         frame = self._display.grab()
         self._check_size((int(frame.shape[1]), int(frame.shape[0])))
         return frame
@@ -215,7 +215,7 @@ class MenuWalk:
 
 
 def _button_region(button: MenuButton) -> Region:
-    """The part of the picture that the button covers."""
+    """Return the part of the picture that the button covers."""
     x, y = button.middle or (0, 0)
     wide, high = _BUTTON[0] * button.scale, _BUTTON[1] * button.scale
     return Region(x - wide, y - high, 2 * wide, 2 * high)

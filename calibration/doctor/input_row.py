@@ -90,7 +90,7 @@ def _undone(step: Step) -> str:
 
 
 def _is_on(snapshot: WindowSnapshot) -> bool:
-    """Whether the debug screen is on: an entry set to Always is shown without it, too."""
+    """Return whether the debug screen is on: an entry set to Always is shown without it, too."""
     return snapshot.contents is not None and snapshot.contents.line in (POSITION, REDUCED)
 
 

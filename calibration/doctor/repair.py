@@ -69,7 +69,7 @@ def _mend_entries(examination: Examination) -> str | None:
 
 
 def _why_open(examination: Examination) -> str | None:
-    """Why the game may be open; None if nothing suggests it."""
+    """Return why the game may be open; None if nothing suggests it."""
     if examination.is_window_closed is False:
         return "the game is open: close it, and run this again"
     if examination.processes is None:
@@ -83,7 +83,7 @@ def _why_open(examination: Examination) -> str | None:
 
 
 def _gui_scale(examination: Examination) -> dict[str, str]:
-    """A GUI scale for a game whose own is too large, or changes with its window."""
+    """Return a GUI scale for a game whose own is too large, or changes with its window."""
     value = examination.options.values.get("guiScale") if examination.options else None
     if gui_scale_row(value, None).status not in ("warn", "fail"):
         return {}
@@ -93,7 +93,7 @@ def _gui_scale(examination: Examination) -> dict[str, str]:
 
 
 def _debug_scale(options: OptionsTxt) -> dict[str, str]:
-    """The game's own scale of the debug screen's text, where the file has none that is one."""
+    """Return the game's own scale of the debug screen's text, where the file has none that is one."""
     is_none = debug_scale_row(options.values.get("debugGuiScale"), None, None).status == "warn"
     return {"debugGuiScale": "0"} if is_none else {}
 

@@ -112,7 +112,7 @@ class WalkModel:
 
 
 def fit_walk_model(holds: Sequence[SurveyHold]) -> WalkModel:
-    """The model that fits the holds.
+    """Return the model that fits the holds.
 
     Raises:
         NotConfirmedError: too few of them could be followed, or they don't agree, or sneaking isn't slower.
@@ -163,7 +163,7 @@ def fit_walk_model(holds: Sequence[SurveyHold]) -> WalkModel:
 
 
 def _held_out_rms(traces: Sequence[HoldTrace]) -> float:
-    """The end errors of held-out traces, predicted by a fit of the others: root of the mean square, in blocks."""
+    """Return the RMS of the held-out traces' end errors, predicted by a fit of the other traces, in blocks."""
     others = [trace for index, trace in enumerate(traces) if index % HELD_OUT]
     model = fit_gait(others)
     held_out = [match_hold(trace, model) for index, trace in enumerate(traces) if not index % HELD_OUT]
@@ -200,7 +200,7 @@ class EmpiricalWalk:
 
 
 def empirical_walk(holds: Sequence[SurveyHold], usual: WalkTable) -> EmpiricalWalk | None:
-    """Lines through the holds; None where there are too few, or they don't lie on one, or sneaking isn't slower.
+    """Fit lines through the holds; None if there are too few, or they don't lie on one, or sneaking isn't slower.
 
     ``usual`` gives the inertia and the latencies.
     """
@@ -229,7 +229,7 @@ def empirical_walk(holds: Sequence[SurveyHold], usual: WalkTable) -> EmpiricalWa
 
 
 def _line(traces: Sequence[HoldTrace]) -> tuple[float, float]:
-    """The speed, in blocks a second, and the blocks at a hold of no length, of the line nearest the holds' ends."""
+    """Fit a line to the holds' ends; return its speed, in blocks a second, and its blocks at a hold of no length."""
     held = np.array([trace.held_s for trace in traces], np.float64)
     ends = np.array([trace.covered[-1] for trace in traces], np.float64)
     slope, start = np.polyfit(held, ends, 1)

@@ -77,7 +77,7 @@ class Walker:
         self._rest: GroundVector | None = None
 
     def position(self) -> GroundVector:
-        """Where the player is now."""
+        """Return where the player is now."""
         return self._look().position
 
     def stand(self) -> GroundVector:

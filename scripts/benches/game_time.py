@@ -174,14 +174,14 @@ def train(scenario: Scenario, seed: int, preset: Preset, rate: float) -> Trial:
 
 
 def wrongly_learnt(learnt: list[list[int]], episodes: list[list[Transition]]) -> int:
-    """How many learnt transitions aren't those of the last RECENT episodes, in their order, or are missing."""
+    """Count the learnt transitions that aren't those of the last RECENT episodes, in their order, or are missing."""
     expected = [list(transition) for episode in episodes[-RECENT:] for transition in episode]
     differ = sum(one != other for one, other in zip(learnt, expected, strict=False))
     return differ + abs(len(learnt) - len(expected))
 
 
 def medians(trials: list[Trial]) -> dict[str, float]:
-    """The median minutes of each scenario."""
+    """Return the median minutes of each scenario."""
     names = dict.fromkeys(trial.scenario for trial in trials)
     return {name: statistics.median(trial.minutes for trial in trials if trial.scenario == name) for name in names}
 

@@ -51,11 +51,11 @@ class ScreenPresses:
         controls.key, controls.button = watched_key, watched_button  # type: ignore[method-assign,assignment]  # too
 
     def controller(self) -> InputController:
-        """The owner of held keys, whose presses are watched."""
+        """Return the owner of held keys, whose presses are watched."""
         return _WatchedController(self._client.devices, InputTable(), self)
 
     def sent(self, name: str) -> None:
-        """Something is pressed that is meant for the world."""
+        """Note that something is pressed that is meant for the world."""
         client = self._client
         if client.window.is_in_front:
             now, frame_s = client.clock.now(), 1 / client.settings.fps

@@ -60,7 +60,7 @@ class ClientSettings:
 
 
 def gui_scale(size: Size, wanted: int) -> int:
-    """The GUI scale that a window of that size gets: the one asked for, or the largest below it that fits.
+    """Return the GUI scale that a window of that size gets: the one asked for, or the largest below it that fits.
 
     0 asks for the largest that fits (FACTS: The F3 debug screen).
     """
@@ -69,7 +69,7 @@ def gui_scale(size: Size, wanted: int) -> int:
 
 
 def scales(size: Size, wanted: int, wanted_debug: int, edition: Edition) -> Scales:
-    """The scales of a window of that size; ``wanted_debug`` is ``debugGuiScale`` (FACTS: The F3 debug screen).
+    """Return the scales of a window of that size; ``wanted_debug`` is ``debugGuiScale`` (FACTS: The F3 debug screen).
 
     From 26.3 on that is 0 for half of the largest that fits, or a scale; it counts where it is below the GUI scale.
     """

@@ -40,7 +40,7 @@ PLACES: dict[int, str] = (
 
 
 def symbol_at(place: str, made: str | None, *, has_shift: bool) -> str:
-    """The key that LWJGL 2 takes the one at a place for, to 1.12 (FACTS: Input and windows); "" for none.
+    """Return the key that LWJGL 2 takes, to 1.12, for the one at a place (FACTS: Input and windows); "" for none.
 
     ``made`` is what it makes without Shift, as GLFW says. GLFW doesn't say what Shift makes; on no layout that is known
     here is it anything but a digit that the game has a use for, and that where the key makes none without it.

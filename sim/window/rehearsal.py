@@ -57,7 +57,7 @@ def rehearse(rehearsal: Rehearsal, on_open: Callable[[], None]) -> None:
 def _run(
     window: GlfwWindow, picture: WindowPicture, client: VirtualClient, fps: float, truth: TruthFile | None
 ) -> None:
-    """The game's loop: wait for the frame and take events meanwhile, run the ticks that are due, draw."""
+    """Run the game's loop: wait for the frame and take events meanwhile, run the ticks that are due, draw."""
     events = InputEvents(window, client)
     pacer = FramePacer(client.clock, fps, now())
     title = ""

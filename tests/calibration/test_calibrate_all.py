@@ -103,7 +103,7 @@ def client() -> VirtualClient:
 
 @pytest.fixture
 def profile(tmp_path: Path) -> Path:
-    """A profile that was there before."""
+    """Return a profile that was there before."""
     path = tmp_path / "mine.toml"
     save_profile(Profile(screen=ScreenTable(font=str(write_font(tmp_path)))), path)
     return path
@@ -388,7 +388,7 @@ class Room:
 
 
 def sets(**tables: object) -> StepFunction:
-    """A step that takes a second and finds these tables."""
+    """Make a step that takes a second and finds these tables."""
 
     def run(context: CalibrationContext, profile: Profile) -> StepResult:
         context.devices.clock.sleep_until(context.devices.clock.now() + 1)
@@ -398,7 +398,7 @@ def sets(**tables: object) -> StepFunction:
 
 
 def fails(error: BaseException) -> StepFunction:
-    """A step that fails after half a second, a key still down."""
+    """Make a step that fails after half a second, a key still down."""
 
     def run(context: CalibrationContext, _profile: Profile) -> StepResult:
         context.controller.confirm_screen("world")

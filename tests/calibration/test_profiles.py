@@ -33,7 +33,7 @@ from mc_nested.live.profile.tables import CalibratedTable, Profile, ScreenTable
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The profile folder with ``laptop``, which has every file there can be, and ``laptop-old``, which has two."""
+    """Return the profile folder with ``laptop``, which has every possible file, and ``laptop-old``, which has two."""
     monkeypatch.setattr(platformdirs, "user_config_path", lambda *_args, **_kwargs: tmp_path)
     folder = profile_folder()
     for name in ("laptop", "laptop-old"):

@@ -32,7 +32,7 @@ LENGTHS = {"font": 2.3, "clicks": 6.5}
 
 @pytest.fixture
 def file(tmp_path: Path) -> Path:
-    """An old profile with a comment in it."""
+    """Return an old profile with a comment in it."""
     path = tmp_path / "mine.toml"
     save_profile(profile_in(tmp_path), path)
     path.write_text("# by hand\n" + path.read_text("utf-8"), "utf-8")

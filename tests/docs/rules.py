@@ -108,7 +108,7 @@ LIVE_SNIPPET = 'backend="live"'
 
 
 def as_run(command: str) -> str:
-    """The command with its smallest sizes, where it takes long, and its ellipsis filled in."""
+    """Return the command with its smallest sizes, where it takes long, and its ellipsis filled in."""
     for ellipsis, meant in STANDS_FOR.items():
         command = command.replace(ellipsis, meant)
     if command.startswith(AS_THEY_ARE) or "--resume" in command:
@@ -118,11 +118,11 @@ def as_run(command: str) -> str:
 
 
 def what_it_does(command: str) -> frozenset[str]:
-    """A command's words without its sizes, its seed and its run's folder: two that have the same do the same."""
+    """Return a command's words without its sizes, its seed and its run's folder: two that have the same do the same."""
     return frozenset(_OF_NO_MATTER.sub("", as_run(command)).split())
 
 
 def is_live(command: str) -> bool:
-    """Whether it plays in, or looks at, the game's window."""
+    """Return whether it plays in, or looks at, the game's window."""
     words = shlex.split(command)
     return "--backend live" in command or (words[0] == "mc-nested" and words[1] in LIVE)

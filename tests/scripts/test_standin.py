@@ -60,7 +60,7 @@ def test_without_the_programs_one_line_says_how_to_get_them(
 
 
 def keeper(code: str) -> tuple[str, ...]:
-    """A program in the keeper's place, which has its lock."""
+    """Put a program in the keeper's place, which has its lock."""
     begin = "import json, os, sys, time; from pathlib import Path; from mc_nested.file_lock import file_lock\n"
     begin += "from scripts.standin_game import KEEPER, STATE\ncache = Path(sys.argv[1])\n"
     return (sys.executable, "-c", f"{begin}with file_lock(cache / KEEPER):\n{textwrap.indent(code, '    ')}")
@@ -83,7 +83,7 @@ server.serve_forever()
 
 @pytest.fixture
 def kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Callable[[str], Path]]:
-    """Puts a program in the keeper's place; returns the cache."""
+    """Put a program in the keeper's place, and return the cache."""
     monkeypatch.setattr(script, "fetch_all", lambda *_: None)
 
     def keeps(code: str) -> Path:

@@ -50,7 +50,7 @@ def windows_program(name: str) -> Program:
 
 
 def place_of_tests(module: Path) -> Path:
-    """Where a module's tests are: their tree is that of the modules, without the package's own name."""
+    """Return where a module's tests are: their tree is that of the modules, without the package's own name."""
     parts = module.parts[1:] if module.parts[0] == "mc_nested" else module.parts
     return Path("tests", *parts[:-1], f"test_{module.name}")
 

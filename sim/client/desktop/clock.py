@@ -54,13 +54,13 @@ class Frames:
     phase_s: float = 0.0
 
     def at_or_after(self, time_s: float) -> float:
-        """The time of the first frame that isn't before ``time_s``."""
+        """Return the time of the first frame that isn't before ``time_s``."""
         if math.isinf(self.fps):
             return time_s
         return self.phase_s + math.ceil((time_s - self.phase_s) * self.fps - _EXACT) / self.fps
 
     def at_or_before(self, time_s: float) -> float:
-        """The time of the last frame that isn't after ``time_s``."""
+        """Return the time of the last frame that isn't after ``time_s``."""
         if math.isinf(self.fps):
             return time_s
         return self.phase_s + math.floor((time_s - self.phase_s) * self.fps + _EXACT) / self.fps

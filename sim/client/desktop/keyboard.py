@@ -86,18 +86,18 @@ LAYOUTS = tuple(_ROWS)
 
 
 def characters_of(layout: str) -> Layout:
-    """What each place types without Shift and with it."""
+    """Return what each place types without Shift and with it."""
     plain, shifted = _ROWS[layout]
     return {place: (plain[at], shifted[at]) for at, place in enumerate(_PLACES)}
 
 
 def taken_by_lwjgl(characters: Layout) -> Layout:
-    """The keys that LWJGL 2 takes the places for that type these characters; "" for none."""
+    """Return, by place, the keys that LWJGL 2 takes the places for that type these characters; "" for none."""
     return {place: (key_of(plain), key_of(shifted)) for place, (plain, shifted) in characters.items()}
 
 
 def key_of(character: str) -> str:
-    """The key that LWJGL 2 has for a character; "" for none."""
+    """Return the key that LWJGL 2 has for a character; "" for none."""
     key = character.lower()
     return key if key in _LWJGL_2 else ""
 
@@ -146,7 +146,7 @@ class VirtualKeySender:
         return self._lwjgl
 
     def _taken_for(self, place: str, *, has_shift: bool) -> str:
-        """The key that the game takes the one at a place for, going down or up; "" for none."""
+        """Return the key that the game takes for the one at a place, when that goes down or up; "" for none."""
         if not self._is_lwjgl_2 or place not in self._lwjgl:
             return place
         plain, shifted = self._lwjgl[place]

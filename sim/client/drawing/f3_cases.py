@@ -49,7 +49,7 @@ _TAGS = ("minecraft:planks", "minecraft:mineable/axe", "c:villager_job_sites")
 def frames(
     font: Font, seed: int, windows: tuple[tuple[int, int], ...] = WINDOWS, layouts: tuple[Layout, ...] = LAYOUTS
 ) -> Iterator[tuple[F3Screen, Frame]]:
-    """Endless screens and their frames: each layout, GUI scale 1 to 8 and window in turn, over random kinds of worlds.
+    """Yield endless screens and their frames: each layout, GUI scale 1 to 8 and window in turn, over random worlds.
 
     As in the game, a GUI scale that doesn't fit the window becomes the largest that fits (FACTS: The F3 debug screen).
     """
@@ -76,7 +76,7 @@ def random_screen(
     *,
     has_more: bool = True,
 ) -> F3Screen:
-    """A screen with coordinates of one of these reaches, any view, and mostly a target block.
+    """Return a screen with coordinates of one of these reaches, any view, and mostly a target block.
 
     From 1.21.9 on it may have other entries than the tutorial asks for, unless ``has_more`` is false.
     """
@@ -107,7 +107,7 @@ def random_screen(
 
 
 def _chosen(rng: np.random.Generator, layout: Layout, block: Block) -> dict[str, Any]:
-    """From 1.21.9 on, a version, and entries that are on with the tutorial's or in their place."""
+    """Return a version and entries, random ones, for a layout from 1.21.9 on; nothing for an older layout."""
     if layout not in BY_ENTRIES:
         return {}
     version = str(rng.choice(_BY_ENTRIES[layout]))
@@ -125,7 +125,7 @@ def _chosen(rng: np.random.Generator, layout: Layout, block: Block) -> dict[str,
 
 
 def expected(screen: F3Screen) -> Reading:
-    """What a perfect reader reads: the numbers as shown."""
+    """Return what a perfect reader reads: the numbers as shown."""
     x, y, z = screen.xyz
     height = round(y, 3 if screen.layout == "standin" else 5)
     return Reading((round(x, 3), height, round(z, 3)), round(screen.yaw, 1), round(screen.pitch, 1), screen.target)

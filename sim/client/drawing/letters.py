@@ -35,7 +35,7 @@ class Letters:
         self._dots = lru_cache(_KEPT)(self._drawn)
 
     def width(self, text: str) -> int:
-        """A text's width in the game, in GUI pixels; characters that the font lacks are question marks."""
+        """Return a text's width in the game, in GUI pixels; characters that the font lacks are question marks."""
         return len(self._columns(text))
 
     def text(
@@ -49,7 +49,7 @@ class Letters:
         size: int = 1,
         is_slanted: bool = False,
     ) -> Ink:
-        """A text with its upper left corner at a position in GUI pixels; ``size`` is 2 for a large title.
+        """Return a text with its upper left corner at a position in GUI pixels; ``size`` is 2 for a large title.
 
         A slanted one reaches a GUI pixel beyond that corner, and beyond its right edge.
         """
@@ -90,7 +90,7 @@ def _enlarged(dots: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
 
 
 def _slanted(dots: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
-    """Dots at ``step`` pixels each, a dot wider on either side: the top is a dot to the right, the bottom to the left.
+    """Return text as slanted dots, ``step`` pixels each: the top is a dot to the right, the bottom a dot to the left.
 
     A quarter of a dot a dot, of each pixel's middle (FACTS: The chat's line).
     """
@@ -103,7 +103,7 @@ def _slanted(dots: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
 
 @lru_cache(32)
 def _sheet(colour: Colour, height: int, width: int) -> NDArray[np.uint8]:
-    """Nothing but that colour: texts without a shadow share it."""
+    """Return a sheet of nothing but that colour, which texts without a shadow share."""
     return np.full((height, width, 3), colour[::-1], np.uint8)
 
 

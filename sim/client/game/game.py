@@ -225,7 +225,7 @@ class VirtualGame:
     def view(
         self, fps: int = 60, size: tuple[int, int] = (854, 480), scale: int = 2, *, is_drawn: bool = False
     ) -> View:
-        """What the game shows now; its debug screen names ``fps`` frames a second and a window of that size in pixels.
+        """Return what the game shows now. Its debug screen names ``fps`` frames a second and that window in pixels.
 
         ``scale`` is that of the debug screen. ``is_drawn`` adds the world as the player sees it.
         """
@@ -266,7 +266,7 @@ class VirtualGame:
         return None if chat.typed is None else TypedLine(chat.typed, chat.is_draft, self.options.typed_ground)
 
     def sight(self) -> Sight:
-        """The world as the player sees it now."""
+        """Return the world as the player sees it now."""
         player, world = self.realm.player, self.realm.world
         hit = self.target_block(self.reach())
         stack = player.hotbar[player.slot]
@@ -280,7 +280,7 @@ class VirtualGame:
         )
 
     def target_block(self, reach: float) -> Hit | None:
-        """The block that the player looks at, if it is within ``reach`` blocks."""
+        """Return the block that the player looks at, if it is within ``reach`` blocks."""
         player, world = self.realm.player, self.realm.world
         now = (player.feet, player.yaw, player.pitch, player.is_sneaking, world.revision)
         if self._looked[0] != now:
@@ -299,12 +299,12 @@ class VirtualGame:
         return hit if hit is not None and hit.distance <= reach else None
 
     def _aim(self) -> tuple[physics.Vector, float, float]:
-        """The eyes' position and the view, in blocks and degrees."""
+        """Return the eyes' position and the view, in blocks and degrees."""
         player = self.realm.player
         return self.realm.eye(), player.yaw, player.pitch
 
     def reach(self) -> float:
-        """Blocks from the eye within which blocks can be placed."""
+        """Return how far from the eye blocks can be placed, in blocks."""
         return _REACH[self.realm.player.mode]
 
     def _finish_loading(self) -> None:

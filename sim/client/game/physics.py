@@ -33,7 +33,7 @@ class Ground:
     speed: float = 1.0
 
     def under(self, gait: Gait) -> "Ground":
-        """The ground as a player of that gait feels it: sprinting pushes more."""
+        """Return the ground as a player of that gait feels it: sprinting pushes more."""
         return Ground(self.slipperiness, self.speed * SPRINTING) if gait == "sprint" else self
 
     @property
@@ -64,7 +64,7 @@ _STEP_DOWN, _BACK_OFF = 0.6, 0.05
 
 
 def displacement(ticks: int, gait: Gait, ground: Ground = STONE) -> float:
-    """Blocks covered by holding forward for so many ticks from rest, then coasting to a stop."""
+    """Return the blocks covered by holding forward for so many ticks from rest, then coasting to a stop."""
     push = INPUT * (SNEAKING if gait == "sneak" else 1.0) * ground.under(gait).acceleration
     covered = velocity = 0.0
     tick = 0
@@ -77,7 +77,7 @@ def displacement(ticks: int, gait: Gait, ground: Ground = STONE) -> float:
 
 
 def wish(forward: int, left: int, gait: Gait, yaw: float) -> tuple[float, float]:
-    """The input of held keys, east and south, of length 1 at most. Each key is 1, 0 or -1, yaw in degrees."""
+    """Return the input of held keys, east and south, of length 1 at most. Each key is 1, 0 or -1, yaw in degrees."""
     strength = INPUT * (SNEAKING if gait == "sneak" else 1.0)
     ahead, aside = forward * strength, left * strength
     length = math.hypot(ahead, aside)
@@ -98,7 +98,7 @@ def step(
     ground: Ground = STONE,
     sneaks: bool = False,
 ) -> tuple[Vector, Vector, bool]:
-    """One tick: the feet and the velocity (blocks, blocks a tick) after it, and whether the player stands on something.
+    """Return the feet, the velocity (blocks, blocks a tick) after one tick, and whether the player stands on something.
 
     ``push`` is what ``wish`` returns; ``height`` is the player's. A player that sneaks on the ground stops at edges.
     """
@@ -124,7 +124,7 @@ def step(
 
 
 def _kept_from_edge(feet: Vector, motion: tuple[float, float], height: float, is_solid: IsSolid) -> tuple[float, float]:
-    """The longest part of a step east and south with ground below: each shortened alone, then both."""
+    """Return the longest part of a step east and south with ground below: each shortened alone, then both."""
     x, y, z = feet
     east, south = motion
 
@@ -145,7 +145,7 @@ def _shortened(motion: float) -> float:
 
 
 def overlaps(feet: Vector, height: float, block: tuple[int, int, int]) -> bool:
-    """Whether a player whose feet are there and a block overlap."""
+    """Return whether a block overlaps a player whose feet are there."""
     return all(
         low + _TOUCH < block[axis] + 1 and high - _TOUCH > block[axis]
         for axis, (low, high) in enumerate(_sides(feet, height))
@@ -153,7 +153,7 @@ def overlaps(feet: Vector, height: float, block: tuple[int, int, int]) -> bool:
 
 
 def is_free(feet: Vector, height: float, is_solid: IsSolid) -> bool:
-    """Whether a player fits there."""
+    """Return whether a player fits there."""
     xs, ys, zs = (_cells(low, high) for low, high in _sides(feet, height))
     return not any(is_solid(x, y, z) for y in ys for x in xs for z in zs)
 
@@ -168,7 +168,7 @@ def _cells(low: float, high: float) -> range:
 
 
 def _stopped(feet: list[float], axis: int, motion: float, height: float, is_solid: IsSolid) -> float:
-    """The feet's coordinate after moving along one axis by ``motion``, or up to the first block in the way."""
+    """Return the feet's coordinate after moving along one axis by ``motion``, or up to the first block in the way."""
     sides = _sides(feet, height)
     front = sides[axis][motion > 0]
     others = [_cells(*sides[other]) for other in range(3) if other != axis]
@@ -202,7 +202,7 @@ class Gaits:
         self._window = 0
 
     def tick(self, *, is_forward: bool, sneaks: bool, may_sprint: bool) -> Gait:
-        """The gait of this tick.
+        """Return the gait of this tick.
 
         Args:
             is_forward: whether forward is down, and back isn't.
@@ -229,12 +229,12 @@ WIDTH = 2 * HALF_WIDTH
 
 
 def touches(one: Vector, other: Vector, height: float) -> bool:
-    """Whether players of that height whose feet are there are in each other's way."""
+    """Return whether two players of that height, whose feet are there, are in each other's way."""
     return abs(one[0] - other[0]) < WIDTH and abs(one[2] - other[2]) < WIDTH and abs(one[1] - other[1]) < height
 
 
 def kept_apart(before: Vector, after: Vector, others: Collection[Vector], height: float) -> Vector:
-    """Where a step from ``before`` that blocks would let end at ``after`` ends, with others standing there.
+    """Return where a step ends that blocks let go from ``before`` to ``after``, with others standing there.
 
     Each way is taken alone: one that leads into another player isn't gone at all. Who is in somebody already, as after
     a teleport, may go on.

@@ -53,7 +53,7 @@ def built(client: VirtualClient, folder: Path, questions: list[str] | None = Non
 
 
 def spoil(client: VirtualClient) -> None:
-    """A trunk in the arena, a hole in its floor, and a block beside it."""
+    """Put a trunk in the arena, a hole in its floor, and a block beside it."""
     client.realm.world.put((3, 64, 6), "stone")
     client.realm.world.put((3, 63, 9), "air")
     client.realm.world.put((12, 64, 6), "dirt")
@@ -213,7 +213,7 @@ def test_a_scenario_smaller_than_its_arena_is_played_in_the_arenas_near_left_cor
 
 
 def standing_on(client: VirtualClient, arena: Arena) -> set[Cell]:
-    """The cells of the arena that hold a block."""
+    """Return the cells of the arena that hold a block."""
     return {
         (x, y)
         for x in range(arena.size)
@@ -365,7 +365,7 @@ def test_the_note_is_written_before_anything_is_built(tmp_path: Path, monkeypatc
 
 
 def left_early(client: VirtualClient, folder: Path) -> tuple[Profile, Path]:
-    """A profile without an arena, whose file isn't there, with the note of one that was built."""
+    """Return a profile without an arena, whose file isn't there, with the note of one that was built."""
     file = folder / "new.toml"
     with context_on(client)(profile_of(client, folder)) as context:
         build_arena(context, profile_of(client, folder), path=file)
@@ -444,7 +444,7 @@ def test_what_can_not_be_kept_for_the_report_is_a_warning(tmp_path: Path) -> Non
 
 
 def pressed_on(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
-    """The keys that are pressed from here on."""
+    """Return the keys that are pressed from here on."""
     pressed: list[str] = []
     press = client.keyboard.press
 
@@ -457,7 +457,7 @@ def pressed_on(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
 
 
 def shared(client: VirtualClient, patch: pytest.MonkeyPatch) -> list[str]:
-    """Makes the client's world one that others may share; the keys that are pressed from here on."""
+    """Make the client's world one that others may share; return the keys that are pressed from here on."""
     patch.setattr(client.display, "title", lambda: "Minecraft 1.20.1 - Multiplayer (LAN)")
     return pressed_on(client, patch)
 
@@ -537,7 +537,7 @@ def test_a_chat_that_is_opened_meanwhile_is_closed_or_is_one_line(after_s: float
 
 
 def disturbed(kind: Kind, after_s: float, folder: Path) -> VirtualClient:
-    """A client with a profile in ``folder``, where such a mishap is to happen at about that time."""
+    """Return a client with a profile in ``folder``, where such a mishap is to happen at about that time."""
     client = VirtualClient()
     save_profile(profile_of(client, folder), folder / "mine.toml")
     for try_s in range(10):

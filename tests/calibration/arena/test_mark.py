@@ -141,7 +141,7 @@ BLANK = np.zeros((8, 8, 3), np.uint8)
 
 @pytest.fixture
 def font_file(tmp_path: Path) -> Path:
-    """A made-up font: each character's code drawn as two columns of dots beside a stroke."""
+    """Return a made-up font: each character's code drawn as two columns of dots beside a stroke."""
     atlas = np.zeros((128, 128, 4), np.uint8)
     for code in range(ord("!"), ord("~") + 1):
         top, left = code // 16 * 8, code % 16 * 8

@@ -65,7 +65,7 @@ WORLDS = ["noise", "bright", "dark", "specks", "grey noise"]
 
 
 def true_middle(client: VirtualClient, name: str) -> tuple[float, float]:
-    """The middle of a point's button as the client draws it, in framebuffer pixels."""
+    """Return the middle of a point's button as the client draws it, in framebuffer pixels."""
     screen, label = LABELS[name]
     width, height = client.window.size
     gui = -(-width // client.scale), -(-height // client.scale)

@@ -35,7 +35,7 @@ def computer(tmp_path: Path) -> Computer:
 
 
 def client_in(change: Callable[[VirtualClient], object], choices: ClientSettings = LOOKING_DOWN) -> VirtualClient:
-    """A virtual client to which something has happened a moment ago."""
+    """Return a virtual client to which something has happened a moment ago."""
     client = VirtualClient(choices)
     change(client)
     client.clock.sleep(SOON_S)
@@ -43,11 +43,11 @@ def client_in(change: Callable[[VirtualClient], object], choices: ClientSettings
 
 
 def as_it_was(_client: VirtualClient) -> None:
-    """Nothing happens."""
+    """Change nothing."""
 
 
 def is_untouched(client: VirtualClient) -> bool:
-    """Whether no key is down, no other window was typed into, and the world is as it was."""
+    """Return whether no key is down, no other window was typed into, and the world is as it was."""
     return not client.window.down and not client.window.strays and not client.built
 
 

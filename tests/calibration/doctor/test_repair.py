@@ -34,7 +34,7 @@ def computer(tmp_path: Path) -> Computer:
 
 
 def repaired_in(computer: Computer, found: Examination) -> tuple[bool, str]:
-    """Whether it was repair, and the last thing that was said."""
+    """Return whether it was repaired, and the last thing that was said."""
     is_done = repair(found, computer.said.append)
     return is_done, computer.said[-1]
 
@@ -101,7 +101,7 @@ OF_26_3 = GOOD.replace("version:3465", "version:5023")
 
 
 def uncalibrated(computer: Computer, entries: str | None) -> Computer:
-    """The computer with 26.3 installed, never calibrated, with that debug-profile.json or none."""
+    """Return the computer with 26.3 installed, never calibrated, with that debug-profile.json or none."""
     computer.save(Profile(screen=ScreenTable(font=str(computer.font))))
     computer.options.write_text(OF_26_3, "utf-8")
     computer.entries.unlink()

@@ -150,7 +150,7 @@ def shown() -> Frame:
 
 
 def levelled(frame: Frame, darkest: float, brightest: float) -> Frame:
-    """The frame with its levels squeezed into that range."""
+    """Return the frame with its levels squeezed into that range."""
     found: Frame = (darkest + frame.astype(np.float32) * (brightest - darkest) / 255).astype(np.uint8)
     return found
 

@@ -29,7 +29,7 @@ def sources_in(folder: Path) -> FontSources:
 
 
 def flipped() -> Font:
-    """Another font: every glyph upside down."""
+    """Return another font: every glyph upside down."""
     return Font({char: bytes(int(f"{byte:08b}"[::-1], 2) for byte in columns) for char, columns in FONT.glyphs.items()})
 
 
@@ -232,7 +232,7 @@ def painted(scale: int) -> Frame:
 
 
 def grey_with(share: float, shade: int) -> Frame:
-    """A frame whose upper left, half as high and a third as wide, has that shade in a share of its pixels."""
+    """Return a frame whose upper left, half as high and a third as wide, has that shade in a share of its pixels."""
     frame: Frame = np.full((200, 300, 3), 120, np.uint8)
     frame[:100, :100].reshape(-1, 3)[:] = 120
     frame[0, : round(share * 100 * 100)] = shade

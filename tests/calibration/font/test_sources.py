@@ -19,7 +19,7 @@ from tests.calibration.contexts import font_file_in
 
 @pytest.fixture
 def game(tmp_path: Path) -> Path:
-    """The game folder of a Linux user with two versions and two packs."""
+    """Return the game folder of a Linux user with two versions and two packs."""
     folder = tmp_path / ".minecraft"
     for version in ("1.12.2", "1.20.1"):
         (folder / "versions" / version).mkdir(parents=True)

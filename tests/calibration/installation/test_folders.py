@@ -19,7 +19,7 @@ def system(home: Path, platform: Platform = "linux", **environment: str) -> Syst
 
 
 def game(folder: Path, used: float = 1000.0) -> Path:
-    """A game folder whose options.txt was written at that time."""
+    """Return a game folder whose options.txt was written at that time."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "options.txt").write_text("lang:en_us\n", "utf-8")
     os.utime(folder / "options.txt", (used, used))

@@ -13,7 +13,7 @@ from mc_nested.live.profile.tables import Profile, ScreenTable
 
 
 def code_of(*words: str | Path) -> int | str | None:
-    """The exit code of the command."""
+    """Return the exit code of the command."""
     with pytest.raises(SystemExit) as ended:
         main(["calibrate", "report", *map(str, words)])
     return ended.value.code

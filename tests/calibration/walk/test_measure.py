@@ -26,7 +26,7 @@ LATER = [pytest.param(after_s, marks=pytest.mark.slow) for after_s in (15.0, 40.
 
 
 def measured(client: VirtualClient, folder: Path, profile: Profile | None = None) -> StepResult:
-    """What is found, in less than 90 seconds of game time, with no key left down and none to another window."""
+    """Measure in less than 90 seconds of game time, with no key left down and none to another window."""
     profile = profile or profile_of(client, folder)
     began = client.clock.now()
     with context_on(client)(profile) as context:
@@ -38,7 +38,7 @@ def measured(client: VirtualClient, folder: Path, profile: Profile | None = None
 
 
 def off_held_out(client: VirtualClient, found: StepResult, patch: pytest.MonkeyPatch) -> float:
-    """How far off new holds end that the profile predicts by the ticks that truly felt them: RMS, in blocks."""
+    """Return how far off new holds end that the profile predicts by the ticks truly felt: RMS, in blocks."""
     felt: list[bool] = []
     tick = client.game.tick
 
@@ -303,7 +303,7 @@ def test_in_a_game_that_others_may_share_nothing_is_pressed(tmp_path: Path, monk
 
 @pytest.fixture
 def kept(tmp_path: Path) -> Path:
-    """A profile's file, which names no walk of its own."""
+    """Return a profile's file, which names no walk of its own."""
     file = tmp_path / "mine.toml"
     save_profile(profile_of(VirtualClient(), tmp_path), file)
     return file

@@ -7,7 +7,7 @@ from sim.client.client import VirtualClient
 
 
 def pressed_after(opened_s: float, screen: str = "pause") -> tuple[int, int]:
-    """What is counted where a key is pressed so many seconds after a screen opened, without looking."""
+    """Return what is counted if a key is pressed so many seconds after a screen opened, without looking."""
     client = VirtualClient(version="26.3")
     presses = ScreenPresses(client)
     controller = presses.controller()

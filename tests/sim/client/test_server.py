@@ -19,7 +19,7 @@ def way_of(client: VirtualClient) -> Recovery:
 
 
 def titled(client: VirtualClient, monkeypatch: pytest.MonkeyPatch, title: str) -> None:
-    """From here on the window says that in a world, and on other screens what it says there."""
+    """Make the window say that in a world from here on, and on other screens what it says there."""
     says = type(client.display).title
 
     def title_now() -> str:

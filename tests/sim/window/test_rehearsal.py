@@ -69,7 +69,7 @@ class Played:
 
 
 def soon(is_so: Callable[[], bool], patience_s: float = SOON_S) -> bool:
-    """Whether it comes true before long."""
+    """Return whether it comes true before long."""
     end = time.monotonic() + patience_s
     while not is_so():
         if time.monotonic() > end:
@@ -88,7 +88,7 @@ def connected(env: dict[str, str]) -> Iterator[Display]:
 
 
 def is_game(window: Any) -> bool:
-    """Whether a window has the game's title. GLFW has an invisible one beside it, without a title."""
+    """Return whether a window has the game's title. GLFW has an invisible one beside it, without a title."""
     return str(window.get_wm_name() or "").startswith("Minecraft")
 
 

@@ -10,7 +10,7 @@ SIDES = st.tuples(st.integers(-20, 90), st.integers(-20, 90)).map(sorted)
 
 
 def covered(rects: list[Rect]) -> np.ndarray[tuple[int, ...], np.dtype[np.int_]]:
-    """How many of the triangles' pairs lie over each pixel."""
+    """Return how many of the triangles' pairs lie over each pixel."""
     counts = np.zeros((SIZE[1], SIZE[0]), int)
     pairs = triangles(rects, SIZE).reshape(-1, 6, 2)
     for pair in (pairs - (-1, 1)) / (1, -1) * SIZE / 2:

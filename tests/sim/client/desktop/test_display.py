@@ -19,7 +19,7 @@ PLAIN = View(MenuState("world"), (0, 64, 0))
 
 
 def moved(x: int) -> View:
-    """A view whose world is shifted by 7 pixels a block."""
+    """Return a view whose world is shifted by 7 pixels a block."""
     return View(MenuState("world"), (x, 64, 0))
 
 

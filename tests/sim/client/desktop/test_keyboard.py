@@ -30,7 +30,7 @@ class Typed:
         self.keyboard = DesktopKeyboard(self.sender)
 
     def held(self) -> set[str]:
-        """The keys that the game takes for down."""
+        """Return the keys that the game takes for down."""
         self.clock.sleep(0.01)
         return self.game.keys.physical
 

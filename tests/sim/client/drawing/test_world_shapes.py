@@ -82,7 +82,7 @@ ANGLES = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
 
 
 def seen(point: tuple[float, float, float], yaw: float, pitch: float) -> NDArray[np.float64]:
-    """Where a point is drawn, for an eye at (0.5, 1.62, 0.5) in a window twice as wide as high: -1 to 1."""
+    """Return where a point is drawn, for an eye at (0.5, 1.62, 0.5) in a window twice as wide as high: -1 to 1."""
     camera = projection(200, 100) @ view((0.5, 1.62, 0.5), yaw, pitch)
     x, y, z, w = camera @ np.array([*point, 1.0])
     assert w > 0, "it lies in front"

@@ -34,7 +34,7 @@ ticks = st.integers(1, 60)
 
 
 def covered(held: int, push: float) -> float:
-    """The same way as two geometric series: setting off, then coasting while the step is 0.003 or more."""
+    """Return the same way as two geometric series: setting off, then coasting while the step is 0.003 or more."""
     setting_off = sum(push * (1 - INERTIA**tick) / (1 - INERTIA) for tick in range(1, held + 1))
     last = push * (1 - INERTIA**held) / (1 - INERTIA)
     coasting = math.floor(math.log(0.003 / last) / math.log(INERTIA))
@@ -164,13 +164,13 @@ def test_a_walking_player_walks_over_an_edge() -> None:
 
 
 def gaits_of(keys: Sequence[str], version: str = "1.20.1", may_sprint: bool = True) -> list[Gait]:
-    """The gaits of ticks in which these keys are down: any of w and s (for sneak)."""
+    """Return the gaits of ticks in which these keys are down: any of w and s (for sneak)."""
     gaits = Gaits(Edition(version))
     return [gaits.tick(is_forward="w" in down, sneaks="s" in down, may_sprint=may_sprint) for down in keys]
 
 
 def twice(apart: int) -> list[str]:
-    """Forward down in tick 0, and in two ticks from ``apart`` on."""
+    """Hold forward in tick 0, and in two ticks from ``apart`` on."""
     return ["w", *[""] * (apart - 1), "w", "w"]
 
 
