@@ -176,7 +176,10 @@ class GridVectorEnv(VectorEnv[Int64s, Int64s, Any]):
         return cells_of(self._cells(self._solid, run))
 
     def occupied(self) -> Bools:
-        """The cells where a block landed since each arena's last reset, (runs, size, size); arenas of one size."""
+        """Return the cells where a block landed since each arena's last reset, (runs, size, size).
+
+        All arenas must be of one size.
+        """
         return np.stack([self._cells(self._solid, run) for run in range(self.num_envs)])
 
     @property

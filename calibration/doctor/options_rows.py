@@ -54,7 +54,7 @@ def _visibility(value: str | None) -> Check:
 
 
 def _background(values: Mapping[str, str]) -> Check:
-    """Check that text has the chosen opacity behind it: only if the text background is set to be everywhere."""
+    """Check the text background: typed text has the chosen opacity behind it only if that is set to be everywhere."""
     row, opacity = CheckName.TEXT_BACKGROUND, values.get(_OPACITY)
     if opacity is None:
         return Check(row, "skip", "the file doesn't say: this version may not have it")
@@ -71,7 +71,7 @@ def _background(values: Mapping[str, str]) -> Check:
 
 
 def _friends(value: str | None) -> Check:
-    """Check the key that opens the list of friends, at once, in the world and in the game's menus."""
+    """Check the key that at once opens the list of friends, in the world and in the game's menus."""
     row = CheckName.FRIENDS_KEY
     if value is None:
         return Check(row, "skip", "the file doesn't say: this version may not have it")

@@ -119,7 +119,7 @@ def walk(context: CalibrationContext, profile: Profile) -> StepResult:
 
 
 def _measure(profile: Profile, survey: Survey, *, is_floor_free: bool, walks_back: bool) -> StepResult:
-    """Return the survey, and what fits it. Where the floor isn't known to be free, it is found by sneaking."""
+    """Measure, and return what fits the survey. Where the floor isn't known to be free, it is found by sneaking."""
     keys = survey.find_keys()
     if is_floor_free:
         survey.sneak_on_known_floor()

@@ -108,7 +108,7 @@ def contestant(name: str, core: int, cores: int) -> Slices | None:
 
 
 def on_a_core(pipe: Connection, names: Sequence[str], core: int, cores: int) -> None:
-    """Run a process of its own: whenever a contestant and seconds come in, its updates a second go out."""
+    """Serve as a process of its own: for each contestant and seconds that come in, send its updates a second."""
     torch.set_num_threads(1)
     work = {name: contestant(name, core, cores) for name in names}
     while (task := pipe.recv()) is not None:

@@ -151,7 +151,10 @@ def live_game(
     walk_table: WalkTable | None = None,
     controller: InputController | None = None,
 ) -> LiveGame:
-    """A live game on a virtual client, whose player walks like that, or as usual; pressed by that controller."""
+    """Return a live game on a virtual client.
+
+    Its player walks as in ``walk_table``, or as usual; ``controller``, if given, presses its keys.
+    """
     return LiveGame(
         scenario,
         Profile(game=GameVersion(version=client.settings.version), arena=arena, walk=walk_table or WalkTable()),

@@ -178,7 +178,7 @@ def _decimals(screen: F3Screen) -> tuple[int, int, int]:
 
 
 def _for_tesseract(line: Frame, scale: int) -> Frame:
-    """Return letters 28 pixels high: of several ways to prepare the lines, the one it read most of."""
+    """Return letters 28 pixels high: of several ways to prepare lines, Tesseract read most of them this way."""
     ink = cv2.inRange(line, (220,) * 3, (255,) * 3)
     large = cv2.resize(cv2.bitwise_not(ink), None, fx=4 / scale, fy=4 / scale, interpolation=cv2.INTER_NEAREST)
     framed = cv2.copyMakeBorder(large, 20, 20, 20, 20, cv2.BORDER_CONSTANT, value=(255,))

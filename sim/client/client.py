@@ -153,7 +153,7 @@ class VirtualClient:
         return self.window.is_in_front and self.game.screen == "world"
 
     def new_layers(self) -> ViewLayers:
-        """Return what a view's GUI is made of, in the window's present size."""
+        """Return the layers that draw a view's GUI, in the window's present size."""
         settings = self.settings
         return ViewLayers(self.window.size, self.scales, self._font, self.edition, settings.words)
 

@@ -76,7 +76,10 @@ def test_a_command_reaches_the_window_to_the_letter(windows: Session) -> None:
 
 @pytest.fixture(params=["fr", "de", "ru"])
 def other_layout(request: pytest.FixtureRequest, windows: Session) -> Iterator[None]:
-    """Another keyboard layout, which Wine's programs take from the screen as they start; not a variant, as Dvorak's."""
+    """Set another keyboard layout, which Wine's programs take from the screen as they start.
+
+    It is not a variant, as Dvorak's is.
+    """
     set_layout(request.param, windows.env)
     yield
     set_layout("us", windows.env)

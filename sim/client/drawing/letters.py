@@ -111,7 +111,10 @@ _FIELD = 7
 
 
 def drawn_atlas() -> NDArray[np.uint8]:
-    """The font picture (128, 128, 4): 16 x 16 cells of 8 x 8 dots, white, alpha 0 or 255 (FACTS: The bitmap font)."""
+    """Return the font picture (128, 128, 4): 16 x 16 cells of 8 x 8 dots (FACTS: The bitmap font).
+
+    Its dots are white; alpha is 0 or 255.
+    """
     atlas = np.full((128, 128, 4), (255, 255, 255, 0), np.uint8)
     for char, cell in _drawings().items():
         top, left = (index * _ROWS for index in divmod(ord(char), 16))

@@ -225,9 +225,9 @@ class VirtualGame:
     def view(
         self, fps: int = 60, size: tuple[int, int] = (854, 480), scale: int = 2, *, is_drawn: bool = False
     ) -> View:
-        """Return what the game shows now. Its debug screen names ``fps`` frames a second and that window in pixels.
+        """Return what the game shows now.
 
-        ``scale`` is that of the debug screen. ``is_drawn`` adds the world as the player sees it.
+        Its debug screen names ``fps`` frames a second and a window of ``size`` pixels. ``scale`` is that of the debug screen. ``is_drawn`` adds the world as the player sees it.
         """
         player = self.realm.player
         is_ready = self.screen != "death" or self.ticks - self._since >= DEATH_WAIT
@@ -289,7 +289,10 @@ class VirtualGame:
         return hit if hit is not None and hit.distance <= reach else None
 
     def target_on_f3(self) -> Hit | None:
-        """The block that the debug screen names, from where the eyes were a tick ago (FACTS: The F3 debug screen)."""
+        """Return the block that the debug screen names.
+
+        It is seen from where the eyes were a tick ago (FACTS: The F3 debug screen).
+        """
         eye, yaw, pitch = self._before
         world, reach = self.realm.world, SIGHT if self.edition.since(1, 13) else self.reach()
         now = (self._before, world.revision)

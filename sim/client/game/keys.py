@@ -66,7 +66,7 @@ class GameKeys:
         self._presses.clear()
 
     def leave_world(self) -> None:
-        """Do as ``leave``, and end what a button has begun: a screen opens."""
+        """Forget keys as ``forget`` does, and end what a button has begun: a screen opens."""
         self.forget()
         self._held -= _OF_BUTTONS
 

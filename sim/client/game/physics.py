@@ -234,10 +234,11 @@ def touches(one: Vector, other: Vector, height: float) -> bool:
 
 
 def kept_apart(before: Vector, after: Vector, others: Collection[Vector], height: float) -> Vector:
-    """Return where a step ends that blocks let go from ``before`` to ``after``, with others standing there.
+    """Return where a step from ``before`` ends when other players stand in its way.
 
-    Each way is taken alone: one that leads into another player isn't gone at all. Who is in somebody already, as after
-    a teleport, may go on.
+    ``after`` is where it would end if only blocks were in its way. Each axis is taken alone: a move along one that
+    leads into another player is not made at all. A player who already overlaps somebody, as after a teleport, may
+    move on.
     """
     around = [other for other in others if not touches(before, other, height)]
 

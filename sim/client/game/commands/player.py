@@ -66,7 +66,10 @@ def item(realm: Realm, words: list[str]) -> str:
 
 
 def replaceitem(realm: Realm, words: list[str]) -> str:
-    """Before 1.17: ``/replaceitem entity @s hotbar.0 minecraft:stone 64``; in 1.12 ``slot.hotbar.0``, data behind."""
+    """Do, before 1.17, ``/replaceitem entity @s hotbar.0 minecraft:stone 64``.
+
+    In 1.12 the slot is ``slot.hotbar.0``, and the data value stands behind.
+    """
     if words[0] != "entity":
         raise ValueError(words[0])
     after_player(realm, words[1:2])
