@@ -197,7 +197,7 @@ def front_row(snapshot: WindowSnapshot) -> Check:
 
 
 def scaling_row(snapshot: WindowSnapshot) -> Check:
-    """Check the pixels to a point, measured on the picture: text drawn with a fractional number of them can't be read."""
+    """Check the pixels to a point, as the picture shows them: text at a fractional number of them can't be read."""
     row = CheckName.DISPLAY_SCALING
     if snapshot.points is None:
         return Check(row, "skip", "this window's points aren't known")

@@ -60,7 +60,7 @@ class TriedWindow:
         return current
 
     def first(self, is_so: Callable[[WindowSnapshot], bool]) -> WindowSnapshot | None:
-        """Return the first snapshot for which ``is_so`` holds, or None. NotInFrontError once the window isn't in front."""
+        """Return the first snapshot for which ``is_so`` holds, or None; NotInFrontError if the window is behind another."""
         deadline = Deadline(self.devices.clock, EFFECT_S)
         while True:
             current = self.snapshot()

@@ -240,7 +240,7 @@ def test_ended_after_the_arena_was_built_it_says_how_to_undo_that_and_can(last: 
     assert list(tmp_path.glob("new*")) == []
 
 
-def test_a_window_made_another_size_midway_is_one_line(client: VirtualClient, profile: Path) -> None:
+def test_a_window_resized_midway_is_a_one_line_error(client: VirtualClient, profile: Path) -> None:
     def resized(context: CalibrationContext, profile: Profile) -> StepResult:
         client.resize((1280, 720))
         return swapped(context, profile)
@@ -448,7 +448,7 @@ def test_a_needed_step_that_fails_ends_the_run_and_names_itself(error: McNestedE
 
 
 @pytest.mark.parametrize("error", [LiveError("no such button"), UserError("no such button")])
-def test_a_step_that_nothing_stands_on_is_skipped_and_the_world_found_again(error: McNestedError) -> None:
+def test_a_failed_optional_step_is_skipped_and_the_world_found_again(error: McNestedError) -> None:
     room = Room()
     result = room.run(
         CalibrationStep("game", sets(game=OLD)),

@@ -21,7 +21,7 @@ ELSEWHERE = {
 """Modules that ask, without tests of their own there."""
 
 
-def test_another_system_is_one_line_and_exit_code_2(
+def test_another_operating_system_is_a_one_line_error_and_exit_code_2(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr("sys.platform", "darwin")
@@ -33,7 +33,7 @@ def test_another_system_is_one_line_and_exit_code_2(
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="Linux without apt")
-def test_without_apt_it_is_one_line_that_names_the_packages(
+def test_without_apt_a_one_line_error_names_the_packages(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("PATH", os.fspath(tmp_path))

@@ -227,7 +227,8 @@ class VirtualGame:
     ) -> View:
         """Return what the game shows now.
 
-        Its debug screen names ``fps`` frames a second and a window of ``size`` pixels. ``scale`` is that of the debug screen. ``is_drawn`` adds the world as the player sees it.
+        Its debug screen names ``fps`` frames a second and a window of ``size`` pixels. ``scale`` is that of
+        the debug screen. ``is_drawn`` adds the world as the player sees it.
         """
         player = self.realm.player
         is_ready = self.screen != "death" or self.ticks - self._since >= DEATH_WAIT

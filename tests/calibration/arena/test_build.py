@@ -260,7 +260,7 @@ def test_building_again_at_the_same_position_keeps_the_first_copy(tmp_path: Path
     assert client.built == before
 
 
-def test_a_sky_that_is_not_free_is_not_built_into(tmp_path: Path) -> None:
+def test_a_copy_lies_below_blocks_in_the_sky(tmp_path: Path) -> None:
     client = VirtualClient()
     client.realm.world.put((0, 128, 5), "glass")
     found = built(client, tmp_path)
@@ -273,7 +273,7 @@ def declined(client: VirtualClient, profile: Profile) -> None:
         build_arena(context, profile)
 
 
-def test_a_no_changes_nothing(tmp_path: Path) -> None:
+def test_answering_no_changes_nothing(tmp_path: Path) -> None:
     client = VirtualClient()
     spoil(client)
     before = client.built
@@ -504,7 +504,9 @@ def test_ctrl_c_or_a_closed_window_at_any_time_leaves_keys_up_and_the_profile_as
 
 @pytest.mark.parametrize("after_s", [1.5, 4.0, 7.0])
 @pytest.mark.parametrize("kind", ["lost_focus", "pause", "death"])
-def test_interference_is_one_line_and_the_profile_as_it_was(kind: Kind, after_s: float, tmp_path: Path) -> None:
+def test_interference_is_a_one_line_error_and_leaves_the_profile_as_it_was(
+    kind: Kind, after_s: float, tmp_path: Path
+) -> None:
     client = disturbed(kind, after_s, tmp_path)
     before = (tmp_path / "mine.toml").read_bytes()
     with pytest.raises(McNestedError) as caught:
@@ -516,7 +518,7 @@ def test_interference_is_one_line_and_the_profile_as_it_was(kind: Kind, after_s:
 
 
 @pytest.mark.parametrize("after_s", [1.5, 4.0, 7.0])
-def test_a_chat_that_is_opened_meanwhile_is_closed_or_is_one_line(after_s: float, tmp_path: Path) -> None:
+def test_a_chat_that_is_opened_meanwhile_is_closed_or_is_a_one_line_error(after_s: float, tmp_path: Path) -> None:
     client, file = disturbed("chat", after_s, tmp_path), tmp_path / "mine.toml"
     before = file.read_bytes()
     try:

@@ -108,7 +108,7 @@ def test_every_button_is_found_in_every_version_scale_and_size(version: str, sca
         check_all_found(client, profile_in(tmp_path))
 
 
-def test_without_a_yes_the_world_is_not_left(tmp_path: Path) -> None:
+def test_the_world_is_not_left_unless_the_player_answers_yes(tmp_path: Path) -> None:
     client = started(VirtualClient())
     questions: list[str] = []
 

@@ -336,7 +336,7 @@ def test_what_options_txt_reduces_is_reported_while_no_debug_screen_is_seen(comp
     assert statuses(computer.examined(opened(client_in(as_it_was))))["reduced debug info"] == "pass"
 
 
-def test_options_that_can_not_be_read_are_one_row(computer: Computer) -> None:
+def test_options_that_can_not_be_read_fail_one_row(computer: Computer) -> None:
     computer.options.write_bytes(b"\x89PNG\r\n\0\0")
     found = rows(computer.examined(no_window))
     assert found["options.txt"].status == "fail"

@@ -83,7 +83,7 @@ def test_the_options_of_26_3_are_repaired_too_and_any_scale_of_the_debug_screen_
     assert computer.options.read_text("utf-8") == repaired
 
 
-def test_a_scale_of_the_debug_screen_that_is_none_becomes_the_games_own(computer: Computer) -> None:
+def test_an_invalid_debug_screen_scale_becomes_the_games_own(computer: Computer) -> None:
     computer.options.write_text(GOOD.replace("debugGuiScale:0", "debugGuiScale:half"), "utf-8")
     assert repaired_in(computer, computer.examined(no_window))[0]
     assert computer.options.read_text("utf-8") == GOOD

@@ -253,7 +253,7 @@ def test_a_gui_scale_that_no_font_fits_is_named(scale: int) -> None:
 
 
 @pytest.mark.parametrize(("share", "shade"), [(0.0, 0), (0.002, 224), (0.005, 219), (0.005, 229)])
-def test_without_enough_of_the_texts_colour_there_is_no_debug_screen(share: float, shade: int) -> None:
+def test_a_picture_with_little_of_the_texts_colour_shows_no_debug_screen(share: float, shade: int) -> None:
     error = nothing_fits([grey_with(share, shade)], [MINE], {})
     assert isinstance(error, UnreadableError)
     assert "no debug screen is to be seen" in str(error)

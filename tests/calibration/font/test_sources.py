@@ -112,7 +112,7 @@ def test_its_own_font_comes_first(tmp_path: Path) -> None:
     assert font_of_recording(file, System("linux", tmp_path, {})) == own
 
 
-def test_one_without_a_profile_is_one_line(tmp_path: Path) -> None:
+def test_a_recording_without_a_profile_is_a_one_line_error(tmp_path: Path) -> None:
     writer = PartWriter(tmp_path / "one.mcap", {"format": str(FORMAT)})
     writer.close()
     with pytest.raises(RecordingError, match="says nothing of its profile"):

@@ -328,7 +328,7 @@ def test_what_was_found_is_written_with_its_picture(kept: Path) -> None:
         ("f3_off", McNestedError),
     ],
 )
-def test_interference_is_one_line_and_the_profile_as_it_was(
+def test_interference_is_a_one_line_error_and_leaves_the_profile_as_it_was(
     kind: Kind, error: type[McNestedError], after_s: float, kept: Path
 ) -> None:
     before = kept.read_bytes()

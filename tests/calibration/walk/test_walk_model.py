@@ -160,7 +160,7 @@ def test_a_line_that_begins_below_zero_still_grows_with_every_tick() -> None:
     assert list(late.table.covered[:3]) == pytest.approx([SHORTEST_STEP * ticks for ticks in (1, 2, 3)])
 
 
-def test_minecrafts_own_holds_lie_on_no_line() -> None:
+def test_holds_of_the_real_walk_lie_on_no_line() -> None:
     assert empirical_walk(holds_led(lambda held_s: displacement(round(held_s / 0.05 + 0.01)), 20), USUAL) is None
 
 

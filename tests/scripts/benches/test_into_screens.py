@@ -30,7 +30,7 @@ def test_a_press_before_any_picture_of_the_screen_is_counted_apart() -> None:
 
 
 @pytest.mark.parametrize("after_s", [0.0, 0.3])
-def test_a_press_in_the_world_is_neither(after_s: float) -> None:
+def test_a_press_in_the_world_is_not_counted(after_s: float) -> None:
     assert pressed_after(after_s, "world") == (0, 0)
 
 

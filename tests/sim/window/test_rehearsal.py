@@ -203,14 +203,14 @@ def test_it_ends_in_one_line_when_its_process_is_ended(played: Played) -> None:
     assert played.rehearsal.log.read_text().splitlines()[-1] == "mc-nested: stopped"
 
 
-def test_a_second_one_is_refused(played: Played, tmp_path: Path) -> None:
+def test_a_second_rehearsal_window_is_refused(played: Played, tmp_path: Path) -> None:
     other = tmp_path / "other"
     other.mkdir()
     with pytest.raises(RuntimeError, match="a window of Minecraft, or another rehearsal, is open: close it first"):
         open_rehearsal(played.rehearsal.env, other).__enter__()
 
 
-def test_of_several_that_start_at_the_same_moment_one_opens(display: dict[str, str], tmp_path: Path) -> None:
+def test_of_rehearsals_that_start_at_the_same_moment_one_opens(display: dict[str, str], tmp_path: Path) -> None:
     env = {**display, "PYTHONPATH": str(ROOT)}
     command = [sys.executable, "-m", "mc_nested.cli", "rehearse"]
     both = [
@@ -241,7 +241,7 @@ def test_of_several_that_start_at_the_same_moment_one_opens(display: dict[str, s
             process.communicate()
 
 
-def test_a_display_without_opengl_is_one_line(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
+def test_a_display_without_opengl_is_a_one_line_error(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
     with (
         open_display(has_opengl=False) as env,
         pytest.raises(RuntimeError, match=r"this display offers no OpenGL 3\.3"),
@@ -249,7 +249,7 @@ def test_a_display_without_opengl_is_one_line(tmp_path: Path, window_programs: N
         open_rehearsal(env, tmp_path).__enter__()
 
 
-def test_iconified_and_brought_back_it_plays_on(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
+def test_a_minimised_window_plays_on_when_it_is_brought_back(tmp_path: Path, window_programs: None) -> None:  # noqa: ARG001
     with (
         open_display(has_window_manager=True) as env,
         open_rehearsal(env, tmp_path) as rehearsal,

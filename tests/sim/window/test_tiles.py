@@ -35,9 +35,9 @@ def test_every_pixel_of_a_rectangle_is_covered_once_and_no_tile_without_one(side
             assert counts[tile].any() == wanted[tile].any()
 
 
-def test_nothing_is_covered_by_no_rectangle() -> None:
+def test_without_rectangles_nothing_is_covered() -> None:
     assert triangles([], SIZE).shape == (0, 2)
 
 
-def test_the_whole_window_is_one_run_a_row() -> None:
+def test_a_rectangle_over_the_whole_window_is_one_run_a_row() -> None:
     assert len(triangles([(0, 0, *SIZE)], SIZE)) == 6 * 4
