@@ -11,7 +11,7 @@ from mc_nested.live.model.timing import TYPING_LOOK_S
 from mc_nested.live.profile.tables import Profile
 
 TRIES = 4
-"""How often a line is begun: on a busy machine its letters may come so late that the rest isn't typed."""
+"""How often a line is begun at most: on a busy machine its letters may come so late that the rest isn't typed."""
 
 
 class CommandConsole:

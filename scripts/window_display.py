@@ -24,7 +24,7 @@ LIBRARIES = (*OPENGL, "libxcursor1", "libxi6", "libxinerama1", "libxrandr2")
 """Debian's packages of what GLFW and OpenGL load."""
 
 WITH_THIS_PROCESS = ("setpriv", "--pdeathsig", "TERM", "--")
-"""What a command begins with that must not outlive the process that starts it, even where that one is killed."""
+"""The first words of a command that must end with the process that starts it, even if that is killed."""
 
 SIZE = (1400, 1000)
 PATIENCE_S = 10.0

@@ -22,13 +22,13 @@ PATIENCE_S = 20.0
 START_S = 180.0
 """Seconds in which Wine must have started, or made its prefix, on a busy machine."""
 LAST_WORDS_S = 1.0
-"""Seconds after its end in which what a program printed has certainly come."""
+"""Seconds after a program's end by which all that it printed has certainly come."""
 
 WINDOWS = "win10"
 """The version that programs are told: Wine 8's own default is Windows 7, which Python 3.12 refuses."""
 
 _ENDED_WITH_THIS_PROCESS = ("setpriv", "--pdeathsig", "INT", "--")
-"""For Wine's server, which ends the programs of its prefix at SIGINT alone."""
+"""The signal for Wine's server, which ends the programs of its prefix only at SIGINT."""
 
 
 class SessionError(Exception):

@@ -23,10 +23,10 @@ from sim.client.drawing.painter import SEEN
 from sim.client.game.world import VirtualWorld
 
 GUI_SCALE = 1
-"""The smallest: texts hide the least of the world."""
+"""The smallest GUI scale: its texts hide the least of the world."""
 
 PITCH = 53.0
-"""Degrees down at which the agents look: of the views that place right, one that shows most of the arena."""
+"""Degrees down at which the agents look. It is among the views that place right, and shows most of the arena."""
 
 _ORIGIN_X, _ORIGIN_Z = -20, 31
 

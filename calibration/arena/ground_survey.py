@@ -110,7 +110,7 @@ _FIRST_PITCH, _PITCHES = 20, 40
 
 
 class BlockQueries:
-    """Each answer is True, False, or None if unknown.
+    """Questions about blocks, asked by commands: each answer is True, False, or None if unknown.
 
     Args:
         console: sends the commands and watches the debug screen.

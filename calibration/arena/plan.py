@@ -1,4 +1,4 @@
-"""The commands that build an arena. Pure."""
+"""The commands that build an arena, as pure functions."""
 
 from collections.abc import Sequence
 

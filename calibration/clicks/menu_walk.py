@@ -35,8 +35,8 @@ HOVER_S = 0.2
 """From moving the mouse until the picture shows the button highlighted."""
 
 OWN = "Open to LAN"
-"""To 26.2 the Game Menu has this button, and only in a world that nobody else can be in; from 26.3 on none tells, and
-the window's title says whose world it is (FACTS: Screens and their buttons)."""
+"""To 26.2 the Game Menu has this button only in a world that nobody else can be in. From 26.3 on no button tells that,
+but the window's title does (FACTS: Screens and their buttons)."""
 
 _BUTTON = (100, 10)
 """GUI pixels from the middle of the largest button to its sides: a button is opaque."""
@@ -47,7 +47,9 @@ the row's end; and the row's height."""
 
 
 class MenuWalk:
-    """The points found on a walk. Starts once the game is in front, in its world, with a readable debug screen.
+    """A walk through the menus, and the points found on it.
+
+    It starts once the game is in front, in its world, with a readable debug screen.
 
     Raises (all methods): NotInFrontError, LiveError and errors of the input controller, one line each.
     """

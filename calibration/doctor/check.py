@@ -5,7 +5,7 @@ from enum import Enum
 from typing import Literal
 
 Status = Literal["pass", "warn", "fail", "skip"]
-"""Good; works, but not always; keeps the agent from playing; can't be known now."""
+"""In this order: good; works, but not always; keeps the agent from playing; can't be known now."""
 
 FIX = "close the game and run mc-nested doctor --fix"
 """What to do about a file of the game's that the doctor can mend."""

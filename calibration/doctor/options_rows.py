@@ -1,6 +1,6 @@
 """The checks of options.txt: where it is, and each option that may keep an agent from playing.
 
-On some of them it depends that a command can be typed, and be seen to be typed.
+Some of them decide whether a command can be typed, and whether it can be seen on the screen.
 """
 
 from collections.abc import Mapping

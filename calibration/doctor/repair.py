@@ -19,7 +19,7 @@ GUI_SCALE = 2
 """Replaces an Auto or too large GUI scale if the profile has none: it fits any window from 640 x 480 on."""
 
 _NEW_FILE_MODE = 0o644
-"""A temporary file is its maker's alone; a file of the game's can be read by all."""
+"""All users may read a file of the game's; a temporary file could be read by its maker alone."""
 
 
 def repair(examination: Examination, say: Callable[[str], None]) -> bool:

@@ -26,14 +26,14 @@ STEP_TICKS = 3
 """How long a step's keys are held; at least one of a slow game's frames sees them down."""
 
 LEAST_STEP = 0.01
-"""Blocks that count as a step: a sneaking tick covers six times as much."""
+"""The shortest move that counts as a step, in blocks: a sneaking tick covers six times as much."""
 
 STILL_S = 0.2
-"""Between two looks that must show the same position."""
+"""Seconds between two looks that must show the same position."""
 
 SLOT_SHOWN_S = 0.4
-"""From the press of a slot's key until its frame is drawn and pictured, in a game of 10 frames a second that doesn't
-lag. In one that does it is as long as a step took to be seen."""
+"""Seconds from the press of a slot's key until its frame is drawn and pictured, in a game of 10 frames a second without
+lag. In a game that lags, it takes as long as a step took to be seen."""
 
 SLOT, BAR = 20, (182, 22)
 """GUI pixels from slot to slot, and the hotbar's width and height."""
@@ -60,7 +60,7 @@ class TriedWindow:
         return current
 
     def first(self, is_so: Callable[[WindowSnapshot], bool]) -> WindowSnapshot | None:
-        """Return the first snapshot for which ``is_so`` holds, or None; NotInFrontError if the window is behind another."""
+        """Return the first snapshot for which ``is_so`` holds, or None. NotInFrontError if another is in front."""
         deadline = Deadline(self.devices.clock, EFFECT_S)
         while True:
             current = self.snapshot()

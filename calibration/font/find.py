@@ -33,11 +33,11 @@ from mc_nested.live.vision.layout import INK_SPREAD, VANILLA, Overlay
 from mc_nested.live.vision.overlay import SCALES, find_debug_screen, find_overlay
 
 SHOWN = 6
-"""Fonts that an error names."""
+"""How many fonts an error names at most."""
 
 _LARGER_SCALES = range(max(SCALES) + 1, 13)
 _TEXT_SHARE = 0.002
-"""Least share of a picture's upper left that has the text's colour where there is a debug screen."""
+"""With a debug screen, at least this share of a picture's upper left has the text's colour."""
 
 
 @dataclass(frozen=True)

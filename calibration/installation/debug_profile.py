@@ -31,7 +31,7 @@ _SHOWN, _SHOWN_TO_1_21_10 = "inOverlay", "inF3"
 _NAMESPACE = "minecraft:"
 
 _FIRST_DATA, _MOST_DATA = 4554, 20_000
-"""The data version of 1.21.9; and more than any to come, at a few hundred a year."""
+"""The data version of 1.21.9, and one that no version reaches soon: it grows by a few hundred a year."""
 
 _VERSION_JSON, _MOST_BYTES = "version.json", 1 << 16
 

@@ -20,7 +20,7 @@ Platform = Literal["linux", "macos", "windows"]
 
 OPTIONS = "options.txt"
 LOG = Path("logs", "latest.log")
-"""The game writes to it while it runs."""
+"""A file that the game writes to while it runs."""
 
 Layout = Literal["official", "instances", "profiles", "curseforge"]
 

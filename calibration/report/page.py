@@ -35,13 +35,13 @@ TITLES: Mapping[str, str] = {
 """The steps' titles, in the order of the guided run; any other step has its name as title."""
 
 SEEN = "the place where you stood, the game's and the computer's lines on the debug screen, the names of your worlds"
-"""What the pictures of a whole calibration show of the person's own."""
+"""The personal things that the pictures of a whole calibration show."""
 
 STATUSES: tuple[Status, ...] = ("fail", "warn", "pass", "skip")
-"""Of checks, the worst first."""
+"""The statuses of checks, the worst first."""
 
 SMALL_BYTES = 400_000
-"""A picture that is larger as PNG goes in as JPEG: twenty of them must still fit into a bug report."""
+"""A picture that is larger than this as PNG goes in as JPEG: twenty must still fit into a bug report."""
 
 JPEG_QUALITY = 88
 

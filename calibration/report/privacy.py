@@ -19,7 +19,7 @@ from pathlib import Path
 HOME, USER = "~", "<user>"
 
 GAME = "minecraft"
-"""An account of this name says nothing of anybody, and stands in every title, path and block."""
+"""An account of this name identifies nobody, and the word is in every title, path and block."""
 
 _VARIABLES = ("USER", "USERNAME", "LOGNAME", "SUDO_USER")
 """Environment variables that name the user."""

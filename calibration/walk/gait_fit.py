@@ -16,10 +16,10 @@ from mc_nested.errors import NotConfirmedError
 from mc_nested.live.model.kinematics import TICK_S, Gait, hold_path, hold_paths
 
 OUTLIER_BLOCKS = 0.01
-"""Blocks off its path at which a hold is no hold of whole ticks: lag, a lost key or a push came in between."""
+"""A hold so many blocks off its path isn't one of whole ticks: lag, a lost key or a push came in between."""
 
 MORE_OR_LESS = 2
-"""Ticks that a hold may be felt longer or shorter than it was."""
+"""By how many ticks a hold may be felt longer or shorter than it was."""
 
 FEWEST = 8
 """Holds of a gait that a fit needs, at least three times as many as it has unknowns."""

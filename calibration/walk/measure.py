@@ -40,7 +40,7 @@ ARRIVAL_TOLERANCE = 0.01
 """Blocks that a player may be off the position of a teleport."""
 
 MAX_HOLDS_BACK = 6
-"""Holds per axis that the return to the start may take."""
+"""How many holds per axis the return to the start may take."""
 
 
 WITHOUT_TICKS = (

@@ -23,7 +23,7 @@ Direction = Literal["forward", "back", "left", "right"]
 DIRECTIONS: tuple[Direction, ...] = get_args(Direction)
 
 MIN_STEP = 0.1
-"""Blocks below which a step has gone nowhere: sneaking for five ticks covers three times as much."""
+"""A step of fewer blocks than this has gone nowhere: sneaking for five ticks covers three times as much."""
 
 MAX_SIDE_SHARE = 0.25
 """How far sideways a step may lead, as a share of its length."""
@@ -90,7 +90,7 @@ TRIES = 3
 """How often a key is tried that seems to do nothing: on a busy machine a press may be lost."""
 
 CARRIED_OFF = 4.0
-"""Blocks from the starting point that can't be reached by these holds."""
+"""More blocks from the starting point than these holds can reach."""
 
 GOLDEN = 0.618
 """Share of a tick by which each hold starts later in the tick than the one before: so all phases are covered evenly."""

@@ -28,7 +28,7 @@ MAX_ASIDE = 0.05
 """Blocks that a hold may lead sideways."""
 
 MAX_ERROR = 0.02
-"""Blocks (RMS) that predictions may be off; beyond that the profile is left as it was."""
+"""Blocks (RMS) by which predictions may be off; if they are off by more, the profile is left as it was."""
 
 PLAIN_SPEED = displacement(200) / 200 / TICK_S
 """Blocks a second of a plain walker on most blocks: 4.317 (FACTS: Walking)."""
@@ -174,7 +174,7 @@ TICKS = 12
 """Ticks up to which a profile says how far a hold leads."""
 
 SHORTEST_STEP = 0.01
-"""Blocks that a tick more leads farther, at least, on a line that would begin below zero."""
+"""On a line that would begin below zero, every further tick leads at least so many blocks farther."""
 
 MAX_ERROR_OF_LINE = 0.05
 """Blocks (RMS) that holds may end off the line: Minecraft's own, of whole ticks, end 0.06 off and more."""

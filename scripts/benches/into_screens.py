@@ -28,7 +28,7 @@ class ScreenPresses:
         self._meant: deque[tuple[str, float, float]] = deque()
         """Of each press on its way: its name, when it was sent, and when the newest picture to be had was drawn."""
         self._drawn_at = math.inf
-        """Since when a screen over the world is drawn: the game draws it at the tick after it opened."""
+        """When a screen over the world was first drawn: the game draws it at the tick after it opened."""
         display, controls = client.display, client.controls
         show, key, button = display.show, controls.key, controls.button
 

@@ -51,7 +51,7 @@ MISHAP_WITHIN_S = 0.5
 """A mishap happens at a random moment within this time after it is drawn: in that action or in the next one."""
 
 VERSION = "1.20.1"
-"""The game's, if no other is asked for."""
+"""The version of the game, if no other is asked for."""
 
 OPEN_SCREENS: tuple[Kind, ...] = ("lost_focus", "pause", "death", "inventory", "chat", "disconnect")
 """The mishaps after which a screen lies over the world; a game without the focus pauses."""

@@ -30,7 +30,7 @@ class FramePacer:
 
 
 _JUMP = 4.0
-"""Blocks that nobody walks in a tick: a teleport, which is seen at once."""
+"""A move by more blocks than this in a tick is a teleport, which is seen at once."""
 
 
 class SmoothEye:

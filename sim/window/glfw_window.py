@@ -19,7 +19,7 @@ import glfw
 OPENGL = (3, 3)
 
 SPIN_S = 0.002 if sys.platform == "win32" else 0.0005
-"""The end of a wait, in seconds, in which events are asked for again and again: a wait may last that much too long."""
+"""The last seconds of a wait, in which events are polled all the time: a wait may last that much too long."""
 
 USUAL_RATE = 60.0
 """Frames a second on a monitor that doesn't say its rate, as a virtual one."""

@@ -23,7 +23,7 @@ from sim.window.window_picture import WindowPicture
 
 @dataclass(frozen=True)
 class Rehearsal:
-    """What is rehearsed.
+    """The settings of a rehearsal.
 
     ``settings`` is the client's; its frames and latencies are the window's own. ``fps`` is None for the monitor's rate.
     Keys reach the game, and pictures the window, ``lag_s`` seconds later. ``truth`` is the file for tests, if any.

@@ -1,6 +1,6 @@
 """The virtual keyboard: keys at their places, which make what a layout has there (X11's layouts, xkb-data 2.35).
 
-To 1.12 that is also the key that the game takes each for (FACTS: Input and windows).
+To 1.12 the game, too, knows a key by what the layout has at its place (FACTS: Input and windows).
 """
 
 from functools import partial
@@ -79,7 +79,7 @@ _ROWS = {
 """What each place makes, in the order of _PLACES: without Shift, and with it. A dot is an accent, or isn't ASCII's."""
 
 _LWJGL_2 = CHARACTERS - {"\\"} | set("@:^_")
-"""Its keys, by their characters, as it finds them on X11."""
+"""LWJGL 2's keys, by their characters, as it finds them on X11."""
 
 LAYOUTS = tuple(_ROWS)
 """The layouts, by their names on X11."""

@@ -17,7 +17,7 @@ from sim.client.game.widgets import Colour
 from sim.client.game.world import AIR
 
 NEAR_FLOOR = 12
-"""Blocks around the eye within which the bare floor shows its blocks' rims: farther ones are finer than a dot."""
+"""Blocks around the eye within which the floor shows its blocks' rims: farther rims are finer than a dot."""
 
 
 @dataclass(frozen=True)

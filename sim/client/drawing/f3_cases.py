@@ -26,17 +26,17 @@ ROOMY = 480
 """GUI pixels of width from which on two columns have room for any coordinates."""
 
 _WIDE = 620
-"""GUI pixels from which on any two columns, and the boxes of 26.4 in any, lie beside each other.
+"""GUI pixels of width from which on any two columns, and the boxes of 26.4, fit beside each other.
 
-All windows are as wide for 26.4 at its default scale.
+For 26.4 at its default scale all windows are this wide.
 """
 
 _IDS = ("stone", "oak_planks", "oak_log", "grass_block", "dirt", "polished_blackstone_brick_wall", "tnt", "white_wool")
 _LONG = 16
-"""Letters of an id that has no room beside the other column in a narrow window."""
+"""From this many letters on, an id has no room beside the other column in a narrow window."""
 
 _OLD_IDS = ("stone", "planks", "log", "grass", "stone_brick_stairs", "tnt", "wool")
-"""Of 1.12, whose row of the id is that of the Facing line."""
+"""Ids of 1.12, which shows the id in the row of the Facing line."""
 
 _BY_ENTRIES: dict[Layout, tuple[str, ...]] = {
     "1.21.9-26.3": ("1.21.9", "1.21.11", "26.1", "26.2", "26.3"),

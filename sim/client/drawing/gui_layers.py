@@ -23,7 +23,7 @@ _OPAQUE = 8
 _AXES: tuple[Colour, ...] = ((255, 0, 0), (0, 255, 0), (127, 127, 255))
 
 _HOTBAR_FRAME = {0: 0, 1: 0x93, 2: 0x5D, 19: 0x7E, 20: 0x5D, 21: 0}
-"""The greys of the hotbar's rows that let nothing through, from its top (FACTS: Screens and their buttons)."""
+"""The greys of the hotbar's opaque rows, by the row from its top (FACTS: Screens and their buttons)."""
 
 _CHOSEN: Colour = (240, 240, 240)
 """The frame around the chosen slot."""

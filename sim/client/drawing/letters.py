@@ -17,10 +17,10 @@ from sim.client.game.widgets import Colour
 _KEPT = 256
 _ROWS = 8
 _DOTS = [bytes(255 * (column >> row & 1) for column in range(256)) for row in range(_ROWS)]
-"""For each row of dots, 255 or 0 by a column's byte."""
+"""For each row of dots: by a column's byte, 255 if that column has a dot in the row, else 0."""
 
 _SHEET = 512
-"""Pixels of which a sheet of one colour is a multiple as wide."""
+"""The width of a sheet of one colour is a multiple of so many pixels."""
 
 
 class Letters:

@@ -35,13 +35,13 @@ from sim.client.game.world import block_of
 Points = NDArray[np.float64]
 
 _FRACTION_BITS = 4
-"""Of a corner's place within its pixel."""
+"""Bits for a corner's place within its pixel."""
 
 _BLACK = (0, 0, 0)
 
 BAND = 48
-"""Rows that are drawn at once. OpenCV fills a polygon a little differently where it is cut off: so it is cut off at the
-same rows whatever part of the picture is asked for."""
+"""Rows that are drawn at once. OpenCV fills a polygon a little differently where it is cut off. So it is always cut off
+at the same rows, whatever part of the picture is asked for."""
 
 
 @dataclass(frozen=True)

@@ -60,7 +60,7 @@ _FREELY = frozenset(
         *("system_specs", "tps"),
     }
 )
-"""What is shown with reduced debug info, too."""
+"""The entries that reduced debug info shows, too."""
 
 _ENTRIES: dict[str, tuple[tuple[int, ...], tuple[int, ...]]] = {
     **dict.fromkeys(

@@ -219,7 +219,7 @@ _ENTRIES: dict[str, Callable[[F3Screen], tuple[Box, ...]]] = {
 
 
 TOP, PITCH = 2, 9
-"""Where a column begins, and from one line to the next; as much again is below each box."""
+"""Where a column begins, and the distance from a line to the next. The same distance is left free below a box."""
 
 
 class PlacedBox(NamedTuple):

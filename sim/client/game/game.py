@@ -25,7 +25,7 @@ REPEAT_TICKS = 4
 """While the right button is held, the game places again every so many ticks (FACTS: Standing, looking, placing)."""
 
 BREAK_TICKS = 5
-"""While the left one is, it breaks another block every so many."""
+"""While the left button is held, the game breaks another block every so many ticks."""
 
 SIGHT = 20.0
 """Blocks within which the debug screen names a block; before 1.13 only within reach (FACTS: The F3 debug screen)."""

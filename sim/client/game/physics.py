@@ -57,10 +57,11 @@ HALF_WIDTH = 0.3
 """Half of the player's width (FACTS: Standing, looking, placing)."""
 
 _TOUCH = 1e-7
-"""Blocks that two boxes may overlap and still only touch."""
+"""Two boxes that overlap by no more than so many blocks count as touching."""
 
 _STEP_DOWN, _BACK_OFF = 0.6, 0.05
-"""Blocks that a sneaking player steps down at most, and by which a step is shortened otherwise (FACTS: Sneaking)."""
+"""Blocks that a sneaking player steps down at most; a step that leads deeper is shortened by so many at a time (FACTS:
+Sneaking)."""
 
 
 def displacement(ticks: int, gait: Gait, ground: Ground = STONE) -> float:
@@ -184,7 +185,7 @@ def _stopped(feet: list[float], axis: int, motion: float, height: float, is_soli
 
 
 SPRINT_WINDOW = 7
-"""Ticks: the second of two presses of forward that come sooner than this after each other sprints (FACTS: Walking)."""
+"""If forward is pressed twice within fewer ticks than this, the second press sprints (FACTS: Walking)."""
 
 
 class Gaits:

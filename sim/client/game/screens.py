@@ -48,7 +48,7 @@ _ICONS = 20, 4
 """An icon's side, and the gap between two."""
 
 _FRIENDS_WIDTH, _FRIENDS_ABOVE = 220, 80
-"""The width of the friends' panel inside its border, and by how much less high than the window it is."""
+"""The width of the friends' panel inside its border, and how much lower than the window it is."""
 
 _BORDER = 8
 _GRID = ((-154, 71), (-75, 71), (4, 71), (83, 71))
