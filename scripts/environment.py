@@ -53,7 +53,7 @@ def install(python: Path, extras: Sequence[str], project: Sequence[str]) -> None
 def run(command: Sequence[str | Path], variables: Mapping[str, str] | None = None) -> int:
     """Run a command in the project's root, with these environment variables too, and return its exit code.
 
-    Ctrl+C ends it before it is raised.
+    After Ctrl+C the command is ended first; then KeyboardInterrupt is raised.
     """
     process = start(command, variables)
     try:

@@ -50,7 +50,7 @@ class SuiteCheck:
     """One row: a command of the environment, and about how many minutes it takes on two cores.
 
     ``variables`` are environment variables; ``downloads`` what it fetches on a new machine; ``is_beside`` whether it
-    runs beside the checks that follow, which wait more than they compute, and comes after them wherever both could run.
+    runs beside the checks that follow, which wait more than they compute, and gives way to them.
     """
 
     command: Sequence[str]

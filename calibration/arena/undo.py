@@ -88,7 +88,7 @@ def undo_hint_on_error(profile: Path) -> Iterator[None]:
 def undo_built_arena(profile_name: str | Path, open_context: OpenContext) -> tuple[StepResult, Path]:
     """Undo a profile's arena and write the profile. Returns the result and the profile's file.
 
-    An arena of an interrupted calibration, which only the note beside the profile knows, is undone first.
+    If a calibration was interrupted, only the note beside the profile knows its arena: that one is undone first.
     """
     path = profile_path(profile_name)
     noted = read_copy_note(path)

@@ -30,7 +30,7 @@ from mc_nested.live.profile.tables import Profile
 class Examination:
     """All checks, in the order of ``CheckName``, and what a repair needs to know.
 
-    ``folder`` and ``options`` are the game's. ``is_window_closed`` is whether the desktop has no window of the game,
+    ``folder`` and ``options`` are the game's. ``is_window_closed`` is true if the desktop has no window of the game,
     None if there was no desktop to look at. ``processes`` are the running programs, None if unknown. ``entries`` is
     what the game's debug-profile.json says, ``data_version`` that of the installed version's jar; None if unknown.
     """

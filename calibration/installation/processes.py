@@ -55,7 +55,8 @@ def running_processes(platform: Platform, processes: Path = _PROCESSES) -> list[
 def may_have_open(process: Process, folder: Path) -> bool:
     """Return whether a program may be a game that uses this folder: its own folder is this one, or unknown.
 
-    The less harmful mistake: a game in another folder may have to be closed too.
+    An unknown folder counts as this one. That is the less harmful mistake: a game in another folder may have to be
+    closed, too.
     """
     if not process.is_game:
         return False

@@ -75,11 +75,11 @@ def calibrate_walk(profile_name: str | Path, context_of: OpenContext) -> tuple[S
 
 
 def walk(context: CalibrationContext, profile: Profile) -> StepResult:
-    """Measure how the player walks; the profile with its [walk] table, and the keys as they really go.
+    """Measure how the player walks, and return the profile with its [walk] table and the keys as they really go.
 
-    If there is a marked arena and commands are allowed, it walks in the arena's middle, cleared as by every reset, its
-    floor refilled if the profile says what it is of. Else it walks around where the player stands. It never goes
-    farther than ``survey.REACH`` blocks, and ends where it began.
+    If there is a marked arena and commands are allowed, it walks in the arena's middle, cleared as by every reset, with
+    its floor refilled if the profile says which block it is made of. Else it walks around where the player stands. It
+    never goes farther than ``survey.REACH`` blocks, and ends where it began.
 
     Raises:
         ProfileError, FontError: the profile names no font, or one that can't be used.

@@ -49,8 +49,8 @@ MOST_MINUTES, MOST_MINUTES_WITH_MISHAPS = 4.0, 8.0
 class PracticeOnAClock:
     """A background whose work gets a second of the processor for each second on the game's clock.
 
-    The work is done when it is ended, with as much time as has passed on that clock since it began, and the seconds
-    longer. ``waited_s`` sums up what it took beyond the passed time.
+    The work is done all at once, when it is ended. It gets the time that has passed on that clock since it began, and
+    those seconds that it is ended with. ``waited_s`` sums up what it took beyond the passed time.
     """
 
     def __init__(self, now: Callable[[], float], processor: Callable[[], float] = time.thread_time) -> None:

@@ -19,7 +19,7 @@ FORGOTTEN_S = 1.0
 class ScreenPresses:
     """Watches a client's presses. ``into_screens`` of them could have been seen to go wrong, ``too_late`` could not.
 
-    A press could not where the screen opened after the newest picture that was to be had when it was sent.
+    A press is too late if the screen opened after the newest picture that could be had when the press was sent.
     """
 
     def __init__(self, client: VirtualClient) -> None:

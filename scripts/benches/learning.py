@@ -84,8 +84,8 @@ def matrix_products(runs: int) -> Slices:
 def flops_of_an_update() -> int:
     """Count the multiplications and additions in an update's matrix products of the nested agent (paper, equation 4).
 
-    Forward s and s' in the online network and s' in the target network, back the gradient of every weight, and of every
-    layer's input but the first.
+    Forward pass: s and s' in the online network, s' in the target network. Backward pass: the gradient of every weight,
+    and of every layer's input but the first layer's.
     """
     layers = list(itertools.pairwise((4, *PAPER.hidden, 8)))
     passes = sum((5 if layer else 4) * inputs * outputs for layer, (inputs, outputs) in enumerate(layers))

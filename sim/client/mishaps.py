@@ -111,7 +111,7 @@ class Mishaps:
     def maybe(self, rate: float, within_s: float, kinds: tuple[Kind, ...] = DRAWN) -> bool:
         """With probability ``rate``, plan one of these kinds within the next ``within_s``, and return whether it did.
 
-        Asked once before each action, ``rate`` is a rate per action.
+        If this is called once before each action, ``rate`` is a rate per action.
         """
         if self._rng.random() >= rate:
             return False

@@ -114,7 +114,7 @@ class VirtualKeySender:
     Args:
         window: which gets them while it is in front.
         controls: what they do in the game.
-        layout: the layout's name, of ``layouts.LAYOUTS``.
+        layout: the layout's name, of ``LAYOUTS``.
         is_lwjgl_2: whether the game takes a key by what it makes, as to 1.12, and not by its place.
     """
 

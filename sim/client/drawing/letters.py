@@ -92,7 +92,7 @@ def _enlarged(dots: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
 def _slanted(dots: NDArray[np.uint8], step: int) -> NDArray[np.uint8]:
     """Return text as slanted dots, ``step`` pixels each: the top is a dot to the right, the bottom a dot to the left.
 
-    A quarter of a dot a dot, of each pixel's middle (FACTS: The chat's line).
+    It leans by a quarter of a dot for each dot of height, measured at each pixel's middle (FACTS: The chat's line).
     """
     rows, columns = dots.shape
     down, right = np.mgrid[: rows * step, : (columns + 2) * step]

@@ -112,7 +112,7 @@ class Painter:
         scales: framebuffer pixels a GUI pixel, of the GUI and of the debug screen.
         font: the font of all texts.
         edition: the game's version.
-        kind: the kind of world behind the text, of ``scenery.WORLDS``, bright, dark or ``scenery.SEEN``.
+        kind: the kind of world behind the text, of ``WORLDS``, bright, dark or ``SEEN``.
         seed: of the random world.
         words: the menus' texts in another language, by their English.
     """

@@ -1,7 +1,8 @@
 """The world that the player sees, as the hindmost layer: sky, floor, blocks, the one looked at, the one in the hand.
 
 Only the bands of rows that are asked for are drawn, so that reading lines of text doesn't draw all of it. Blocks are
-drawn the farthest first: a block hides only such as are no nearer along any axis, counted in blocks from the eye's.
+drawn the farthest first. A block can hide another one only if that is no nearer along any axis, counted in blocks from
+the eye's block.
 """
 
 import math

@@ -112,7 +112,7 @@ def shown_entries(
 
 
 def parse_profile(text: str | None, edition: Edition) -> DebugEntries:
-    """Return the entries of a debug-profile.json; None if there is no such file.
+    """Return the entries that a debug-profile.json stands for; ``text`` is None if there is no such file.
 
     As in the game, one that can't be read counts as the default, and ``custom`` replaces everything.
     """
@@ -123,7 +123,10 @@ def parse_profile(text: str | None, edition: Edition) -> DebugEntries:
 
 
 def read_profile(text: str, edition: Edition) -> DebugEntries:
-    """Return the entries of a debug-profile.json; UserError if the game can't read it, and would replace it."""
+    """Return the entries that a debug-profile.json stands for.
+
+    UserError if the game can't read it, and would replace it.
+    """
     try:
         return _parsed(json.loads(text), edition)
     except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
