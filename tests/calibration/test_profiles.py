@@ -162,7 +162,7 @@ def facts(tmp_path: Path, profile: Profile, window: Fingerprint | None = None) -
     return facts_of(tmp_path / "laptop.toml", lambda title: window if title == profile.window.title else None)
 
 
-def test_it_says_what_it_was_calibrated_on_and_that_it_fits_that(tmp_path: Path) -> None:
+def test_a_profile_says_what_it_was_calibrated_on_and_that_it_fits_that(tmp_path: Path) -> None:
     profile = Profile(arena=ARENA, calibrated=CALIBRATED)
     assert facts(tmp_path, profile, Fingerprint("Minecraft 1.20.1", (854, 480))) == ProfileFacts(
         name="laptop",

@@ -28,7 +28,7 @@ IN_A_WINDOW_S = 600.0
 """A program that calibrates in a window, and then plays there, takes two minutes where nothing else runs."""
 
 STRICT = ("-W", "error", "-W", "ignore:invalid escape sequence")
-"""A warning is an error, but for moviepy's own, once, where an old pip has left it uncompiled."""
+"""Every warning is an error. The exception is moviepy's own, which comes once if an old pip has left it uncompiled."""
 
 
 class Reader:

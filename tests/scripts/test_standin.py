@@ -95,7 +95,9 @@ def kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Callable[[
 
 
 @for_linux
-def test_it_is_up_until_it_is_taken_down(kept: Callable[[str], Path], capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_stand_in_is_up_until_it_is_taken_down(
+    kept: Callable[[str], Path], capsys: pytest.CaptureFixture[str]
+) -> None:
     cache = kept(ANSWERS)
     assert script.main(["up"], cache) == 0
     state = json.loads(capsys.readouterr().out)

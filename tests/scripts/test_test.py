@@ -33,7 +33,7 @@ def test_a_commit_needs_nothing_that_all_does_not_have() -> None:
     assert set(COMMIT) < set(ALL)
 
 
-def test_it_says_how_long_each_check_takes_and_what_is_fetched() -> None:
+def test_the_announcement_says_how_long_each_check_takes_and_what_is_fetched() -> None:
     checks = {
         "quick": SuiteCheck(["a"], 0.5),
         "beside": SuiteCheck(["b"], 10, is_beside=True),

@@ -18,7 +18,7 @@ ELSEWHERE = {
     "mc_nested/cli/training_end.py": "its test is of a Linux shell's quotes",
     "sim/window/glfw_window.py": "tests/windows/test_live_path.py plays in it",
 }
-"""Modules that ask, without tests of their own there."""
+"""Modules that ask the system for something, and have no tests of their own there."""
 
 
 def test_another_operating_system_is_a_one_line_error_and_exit_code_2(

@@ -1,4 +1,4 @@
-"""The simulator in arrays: it is R ArenaEnvs over GridGame, to the last flag; masks, materials and snapshots."""
+"""The simulator in arrays: it does the same as R ArenaEnvs over GridGame; masks, materials and snapshots."""
 
 import dataclasses
 from typing import Any

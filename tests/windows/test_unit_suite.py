@@ -13,7 +13,7 @@ pytestmark = pytest.mark.wine
 
 TIMEOUT_S = 900
 FEWEST = 1250
-"""Tests that must have passed: fewer, and something was not collected."""
+"""At least so many tests must have passed: if fewer have, something was not collected."""
 
 
 class Results:

@@ -63,7 +63,7 @@ def test_scale_colour_and_phase_are_found_and_every_line_is_read_back(
 
 
 @pytest.mark.parametrize(("version", "line"), [("1.20.1", "F3+C agrees"), ("1.12.2", "it came with 1.13")])
-def test_it_is_checked_with_f3_and_c_where_the_version_has_that(version: str, line: str, tmp_path: Path) -> None:
+def test_the_font_is_checked_with_f3_and_c_where_the_version_has_that(version: str, line: str, tmp_path: Path) -> None:
     client = started(VirtualClient(version=version))
     client.clipboard.write("mine")
     assert line in find_font(context_over(client), Profile(), sources_in(tmp_path)).lines[-1]

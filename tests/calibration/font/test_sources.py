@@ -105,7 +105,7 @@ def test_a_font_of_another_computer_is_this_ones_of_that_version(font: str, tmp_
     assert font_of_recording(file, here) == same
 
 
-def test_its_own_font_comes_first(tmp_path: Path) -> None:
+def test_the_font_that_a_recording_names_comes_first(tmp_path: Path) -> None:
     own = font_file_in(tmp_path)
     jar_in(tmp_path, "1.20.1")
     file = recording_of(f"[screen]\nfont = '{own}'\n", tmp_path)

@@ -101,7 +101,7 @@ def test_a_variable_of_the_environment_moves_a_launchers_folder(tmp_path: Path) 
 
 
 @pytest.mark.parametrize("variable", ["", "data"])
-def test_a_variable_that_names_no_whole_path_counts_as_none(variable: str, tmp_path: Path) -> None:
+def test_a_variable_without_an_absolute_path_is_ignored(variable: str, tmp_path: Path) -> None:
     folder = game(tmp_path / ".local/share/multimc/instances/Mine/.minecraft")
     assert [each.path for each in game_folders(system(tmp_path, XDG_DATA_HOME=variable))] == [folder]
 

@@ -22,7 +22,7 @@ from tests.calibration.virtual_context import context_on, profile_of
 LONGEST_S = 90.0
 
 LATER = [pytest.param(after_s, marks=pytest.mark.slow) for after_s in (15.0, 40.0)]
-"""Seconds after which somebody interferes: while it sneaks out, and while it walks."""
+"""Seconds after which somebody interferes: while the player sneaks out, and while it walks."""
 
 
 def measured(client: VirtualClient, folder: Path, profile: Profile | None = None) -> StepResult:

@@ -120,7 +120,7 @@ KEYS = KeysTable()
         ((0.0, 0.0), None),
     ],
 )
-def test_a_step_leads_one_way_or_none(offset: tuple[float, float], way: Direction | None) -> None:
+def test_a_step_leads_in_one_direction_or_in_none(offset: tuple[float, float], way: Direction | None) -> None:
     assert direction_of(offset) == way
 
 

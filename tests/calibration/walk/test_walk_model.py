@@ -164,6 +164,6 @@ def test_holds_of_the_real_walk_lie_on_no_line() -> None:
     assert empirical_walk(holds_led(lambda held_s: displacement(round(held_s / 0.05 + 0.01)), 20), USUAL) is None
 
 
-def test_too_few_holds_or_sneaking_that_is_no_slower_give_none() -> None:
+def test_too_few_holds_or_sneaking_that_is_no_slower_give_no_line() -> None:
     assert empirical_walk(holds_led(lambda held_s: 4.0 * held_s, 7), USUAL) is None
     assert empirical_walk(holds_led(lambda held_s: 4.0 * held_s, sneaking=1.0), USUAL) is None

@@ -1,4 +1,4 @@
-"""What a soak counts of presses for the world that reached a screen over it."""
+"""Which presses for the world a soak counts as having reached a screen over it."""
 
 import pytest
 

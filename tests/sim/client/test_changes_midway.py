@@ -105,7 +105,7 @@ def test_a_scale_or_a_size_that_changes_is_seen_and_play_goes_on(
 
 
 @pytest.mark.parametrize("version", VERSIONS)
-def test_where_the_profile_names_the_scale_another_one_is_one_line_that_says_so(version: str) -> None:
+def test_a_scale_other_than_the_profiles_is_a_one_line_error_that_says_so(version: str) -> None:
     run = running(version, is_scale_named=True)
     debug = run.client.scales.debug
     run.in_s(0.1, lambda: run.change(scale=1))

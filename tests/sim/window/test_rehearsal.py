@@ -111,7 +111,7 @@ def test_its_text_is_that_of_the_game_to_the_dot(played: Played) -> None:
         assert soon(is_read)
 
 
-def test_its_debug_screen_names_its_own_frames_and_size(tmp_path: Path, display: dict[str, str]) -> None:
+def test_the_rehearsals_debug_screen_names_its_own_frames_and_size(tmp_path: Path, display: dict[str, str]) -> None:
     with open_rehearsal(display, tmp_path, "--fps", "37") as rehearsal, connected(display) as connection:
         hands = Played(rehearsal, connection)
         for size in ((854, 480), (1023, 767)):
@@ -192,12 +192,12 @@ def test_f3_and_c_copies_to_the_real_clipboard(played: Played, monkeypatch: pyte
     assert soon(lambda: open_clipboard().read().startswith("/execute in minecraft:overworld run tp @s 0.50 64.00 0.50"))
 
 
-def test_it_ends_when_its_window_is_closed(played: Played) -> None:
+def test_a_rehearsal_ends_when_its_window_is_closed(played: Played) -> None:
     played.close()
     assert played.rehearsal.process.wait(SOON_S) == 0
 
 
-def test_it_ends_in_one_line_when_its_process_is_ended(played: Played) -> None:
+def test_a_rehearsal_ends_in_one_line_when_its_process_is_ended(played: Played) -> None:
     played.rehearsal.process.terminate()
     assert played.rehearsal.process.wait(SOON_S) == 128 + 15
     assert played.rehearsal.log.read_text().splitlines()[-1] == "mc-nested: stopped"

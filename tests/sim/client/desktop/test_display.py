@@ -42,7 +42,7 @@ class Shown:
         return bool(np.array_equal(self.display.grab(), other.grab(view)))
 
 
-def test_it_describes_its_window() -> None:
+def test_the_display_says_its_windows_title_size_and_focus() -> None:
     shown = Shown()
     assert shown.display.size() == SIZE
     assert shown.display.title() == "Minecraft 1.20.1"
