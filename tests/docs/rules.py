@@ -39,7 +39,7 @@ SIZES = {
     "python scripts/draw.py film": "film.gif --scenario line",
     "python scripts/draw.py view": ". --seconds 15",
 }
-"""The smallest sizes, which are appended to a slow command that begins so. If several beginnings fit, the longest counts."""
+"""The smallest sizes, which are appended to a slow command that begins so. The longest beginning that fits counts."""
 
 AS_THEY_ARE = ("mc-nested study benchmark --corpus",)
 """Commands that begin like a long one, and are short."""
