@@ -71,7 +71,7 @@ def rename_profile(profile: Path, name: str) -> Path:
 
 
 def delete_profile(profile: Path) -> None:
-    """Delete a profile with all its files, of links the link alone; ProfileError if the disk refuses."""
+    """Delete a profile with all its files, but of a link only the link; ProfileError if the disk refuses."""
     try:
         for path in files_of(profile):
             if path.is_dir() and not path.is_symlink():

@@ -220,7 +220,7 @@ def _overlaps_copied(queries: BlockQueries, old: Arena, arena: Arena) -> bool:
 
 
 def _copied(console: CommandConsole, queries: BlockQueries, arena: Arena, to: Block) -> Arena:
-    """Copy the arena's box; the arena with that copy."""
+    """Copy the arena's box; return the arena with that copy."""
     box = box_of(arena)
     console.send(copy_command(box, to))
     if not queries.are_alike(box, to):

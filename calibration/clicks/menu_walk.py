@@ -101,7 +101,7 @@ class MenuWalk:
         self._return()
 
     def _open_pause(self) -> bool:
-        """Press Esc in the world. Returns whether the Game Menu is seen."""
+        """Press Esc in the world, and return whether the Game Menu is seen."""
         deadline = Deadline(self._clock, MENU_S)
         while (name := self._recovery.screen_name()) != "pause":
             if deadline.has_passed:

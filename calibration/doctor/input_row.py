@@ -98,7 +98,7 @@ PROBE = "mc-nested doctor"
 
 
 def clipboard_row(clipboard: Clipboard | None) -> Check:
-    """Try the clipboard out; None if there is none."""
+    """Try the clipboard out, and return its check; None if there is none."""
     row = CheckName.CLIPBOARD
     if clipboard is None:
         return Check(row, "skip", "not looked at")

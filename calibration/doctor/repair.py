@@ -45,7 +45,7 @@ def repair(examination: Examination, say: Callable[[str], None]) -> bool:
 
 
 def _mend_options(examination: Examination) -> str | None:
-    """Write the safe values into options.txt; what was changed, None if nothing was."""
+    """Write the safe values into options.txt; return what was changed, None if nothing was."""
     options = examination.options
     if options is None:
         return None
@@ -59,7 +59,7 @@ def _mend_options(examination: Examination) -> str | None:
 
 
 def _mend_entries(examination: Examination) -> str | None:
-    """Switch the needed entries of the debug screen on; what was changed, None if nothing was."""
+    """Switch the needed entries of the debug screen on; return what was changed, None if nothing was."""
     entries = examination.entries
     if entries is None or not (entries.off or entries.problem):
         return None

@@ -153,7 +153,7 @@ def _has_moved_or_stopped(start: WindowSnapshot, seen: WindowSnapshot) -> bool:
 
 
 def _stand_still(window: TriedWindow) -> XYZ | None:
-    """Wait until the player stands, or moves by no key of ours for EFFECT_S; where it is then."""
+    """Wait until the player stands, or moves by no key of ours for EFFECT_S; return where it is then."""
     deadline, before = Deadline(window.devices.clock, EFFECT_S), _position(window.snapshot())
     window.controller.wait(STILL_S)
     while not deadline.has_passed:

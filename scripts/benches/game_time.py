@@ -61,7 +61,7 @@ class PracticeOnAClock:
         self.cut_short = 0
 
     def begin(self, work: Callable[[GoesOn], None]) -> None:
-        """Take on that work."""
+        """Take on that work, which ``end`` does."""
         self._work, self._began = work, self._now()
 
     def end(self, longer_s: float = 0.0) -> None:

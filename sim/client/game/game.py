@@ -417,7 +417,7 @@ class VirtualGame:
         self._rested_at = (world.revision, before) if player.on_ground and player.feet == before else None
 
     def _stop_at_others(self, before: physics.Vector, height: float) -> None:
-        """Take back what of the step led into another player, and the speed that way."""
+        """Take back the part of the step that led into another player, and the speed along it."""
         player = self.realm.player
         feet = physics.kept_apart(before, player.feet, self.realm.others(), height)
         if feet != player.feet:

@@ -37,7 +37,7 @@ class VirtualWorld:
         return y < self.floor if changed is None else changed != AIR
 
     def put(self, block: Block, name: str) -> bool:
-        """Put a block there, or air; whether that changed anything."""
+        """Put a block there, or air; return whether that changed anything."""
         if self.block_at(block) == name:
             return False
         self.revision += 1
@@ -48,7 +48,7 @@ class VirtualWorld:
         return True
 
     def fill(self, low: Block, high: Block, name: str, *, only_air: bool = False) -> int:
-        """Put a block everywhere between two corners, which are included, or only where air is; how many changed."""
+        """Put a block everywhere between two corners, included, or only where air is; return how many changed."""
         sides = [range(min(one, other), max(one, other) + 1) for one, other in zip(low, high, strict=True)]
         if name == AIR and sides[1][0] >= self.floor:
             # Clearing above the floor, as every reset does: only what stands there can change.
