@@ -125,7 +125,7 @@ def end(process: subprocess.Popen[bytes]) -> None:
 
 @contextmanager
 def adopting(is_ours: Callable[[str], bool] = lambda _name: True) -> Iterator[None]:
-    """Adopt programs whose parent has ended, while in the block; then end those of such a name.
+    """Adopt programs whose parent has ended, during the block; after it, end those of such a name.
 
     An ended process stays listed until its parent, or else the system's first process, collects its status. In many
     containers the first process never does.

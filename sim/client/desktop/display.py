@@ -60,7 +60,7 @@ class VirtualDisplay:
         return self._window.is_in_front
 
     def area(self) -> DesktopArea:
-        """Return the area of the whole desktop, which is its only monitor's."""
+        """Return the area of the whole desktop, which its only monitor fills."""
         return DesktopArea(0, 0, *self.size())
 
     def grab(self, region: Region | None = None) -> Frame:

@@ -43,7 +43,7 @@ def client_in(change: Callable[[VirtualClient], object], choices: ClientSettings
 
 
 def as_it_was(_client: VirtualClient) -> None:
-    """Change nothing."""
+    """Leave the client as it is."""
 
 
 def is_untouched(client: VirtualClient) -> bool:

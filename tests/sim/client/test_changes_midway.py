@@ -39,7 +39,7 @@ class Run:
     presses: ScreenPresses
 
     def change(self, scale: int = SCALE, debug: int = 0, size: tuple[int, int] = WINDOW) -> None:
-        """Change it as the game's options do, or the window's edge."""
+        """Change the scale or the size, as the game's options or the window's edge do."""
         settings = self.client.settings
         options = dataclasses.replace(settings.options, debug_gui_scale=debug)
         self.client.settings = dataclasses.replace(settings, scale=scale, options=options)
