@@ -60,8 +60,8 @@ _TOUCH = 1e-7
 """Two boxes that overlap by no more than so many blocks count as touching."""
 
 _STEP_DOWN, _BACK_OFF = 0.6, 0.05
-"""Blocks that a sneaking player steps down at most; a step that leads deeper is shortened by so many at a time (FACTS:
-Sneaking)."""
+"""Blocks that a sneaking player steps down at most. A step that leads deeper is shortened by so many blocks at a time
+(FACTS: Sneaking)."""
 
 
 def displacement(ticks: int, gait: Gait, ground: Ground = STONE) -> float:
